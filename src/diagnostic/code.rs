@@ -445,6 +445,8 @@ codes! {
     /// The first row of a log.
     TRACK_HEADER = error(Text, "track/header", "The first row of a log does not name its columns.", "Without names I and J could be taken for each other, and the carriage would run away from the centre. Write them as the hint has them.\n  t_s,i,j");
     /// A row that cannot be read.
+    TRACK_COLUMN = warning(Spares, Text, "track/column", "A log has columns that nothing is known of; they are passed over.", "If one of them is the place of the conveyor or of the carriage it has another name here. The hint has the names.\n  t_s,i,j,conv_mm,carriage_mm");
+    /// A row that cannot be read.
     TRACK_ROW = error(Text, "track/row", "A row of a log cannot be read, or does not follow the one before it; the message says why.", "Leaving it out would shift all that the controller counts by a sample. Mend the row: decimal points, commas, times that go on.\n  0.010,33,31");
     /// A header alone.
     TRACK_NO_ROWS = error(Text, "track/no-rows", "A log has no rows.", "Nothing was recorded, or all of it was lost on the way: the carriage cannot have followed anything by it. Look at the recorder, and compare the sizes of its file and of this one.");
@@ -465,6 +467,8 @@ codes! {
     /// No line to write.
     TRACK_NO_CENTRE = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
     /// A scenario that cannot be read.
+    TRACK_UNSEEN = warning(Spoils, Shape, "track/unseen", "A centre line goes over cloth whose edges were not both seen, or for which samples are missing; it is taken to go straight there.", "The cloth may have wandered meanwhile, and what is cut there is displaced by as much. Record that stretch again, or leave it out of the marker.");
+    /// A scenario that cannot be read.
     TRACK_SCENARIO = error(Text, "track/scenario", "A scenario has a key that is none, or a value that is out of its range.", "A mistyped key would leave the cloth lying still without a word. `cutc manual tracking` lists the keys.\n  offset_mm = 20");
     /// The first row of a centre line.
     CENTRE_HEADER = error(Text, "centre/header", "The first row of a centre line is not `conv_mm,centre_mm`.", "Another file of numbers would move every part to one side. Give the file that `cutc track -t centre` writes.\n  cutc compile marker.cut --centre cloth.centre.csv");
@@ -473,6 +477,8 @@ codes! {
     /// A line without two ends.
     CENTRE_SHORT = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
     /// A marker that is longer than its centre line.
+    CENTRE_STEEP = warning(Spoils, Shape, "centre/steep", "A centre line goes across faster than a carriage could have followed it, by `track.max_speed_mm_s` and `track.cloth_mm_s`.", "Cloth hardly does that: its unit may be another, a row damaged, or the log's `carriage_mm` wrong. What is cut there is sheared by as much. Look at the line, and at the picture (-t svg).");
+    /// A marker beyond the ends.
     CENTRE_BEYOND = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
     // Flow cutting.
     /// No cut.

@@ -5,17 +5,16 @@
 
 use std::io::{self, Write};
 
+use super::rows::{FARTHEST, Lines, number};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::CentreLine;
-use crate::source::{Source, Span};
+use crate::source::Source;
 use crate::units::number::{push_fixed, short};
 
 /// The first row.
 const HEADER: &str = "conv_mm,centre_mm";
 /// Decimals, mm.
 const DECIMALS: u32 = 3;
-/// Farthest places, mm.
-const FARTHEST: f64 = 1e9;
 /// What a row is.
 const ROW: &str =
     "a row is two numbers in mm, as in `125.5,-0.75`, and `conv_mm` is greater in each than in the one before";
@@ -23,17 +22,9 @@ const ROW: &str =
 /// Reads a centre line; `None` when it has faults, which are diagnostics.
 pub fn read(source: &Source, out: &mut Diagnostics) -> Option<CentreLine> {
     let mut rows: Vec<[f64; 2]> = Vec::new();
-    let mut start = 0;
     let mut has_header = false;
     let mut is_sound = true;
-    for (line, block) in source.bytes().split(|&byte| byte == b'\n').zip(1..) {
-        // A `Source` is below 4 GiB.
-        let span = Span { start, end: start + line.len() as u32, block };
-        start = span.end + 1;
-        let line = if block == 1 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
-        if line.trim_ascii().is_empty() {
-            continue;
-        }
+    for (line, span) in Lines::of(source.bytes()) {
         if !has_header {
             has_header = true;
             if line.trim_ascii() != HEADER.as_bytes() {
@@ -67,11 +58,8 @@ fn parse(line: &[u8], last: Option<&[f64; 2]>) -> Result<[f64; 2], String> {
     let [conveyor, centre] = fields[..] else {
         return Err(format!("the row has {} fields instead of 2", fields.len()));
     };
-    let number = |field: &str| match field.parse::<f64>() {
-        Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0), // zero has no sign
-        Ok(_) | Err(_) => Err(format!("`{}` is no place in mm", field.escape_debug())),
-    };
-    let row = [number(conveyor)?, number(centre)?];
+    let place = |field: &str| number(field, "place in mm", FARTHEST);
+    let row = [place(conveyor)?, place(centre)?];
     match last {
         Some([before, _]) if row[0] <= *before => {
             Err(format!("the conveyor does not go on: {} mm comes behind {} mm", short(row[0]), short(*before)))

@@ -1,9 +1,10 @@
 //! The controller: a pair of readings in, a command for the drive out. Nothing here needs more than `core`: no heap, no
-//! clock, no operation whose time depends on what is read, so that a firmware can take the file over as it stands.
+//! clock, a state of fixed size, so that a firmware can take the file over as it stands.
 //!
 //! Timing: [`Controller::step`] is called once a sample period, with the readings that were latched at its start; every time
-//! in the [`Law`] is counted in samples. A step makes at most `debounce` comparisons, and with an upstream pair of rulers it
-//! sorts `2 debounce + 1` numbers; nothing else in it is repeated. The command holds until the next one.
+//! in the [`Law`] is counted in samples. A step makes at most `debounce` comparisons. With an upstream pair of rulers it sorts
+//! n = `2 debounce + 1` numbers besides, in n (n - 1)/2 moves at the most, 8,256 for the longest debounce time; nothing else
+//! in it is repeated. The command holds until the next one.
 //!
 //! With c the centre of the carriage, M that of the cloth, W its width and W0 the nominal one, q the pitch of the sensors and
 //! m their number on a ruler, the covered sensors I (left edge) and J (right edge) say
@@ -34,7 +35,7 @@ pub struct Reading {
     pub upstream: Option<[u16; 2]>,
 }
 
-/// What the controller makes of a reading.
+/// What the controller makes of the deviation that it reads. What is fed forward is driven with any of the first three.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
     /// I = J, or one count beyond that on the way to it: nothing to do.
@@ -113,6 +114,8 @@ struct Upstream {
     filtered: [i16; MOST_DELAY],
     /// Readings so far, no more than it takes to use them.
     count: u16,
+    /// For how many readings an edge has been lost.
+    lost: u16,
     raw_at: u16,
     at: u16,
 }
@@ -120,7 +123,8 @@ struct Upstream {
 impl Controller {
     /// A controller that has read nothing yet.
     pub const fn new() -> Self {
-        let upstream = Upstream { raw: [0; MOST_FILTER], filtered: [0; MOST_DELAY], count: 0, raw_at: 0, at: 0 };
+        let upstream =
+            Upstream { raw: [0; MOST_FILTER], filtered: [0; MOST_DELAY], count: 0, lost: 0, raw_at: 0, at: 0 };
         Self { side: 0, held: 0, driven: 0, deviations: [0; MOST_DEBOUNCE], at: 0, upstream }
     }
 
@@ -203,7 +207,9 @@ impl Upstream {
         let now = if is_lost { last } else { left.wrapping_sub(right).cast_signed() };
         self.raw[usize::from(self.raw_at)] = now;
         let (need, taken) = (window + delay, 2 * filter + 1);
-        self.count = self.count.saturating_add(1).min(need.saturating_add(taken));
+        self.lost = if is_lost { self.lost.saturating_add(1) } else { 0 };
+        // What the median does not hide is no jump of the cloth when the edge is found again: everything begins anew.
+        self.count = if self.lost > filter { 0 } else { self.count.saturating_add(1).min(need.saturating_add(taken)) };
         self.at = (self.at + 1) % MOST_DELAY as u16;
         self.filtered[usize::from(self.at)] = if self.count < taken { now } else { self.median(taken) };
         if self.count < need.saturating_add(taken) {

@@ -3,6 +3,7 @@
 //! Promises rows whose times increase and whose readings a ruler can give; every fault of a file is found in one run.
 
 use super::row::Row;
+use super::rows::{FARTHEST, Lines, number};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Tracking;
 use crate::source::{Source, Span};
@@ -21,6 +22,8 @@ enum Column {
     Carriage,
     /// What an earlier run said of it.
     Said,
+    /// Something that nothing is known of.
+    Other,
 }
 
 /// The columns that a log may have; the first three it must.
@@ -38,35 +41,48 @@ const COLUMNS: [(&str, Column); 10] = [
 ];
 /// How many of these must be there.
 const NEEDED: usize = 3;
-/// Farthest places, mm, and latest times, s: no conveyor is as long, no shift either.
-const FARTHEST: f64 = 1e9;
+/// Latest times, s: beyond all that clocks count from 1970 on.
+const LATEST: f64 = 1e11;
 /// A sample is missing where the time to the next differs from the period by more than this part of it.
 const MISSING: f64 = 0.4;
 
 /// Reads a log. Faults of the data are diagnostics; rows that have one are left out.
 pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Vec<Row> {
     let bytes = source.bytes();
-    let mut lines = Lines { bytes, at: 0, block: 0 };
+    let mut lines = Lines::of(bytes);
     let Some((header, span)) = lines.next() else {
         out.push(Diagnostic::new(&code::SOURCE_EMPTY, "the log is empty"));
         return Vec::new();
     };
     let columns = match columns(header) {
-        Ok(columns) => columns,
+        Ok((columns, others)) => {
+            if !others.is_empty() {
+                let message = format!("the log has columns that nothing is known of: {}", others.join(", "));
+                let finding = Diagnostic::new(&code::TRACK_COLUMN, message).at(span);
+                out.push(finding.hint(format!("they are passed over; known are {}", known().join(", "))));
+            }
+            columns
+        }
         Err((message, hint)) => {
             out.push(Diagnostic::new(&code::TRACK_HEADER, message).at(span).hint(hint));
             return Vec::new();
         }
     };
     let mut rows: Vec<Row> = Vec::with_capacity(bytes.len() / header.len().max(8));
+    let mut refuse = |message: String, span: Span| {
+        let hint = format!("a row is {}, with decimal points and commas", names(&columns));
+        out.push(Diagnostic::new(&code::TRACK_ROW, message).at(span).hint(hint));
+    };
     for (line, span) in lines {
-        let row = parse(line, &columns, track).map(|row| Row { start: span.start, ..row });
-        match row.and_then(|row| follows(rows.last(), &row).map(|()| row)) {
-            Ok(row) => rows.push(row),
-            Err(message) => {
-                let hint = format!("a row is {}, with decimal points and commas", names(&columns));
-                out.push(Diagnostic::new(&code::TRACK_ROW, message).at(span).hint(hint));
+        match parse(line, &columns, track).map(|row| Row { start: Some(span.start), ..row }) {
+            Ok(row) => {
+                // Rows behind one that goes back are held against that: a slip is one fault.
+                if let Err(message) = follows(rows.last(), &row) {
+                    refuse(message, span);
+                }
+                rows.push(row);
             }
+            Err(message) => refuse(message, span),
         }
     }
     if rows.is_empty() && !out.has_errors() {
@@ -78,59 +94,41 @@ pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> 
     rows
 }
 
-/// The lines of a text that are not blank, with their spans.
-struct Lines<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    block: u32,
-}
-
-impl<'a> Iterator for Lines<'a> {
-    type Item = (&'a [u8], Span);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while self.at < self.bytes.len() {
-            let rest = &self.bytes[self.at..];
-            let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
-            let (start, line) = (self.at, &rest[..length]);
-            self.at += length + 1;
-            self.block += 1;
-            // A byte order mark says nothing.
-            let line = if start == 0 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
-            if !line.trim_ascii().is_empty() {
-                // A `Source` is below 4 GiB.
-                let span = Span { start: start as u32, end: (start + length) as u32, block: self.block };
-                return Some((line, span));
-            }
-        }
-        None
-    }
-}
-
 /// The names of columns, as the header has them.
 fn names(columns: &[Column]) -> String {
     let names = columns.iter().map(|column| {
         let known = COLUMNS.iter().find(|(_, known)| known == column);
-        known.map_or("", |(name, known)| if *known == Column::Said { "what was said" } else { name })
+        known.map_or("...", |(name, known)| if *known == Column::Said { "what was said" } else { name })
     });
     format!("`{}`", names.collect::<Vec<_>>().join(","))
 }
 
-/// What the columns of a header hold; or what is wrong with it, and what to do.
-fn columns(header: &[u8]) -> Result<Vec<Column>, (String, String)> {
-    let known: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+/// The names of all columns.
+fn known() -> [&'static str; COLUMNS.len()] {
+    COLUMNS.map(|(name, _)| name)
+}
+
+/// What the columns of a header hold, and the names of those that nothing is known of; or what is wrong with it, and what to
+/// do.
+fn columns(header: &[u8]) -> Result<(Vec<Column>, Vec<String>), (String, String)> {
+    let known = known();
     let hint = || {
         format!("the first row is `{}`, and may go on with {}", known[..NEEDED].join(","), known[NEEDED..].join(", "))
     };
     let text = std::str::from_utf8(header).map_err(|_| ("the first row is no text".to_owned(), hint()))?;
-    let mut columns = Vec::new();
+    if let Some(other) = [';', '\t'].into_iter().find(|&other| text.contains(other) && !text.contains(',')) {
+        let message = format!("`{}` parts the columns of the log", other.escape_debug());
+        return Err((message, "commas part them, and numbers have decimal points".to_owned()));
+    }
+    let (mut columns, mut others) = (Vec::new(), Vec::new());
     for name in text.split(',').map(str::trim) {
-        let column = known.iter().position(|known| *known == name).map(|i| COLUMNS[i].1);
-        let column = column.ok_or_else(|| (format!("`{}` is no column of a log", name.escape_debug()), hint()))?;
-        if column != Column::Said && columns.contains(&column) {
+        let column = known.iter().position(|known| known.eq_ignore_ascii_case(name)).map(|i| COLUMNS[i].1);
+        let is_twice = |column: Column| !matches!(column, Column::Said | Column::Other) && columns.contains(&column);
+        if column.is_some_and(is_twice) {
             return Err((format!("the column `{name}` stands twice"), hint()));
         }
-        columns.push(column);
+        others.extend(column.is_none().then(|| format!("`{}`", name.escape_debug())));
+        columns.push(column.unwrap_or(Column::Other));
     }
     if let Some((name, _)) = COLUMNS[..NEEDED].iter().find(|(_, column)| !columns.contains(column)) {
         return Err((format!("the column `{name}` is missing"), hint()));
@@ -138,13 +136,13 @@ fn columns(header: &[u8]) -> Result<Vec<Column>, (String, String)> {
     if columns.contains(&Column::UpstreamLeft) != columns.contains(&Column::UpstreamRight) {
         return Err(("the rulers upstream are a pair: `up_i` and `up_j`".to_owned(), hint()));
     }
-    Ok(columns)
+    Ok((columns, others))
 }
 
 /// A row, without its place.
 fn parse(line: &[u8], columns: &[Column], track: &Tracking) -> Result<Row, String> {
     let text = std::str::from_utf8(line).map_err(|_| "the row is no text".to_owned())?;
-    let mut row = Row { time: 0.0, covered: [0; 2], upstream: None, conveyor: None, carriage: None, start: 0 };
+    let mut row = Row { time: 0.0, covered: [0; 2], upstream: None, conveyor: None, carriage: None, start: None };
     let mut upstream = [0; 2];
     let mut fields = text.trim_end().split(',');
     for column in columns {
@@ -154,14 +152,14 @@ fn parse(line: &[u8], columns: &[Column], track: &Tracking) -> Result<Row, Strin
         };
         let field = field.trim();
         match column {
-            Column::Time => row.time = number(field, "time in s")?,
+            Column::Time => row.time = number(field, "time in s", LATEST)?,
             Column::Left => row.covered[0] = count(field, track)?,
             Column::Right => row.covered[1] = count(field, track)?,
             Column::UpstreamLeft => upstream[0] = count(field, track)?,
             Column::UpstreamRight => upstream[1] = count(field, track)?,
-            Column::Conveyor => row.conveyor = Some(number(field, "place of the conveyor in mm")?),
-            Column::Carriage => row.carriage = Some(number(field, "place of the carriage in mm")?),
-            Column::Said => {}
+            Column::Conveyor => row.conveyor = Some(number(field, "place of the conveyor in mm", FARTHEST)?),
+            Column::Carriage => row.carriage = Some(number(field, "place of the carriage in mm", FARTHEST)?),
+            Column::Said | Column::Other => {}
         }
     }
     if fields.next().is_some() {
@@ -170,13 +168,6 @@ fn parse(line: &[u8], columns: &[Column], track: &Tracking) -> Result<Row, Strin
     }
     row.upstream = columns.contains(&Column::UpstreamLeft).then_some(upstream);
     Ok(row)
-}
-
-fn number(field: &str, what: &str) -> Result<f64, String> {
-    match field.parse::<f64>() {
-        Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0), // zero has no sign
-        Ok(_) | Err(_) => Err(format!("`{}` is no {what}", field.escape_debug())),
-    }
 }
 
 fn count(field: &str, track: &Tracking) -> Result<u16, String> {
@@ -216,16 +207,24 @@ fn rhythm(rows: &[Row], track: &Tracking, out: &mut Diagnostics) {
     if gaps.len() > rows.len() / 2 {
         let mut steps: Vec<f64> = rows.windows(2).map(|w| w[1].time - w[0].time).collect();
         steps.sort_by(f64::total_cmp);
-        let step = steps[steps.len() / 2] * MS_PER_S;
-        let message =
-            format!("the log has a row each {} ms, but `track.period_ms` is {}", short(step), track.period_ms);
-        let hint = format!("the controller counts samples: --set track.period_ms={}", short(step));
+        let step = steps[steps.len() / 2];
+        let message = format!(
+            "the log has a row each {} ms, but `track.period_ms` is {}",
+            short(step * MS_PER_S),
+            track.period_ms
+        );
+        let times = (step / track.period()).round();
+        let hint = if times >= MS_PER_S {
+            "times are in s: are these ms?".to_owned()
+        } else {
+            format!("the controller counts samples: --set track.period_ms={}", short(step * MS_PER_S))
+        };
         out.push(Diagnostic::new(&code::TRACK_PERIOD, message).hint(hint));
         return;
     }
     for row in gaps {
         let message = format!("samples are missing before {} s: the controller begins anew", short(row.time));
-        let span = Span { start: row.start, end: row.start, block: 0 };
-        out.push(Diagnostic::new(&code::TRACK_GAP, message).at(span));
+        let start = row.start.unwrap_or_default();
+        out.push(Diagnostic::new(&code::TRACK_GAP, message).at(Span { start, end: start, block: 0 }));
     }
 }

@@ -10,6 +10,9 @@ use crate::machine::Tracking;
 use crate::source::Span;
 use crate::units::number::short;
 
+/// Sample periods behind which every carriage rests that nobody drives.
+const MOST_AT_REST: f64 = 10_000.0;
+
 /// A log with what the controller makes of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
@@ -31,14 +34,23 @@ pub(super) fn replay(rows: Vec<Row>, track: &Tracking, out: &mut Diagnostics) ->
         }
         let Row { covered: [left, right], upstream, .. } = *row;
         let command = controller.step(&law, Reading { left, right, upstream });
-        let last = commands.last().map(|command| command.status);
-        if let Some(alarm) = alarm(command.status).filter(|_| last != Some(command.status)) {
-            out.push(alarmed(alarm, row, track));
-        }
         commands.push(command);
         before = Some(row);
     }
-    Replay { rows, commands }
+    let replay = Replay { rows, commands };
+    tell(&replay, track, out);
+    replay
+}
+
+/// Says where the drive is switched off.
+pub(super) fn tell(replay: &Replay, track: &Tracking, out: &mut Diagnostics) {
+    let mut last = None;
+    for (row, Command { status, .. }) in replay.rows.iter().zip(&replay.commands) {
+        if let Some(alarm) = alarm(*status).filter(|_| last != Some(*status)) {
+            out.push(alarmed(alarm, row, track));
+        }
+        last = Some(*status);
+    }
 }
 
 /// What is said of a status at which the drive is switched off.
@@ -64,7 +76,9 @@ fn alarmed((code, what): (&'static Code, &'static str), row: &Row, track: &Track
     } else {
         format!("{what} at {time} s (I = {left}, J = {right}): its edge is lost, the drive is off")
     };
-    Diagnostic::new(code, message).at(Span { start: row.start, end: row.start, block: 0 })
+    let found = Diagnostic::new(code, message);
+    // The rows of a simulation are in no file.
+    row.start.map_or(found.clone(), |start| found.at(Span { start, end: start, block: 0 }))
 }
 
 /// Where the carriage was at each row, mm: as the log tells, or as a drive would have followed the commands from the middle.
@@ -76,13 +90,18 @@ pub(super) fn carriage(replay: &Replay, track: &Tracking, out: &mut Diagnostics)
     let hint = "log its encoder as a column `carriage_mm`: the centre line is only as true as that";
     out.push(Diagnostic::new(&code::TRACK_CARRIAGE, message).hint(hint));
     let mut drive = Drive::new(track);
-    replay
-        .commands
-        .iter()
-        .map(|command| {
-            let place = drive.place;
-            drive.follow(command.velocity);
-            place
-        })
-        .collect()
+    let mut before: Option<&Row> = None;
+    let rows = replay.rows.iter().zip(&replay.commands);
+    rows.map(|(row, command)| {
+        // Nothing is commanded while samples are missing: the drive comes to rest.
+        if let Some(before) = before.filter(|before| is_gap(before, row, track)) {
+            let missing = ((row.time - before.time) / track.period()).round() - 1.0;
+            (0..missing.clamp(0.0, MOST_AT_REST) as usize).for_each(|_| drive.follow(0.0));
+        }
+        before = Some(row);
+        let place = drive.place;
+        drive.follow(command.velocity);
+        place
+    })
+    .collect()
 }

@@ -13,6 +13,6 @@ pub struct Row {
     pub conveyor: Option<f64>,
     /// Where the carriage was, mm.
     pub carriage: Option<f64>,
-    /// The byte at which the row begins.
-    pub start: u32,
+    /// The byte at which the row begins; `None` for one that is in no file.
+    pub start: Option<u32>,
 }

@@ -123,7 +123,8 @@ impl Scenario {
         let (root, errors) = DeTable::parse_recoverable(text);
         for error in &errors {
             let fault = Diagnostic::new(&code::TRACK_SCENARIO, error.message().replace('\n', ", "));
-            out.push(fault.at(span(error.span().unwrap_or(0..0))));
+            let hint = "a row is `key = value`; numbers begin with a digit, as in 0.05";
+            out.push(fault.at(span(error.span().unwrap_or(0..0))).hint(hint));
         }
         if errors.is_empty() {
             for (key, value) in root.get_ref() {
@@ -152,25 +153,38 @@ impl Scenario {
             let message = format!("{duration} s are more than {MOST_SAMPLES:e} periods");
             return Some([message, "take a shorter `duration_s`".to_owned()]);
         }
-        (measured_from >= duration).then(|| {
+        if measured_from >= duration {
             let message =
                 format!("nothing is measured: `measured_from_s` is {measured_from}, `duration_s` {duration} s");
-            [message, "take a smaller `measured_from_s`, or a longer duration".to_owned()]
-        })
+            return Some([message, "take a smaller `measured_from_s`, or a longer duration".to_owned()]);
+        }
+        let jump = Some(self.offset[1]).filter(|_| self.offset[0] != 0.0).map(|time| ("offset_at_s", time));
+        let damage = self.damage.iter().map(|damage| ("damage.at_s", damage.at_s));
+        let (key, time) = jump.into_iter().chain(damage).find(|(_, time)| time >= duration)?;
+        let message = format!("`{key}` = {time} never comes: `duration_s` is {duration} s");
+        Some([message, "take an earlier time, or a longer duration".to_owned()])
     }
 
     /// Takes a key in; or what is wrong with it, and what to do.
     fn take(&mut self, name: &str, value: &DeValue, text: &str) -> Result<(), [String; 2]> {
         let plain = || ValueDeserializer::parse(text).ok();
         if name == DAMAGE {
-            let damage = plain().and_then(|value| Vec::<Damage>::deserialize(value).ok());
-            let is_sound = |damage: &Damage| {
-                [damage.at_s, damage.for_s].iter().all(|time| (0.0..=3600.0).contains(time))
-                    && (-1000.0..=1000.0).contains(&damage.depth_mm)
-            };
-            let Some(damage) = damage.filter(|damage| damage.iter().all(is_sound)) else {
-                return Err([format!("`{DAMAGE}` is no damage of edges"), DAMAGE_ROW.to_owned()]);
-            };
+            let faulty = |message: String| [message, DAMAGE_ROW.to_owned()];
+            let value = plain().ok_or_else(|| faulty(format!("`{DAMAGE}` is no list of tables")))?;
+            let damage = Vec::<Damage>::deserialize(value)
+                .map_err(|error| faulty(format!("`{DAMAGE}`: {}", error.message().replace('\n', ", "))))?;
+            for Damage { at_s, for_s, depth_mm, .. } in &damage {
+                let ranged = [
+                    ("at_s", at_s, 0.0, 3600.0),
+                    ("for_s", for_s, 0.0, 3600.0),
+                    ("depth_mm", depth_mm, -1000.0, 1000.0),
+                ];
+                if let Some((key, _, least, most)) =
+                    ranged.into_iter().find(|(_, value, least, most)| !(*least..=*most).contains(*value))
+                {
+                    return Err(faulty(format!("`{DAMAGE}.{key}` must be a number from {least} to {most}")));
+                }
+            }
             self.damage = damage;
             return Ok(());
         }

@@ -58,7 +58,7 @@ pub fn run(scenario: &Scenario, track: &Tracking) -> Simulation {
             upstream,
             conveyor: Some(time * track.cloth_mm_s),
             carriage: Some(drive.place),
-            start: 0,
+            start: None,
         });
         simulation.replay.commands.push(command);
         places.push(drive.place);

@@ -10,6 +10,10 @@ use super::{law, log};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::{CentreLine, Tracking};
 use crate::source::Source;
+use crate::units::number::short;
+
+/// How many times as far apart as they are wanted places of a centre line are where nobody saw the cloth between them.
+const UNSEEN: f64 = 4.0;
 
 /// What must be known for something that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -72,6 +76,7 @@ impl Tracked {
         };
         let followers: Vec<_> = simulation.followers.into_iter().map(measured).collect();
         let replay = simulation.replay;
+        replay::tell(&replay, track, out);
         let conveyor = replay.rows.iter().filter_map(|row| row.conveyor).collect();
         let carriage = replay.rows.iter().filter_map(|row| row.carriage).collect();
         let cloth = simulation.cloth;
@@ -86,10 +91,10 @@ impl Tracked {
         let readings: Vec<[f64; 2]> = self.readings(track).collect();
         self.centre = even(&without_damage(&readings, track.debounce().into()), track.centre_mm);
         if self.centre.len() < 2 {
-            let message = "there is no centre line: both edges are seen in no two places of the conveyor";
-            out.push(Diagnostic::new(&code::TRACK_NO_CENTRE, message));
+            out.push(no_centre(&readings, track));
             return None;
         }
+        unseen(&self.centre, track).into_iter().for_each(|found| out.push(found));
         Some(self)
     }
 
@@ -113,6 +118,41 @@ impl Tracked {
             }
         })
     }
+}
+
+/// What is said where readings make no line, by places of conveyor and centre.
+fn no_centre(readings: &[[f64; 2]], track: &Tracking) -> Diagnostic {
+    let (Some([from, _]), Some([to, _])) = (readings.first(), readings.last()) else {
+        let message = "there is no centre line: no row sees both edges of the cloth";
+        return Diagnostic::new(&code::TRACK_NO_CENTRE, message)
+            .hint("look at `track.width_mm`, and where the rulers stand");
+    };
+    let message = format!(
+        "there is no centre line: while both edges are seen the conveyor moves {} mm in all, and a place of the line takes {} mm",
+        short(to - from),
+        short(track.centre_mm)
+    );
+    let hint = "record more of the cloth; `conv_mm` is in mm, and `track.centre_mm` says how far apart places are";
+    Diagnostic::new(&code::TRACK_NO_CENTRE, message).hint(hint)
+}
+
+/// What is said where a centre line goes over cloth that nobody saw, by its rows.
+fn unseen(centre: &[[f64; 2]], track: &Tracking) -> Option<Diagnostic> {
+    let gaps = || {
+        centre.windows(2).map(|pair| [pair[0][0], pair[1][0]]).filter(|[from, to]| to - from > UNSEEN * track.centre_mm)
+    };
+    let [from, to] = gaps().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    let places = match gaps().count() {
+        1 => String::new(),
+        count => format!(" in {count} places, the longest"),
+    };
+    let message = format!(
+        "the centre of the cloth was not seen{places} from {} to {} mm of the conveyor: it is taken to go straight there",
+        short(from),
+        short(to)
+    );
+    let hint = "what is cut there may be displaced: record it again, or leave that stretch out of the marker";
+    Some(Diagnostic::new(&code::TRACK_UNSEEN, message).by(to - from).hint(hint))
 }
 
 /// Readings without damage of the edges that passes within so many samples: each becomes the median of as many on its either

@@ -5,7 +5,6 @@ use std::io::{self, Write};
 use super::centre;
 use super::chart;
 use super::controller::{Command, Status};
-use super::row::Row;
 use super::tracked::{Needs, Tracked};
 use crate::units::number::{push_fixed, push_integer};
 
@@ -31,7 +30,7 @@ pub const TARGETS: &[Target] = &[
         about: "what the controller makes of each row: `t_s,i,j,status,direction,v_mm_s`",
         extension: "commands.csv",
         needs: Needs::Commands,
-        write: |tracked, out| rows(tracked, "t_s,i,j,status,direction,v_mm_s\n", out, commanded),
+        write: commands,
     },
     Target {
         name: "centre",
@@ -77,21 +76,12 @@ impl Status {
     }
 }
 
-/// Rows of time and readings, and what is pushed behind these.
-fn rows(
-    tracked: &Tracked,
-    header: &str,
-    out: &mut dyn Write,
-    push: fn(&mut Vec<u8>, &Row, &Command),
-) -> io::Result<()> {
+/// Rows of time, and what is pushed behind it of each sample.
+fn rows(tracked: &Tracked, header: &str, out: &mut dyn Write, push: impl Fn(&mut Vec<u8>, usize)) -> io::Result<()> {
     let mut block = header.as_bytes().to_vec();
-    for (row, command) in tracked.replay.rows.iter().zip(&tracked.replay.commands) {
+    for (i, row) in tracked.replay.rows.iter().enumerate() {
         push_fixed(&mut block, row.time, TIME_DECIMALS);
-        for covered in row.covered {
-            block.push(b',');
-            push_integer(&mut block, covered.into());
-        }
-        push(&mut block, row, command);
+        push(&mut block, i);
         block.push(b'\n');
         if block.len() >= BLOCK_BYTES {
             out.write_all(&block)?;
@@ -101,33 +91,37 @@ fn rows(
     out.write_all(&block)
 }
 
-fn commanded(block: &mut Vec<u8>, _: &Row, command: &Command) {
-    block.push(b',');
-    block.extend_from_slice(command.status.name().as_bytes());
-    block.extend_from_slice(match command.velocity.total_cmp(&0.0) {
-        std::cmp::Ordering::Less => b",-1,",
-        std::cmp::Ordering::Equal => b",0,",
-        std::cmp::Ordering::Greater => b",1,",
-    });
-    push_fixed(block, command.velocity.abs(), SPEED_DECIMALS);
+fn push_counts(block: &mut Vec<u8>, counts: impl IntoIterator<Item = u16>) {
+    for count in counts {
+        block.push(b',');
+        push_integer(block, count.into());
+    }
+}
+
+fn commands(tracked: &Tracked, out: &mut dyn Write) -> io::Result<()> {
+    rows(tracked, "t_s,i,j,status,direction,v_mm_s\n", out, |block, i| {
+        let Command { status, velocity } = tracked.replay.commands[i];
+        push_counts(block, tracked.replay.rows[i].covered);
+        block.push(b',');
+        block.extend_from_slice(status.name().as_bytes());
+        block.extend_from_slice(match velocity.total_cmp(&0.0) {
+            std::cmp::Ordering::Less => b",-1,",
+            std::cmp::Ordering::Equal => b",0,",
+            std::cmp::Ordering::Greater => b",1,",
+        });
+        push_fixed(block, velocity.abs(), SPEED_DECIMALS);
+    })
 }
 
 fn log(tracked: &Tracked, out: &mut dyn Write) -> io::Result<()> {
-    let rows = &tracked.replay.rows;
-    let has_upstream = rows.iter().any(|row| row.upstream.is_some());
+    let has_upstream = tracked.replay.rows.iter().any(|row| row.upstream.is_some());
     let header = if has_upstream { "t_s,i,j,up_i,up_j,conv_mm,carriage_mm\n" } else { "t_s,i,j,conv_mm,carriage_mm\n" };
-    let mut block = header.as_bytes().to_vec();
-    for ((row, conveyor), carriage) in rows.iter().zip(&tracked.conveyor).zip(&tracked.carriage) {
-        push_fixed(&mut block, row.time, TIME_DECIMALS);
-        for covered in row.covered.into_iter().chain(row.upstream.into_iter().flatten()) {
+    rows(tracked, header, out, |block, i| {
+        let row = &tracked.replay.rows[i];
+        push_counts(block, row.covered.into_iter().chain(row.upstream.into_iter().flatten()));
+        for place in [tracked.conveyor[i], tracked.carriage[i]] {
             block.push(b',');
-            push_integer(&mut block, covered.into());
+            push_fixed(block, place, PLACE_DECIMALS);
         }
-        for place in [conveyor, carriage] {
-            block.push(b',');
-            push_fixed(&mut block, *place, PLACE_DECIMALS);
-        }
-        block.push(b'\n');
-    }
-    out.write_all(&block)
+    })
 }

@@ -50,6 +50,10 @@ pub(super) fn places(arguments: &Arguments) -> anyhow::Result<Vec<(&'static Targ
         ));
     }
     if let Some(plot) = plot {
+        if plot.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("svg")) {
+            let message = format!("`--plot {}`: the picture is SVG", plot.display());
+            return Err(failure(message, "give it a name that ends in `.svg`"));
+        }
         let picture = TARGETS.iter().find(|target| target.name == "svg").expect("a picture is a target");
         places.push((picture, Place::File(plot.clone())));
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::cli::report::{self};
+use crate::cli::report;
 use crate::source::Source;
 use crate::track::Tracked;
 use crate::track::controller::Status;

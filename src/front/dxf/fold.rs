@@ -80,12 +80,12 @@ impl Fold {
         self.drawn.offset(at).abs() <= REACH
     }
 
-    /// Whether an edge lies along the fold: most of it does, or most of the fold along the edge.
+    /// Whether an edge lies along the fold, all of it or some; a slit that goes on where the fold ends does not.
     fn is_along(&self, [from, to]: [Point; 2]) -> bool {
         let [from_station, to_station] = [from, to].map(|at| self.station(at));
         let [least, most] = [from_station.min(to_station), from_station.max(to_station)];
         let shared = most.min(self.length) - least.max(0.0);
-        self.is_in_line(from) && self.is_in_line(to) && shared >= (most - least).min(self.length) / 2.0
+        self.is_in_line(from) && self.is_in_line(to) && shared >= REACH.min(most - least)
     }
 
     /// Whether a place has none on the other side.
@@ -117,13 +117,24 @@ impl Fold {
         let halves: Vec<Vec<Vertex>> =
             self.halves(outline).into_iter().filter(|half| half.len() >= LEAST_HALF).collect();
         match &halves[..] {
-            [half] if self.ends_on(half) == [true; 2] => {
+            [half] if self.ends_on(half) == [true; 2] && self.is_parted_well(half) => {
                 let fold = self.along_edge_of(half);
                 Ok((fold.whole(half), fold))
             }
             [] | [_] => Err(Refusal::Beside),
             [..] => Err(Refusal::Several),
         }
+    }
+
+    /// Whether what goes on in line with the fold begins where that ends: beside a fold that is drawn shorter than its edge nobody
+    /// can tell a slit from more of the fold.
+    fn is_parted_well(&self, half: &[Vertex]) -> bool {
+        let is_well = |end: Point, next: Point| {
+            let station = self.station(end);
+            !self.is_in_line(next) || station.abs() <= REACH || (station - self.length).abs() <= REACH
+        };
+        let count = half.len();
+        is_well(half[0].at, half[1].at) && is_well(half[count - 1].at, half[count - 2].at)
     }
 
     /// A line inside a half piece, on both sides: one line where it meets the fold, else two.
@@ -262,6 +273,15 @@ mod tests {
         assert!((lengths(&around) - 2.0 * half).abs() < 1e-9);
         let at = Point::new(30.0, 20.0);
         assert!((about.mirror(at) - edge.mirror(at)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_slit_in_line_with_the_fold_is_cut_and_what_may_be_either_is_refused() {
+        let drawn = line(&[[0.0, 0.0], [60.0, 0.0], [100.0, 0.0], [100.0, 50.0], [0.0, 50.0]], true);
+        let fold = |from: f64, to: f64| Fold::of(&line(&[[from, 0.0], [to, 0.0]], false).vertices).expect("a length");
+        let unfolded = |from, to| fold(from, to).unfold_outline(&drawn).map(|(whole, _)| whole.vertices.len());
+        assert_eq!([unfolded(0.0, 100.0), unfolded(0.0, 60.0)], [Ok(6), Ok(8)]);
+        assert_eq!(unfolded(0.0, 40.0), Err(Refusal::Beside));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::{Marker, OutlineNotch, Piece};
-use crate::machine::{CentreLine, Job};
+use crate::machine::{CentreLine, Job, Tracking};
 use crate::units::number::{fixed, up};
 
 pub(super) const PASS: MarkerPass =
@@ -30,6 +30,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     tell(&centre.line, [extent.min.x, extent.max.x], diagnostics);
+    steep(&centre.line, &job.profile.track).into_iter().for_each(|found| diagnostics.push(found));
     let shift = Shift(centre.line.simplified(PART * job.profile.tolerance(marker.unit)));
     for piece in &mut marker.pieces {
         for contour in &mut piece.contours {
@@ -62,6 +63,27 @@ fn tell(centre: &CentreLine, [from, to]: [f64; 2], diagnostics: &mut Diagnostics
     );
     let hint = format!("record {} mm more of the cloth, or move the marker (`sheet.origin`)", up(beyond, DECIMALS));
     diagnostics.push(Diagnostic::new(&code::CENTRE_BEYOND, message).by(beyond).hint(hint));
+}
+
+/// Says where a centre line goes across faster than a carriage can.
+fn steep(line: &CentreLine, track: &Tracking) -> Option<Diagnostic> {
+    let most = track.max_speed_mm_s / track.cloth_mm_s;
+    let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]).abs() / (pair[1][0] - pair[0][0]);
+    let steepest = line.rows().windows(2).max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
+    let [[from, before], [to, behind]] = [steepest[0], steepest[1]];
+    let found = slope(steepest);
+    (found > most).then(|| {
+        let place = |value: f64| fixed(value, DECIMALS);
+        let message = format!(
+            "the centre line goes {} mm across from {} to {} mm of the conveyor: no carriage follows that",
+            place((behind - before).abs()),
+            place(from),
+            place(to)
+        );
+        let hint =
+            "its numbers are mm; a carriage goes `track.max_speed_mm_s` across while the cloth goes `track.cloth_mm_s`";
+        Diagnostic::new(&code::CENTRE_STEEP, message).by(found).hint(hint)
+    })
 }
 
 /// How places move across, by a line of few rows.

@@ -109,11 +109,11 @@ impl Axis {
 }
 
 impl Fold {
-    /// Whether a line between two places lies on the fold: it is in line with it, and has half of it or half of itself there.
+    /// Whether a line between two places lies on the fold: it is in line with it, and goes some way along it.
     fn has(&self, ends: [Point; 2]) -> bool {
         let [a, b] = ends.map(|end| self.drawn.station(end));
         let both = a.max(b).min(self.length) - a.min(b).max(0.0);
-        ends.iter().all(|end| self.drawn.off(*end).abs() <= MEETS) && both >= (a - b).abs().min(self.length) / 2.0
+        ends.iter().all(|end| self.drawn.off(*end).abs() <= MEETS) && both >= (a - b).abs().min(MEETS)
     }
 
     /// Whether an edge lies on it; a curve does so with its middle, too.
