@@ -30,8 +30,8 @@ const IMPORTS: &[(&str, &[&str])] = &[
     // A checker measures for itself what it checks.
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
-    // Another machine: it reads what the cutter reads.
-    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
+    // Another machine: it reads what the cutter reads, and leaves out the notches that passes find.
+    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise", "pass"]),
     // A head in the place of the knife: it is moved by the cutter's planner or its own.
     ("spray", &["source", "diagnostic", "units", "geom", "ir", "machine", "plan"]),
     ("track", &["source", "diagnostic", "units", "machine"]),

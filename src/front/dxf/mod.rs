@@ -6,10 +6,11 @@
 //! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
 //!
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
-//! mm with [`curve`]; [`text`] reads what texts say with [`markup`] and [`choice`] which blocks that lets be cut. [`piece`] makes a piece of
-//! a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], with each [`mod@notch`] by the table of [`layer`]s.
-//! [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`]
-//! what is not done as the file says.
+//! mm with [`curve`] and the [`mod@unit`]; [`text`] reads what texts say with [`markup`] and [`choice`] which blocks that
+//! lets be cut. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], with each
+//! [`mod@notch`] by the table of [`layer`]s. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
+//! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
+//! not done as the file says.
 
 mod chain;
 mod choice;
@@ -31,6 +32,8 @@ mod shape;
 mod syntax;
 mod tally;
 mod text;
+mod told;
+mod unit;
 mod words;
 
 use super::{Dialect, Likeness, Read, foreign};

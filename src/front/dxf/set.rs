@@ -1,7 +1,5 @@
 //! The set of patterns: a file becomes the pieces that are cut of it, on the cloth.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::chain::Chain;
 use super::choice::{Asked, Chosen};
 use super::entity::{Sections, sections};
@@ -14,6 +12,8 @@ use super::placing::{Held, MOST_PIECES, Placing};
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
+use super::told::{say_hidden, say_on_paper, say_unread};
+use super::unit::unit;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::geom::budget::Budget;
@@ -21,7 +21,6 @@ use crate::ir::marker::Label;
 use crate::machine::Job;
 use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
-use crate::units::MM_PER_INCH;
 
 /// The pieces of a file.
 #[derive(Debug, Default)]
@@ -97,19 +96,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         let quantity = asked.quantity(facts.quantity, &mut making.tally);
         set.add(making.pieces(shapes, block.head.span()), quantity);
     }
-    set.placed = placing.placed(&set.drawn, &mut making.tally);
-    set.texts.clone_from(&loose.texts);
-    set.unread.append(&mut loose.unread);
-    if !loose.lines.is_empty() || !loose.dots.is_empty() {
-        set.add(making.pieces(loose, Span::default()), None);
-        // Beside blocks that the file places they lie where they are drawn.
-        let pieces = set.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
-        set.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
-    }
-    if set.placed.is_some() && !making.out.has_errors() {
-        let on_others = over::on_others(&set.laid(), &mut making.work);
-        on_others.into_iter().for_each(|span| making.tally.add(Thing::OnAnother, span));
-    }
+    set.lay(&placing, loose, &mut making);
     let Making { work, tally, apart, .. } = making;
     set.apart = apart;
     tally.report(out);
@@ -120,72 +107,29 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     set
 }
 
-/// Length of the unit that the texts name, else the header, mm.
-fn unit(Asked { source, job, file }: &Asked, of_header: Option<Span>, out: &mut Diagnostics) -> f64 {
-    if let Some(mm) = job.profile.dxf.unit.mm() {
-        return mm;
-    }
-    let Some(first) = file.units.first else {
-        if let Some(mm) = of_header.and_then(|span| unit_of_header(source.slice(span))) {
-            return mm;
-        }
-        let message = "the file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm";
-        let finding = Diagnostic::new(&code::DXF_NO_UNIT, message);
-        out.push(finding.hint("compare the extent that is printed with the pieces; inches are `--set dxf.unit=inch`"));
-        return 1.0;
-    };
-    let say_which = "say which it is: `--set dxf.unit=mm` or `--set dxf.unit=inch`";
-    let told = [Some(first), file.units.other].into_iter().flatten().map(|span| {
-        let text = source.slice(span);
-        unit_of(text).ok_or_else(|| {
-            let message = format!("`{}` is no unit that pattern DXF knows", text.escape_ascii());
-            Diagnostic::new(&code::DXF_UNIT, message).at(span).hint(say_which)
-        })
-    });
-    match told.collect::<Result<Vec<f64>, Diagnostic>>().as_deref() {
-        Ok(&[mm]) => mm,
-        Ok(units) => {
-            if let (Some(other), true) = (file.units.other, units.windows(2).any(|pair| pair[0] != pair[1])) {
-                let text = |span: Span| source.slice(span).escape_ascii();
-                let message = format!("the file has two units, `{}` and `{}`", text(first), text(other));
-                out.push(Diagnostic::new(&code::DXF_SAID_TWICE, message).at(other).hint(say_which));
-            }
-            units.first().copied().unwrap_or(1.0)
-        }
-        Err(fault) => {
-            out.push(fault.clone());
-            1.0
-        }
-    }
-}
-
-/// Length of the unit of a number in the header, mm (DXF reference, `$INSUNITS`); `None` for none and for those in which no
-/// garment is drawn.
-fn unit_of_header(number: &[u8]) -> Option<f64> {
-    match number {
-        b"1" => Some(MM_PER_INCH),
-        b"4" => Some(1.0),
-        b"5" => Some(10.0),
-        b"6" => Some(1000.0),
-        _ => None,
-    }
-}
-
-/// Length of a unit that a text names, mm.
-fn unit_of(text: &[u8]) -> Option<f64> {
-    match text.to_ascii_uppercase().as_slice() {
-        b"METRIC" | b"MM" | b"MILLIMETERS" | b"MILLIMETRES" => Some(1.0),
-        b"ENGLISH" | b"INCH" | b"INCHES" | b"IN" | b"IMPERIAL" => Some(MM_PER_INCH),
-        _ => None,
-    }
-}
-
 impl Set {
     /// Adds the pieces that a block draws.
     fn add(&mut self, pieces: Vec<Piece>, quantity: Option<[u32; 2]>) {
         let first = self.pieces.len();
         self.pieces.extend(pieces);
         self.drawn.push(Drawn { pieces: first..self.pieces.len(), quantity });
+    }
+
+    /// Puts the pieces where insertions have them, those of what stands in no block where they are drawn.
+    fn lay(&mut self, placing: &Placing, mut loose: Shapes, making: &mut Making) {
+        self.placed = placing.placed(&self.drawn, &mut making.tally);
+        self.texts.clone_from(&loose.texts);
+        self.unread.append(&mut loose.unread);
+        if !loose.lines.is_empty() || !loose.dots.is_empty() {
+            self.add(making.pieces(loose, Span::default()), None);
+            // Beside blocks that the file places they lie where they are drawn.
+            let pieces = self.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
+            self.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
+        }
+        if self.placed.is_some() && !making.out.has_errors() {
+            let on_others = over::on_others(&self.laid(), &mut making.work);
+            on_others.into_iter().for_each(|span| making.tally.add(Thing::OnAnother, span));
+        }
     }
 
     /// How many pieces lie on the cloth.
@@ -217,43 +161,5 @@ impl Set {
             let finding = Diagnostic::new(&code::DXF_SAMPLE, message);
             out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
         }
-    }
-}
-
-/// What kinds of entities are not read, and on which layers.
-fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
-    let mut kinds: BTreeMap<&str, (Vec<&Unread>, BTreeSet<&str>)> = BTreeMap::new();
-    for entity in unread {
-        let (of_kind, layers) = kinds.entry(&entity.kind).or_default();
-        of_kind.push(entity);
-        layers.insert(&entity.layer_name);
-    }
-    for (kind, (of_kind, layers)) in kinds {
-        let word = if layers.len() == 1 { "layer" } else { "layers" };
-        let layers = format!("{word} {}", layers.into_iter().collect::<Vec<_>>().join(", "));
-        let (count, are) = (of_kind.len(), if of_kind.len() == 1 { "is" } else { "are" });
-        let message = format!("{count} of the kind {kind} {are} not read, on {layers}");
-        let finding = Diagnostic::new(&code::DXF_UNREAD, message).at(of_kind[0].span);
-        out.push(finding.hint("nothing there is cut"));
-    }
-}
-
-/// How much stands on the sheet around the drawing.
-fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
-    if let Some((count, span)) = on_paper {
-        let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
-        let finding = Diagnostic::new(&code::DXF_ON_PAPER, format!("{message} in paper space and not cut")).at(span);
-        out.push(finding.hint("what is cut must be drawn in model space"));
-    }
-}
-
-/// How much is cut that nobody sees in the drawing.
-fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
-    if let Some((count, span)) = hidden {
-        let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
-        let message = format!("{message} hidden in the drawing, on layers that are cut; they are cut all the same");
-        out.push(
-            Diagnostic::new(&code::DXF_HIDDEN, message).at(span).hint("show all layers in the CAD system and look"),
-        );
     }
 }

@@ -18,7 +18,8 @@ pub(super) const PASS: MarkerPass =
     MarkerPass { name: "weld", about: "drops equal points and joins what the file interrupts", run };
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
-    let mut dropped = Dropped::default();
+    let mut dropped =
+        Dropped { longest: if marker.unit > 0.0 { LENGTH_EPSILON } else { OFF_GRID_EPSILON }, ..Dropped::default() };
     for piece in &mut marker.pieces {
         let number = piece.number;
         piece.contours.retain_mut(|contour| {
@@ -39,10 +40,15 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
 
 /// Longest segment without length, mm: rounding of places that were computed, as of the ends of arcs.
 const LENGTH_EPSILON: f64 = 1e-6;
+/// The same where numbers are on no grid, mm. Such files are written with two or three decimals; programs that offset, join
+/// or mirror outlines leave points there that go a few micrometres on or back, each of which would be a corner.
+const OFF_GRID_EPSILON: f64 = 0.01;
 
 /// Segments without length that were taken out.
 #[derive(Default)]
 struct Dropped {
+    /// How long they may be, mm.
+    longest: f64,
     count: usize,
     first: Option<Span>,
 }
@@ -56,7 +62,9 @@ impl Dropped {
     fn report(&self, diagnostics: &mut Diagnostics) {
         let Some(first) = self.first else { return };
         let (points, verb) = if self.count == 1 { ("point", "repeats") } else { ("points", "repeat") };
-        let message = format!("{} {points} {verb} the one before; the first is in block {}", self.count, first.block);
+        let within = if self.longest > LENGTH_EPSILON { format!(" within {} mm", self.longest) } else { String::new() };
+        let message =
+            format!("{} {points} {verb} the one before{within}; the first is in block {}", self.count, first.block);
         diagnostics.push(Diagnostic::new(&code::MARKER_EQUAL_POINTS, message).at(first));
     }
 }
@@ -66,6 +74,8 @@ impl Dropped {
 /// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
 /// contour has no segment of its own: its joint is the first segment's.
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
+    let longest = dropped.longest;
+    let has_length = |way: Vector| has_length(way, longest);
     if list.points(*range).windows(2).all(|ends| has_length(ends[1] - ends[0])) {
         return true; // as in nearly all of them
     }
@@ -105,9 +115,9 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     true
 }
 
-/// Whether a way is longer than [`LENGTH_EPSILON`]: told without its length where it is so along X or Y alone.
-fn has_length(way: Vector) -> bool {
-    (way.x.abs() > LENGTH_EPSILON) | (way.y.abs() > LENGTH_EPSILON) || way.norm() > LENGTH_EPSILON
+/// Whether a way is longer than `longest`, mm: told without its length where it is so along X or Y alone.
+fn has_length(way: Vector, longest: f64) -> bool {
+    (way.x.abs() > longest) | (way.y.abs() > longest) || way.norm() > longest
 }
 
 fn carry(joint: &mut Joint, carried: Joint) {

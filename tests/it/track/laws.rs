@@ -69,7 +69,7 @@ fn the_others_do_as_is_said_of_them() {
     insta::assert_snapshot!(all);
 }
 
-/// A plant of any kind that keeps both conditions.
+/// A plant of any kind that keeps all conditions.
 fn any_plant(rng: &mut Rng) -> Tracking {
     loop {
         let track = Tracking {
@@ -93,7 +93,7 @@ fn any_plant(rng: &mut Rng) -> Tracking {
 }
 
 #[test]
-fn where_both_conditions_hold_no_plant_swings_and_none_overshoots() {
+fn where_the_conditions_hold_no_plant_swings_and_none_overshoots() {
     let mut rng = Rng::with_seed(27);
     for number in 0..PLANTS {
         let track = any_plant(&mut rng);
@@ -144,6 +144,28 @@ fn damage_beside_an_edge_that_is_followed_makes_no_jump() {
         commands.iter().map(|command| command.velocity.abs()).fold(0.0, f64::max)
     };
     assert_eq!(fastest(&damaged), fastest(&drifting));
+}
+
+#[test]
+fn cloth_that_moved_while_nobody_saw_it_upstream_is_no_jump() {
+    let track = Tracking { upstream_mm: Some(400.0), ..Tracking::default() };
+    let law = law(&track);
+    let ahead = law.feed_forward.expect("there are rulers upstream");
+    // Cloth that drifts by 5 mm/s, lost upstream for a second; the carriage is over it all the time.
+    let drift = 5.0 * 2.0 / track.pitch_mm;
+    let mut controller = Controller::new();
+    let mut fastest = 0.0_f64;
+    for sample in 0..1000 {
+        let time = f64::from(sample) * track.period_ms / 1000.0;
+        let off = (drift * time).round() as i32;
+        let is_lost = (4.0..5.0).contains(&time);
+        let middle = (track.sensors / 2) as i32;
+        let pair = if is_lost { [0; 2] } else { [middle - off / 2, middle + (off + 1) / 2].map(|count| count as u16) };
+        let reading = Reading { left: middle as u16, right: middle as u16, upstream: Some(pair) };
+        fastest = fastest.max(controller.step(&law, reading).velocity.abs());
+    }
+    // What two readings tell is within a count.
+    assert!(fastest <= 5.0 + ahead.per_count.abs(), "{fastest} mm/s");
 }
 
 /// Readings of any kind, lost edges and leaps among them.

@@ -325,9 +325,7 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
                 let points: Vec<Point> = [place(item, [10, 20]), place(item, [11, 21])].into_iter().flatten().collect();
                 paths.push(Path { points, curves: vec![None], is_closed: false });
             }
-            b"ARC" | b"CIRCLE" if item.number(40) != Some(0.0) => {
-                paths.extend(round_path(item, place(item, [10, 20]), measure));
-            }
+            b"ARC" | b"CIRCLE" => paths.extend(round_path(item, place(item, [10, 20]), measure)),
             _ => {}
         }
     }
@@ -337,7 +335,8 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
 /// Lines that have a length, each once; of an open and a closed one of the same places the closed one.
 fn distinct(mut paths: Vec<Path>) -> Vec<Path> {
     paths.iter_mut().for_each(Path::tidy);
-    paths.retain(|path| !path.curves.is_empty());
+    let is_dot = |path: &Path| path.curves.iter().flatten().any(|round| round.radius == 0.0);
+    paths.retain(|path| !path.curves.is_empty() && !is_dot(path));
     let closed: BTreeSet<_> = paths.iter().filter(|path| path.is_closed).map(Path::key).collect();
     let mut seen = BTreeSet::new();
     paths.retain(|path| (path.is_closed || !closed.contains(&path.key())) && seen.insert(path.key()));
