@@ -13,7 +13,7 @@ use crate::source::Source;
 use crate::units::number::short;
 
 /// How many times as far apart as they are wanted places of a centre line are where nobody saw the cloth between them.
-const UNSEEN: f64 = 4.0;
+const UNSEEN: f64 = 2.0;
 
 /// What must be known for something that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -94,7 +94,9 @@ impl Tracked {
             out.push(no_centre(&readings, track));
             return None;
         }
-        unseen(&self.centre, track).into_iter().for_each(|found| out.push(found));
+        if let Some(unseen) = unseen(&self.centre, track) {
+            out.push(unseen);
+        }
         Some(self)
     }
 

@@ -164,7 +164,7 @@ enum Within {
     Others,
 }
 
-impl<'a> Entity<'a> {
+impl Entity<'_> {
     /// Of the entity that begins the header: the number of the unit that stands there.
     fn unit(&self) -> Option<Span> {
         let variable = self

@@ -128,7 +128,9 @@ impl Set {
         }
         if self.placed.is_some() && !making.out.has_errors() {
             let on_others = over::on_others(&self.laid(), &mut making.work);
-            on_others.into_iter().for_each(|span| making.tally.add(Thing::OnAnother, span));
+            for span in on_others {
+                making.tally.add(Thing::OnAnother, span);
+            }
         }
     }
 

@@ -30,7 +30,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     tell(&centre.line, [extent.min.x, extent.max.x], diagnostics);
-    steep(&centre.line, &job.profile.track).into_iter().for_each(|found| diagnostics.push(found));
+    if let Some(steep) = steep(&centre.line, &job.profile.track) {
+        diagnostics.push(steep);
+    }
     let shift = Shift(centre.line.simplified(PART * job.profile.tolerance(marker.unit)));
     for piece in &mut marker.pieces {
         for contour in &mut piece.contours {

@@ -159,7 +159,7 @@ fn cloth_that_moved_while_nobody_saw_it_upstream_is_no_jump() {
         let time = f64::from(sample) * track.period_ms / 1000.0;
         let off = (drift * time).round() as i32;
         let is_lost = (4.0..5.0).contains(&time);
-        let middle = (track.sensors / 2) as i32;
+        let middle = (track.sensors / 2).cast_signed();
         let pair = if is_lost { [0; 2] } else { [middle - off / 2, middle + (off + 1) / 2].map(|count| count as u16) };
         let reading = Reading { left: middle as u16, right: middle as u16, upstream: Some(pair) };
         fastest = fastest.max(controller.step(&law, reading).velocity.abs());
