@@ -1,5 +1,8 @@
 //! The layers of the convention (AAMA DXF, ASTM D6673) and what is done about what is drawn on them.
 
+use std::collections::BTreeMap;
+use std::ops::Deref;
+
 /// What is done about a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Does {
@@ -42,6 +45,48 @@ pub(super) struct Layer {
     /// How they are told from others.
     pub(super) about: &'static str,
     pub(super) does: Does,
+}
+
+/// A layer of a file: what is done about it, and its name.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Named {
+    pub(super) row: &'static Layer,
+    /// Place of its name in [`Names`].
+    pub(super) place: u16,
+}
+
+impl Deref for Named {
+    type Target = Layer;
+
+    fn deref(&self) -> &Layer {
+        self.row
+    }
+}
+
+/// The names of the layers of a file: the numbers of the convention, else what the file calls them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Names {
+    places: BTreeMap<String, u16>,
+    names: Vec<String>,
+}
+
+impl Names {
+    /// The layer of a number, or of the name that the file has for it. Beyond as many as plots have pens names are lost.
+    pub(super) fn layer(&mut self, number: Option<u16>, written: impl FnOnce() -> String) -> Named {
+        let row = layer(number);
+        let name = if row.number == OTHER.number { written() } else { row.number.to_string() };
+        let next = u16::try_from(self.names.len()).unwrap_or(u16::MAX);
+        let place = *self.places.entry(name).or_insert_with_key(|name| {
+            self.names.push(name.clone());
+            next
+        });
+        Named { row, place }
+    }
+
+    /// What a layer is called.
+    pub(super) fn of(&self, layer: Named) -> &str {
+        self.names.get(usize::from(layer.place)).map_or("", String::as_str)
+    }
 }
 
 /// The layers of the convention.

@@ -93,24 +93,25 @@ fn moved_label(label: &Label, motion: Motion) -> Label {
     }
 }
 
-/// All lines of a set where they lie: the numbers of the layers are the names of the pens.
+/// All lines of a set where they lie, the layers as pens.
 pub(super) fn drawing(set: &Set) -> Drawing {
     let mut drawing = Drawing::default();
-    let mut draw = |layer: &Layer, line: &Chain, motion: Motion| {
-        let pen = drawing.pen(&layer.number.to_string(), true);
+    let mut draw = |name: &str, line: &Chain, motion: Motion| {
+        let pen = drawing.pen(name, true);
         let mut vertices = moved(line, motion).into_iter();
         vertices.next().into_iter().for_each(|first| drawing.begin(first.at, first.span, pen));
         vertices.for_each(|vertex| drawing.line(vertex.at, vertex.span));
         drawing.lift();
     };
+    let [cut_out, outline] = [CUT_OUT, OUTLINE].map(|layer| layer.number.to_string());
     for Laid { piece, motion } in set.laid() {
-        let cut = piece.inner.iter().map(|line| (CUT_OUT, line)).chain([(OUTLINE, &piece.plain)]);
-        let drawn = piece.drawn.iter().map(|(layer, line)| (*layer, line));
-        cut.chain(drawn).for_each(|(layer, line)| draw(layer, line, motion));
+        piece.inner.iter().for_each(|line| draw(&cut_out, line, motion));
+        draw(&outline, &piece.plain, motion);
+        piece.drawn.iter().for_each(|(layer, line)| draw(set.names.of(*layer), line, motion));
     }
-    set.apart.iter().for_each(|(layer, line)| draw(layer, line, Motion::STILL));
+    set.apart.iter().for_each(|(layer, line)| draw(set.names.of(*layer), line, Motion::STILL));
     for entity in &set.unread {
-        let pen = drawing.pen(&entity.layer.number.to_string(), true);
+        let pen = drawing.pen(&entity.pen(), true);
         drawing.unread.push(Unread { kind: entity.kind.clone(), pen, span: entity.span });
     }
     drawing

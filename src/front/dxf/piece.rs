@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::chain::{Chain, REACH, chains};
 use super::fold::{Fold, Refusal};
-use super::layer::{Does, Form, Layer};
+use super::layer::{Does, Form, Named};
 use super::notch::{self, Mark, Notched};
 use super::outline::{Outline, outlines};
 use super::shape::{Dot, Line, Shapes};
@@ -31,7 +31,7 @@ pub(super) struct Piece {
     /// Lines that are cut inside it.
     pub(super) inner: Vec<Chain>,
     /// Lines that are only drawn.
-    pub(super) drawn: Vec<(&'static Layer, Chain)>,
+    pub(super) drawn: Vec<(Named, Chain)>,
     pub(super) labels: Vec<Label>,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Making<'o> {
     pub(super) work: Budget,
     pub(super) tally: Tally,
     /// Lines of blocks that have no outline.
-    pub(super) apart: Vec<(&'static Layer, Chain)>,
+    pub(super) apart: Vec<(Named, Chain)>,
     pub(super) out: &'o mut Diagnostics,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Making<'o> {
 struct Content {
     /// Where that begins in the file.
     span: Span,
-    lines: Vec<(&'static Layer, Chain)>,
+    lines: Vec<(Named, Chain)>,
     dots: Vec<Dot>,
     labels: Vec<Label>,
 }
@@ -74,8 +74,7 @@ impl Making<'_> {
         let (edges, lines): (Vec<_>, Vec<_>) = lines.into_iter().partition(|(layer, _)| layer.does == Does::Outline);
         let edges: Vec<Chain> = edges.into_iter().map(|(_, chain)| chain).collect();
         if edges.is_empty() {
-            let is_cut =
-                lines.iter().map(|(layer, _)| layer).chain(dots.iter().map(|dot| &dot.layer)).any(|l| l.is_cut());
+            let is_cut = lines.iter().any(|(layer, _)| layer.is_cut()) || dots.iter().any(|dot| dot.layer.is_cut());
             if is_cut {
                 let dot = dots.iter().find(|dot| dot.layer.is_cut()).map(|dot| dot.span);
                 let line = lines.iter().find(|(layer, _)| layer.is_cut()).map(|(_, line)| line.vertices[0].span);
@@ -227,7 +226,7 @@ impl Making<'_> {
                 self.tally.add(Thing::Outside, span);
             }
         }
-        let seams = drawn.iter().filter(|(layer, line): &&(&Layer, Chain)| layer.is_seam() && line.is_closed);
+        let seams = drawn.iter().filter(|(layer, line): &&(Named, Chain)| layer.is_seam() && line.is_closed);
         for (_, seam) in seams.filter(|(_, seam)| around.is_in(seam)) {
             self.tally.add(Thing::SeamOutside, seam.vertices[0].span);
         }
@@ -248,11 +247,11 @@ fn on_both_sides(fold: Option<Fold>, line: &Chain) -> Vec<Chain> {
 }
 
 /// Lines with those of a layer joined that the convention lets be drawn in parts.
-fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
-    let mut layers: Vec<(&'static Layer, Vec<Chain>)> = Vec::new();
+fn joined(lines: Vec<Line>) -> Vec<(Named, Chain)> {
+    let mut layers: Vec<(Named, Vec<Chain>)> = Vec::new();
     for Line { layer, vertices, is_closed } in lines {
         let Some(chain) = Chain::of(vertices, is_closed) else { continue };
-        match layers.iter_mut().find(|(known, _)| known.number == layer.number) {
+        match layers.iter_mut().find(|(known, _)| known.place == layer.place) {
             Some((_, chains)) => chains.push(chain),
             None => layers.push((layer, vec![chain])),
         }
@@ -260,7 +259,7 @@ fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
     for (_, lines) in &mut layers {
         drop_doubled(lines);
     }
-    let join = |(layer, lines): (&'static Layer, Vec<Chain>)| {
+    let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
             Does::Outline | Does::Inner | Does::Drawn => chains(lines),
             Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => lines,

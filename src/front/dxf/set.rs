@@ -5,7 +5,7 @@ use super::choice::{Asked, Chosen};
 use super::entity::{Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
-use super::layer::Layer;
+use super::layer::{Named, Names};
 use super::over;
 use super::piece::{Making, Piece};
 use super::placing::{Held, MOST_PIECES, Placing};
@@ -34,10 +34,12 @@ pub(super) struct Set {
     gap: f64,
     /// Its sizes, as they are told.
     sizes: String,
+    /// What its layers are called.
+    pub(super) names: Names,
     /// Texts that are of no piece.
     pub(super) texts: Vec<Label>,
     /// Lines of blocks that have no outline, as they are drawn.
-    pub(super) apart: Vec<(&'static Layer, Chain)>,
+    pub(super) apart: Vec<(Named, Chain)>,
     /// What is not read of it.
     pub(super) unread: Vec<Unread>,
 }
@@ -66,6 +68,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         sagitta: job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
         chords: 0,
         on_paper: None,
+        names: Names::default(),
         hidden_layers: &hidden,
         hidden: None,
         out,
@@ -73,7 +76,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let drawn: Vec<Shapes> = blocks.iter().map(|block| reader.shapes(&block.entities)).collect();
     let mut loose = reader.shapes(&entities);
     let bases: Vec<Point> = blocks.iter().map(|block| reader.base(&block.head)).collect();
-    let (on_paper, hidden) = (reader.on_paper, reader.hidden);
+    let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
     let placing = Placing::of(source, &blocks, bases, std::mem::take(&mut loose.inserts));
     let facts: Vec<Facts> = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own)).collect();
     let chosen = Chosen::of(&asked, &facts, out);
@@ -85,7 +88,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         out,
     };
     let held: Vec<Held> = drawn.iter().map(Held::of).collect();
-    let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), ..Set::default() };
+    let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), names, ..Set::default() };
     for ((k, mut shapes), (block, facts)) in drawn.into_iter().enumerate().zip(blocks.iter().zip(&facts)) {
         if !chosen.has(facts) || !placing.is_piece(k) {
             set.add(Vec::new(), None);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::curve::{Arc, bulged, height};
 use super::entity::{Entity, FLAGS, NAME, TEXT, number_at};
-use super::layer::{Does, Layer, layer};
+use super::layer::{Does, Layer, Named, Names, OTHER, layer};
 use super::text::{Facts, is_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
@@ -55,7 +55,7 @@ const MOST_CHORDS: usize = 4_000_000;
 /// A line with its layer.
 #[derive(Debug, Clone)]
 pub(super) struct Line {
-    pub(super) layer: &'static Layer,
+    pub(super) layer: Named,
     pub(super) vertices: Vec<Vertex>,
     /// Whether the last vertex leads to the first.
     pub(super) is_closed: bool,
@@ -95,6 +95,13 @@ pub(super) struct Unread {
     pub(super) span: Span,
 }
 
+impl Unread {
+    /// The pen that it would be drawn with.
+    pub(super) fn pen(&self) -> String {
+        if self.layer.number == OTHER.number { self.layer_name.clone() } else { self.layer.number.to_string() }
+    }
+}
+
 /// Everything in a block.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Shapes<'a> {
@@ -108,8 +115,8 @@ pub(super) struct Shapes<'a> {
 impl Shapes<'_> {
     /// Whether it holds anything to cut, or a block that may.
     pub(super) fn is_cut(&self) -> bool {
-        let lines = self.lines.iter().map(|line| line.layer);
-        !self.inserts.is_empty() || lines.chain(self.dots.iter().map(|dot| dot.layer)).any(Layer::is_cut)
+        let lines = self.lines.iter().any(|line| line.layer.is_cut());
+        lines || !self.inserts.is_empty() || self.dots.iter().any(|dot| dot.layer.is_cut())
     }
 
     /// The layers of its lines that may be sewn.
@@ -131,6 +138,8 @@ pub(super) struct Reader<'a, 'o> {
     pub(super) chords: usize,
     /// How much stands on the sheet around the drawing, and where it begins.
     pub(super) on_paper: Option<(usize, Span)>,
+    /// The layers on which lines are.
+    pub(super) names: Names,
     /// Names of layers that are not shown.
     pub(super) hidden_layers: &'a BTreeSet<&'a [u8]>,
     /// How much is cut and not shown, and where it begins.
@@ -173,7 +182,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
-        let layer = layer(entity.layer());
+        let layer = self.names.layer(entity.layer(), || entity.layer_name());
         // Lines and points have their coordinates in space whichever side they are seen from (DXF reference, OCS).
         if layer.is_cut() && (entity.is("LWPOLYLINE") || entity.is("ARC") || entity.is("CIRCLE")) {
             flat(entity)?;
@@ -197,7 +206,7 @@ impl<'a> Reader<'a, '_> {
             };
             let heading = entity.number(ANGLE)?.map(|degrees| Heading::new(rad(degrees)));
             let (depth, width, span) = (size(DEPTH)?, size(WIDTH)?, entity.span());
-            shapes.dots.push(Dot { layer, at: self.place(entity, [X, Y])?, depth, width, heading, span });
+            shapes.dots.push(Dot { layer: layer.row, at: self.place(entity, [X, Y])?, depth, width, heading, span });
         } else if is_text(entity) {
             // A text without a place is a text all the same.
             let at = self.place(entity, [X, Y]).ok();
@@ -233,7 +242,8 @@ impl<'a> Reader<'a, '_> {
         vertices: &[Entity<'a>],
         shapes: &mut Shapes<'a>,
     ) -> Result<(), Diagnostic> {
-        let (layer, flags) = (layer(entity.layer()), entity.flags()?);
+        let layer = self.names.layer(entity.layer(), || entity.layer_name());
+        let flags = entity.flags()?;
         if layer.is_cut() {
             flat(entity)?;
         }
@@ -290,7 +300,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// A line; where a vertex bulges, an arc leads to the next.
-    fn line(&mut self, layer: &'static Layer, places: &[(Vertex, f64)], is_closed: bool) -> Result<Line, Diagnostic> {
+    fn line(&mut self, layer: Named, places: &[(Vertex, f64)], is_closed: bool) -> Result<Line, Diagnostic> {
         let mut vertices: Vec<Vertex> = Vec::with_capacity(places.len());
         for (i, &(vertex, bulge)) in places.iter().enumerate() {
             vertices.push(vertex);
@@ -310,7 +320,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// An arc or a circle, as chords; a circle where holes are is one. An arc that ends where it starts is a circle.
-    fn arc(&mut self, entity: &Entity, layer: &'static Layer, shapes: &mut Shapes) -> Result<(), Diagnostic> {
+    fn arc(&mut self, entity: &Entity, layer: Named, shapes: &mut Shapes) -> Result<(), Diagnostic> {
         let centre = self.place(entity, [X, Y])?;
         let radius = self.unit * entity.coordinate(RADIUS)?.abs();
         let span = entity.span();
@@ -320,7 +330,7 @@ impl<'a> Reader<'a, '_> {
         let is_circle = sweep <= TURN_EPSILON_DEG;
         let sweep = if is_circle { 360.0 } else { sweep };
         if is_circle && layer.does == Does::Drill {
-            shapes.dots.push(Dot { layer, at: centre, depth: 0.0, width: 0.0, heading: None, span });
+            shapes.dots.push(Dot { layer: layer.row, at: centre, depth: 0.0, width: 0.0, heading: None, span });
             return Ok(());
         }
         if !radius.is_finite() || radius > FARTHEST {

@@ -108,3 +108,15 @@ fn a_seam_line_in_a_block_within_a_block_is_refused() {
     let (program, said, _) = plan_as(&asked, "x.dxf", text.into_bytes(), &Job::default());
     assert!(program.is_none() && said.contains("sew/unread-line") && said.contains("INSERT"), "{said}");
 }
+
+#[test]
+fn layers_that_the_convention_does_not_have_keep_their_names() {
+    let entities = rectangle("1") + &rectangle("STITCH") + &rectangle("20") + &rectangle("020").replace("90", "80");
+    for (name, count) in [("STITCH", 1), ("20", 1), ("020", 1), ("0", 0)] {
+        let asked = Asked { line: Some(name.to_owned()), ..Asked::default() };
+        let (program, said, _) = plan_as(&asked, "x.dxf", dxf(&entities), &Job::default());
+        let seams = program.map_or(0, |program| program.pattern.expect("lines").seams.len());
+        assert_eq!(seams, count, "{name}: {said}");
+        assert!(count > 0 || said.contains("its pens or layers are 1, STITCH, 20, 020"), "{said}");
+    }
+}
