@@ -7,13 +7,16 @@
 //! transitions included, keeps the tolerance at its time; corners are then fitted like edges.
 
 mod polynomial;
+mod solve;
 mod split;
 mod timeline;
 
-pub(super) use split::{Allowed, Fit};
+pub(super) use solve::{Solved, solve};
+pub(super) use split::Fit;
 
+use self::split::Allowed;
 use self::timeline::Timeline;
-use super::clock::{Clock, Timed};
+use super::clock::{Clock, Drives, Timed};
 use super::course::{Role, Stretch};
 use crate::geom::{Point, Rotation};
 use crate::ir::toolpath::Pose;
@@ -30,20 +33,21 @@ const ROUNDS: usize = 8;
 
 /// The motion of a pass.
 #[derive(Debug)]
-pub(super) struct Planned {
+struct Planned {
     /// X, Y and C of the axes at each tick, the last one included.
-    pub(super) poses: Vec<Pose>,
+    poses: Vec<Pose>,
     /// Speeds of X and Y there, mm/s.
-    pub(super) velocities: Vec<[f64; 2]>,
+    velocities: Vec<[f64; 2]>,
     /// The leg at each tick.
-    pub(super) legs: Vec<usize>,
+    legs: Vec<usize>,
     /// What was fitted to each stretch of the pass, in order; none to a corner without splitting.
-    pub(super) fits: Vec<Vec<Fit>>,
+    fits: Vec<Vec<Fit>>,
 }
 
 impl Planned {
     /// Whether the differences of the poses keep the limits of the axes, which rest before and behind.
-    pub(super) fn keeps(&self, limits: &[Limits; 3], period: f64) -> bool {
+    fn keeps(&self, drives: &Drives) -> bool {
+        let Drives { limits, period } = *drives;
         let place = |i: usize| {
             let pose = &self.poses[i.saturating_sub(3).min(self.poses.len() - 1)];
             [pose.centre.x, pose.centre.y, pose.c.0]
@@ -62,30 +66,39 @@ impl Planned {
 
 /// What polynomials could not be found for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Unfit {
+struct Unfit {
     /// How far from the course they stay, mm and rad.
-    pub(super) worst: [f64; 2],
+    worst: [f64; 2],
+}
+
+/// What is asked of the polynomials of a pass.
+#[derive(Debug, Clone, Copy)]
+struct Asked<'a> {
+    quintic: &'a Quintic,
+    allowed: Allowed,
+    limits: &'a [Limits; 3],
+}
+
+/// A stretch of a pass and its places in time.
+struct Sampled {
+    role: Role,
+    samples: Vec<Timed>,
 }
 
 /// Plans a pass.
-pub(super) fn plan(
-    clock: &Clock,
-    stretches: &[Stretch],
-    quintic: &Quintic,
-    allowed: Allowed,
-    (limits, period): (&[Limits; 3], f64),
-) -> Result<Planned, Unfit> {
-    let samples: Vec<Vec<Timed>> = stretches.iter().map(|stretch| sampled(clock, stretch)).collect();
+fn plan(clock: &Clock, stretches: &[Stretch], asked: &Asked) -> Result<Planned, Unfit> {
+    let Asked { quintic, allowed, limits } = *asked;
+    let sampled: Vec<Sampled> = stretches.iter().map(|stretch| sampled(clock, stretch)).collect();
     let mut share = 1.0;
     let mut worst = [f64::INFINITY; 2];
     for _ in 0..ROUNDS {
         let within = Allowed { distance: share * allowed.distance, turn: share * allowed.turn };
-        let fits = fitted(stretches, &samples, quintic, within).ok_or(Unfit { worst })?;
+        let fits = fitted(&sampled, quintic, within).ok_or(Unfit { worst })?;
         let ends = [clock.at(0.0), clock.at(clock.duration())];
         let timeline = Timeline::new(fits.iter().flatten(), ends, limits).ok_or(Unfit { worst })?;
-        worst = timeline.worst(samples.iter().flatten());
+        worst = timeline.worst(sampled.iter().flat_map(|stretch| &stretch.samples));
         if !quintic.split || (worst[0] <= allowed.distance && worst[1] <= allowed.turn) {
-            return Ok(ticked(clock, &timeline, fits, period));
+            return Ok(ticked(clock, &timeline, fits));
         }
         share *= LESS;
     }
@@ -93,29 +106,28 @@ pub(super) fn plan(
 }
 
 /// Places in time along a stretch, its ends included.
-fn sampled(clock: &Clock, stretch: &Stretch) -> Vec<Timed> {
+fn sampled(clock: &Clock, stretch: &Stretch) -> Sampled {
     let [from, to] = [stretch.legs.start, stretch.legs.end].map(|leg| clock.at_leg(leg));
     let count = (((to - from) / SAMPLE) as usize).max(LEAST_SAMPLES);
-    (0..=count).map(|i| clock.at(from + (to - from) * i as f64 / count as f64)).collect()
+    let samples = (0..=count).map(|i| clock.at(from + (to - from) * i as f64 / count as f64)).collect();
+    Sampled { role: stretch.role, samples }
 }
 
 /// What is fitted to each stretch.
-fn fitted(stretches: &[Stretch], samples: &[Vec<Timed>], quintic: &Quintic, within: Allowed) -> Option<Vec<Vec<Fit>>> {
+fn fitted(stretches: &[Sampled], quintic: &Quintic, within: Allowed) -> Option<Vec<Vec<Fit>>> {
     let Quintic { basis, split } = *quintic;
-    let fit = |(stretch, samples): (&Stretch, &Vec<Timed>)| match (split, stretch.role) {
+    let fit = |Sampled { role, samples }: &Sampled| match (split, role) {
         (true, _) => split::split(samples, basis, within),
         (false, Role::Edge) => Some(vec![Fit::of(samples, basis)?]),
         (false, Role::Corner | Role::Air) => Some(Vec::new()),
     };
-    stretches.iter().zip(samples).map(fit).collect()
+    stretches.iter().map(fit).collect()
 }
 
 /// The motion at each tick.
-fn ticked(clock: &Clock, timeline: &Timeline, fits: Vec<Vec<Fit>>, period: f64) -> Planned {
-    let ticks = (clock.duration() / period).round() as usize;
+fn ticked(clock: &Clock, timeline: &Timeline, fits: Vec<Vec<Fit>>) -> Planned {
     let mut planned = Planned { poses: Vec::new(), velocities: Vec::new(), legs: Vec::new(), fits };
-    for tick in 0..=ticks {
-        let time = tick as f64 * period;
+    for time in (0..=clock.periods()).map(|tick| clock.at_tick(tick)) {
         let [x, y, aim] = timeline.at(time);
         planned.poses.push(Pose { centre: Point::new(x[0], y[0]), c: Rotation(aim[0]) });
         planned.velocities.push([x[1], y[1]]);
