@@ -39,7 +39,10 @@ pub(super) fn compile(
     let known = diagnostics.iter().len();
     let planned = spray::plan(&input.marker, job, diagnostics);
     place::place(diagnostics, known, &input.marker, source, job);
-    let Some((program, peaks)) = planned else { return Ok(None) };
+    let Some((mut program, peaks)) = planned else { return Ok(None) };
+    if targets.iter().any(|target| target.compares) {
+        program = spray::beside_optimal(program, &input.marker, job);
+    }
     for (product, target) in products.iter_mut().zip(&targets) {
         let mut out = BufWriter::new(&mut *product.out);
         (target.write)(&program, &mut out)?;

@@ -69,6 +69,18 @@ pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Progra
     }
 }
 
+/// A program with that of the planner `optimal` beside it, for a picture of both; alone where that is its own planner, or
+/// finds no way.
+pub fn beside_optimal(program: Program, marker: &Marker, job: &Job) -> Program {
+    let mut other = job.clone();
+    other.profile.tool.planner = Planner::Optimal;
+    if job.profile.tool.planner == Planner::Optimal || job.mode == Mode::Frame {
+        return program;
+    }
+    let planned = plan(marker, &other, &mut Diagnostics::default());
+    Program { beside: planned.map(|(other, _)| Box::new(other)), ..program }
+}
+
 /// The edges of a marker and the course along them.
 fn course(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Vec<Ring>, Course)> {
     let pace = Pace::of(job);
@@ -124,6 +136,7 @@ fn moved(rings: Vec<Ring>, course: Course, job: &Job) -> Result<(Program, Peaks)
         period: job.profile.time.period(),
         figures: Vec::new(),
         distance: pace.distance,
+        beside: None,
     };
     program.figures = figures::edges(&program, &solved.fits);
     Ok((program, planner.peaks()))
