@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::course::{Leg, Role, stretches};
-use super::program::Program;
+use super::course::{Leg, Pass, Role, stretches};
 use super::quintic::Fit;
 use super::rows::Row;
 use crate::geom::{Vector, polyline};
@@ -53,12 +52,23 @@ impl Piece {
     }
 }
 
-/// The figures of all edges of a program; `fits` has those of each stretch of each pass, or nothing.
-pub(super) fn edges(program: &Program, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
-    let rows = &program.rows;
+/// A course and the rows that follow it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Followed<'a> {
+    /// The course.
+    pub(super) passes: &'a [Pass],
+    /// A row a period.
+    pub(super) rows: &'a [Row],
+    /// The period, s.
+    pub(super) period: f64,
+}
+
+/// The figures of all edges of a course; `fits` has those of each stretch of each pass, or nothing.
+pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
+    let Followed { passes, rows, period } = followed;
     let mut edges = Vec::new();
     let (mut first, mut at) = (0, 0);
-    for (i, pass) in program.passes.iter().enumerate() {
+    for (i, pass) in passes.iter().enumerate() {
         for (j, stretch) in stretches(pass).into_iter().enumerate() {
             let [start, end] = [stretch.legs.start, stretch.legs.end].map(|leg| first + leg);
             // Rows come in the order of legs.
@@ -68,7 +78,7 @@ pub(super) fn edges(program: &Program, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
             if stretch.role == Role::Edge && from < at {
                 let fits = fits.get(i).map_or(&[][..], |fits| &fits[j]);
                 let pieces = fits.iter().map(Piece::of).collect();
-                edges.push(Edge { pieces, ..edge(&pass[stretch.legs], &rows[from..at], program.period) });
+                edges.push(Edge { pieces, ..edge(&pass[stretch.legs], &rows[from..at], period) });
             }
         }
         first += pass.len();

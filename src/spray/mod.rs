@@ -40,6 +40,7 @@ use std::f64::consts::TAU;
 
 use self::course::{Course, Leg, Pace, Pass};
 use self::edge::Ring;
+use self::figures::Followed;
 use self::quintic::Solved;
 use self::rows::Moved;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -129,16 +130,10 @@ fn moved(rings: Vec<Ring>, course: Course, job: &Job) -> Result<(Program, Peaks)
     })?;
     let Course { passes, pace, .. } = course;
     let rows = rows::rows(&Moved { motions: &motions, passes: &passes, velocities: &solved.velocities }, job);
-    let mut program = Program {
-        edges: rings.into_iter().map(|ring| ring.points).collect(),
-        passes,
-        rows,
-        period: job.profile.time.period(),
-        figures: Vec::new(),
-        distance: pace.distance,
-        beside: None,
-    };
-    program.figures = figures::edges(&program, &solved.fits);
+    let period = job.profile.time.period();
+    let figures = figures::edges(Followed { passes: &passes, rows: &rows, period }, &solved.fits);
+    let edges = rings.into_iter().map(|ring| ring.points).collect();
+    let program = Program { edges, passes, rows, period, figures, distance: pace.distance, beside: None };
     Ok((program, planner.peaks()))
 }
 

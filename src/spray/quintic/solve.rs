@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::pass::{self, Asked, Planned, Unfit};
 use super::split::{Allowed, Fit};
-use super::{Asked, Planned, Unfit};
 use crate::diagnostic::{Diagnostic, code};
 use crate::machine::Job;
 use crate::plan::Cut;
@@ -82,7 +82,7 @@ fn gentle(pass: &[Leg], course: &Course, job: &Job) -> Result<Planned, Unfit> {
     let stretches = stretches(pass);
     let plan = |share: f64| {
         let reach = Reach { acceleration: share * pace.reach.acceleration, jerk: share * pace.reach.jerk };
-        super::plan(&Clock::new(pass, &Pace { reach, ..*pace }, &drives), &stretches, &asked)
+        pass::plan(&Clock::new(pass, &Pace { reach, ..*pace }, &drives), &stretches, &asked)
     };
     let mut planned = plan(GENTLER[0]);
     for &share in &GENTLER[1..] {
