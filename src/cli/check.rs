@@ -114,7 +114,7 @@ impl Arguments {
         // Whatever the order, the same is wrong with a file.
         let mut job = job.clone();
         job.profile.order.policy = OrderPolicy::File;
-        let input = pipeline::read(&source, self.reading.from, &job, &mut diagnostics);
+        let input = pipeline::check(&source, self.reading.from, &job, &mut diagnostics);
         let dialect = input.as_ref().map(|input| input.dialect.name);
         let good = input.filter(|_| !diagnostics.has_errors()).map(|input| input.marker);
         let row = Row {

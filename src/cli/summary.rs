@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
 use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
-use crate::machine::{Follow, Job, Mode, NotchStyle};
+use crate::machine::{Follow, Job, Mode, NotchStyle, ToolKind};
 use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
@@ -185,13 +185,17 @@ pub(super) fn choice(job: &Job) -> String {
         let patterns = typed(&Job { patterns: job.patterns.clone(), ..Job::default() });
         let _ = writeln!(out, "{}  patterns   {patterns}: so they were chosen", if out.is_empty() { "\n" } else { "" });
     }
+    let is_head = job.profile.tool.kind == ToolKind::Spray;
     let mode = match job.mode {
         Mode::Cut => return out,
+        Mode::Dry if is_head => "off all the time: --dry-run was given, nothing is sprayed",
+        Mode::Frame if is_head => "off all the time: --frame was given, the head goes once around the box of its way",
         Mode::Dry => "up all the time: --dry-run was given, nothing is cut or drilled",
         Mode::Frame => "up all the time: --frame was given, the C axis goes once around the box",
     };
     let gap = if out.is_empty() { "\n" } else { "" };
-    let _ = writeln!(out, "{gap}  knife      {mode}");
+    let tool = if is_head { "jet" } else { "knife" };
+    let _ = writeln!(out, "{gap}  {tool:10} {mode}");
     out
 }
 

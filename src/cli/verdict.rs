@@ -196,7 +196,7 @@ pub(super) fn text(judgement: &Judgement) -> String {
     if broken.is_empty() {
         let is = match mode {
             Mode::Cut => format!("cuts what `{source}` says"),
-            Mode::Dry | Mode::Frame => "moves within the limits and keeps the knife up".to_owned(),
+            Mode::Dry | Mode::Frame => "moves within the limits and works on nothing".to_owned(),
         };
         say(&mut out, format_args!("\nPASS  `{program}` {is}: {besides}{total} hold"));
     } else {

@@ -363,7 +363,7 @@ codes! {
     /// Off the table, by a hair.
     MARKER_OVER_EDGE = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.", "A hand puts a marker down no better than to a millimetre, so this is only said, in one line. Move the marker a little, or correct `table` in the profile.");
     /// Off the table.
-    MARKER_OFF_TABLE = error(Shape, "marker/off-table", "The marker leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
+    MARKER_OFF_TABLE = error(Shape, "marker/off-table", "The marker, or a head that follows its edges, leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
 
     // Motion.
     /// No curve inside the tolerance band.
@@ -436,6 +436,8 @@ codes! {
     SPRAY_UNREACHED = warning(Spoils, Shape, "spray/unreached", "A part of an edge cannot be followed at the distance of the tool, because something else is nearer; the message says how much, and where the worst is.", "It stays without coat: slots and bays that are narrower than twice the distance, and both sides of corners inwards. Coat it by hand, or with a smaller distance.\n  cutc compile panel.csv -p spray.toml --set tool.distance_mm=150");
     /// Polynomials that do not fit.
     SPRAY_UNFIT = error(Shape, "spray/unfit", "Polynomials stay farther from the way of the head than is allowed, however often edges are split.", "The program would not be judged good. Powers of the time (`quintic.basis`) are ill-conditioned on long edges; Chebyshev polynomials are not.\n  quintic.basis = \"chebyshev\"");
+    /// Chords that are too coarse for a curve.
+    SPRAY_COARSE = warning(Spares, Shape, "spray/coarse", "Chords look like those of a curve, but leave it by more than `path.chord_sag_max_mm`: they are followed as straight lines.", "A head swings from chord to chord then, and asks much of its axes. If a curve is meant, say how far its chords may leave it, or export it in finer ones; `path.fit = \"polygon\"` says that none is.\n  path.chord_sag_max_mm = 0.5");
     /// C beyond its range.
     SPRAY_RANGE = error(Shape, "spray/c-range", "Around an edge the head turns farther than `c.range_deg` lets it.", "Around a part without corners inwards the head turns once, and its hoses with it. Widen the range, or let C turn without end.\n  c.range_deg = \"unbounded\"");
     /// A target that tells of a knife.

@@ -39,7 +39,10 @@ pub(super) fn compile(
     let known = diagnostics.iter().len();
     let planned = spray::plan(&input.marker, job, diagnostics);
     place::place(diagnostics, known, &input.marker, source, job);
-    let Some((program, peaks)) = planned else { return Ok(None) };
+    let Some((mut program, peaks)) = planned else { return Ok(None) };
+    if targets.iter().any(|target| target.compares) {
+        program = spray::beside_optimal(program, &input.marker, job);
+    }
     for (product, target) in products.iter_mut().zip(&targets) {
         let mut out = BufWriter::new(&mut *product.out);
         (target.write)(&program, &mut out)?;
@@ -47,7 +50,7 @@ pub(super) fn compile(
     }
     let mut report = Report::of(&input.marker, input.dialect.name);
     report.program = figures(&program, &peaks);
-    report.edges = Some(program.figures.clone());
+    report.edges = Some(program.figures.clone()).filter(|edges| !edges.is_empty());
     let mut verdict = None;
     if let Some(reading) = reading {
         let audit = judge::audited(source, input.dialect, reading, job);
@@ -56,6 +59,13 @@ pub(super) fn compile(
         verdict = Some(judged);
     }
     Ok((!diagnostics.has_errors()).then_some((report, verdict)))
+}
+
+/// Says what of the edges of an input a head cannot follow.
+pub(super) fn check(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
+    let known = diagnostics.iter().len();
+    spray::check(&input.marker, job, diagnostics);
+    place::place(diagnostics, known, &input.marker, source, job);
 }
 
 /// The figures of the program that a marker would become, as [`super::estimate`] has them of a knife.
@@ -106,11 +116,9 @@ fn verdict_of(
 /// The verdict on the bytes of a program, with what is known of its source.
 fn judged(program: &mut dyn Medium, input: &Input, job: &Job, audit: Vec<Finding>) -> io::Result<Verdict> {
     program.rewind()?;
-    let profile = &job.profile;
-    let ground = Ground::new(&input.marker, profile.corner.angle());
-    let tolerance = profile.tolerance(input.marker.unit);
+    let ground = Ground::new(&input.marker, &job.profile);
     let mut bytes = BufReader::with_capacity(BLOCK, program);
-    let spray::verify::Verdict { mut findings, unread } = spray::verify::judge(&mut bytes, &ground, job, tolerance)?;
+    let spray::verify::Verdict { mut findings, unread } = spray::verify::judge(&mut bytes, &ground, job)?;
     findings.extend(audit);
     Ok(Verdict { findings, unread, uncut: Vec::new(), untimed: Vec::new() })
 }

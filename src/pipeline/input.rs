@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check};
 use crate::machine::patterns::Patterns;
-use crate::machine::{Job, plot};
+use crate::machine::{Job, ToolKind, plot};
 use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
@@ -129,8 +129,11 @@ fn marker_passes() -> (&'static [MarkerPass], &'static [MarkerPass]) {
     MARKER_PASSES.split_at(MARKER_PASSES.len() - CUTTING_PASSES)
 }
 
-/// Makes the cuts of what was read.
+/// Makes the cuts of what was read; a head at a distance has none.
 pub fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
+    if job.profile.tool.kind == ToolKind::Spray {
+        return;
+    }
     run_passes(marker_passes().1, &mut input.marker, source, job, diagnostics);
 }
 

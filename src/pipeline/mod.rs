@@ -279,6 +279,20 @@ pub fn judge_program(
     }
 }
 
+/// Reads a source as [`read`] does, and says all that is wrong with it for the tool of the job.
+pub fn check(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> Option<Input> {
+    let input = read(source, from, job, diagnostics)?;
+    if job.profile.tool.kind == ToolKind::Spray && !diagnostics.has_errors() {
+        head::check(&input, source, job, diagnostics);
+    }
+    Some(input)
+}
+
 /// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
 /// the diagnostics say why.
 pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {

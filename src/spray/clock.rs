@@ -1,7 +1,7 @@
 //! When the head is where: its course with the speeds that the edge asks for, gathered and lost at a steady rate.
 
 use super::course::{Leg, Node, Pace};
-use crate::machine::Limits;
+use crate::machine::{Job, Limits};
 
 /// Longest step of time at which the way is known, s.
 const STEP_S: f64 = 1e-3;
@@ -9,6 +9,22 @@ const STEP_S: f64 = 1e-3;
 const STEP: f64 = 1.0;
 /// Share of what the axes can do that the clock asks of them: polynomials between its places ask for more.
 const SHARE: f64 = 0.5;
+
+/// What the axes can do, and how often they are told where to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Drives {
+    /// X, Y and C.
+    pub(super) limits: [Limits; 3],
+    /// s.
+    pub(super) period: f64,
+}
+
+impl Drives {
+    /// Those of a job.
+    pub(super) fn of(job: &Job) -> Self {
+        Self { limits: job.profile.axes.limits(), period: job.profile.time.period() }
+    }
+}
 
 /// The head at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,6 +47,8 @@ pub(super) struct Clock<'a> {
     step: f64,
     /// Way to the start of each leg, and to the end of the last.
     stations: Vec<f64>,
+    /// How often the axes are told, s.
+    period: f64,
 }
 
 impl<'a> Clock<'a> {
@@ -38,12 +56,14 @@ impl<'a> Clock<'a> {
     ///
     /// The speed is gathered and lost at a steady rate, so that no cap is passed; then the way is the mean over the time in
     /// which the axes come to that rate, which takes the steps out of the acceleration.
-    pub(super) fn new(pass: &'a [Leg], pace: &Pace, limits: &[Limits; 3], period: f64) -> Self {
+    pub(super) fn new(pass: &'a [Leg], pace: &Pace, drives: &Drives) -> Self {
+        let Drives { limits, period } = *drives;
         let mut stations = vec![0.0];
         for leg in pass {
             stations.push(stations[stations.len() - 1] + leg.length());
         }
-        let steady = steady(pass, &stations, pace, limits);
+        let caps: Vec<f64> = pass.iter().map(|leg| cap(leg, &limits)).collect();
+        let steady = steady(&stations, &caps, pace.reach.acceleration);
         let shares = (period / STEP_S).ceil().max(1.0);
         let step = period / shares;
         let whole = |time: f64| (time / period).ceil().max(1.0);
@@ -57,12 +77,22 @@ impl<'a> Clock<'a> {
             sum += way(i.min(steps)) - way(i.saturating_sub(mean));
             ways.push(sum / mean as f64);
         }
-        Self { pass, ways, step, stations }
+        Self { pass, ways, step, stations, period }
     }
 
     /// How long the pass takes, s.
     pub(super) fn duration(&self) -> f64 {
         (self.ways.len() - 1) as f64 * self.step
+    }
+
+    /// How many periods that is.
+    pub(super) fn periods(&self) -> usize {
+        (self.duration() / self.period).round() as usize
+    }
+
+    /// The time at a tick, s.
+    pub(super) fn at_tick(&self, tick: usize) -> f64 {
+        tick as f64 * self.period
     }
 
     /// When the head is at the start of a leg, or with one more than there are at the end of the last, s.
@@ -90,19 +120,21 @@ impl<'a> Clock<'a> {
     }
 }
 
-/// Way, time and speed at close places: as fast as the legs allow, with a steady rate between.
-fn steady(pass: &[Leg], stations: &[f64], pace: &Pace, limits: &[Limits; 3]) -> Vec<[f64; 3]> {
+/// Way, time and speed at close places: as fast as the caps between stations allow, with a steady rate between.
+fn steady(stations: &[f64], caps: &[f64], acceleration: f64) -> Vec<[f64; 3]> {
     let mut places: Vec<[f64; 3]> = vec![[0.0; 3]];
-    for (leg, &from) in pass.iter().zip(stations) {
-        let (length, cap) = (leg.length(), cap(leg, limits));
+    for (ends, &cap) in stations.windows(2).zip(caps) {
+        let length = ends[1] - ends[0];
         let last = places.len() - 1;
         places[last][2] = places[last][2].min(cap);
-        let steps = (length / STEP).ceil().max(1.0) as usize;
-        places.extend((1..=steps).map(|step| [from + length * step as f64 / steps as f64, 0.0, cap]));
+        // Between two ends at rest there must be a place at which the head moves.
+        let least = if caps.len() == 1 { 2.0 } else { 1.0 };
+        let steps = (length / STEP).ceil().max(least) as usize;
+        places.extend((1..=steps).map(|step| [ends[0] + length * step as f64 / steps as f64, 0.0, cap]));
     }
     let last = places.len() - 1;
     places[last][2] = 0.0;
-    let gain = 2.0 * SHARE * pace.reach.acceleration;
+    let gain = 2.0 * SHARE * acceleration;
     let reached = |places: &[[f64; 3]], from: usize, to: usize| {
         let way = (places[to][0] - places[from][0]).abs();
         places[to][2].min((places[from][2].powi(2) + gain * way).sqrt())

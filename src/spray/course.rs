@@ -1,24 +1,12 @@
 //! The course of the head: where it runs, which way it looks and how fast it may be, leg by leg.
-//!
-//! A vertex below the corner angle stands for a curve: half of the shorter chord on both sides of it is its bend, over which
-//! the head turns evenly, and on which the curvature is the turn over the length of the bend.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use super::edge::Ring;
-use super::offset::{Beside, Element};
-use crate::geom::{Point, Vector, angle};
+use crate::geom::{Point, angle};
+use crate::machine::Job;
 
-/// How far legs on an arc may be from it, mm: far below any tolerance.
-const ARC_ACCURACY: f64 = 1e-3;
-/// The first step of a straight stretch from either end, mm, and how much farther the next ones reach.
-const FIRST_STEP: f64 = 10.0;
-const STEP_GROWTH: f64 = 1.6;
 /// Legs that are shorter are none, mm.
-const LEG_EPSILON: f64 = 1e-7;
-/// The least speed of a head in a bay that is nearly as tight as its distance, as a share of that of the jet.
-const LEAST_SHARE: f64 = 0.05;
-
+pub(super) const LEG_EPSILON: f64 = 1e-7;
 /// What the head does on a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
@@ -76,6 +64,8 @@ pub(super) type Pass = Vec<Leg>;
 /// Distance and speeds of the head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pace {
+    /// The least turn of a corner, rad.
+    pub(super) corner: f64,
     /// To the edge, mm.
     pub(super) distance: f64,
     /// Of the jet along the edge, mm/s.
@@ -84,6 +74,21 @@ pub(super) struct Pace {
     pub(super) corner_speed: f64,
     /// What its axes can do.
     pub(super) reach: Reach,
+}
+
+impl Pace {
+    /// That of a job.
+    pub(super) fn of(job: &Job) -> Self {
+        let tool = &job.profile.tool;
+        let [x, y, _] = job.profile.axes.limits();
+        Self {
+            corner: job.profile.corner.angle(),
+            distance: tool.distance_mm,
+            edge_speed: tool.edge_speed_mm_s,
+            corner_speed: tool.corner_speed_mm_s,
+            reach: Reach { acceleration: x.acceleration.min(y.acceleration), jerk: x.jerk.min(y.jerk) },
+        }
+    }
 }
 
 /// What the axes can do along any direction.
@@ -105,15 +110,25 @@ impl Reach {
     }
 }
 
-/// The passes along all ways, the one that starts at the least x and y first.
-pub(super) fn passes(ways: &[Vec<Element>], rings: &[Ring], corner: f64, pace: &Pace) -> Vec<Pass> {
-    let mut closed: Vec<Pass> = ways.iter().map(|way| legs(way, rings, pace)).filter(|legs| !legs.is_empty()).collect();
-    for way in &mut closed {
+/// All that a head does, and how near to it a planner stays.
+#[derive(Debug)]
+pub(super) struct Course {
+    /// In order.
+    pub(super) passes: Vec<Pass>,
+    /// Its distance and speeds.
+    pub(super) pace: Pace,
+    /// How far from the course a planner may be, mm.
+    pub(super) tolerance: f64,
+}
+
+/// The passes along the legs of closed ways, the one that starts at the least x and y first.
+pub(super) fn passes(mut ways: Vec<Vec<Leg>>, pace: &Pace) -> Vec<Pass> {
+    for way in &mut ways {
         let first = (0..way.len()).min_by(|&a, &b| from_origin(&way[a]).total_cmp(&from_origin(&way[b])));
         way.rotate_left(first.expect("a way has legs"));
     }
-    closed.sort_by(|a, b| from_origin(&a[0]).total_cmp(&from_origin(&b[0])));
-    closed.iter().flat_map(|way| parted(way, corner, pace)).collect()
+    ways.sort_by(|a, b| from_origin(&a[0]).total_cmp(&from_origin(&b[0])));
+    ways.iter().flat_map(|way| parted(way, pace)).collect()
 }
 
 /// What a start has least: the sum of its coordinates, mm.
@@ -122,9 +137,9 @@ fn from_origin(leg: &Leg) -> f64 {
 }
 
 /// A closed way from rest to rest: parted where it has a corner itself, and led up to and away from where it starts.
-fn parted(way: &[Leg], corner: f64, pace: &Pace) -> Vec<Pass> {
+fn parted(way: &[Leg], pace: &Pace) -> Vec<Pass> {
     let n = way.len();
-    let stops: Vec<usize> = (0..n).filter(|&i| is_stop(&way[(i + n - 1) % n], &way[i], corner)).collect();
+    let stops: Vec<usize> = (0..n).filter(|&i| is_stop(&way[(i + n - 1) % n], &way[i], pace.corner)).collect();
     let mut passes: Vec<Pass> = Vec::new();
     let mut from = 0;
     for to in stops.iter().copied().filter(|&stop| stop > 0).chain([n]) {
@@ -182,109 +197,6 @@ fn unwrap(pass: &mut Pass) {
             node.aim -= TAU * ((node.aim - last) / TAU).round();
             last = node.aim;
         }
-    }
-}
-
-/// The legs along a closed way.
-fn legs(way: &[Element], rings: &[Ring], pace: &Pace) -> Vec<Leg> {
-    let mut legs = Vec::new();
-    for element in way {
-        match element.beside {
-            Beside::Chord { ring, chord } => beside_chord(&rings[ring], chord, element.ends, pace, &mut legs),
-            Beside::Vertex { ring, vertex } => around_vertex(&rings[ring], vertex, element.ends, pace, &mut legs),
-        }
-    }
-    legs.retain(|leg| leg.length() > LEG_EPSILON);
-    legs
-}
-
-/// The speed of the head in the bend of a vertex, mm/s: that of the jet times 1 + distance x curvature.
-fn speed_in_bend(ring: &Ring, vertex: usize, pace: &Pace) -> f64 {
-    pace.edge_speed * (1.0 + pace.distance * ring.curvature(vertex)).max(LEAST_SHARE)
-}
-
-/// The direction at a way into the bend of a vertex, mm along the head's way from its middle.
-fn aim_in_bend(ring: &Ring, vertex: usize, from_middle: f64, pace: &Pace) -> f64 {
-    let (turn, [before, behind]) = (ring.turns[vertex], ring.bend(vertex));
-    let arc = pace.distance * turn;
-    let way = before + arc + behind;
-    let share = if way > LEG_EPSILON { ((before + 0.5 * arc + from_middle) / way).clamp(0.0, 1.0) } else { 0.5 };
-    ring.inwards(ring.before(vertex)) + turn * share
-}
-
-/// Along a chord: a bend at its start, what is straight, a bend at its end.
-fn beside_chord(ring: &Ring, chord: usize, ends: [Point; 2], pace: &Pace, legs: &mut Vec<Leg>) {
-    let [from, _] = ring.chord(chord);
-    let (along, length) = (ring.along(chord), ring.length(chord));
-    let end = (chord + 1) % ring.points.len();
-    let outwards = Vector::new(along.y, -along.x) * pace.distance;
-    let [first, last] = ends.map(|point| (point - from).dot(&along));
-    let bends = [ring.bend(chord)[1], ring.bend(end)[0]];
-    // Half of the way of the head around each vertex: where it turns outwards it is an arc, else the corner of two lines.
-    let arcs = [chord, end].map(|vertex| 0.5 * pace.distance * ring.turns[vertex]);
-    let node = |u: f64| {
-        let aim = if u < bends[0] {
-            aim_in_bend(ring, chord, arcs[0] + u, pace)
-        } else if u > length - bends[1] {
-            aim_in_bend(ring, end, -arcs[1] - (length - u), pace)
-        } else {
-            ring.inwards(chord)
-        };
-        Node { at: from + along * u + outwards, aim }
-    };
-    let stations = [first, bends[0], length - bends[1], last].map(|u| u.clamp(first.min(last), last));
-    let straight = pace.edge_speed;
-    let speeds = [
-        if bends[0] > 0.0 { speed_in_bend(ring, chord, pace) } else { straight },
-        straight,
-        if bends[1] > 0.0 { speed_in_bend(ring, end, pace) } else { straight },
-    ];
-    for (ends, speed) in stations.windows(2).zip(speeds) {
-        for [from, to] in steps([ends[0], ends[1]]) {
-            let ends = [node(from), node(to)];
-            legs.push(Leg { ends, speed, role: Role::Edge, block: ring.spans[chord].block });
-        }
-    }
-}
-
-/// A straight stretch in steps that grow from both ends to its middle: what a planner lowers near its ends is short.
-fn steps([from, to]: [f64; 2]) -> Vec<[f64; 2]> {
-    let half = 0.5 * (to - from);
-    let growing = std::iter::successors(Some(FIRST_STEP), |reach| Some(reach * STEP_GROWTH));
-    let reaches: Vec<f64> = growing.take_while(|&reach| reach < half).collect();
-    let mut stations = vec![from];
-    stations.extend(reaches.iter().map(|reach| from + reach));
-    stations.extend(reaches.iter().rev().map(|reach| to - reach));
-    stations.push(to);
-    stations.windows(2).map(|ends| [ends[0], ends[1]]).collect()
-}
-
-/// Around a vertex.
-fn around_vertex(ring: &Ring, vertex: usize, ends: [Point; 2], pace: &Pace, legs: &mut Vec<Leg>) {
-    let centre = ring.points[vertex];
-    let from = ends[0] - centre;
-    let sweep = angle::turn(from, ends[1] - centre);
-    let start = from.y.atan2(from.x);
-    let step = 2.0 * (1.0 - ARC_ACCURACY / pace.distance).clamp(-1.0, 1.0).acos();
-    let count = (sweep.abs() / step).ceil().max(1.0) as usize;
-    let is_corner = ring.is_corner(vertex);
-    // Seen from the vertex, the first chord's head stands here.
-    let outwards = ring.inwards(ring.before(vertex)) + PI;
-    let node = |i: usize| {
-        let at = start + sweep * i as f64 / count as f64;
-        let (sin, cos) = at.sin_cos();
-        let aim = if is_corner {
-            at + PI
-        } else {
-            let into = angle::wrap(at - outwards) - 0.5 * ring.turns[vertex];
-            aim_in_bend(ring, vertex, pace.distance * into, pace)
-        };
-        Node { at: centre + Vector::new(cos, sin) * pace.distance, aim }
-    };
-    let (role, speed) =
-        if is_corner { (Role::Corner, pace.corner_speed) } else { (Role::Edge, speed_in_bend(ring, vertex, pace)) };
-    for i in 0..count {
-        legs.push(Leg { ends: [node(i), node(i + 1)], speed, role, block: ring.spans[vertex].block });
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::course::{Leg, Pass};
+use super::course::{Course, Leg};
 use crate::geom::Rotation;
 use crate::ir::list::Joint;
 use crate::ir::motion::Spell;
@@ -37,11 +37,11 @@ fn pose(leg: &Leg, end: usize) -> Pose {
 }
 
 /// All passes, a run each. Its blocks are numbers of legs, the first being 1, counted through all passes.
-pub(super) fn toolpath(passes: &[Pass], tolerance: f64) -> Toolpath {
-    let mut toolpath = Toolpath { tolerance, ..Toolpath::default() };
+pub(super) fn toolpath(course: &Course) -> Toolpath {
+    let mut toolpath = Toolpath { tolerance: course.tolerance, ..Toolpath::default() };
     let mut first = 1;
     let mut at = Pose::default();
-    for pass in passes {
+    for pass in &course.passes {
         let start = pose(&pass[0], 0);
         toolpath.steps.push(Step::Travel(Air { from: at, to: start }));
         toolpath.steps.push(Step::Run(run(pass, first)));

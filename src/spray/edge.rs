@@ -1,18 +1,12 @@
 //! The edges of parts: closed rings with the material on their left.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Heading, Point, Vector, polyline};
+use crate::geom::{Heading, Point, Vector, polyline, ring};
 use crate::ir::Marker;
 use crate::source::Span;
 
 /// Points nearer to each other than that are one, mm: far below what a file resolves.
 const SAME_EPSILON: f64 = 1e-6;
-
-/// A chord that is longer than the next by more than this factor is straight, and no chord of the curve that begins there.
-const SAME_CURVE: f64 = 4.0;
-
-/// How far to both sides of a vertex its curvature is the mean of, mm: about what a jet covers at once.
-const MEAN_WAY: f64 = 15.0;
 
 /// A closed edge, with the material on the left of each chord: around a part against the clock, around a hole with it.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,22 +17,30 @@ pub(super) struct Ring {
     pub(super) spans: Vec<Span>,
     /// How far the direction turns at each vertex, rad: to the left is positive, there the part has a corner outwards.
     pub(super) turns: Vec<f64>,
-    /// The least turn of a corner, rad.
-    corner: f64,
+    /// Whether each vertex is a corner, where edges end; else the chords on both sides stand for a curve.
+    corners: Vec<bool>,
 }
 
 impl Ring {
-    /// A ring of these vertices, in this order.
+    /// A ring of these vertices, in this order; those that turn by `corner` or more are corners, rad.
     pub(super) fn new(points: Vec<Point>, spans: Vec<Span>, corner: f64) -> Self {
+        let n = points.len();
+        let mut ring = Self::with_corners(points, spans, vec![false; n]);
+        ring.corners = ring.turns.iter().map(|turn| turn.abs() >= corner).collect();
+        ring
+    }
+
+    /// A ring whose corners are known.
+    pub(super) fn with_corners(points: Vec<Point>, spans: Vec<Span>, corners: Vec<bool>) -> Self {
         let n = points.len();
         let turns =
             (0..n).map(|i| polyline::turn_at(points[(i + n - 1) % n], points[i], points[(i + 1) % n])).collect();
-        Self { points, spans, turns, corner }
+        Self { points, spans, turns, corners }
     }
 
     /// The ends of a chord.
     pub(super) fn chord(&self, chord: usize) -> [Point; 2] {
-        [self.points[chord], self.points[(chord + 1) % self.points.len()]]
+        [self.points[chord], self.points[self.behind(chord)]]
     }
 
     /// The unit vector along a chord.
@@ -63,43 +65,14 @@ impl Ring {
         (vertex + self.points.len() - 1) % self.points.len()
     }
 
-    /// Whether a vertex is a corner, where edges end; else the chords on both sides stand for a curve.
+    /// The vertex behind a chord or another vertex.
+    pub(super) fn behind(&self, vertex: usize) -> usize {
+        (vertex + 1) % self.points.len()
+    }
+
+    /// Whether a vertex is a corner.
     pub(super) fn is_corner(&self, vertex: usize) -> bool {
-        self.turns[vertex].abs() >= self.corner
-    }
-
-    /// How far the curve through a vertex reaches before and behind it, mm: half of each chord, as far as the other is one of
-    /// the same curve; nothing at a corner.
-    pub(super) fn bend(&self, vertex: usize) -> [f64; 2] {
-        if self.is_corner(vertex) {
-            return [0.0; 2];
-        }
-        let [before, behind] = [self.length(self.before(vertex)), self.length(vertex)];
-        [before.min(SAME_CURVE * behind), behind.min(SAME_CURVE * before)].map(|length| 0.5 * length)
-    }
-
-    /// The curvature about a vertex, 1/mm: the mean over the bends to both sides that go on in each other. Of one bend alone it
-    /// would carry the rounding of three vertices.
-    pub(super) fn curvature(&self, vertex: usize) -> f64 {
-        let n = self.points.len();
-        let (mut turn, mut way) = (self.turns[vertex], self.bend(vertex).iter().sum::<f64>());
-        for (step, side) in [(1, 1), (n - 1, 0)] {
-            let (mut last, mut left) = (vertex, MEAN_WAY);
-            for _ in 1..n {
-                let next = (last + step) % n;
-                let bend = self.bend(next);
-                let between = self.length(if side == 1 { last } else { next });
-                let together = self.bend(last)[side] + bend[1 - side];
-                left -= bend[0] + bend[1];
-                if left < 0.0 || between - together > SAME_EPSILON * between {
-                    break;
-                }
-                turn += self.turns[next];
-                way += bend[0] + bend[1];
-                last = next;
-            }
-        }
-        if way > 0.0 { turn / way } else { 0.0 }
+        self.corners[vertex]
     }
 }
 
@@ -147,29 +120,14 @@ fn distinct(points: &[Point], spans: &[Span]) -> Option<(Vec<Point>, Vec<Span>)>
 /// A contour as a ring: against the clock unless it lies in an odd number of others.
 fn turned(i: usize, closed: &[(Vec<Point>, Vec<Span>)], corner: f64) -> Ring {
     let (mut points, mut spans) = closed[i].clone();
-    let around = closed.iter().enumerate().filter(|&(j, (ring, _))| j != i && holds(ring, points[0])).count();
-    if (area(&points) > 0.0) == (around % 2 == 1) {
+    let around = closed.iter().enumerate().filter(|&(j, (ring, _))| j != i && ring::contains(ring, points[0])).count();
+    if (ring::area(&points) > 0.0) == (around % 2 == 1) {
         points.reverse();
         // Chord i goes from point i: what was before the first point is behind the last.
         spans.reverse();
         spans.rotate_left(1);
     }
     Ring::new(points, spans, corner)
-}
-
-/// Twice the area of a ring, mm2; positive against the clock.
-fn area(points: &[Point]) -> f64 {
-    let next = points.iter().cycle().skip(1);
-    points.iter().zip(next).map(|(a, b)| a.x * b.y - a.y * b.x).sum()
-}
-
-/// Whether a point lies in a ring: a ray to the right crosses it an odd number of times.
-fn holds(ring: &[Point], point: Point) -> bool {
-    let next = ring.iter().cycle().skip(1);
-    let crosses = |(a, b): &(&Point, &Point)| {
-        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)
-    };
-    ring.iter().zip(next).filter(crosses).count() % 2 == 1
 }
 
 #[cfg(test)]
@@ -186,7 +144,7 @@ mod tests {
     fn material_lies_on_the_left_of_parts_and_holes_whichever_way_they_are_drawn() {
         let closed = [square(0.0, 100.0), square(20.0, 80.0), square(40.0, 60.0)];
         let rings: Vec<Ring> = (0..3).map(|i| turned(i, &closed, 0.5)).collect();
-        assert_eq!(rings.iter().map(|ring| area(&ring.points) > 0.0).collect::<Vec<_>>(), [true, false, true]);
+        assert_eq!(rings.iter().map(|ring| ring::area(&ring.points) > 0.0).collect::<Vec<_>>(), [true, false, true]);
         let blocks: Vec<u32> = rings[1].spans.iter().map(|span| span.block).collect();
         assert_eq!((rings[1].points[0], rings[1].points[1]), (Point::new(20.0, 80.0), Point::new(80.0, 80.0)));
         assert_eq!(blocks, [3, 2, 1, 4]);

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::course::{Leg, Pass, Role, stretches};
 use super::quintic::Fit;
 use super::rows::Row;
-use crate::geom::polyline;
+use crate::geom::{Vector, polyline};
 use crate::units::deg;
 
 /// An edge between two corners, and how the head follows it.
@@ -52,24 +52,33 @@ impl Piece {
     }
 }
 
-/// The figures of all edges; `fits` has those of each stretch of each pass, or nothing.
-pub(super) fn edges(passes: &[Pass], rows: &[Row], fits: &[Vec<Vec<Fit>>], period: f64) -> Vec<Edge> {
+/// A course and the rows that follow it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Followed<'a> {
+    /// The course.
+    pub(super) passes: &'a [Pass],
+    /// A row a period.
+    pub(super) rows: &'a [Row],
+    /// The period, s.
+    pub(super) period: f64,
+}
+
+/// The figures of all edges of a course; `fits` has those of each stretch of each pass, or nothing.
+pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
+    let Followed { passes, rows, period } = followed;
     let mut edges = Vec::new();
     let (mut first, mut at) = (0, 0);
     for (i, pass) in passes.iter().enumerate() {
         for (j, stretch) in stretches(pass).into_iter().enumerate() {
-            let last = first + stretch.legs.end;
+            let [start, end] = [stretch.legs.start, stretch.legs.end].map(|leg| first + leg);
             // Rows come in the order of legs.
-            let from = at
-                + rows[at..]
-                    .iter()
-                    .take_while(|row| row.leg.is_none_or(|leg| leg < first + stretch.legs.start))
-                    .count();
-            let count = rows[from..].iter().take_while(|row| row.leg.is_some_and(|leg| leg < last)).count();
-            at = from + count;
-            if stretch.role == Role::Edge {
+            let is_before = |row: &&Row| row.leg.is_none_or(|leg| leg < start);
+            let from = at + rows[at..].iter().take_while(is_before).count();
+            at = from + rows[from..].iter().take_while(|row| row.leg.is_some_and(|leg| leg < end)).count();
+            if stretch.role == Role::Edge && from < at {
                 let fits = fits.get(i).map_or(&[][..], |fits| &fits[j]);
-                edges.push(edge(&pass[stretch.legs], &rows[from..at], fits, period));
+                let pieces = fits.iter().map(Piece::of).collect();
+                edges.push(Edge { pieces, ..edge(&pass[stretch.legs], &rows[from..at], period) });
             }
         }
         first += pass.len();
@@ -77,8 +86,8 @@ pub(super) fn edges(passes: &[Pass], rows: &[Row], fits: &[Vec<Vec<Fit>>], perio
     edges
 }
 
-/// One edge: its legs, the rows on them, what was fitted to it.
-fn edge(legs: &[Leg], rows: &[Row], fits: &[Fit], period: f64) -> Edge {
+/// One edge: its legs and the rows on them.
+fn edge(legs: &[Leg], rows: &[Row], period: f64) -> Edge {
     let speeds = rows.iter().map(|row| row.velocity[0].hypot(row.velocity[1]));
     let (least, sum, most) = speeds.fold((f64::INFINITY, 0.0, 0.0), |(least, sum, most): (f64, f64, f64), speed| {
         (least.min(speed), sum + speed, most.max(speed))
@@ -87,23 +96,27 @@ fn edge(legs: &[Leg], rows: &[Row], fits: &[Fit], period: f64) -> Edge {
         blocks: [legs[0].block, legs[legs.len() - 1].block],
         length_mm: legs.iter().map(Leg::length).sum(),
         time_s: rows.len() as f64 * period,
-        deviation_mm: deviation(legs, rows),
+        deviation_mm: deviations(legs, rows).into_iter().fold(0.0, |worst, off| f64::max(worst, off.norm())),
         speed_mm_s: [least, sum / rows.len() as f64, most],
-        pieces: fits.iter().map(Piece::of).collect(),
+        pieces: Vec::new(),
     }
 }
 
-/// How far rows are from the line of legs at the most, mm. Both go on: the nearest leg is looked for from the last one on.
-fn deviation(legs: &[Leg], rows: &[Row]) -> f64 {
+/// How far each row is from the line of legs, mm. Both go on: the nearest leg is looked for from the last one on.
+pub(super) fn deviations(legs: &[Leg], rows: &[Row]) -> Vec<Vector> {
     /// Legs that are looked at, to both sides of the last nearest.
     const LOOKED: usize = 200;
     let mut near: usize = 0;
-    let mut worst: f64 = 0.0;
+    let mut found = Vec::with_capacity(rows.len());
     for row in rows {
-        let off = |i: usize| polyline::distance_to_segment(row.pose.centre, legs[i].ends[0].at, legs[i].ends[1].at);
+        let place = row.pose.centre;
+        let off = |i: usize| {
+            let [from, to] = legs[i].ends.map(|node| node.at);
+            place - (from + (to - from) * polyline::foot(place, from, to).clamp(0.0, 1.0))
+        };
         let looked = near.saturating_sub(LOOKED)..legs.len().min(near + LOOKED);
-        near = looked.min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(near);
-        worst = worst.max(off(near));
+        near = looked.min_by(|&a, &b| off(a).norm_squared().total_cmp(&off(b).norm_squared())).unwrap_or(near);
+        found.push(off(near));
     }
-    worst
+    found
 }

@@ -3,7 +3,7 @@
 //! A small pipeline of the shape of the cutter's, the listing in its order:
 //!
 //! ```text
-//! Marker -> edge -> offset -> course -> quintic | the cutter's planner -> Program -> write -> bytes -> verify
+//! Marker -> edge -> curve -> offset -> legs -> course -> quintic | the cutter's planner -> Program -> write -> bytes -> verify
 //! ```
 //!
 //! *Rings* are the edges of parts, the material on their left; their offset is the way of the head. A *course* is that way in
@@ -11,17 +11,22 @@
 //! rest. The planner `quintic` fits polynomials to the course in time; the default one is the cutter's, with the speed of the
 //! head as its feed. `verify` knows the rings as drawn and the bytes, and nothing of who makes them.
 
+mod bend;
 mod clock;
 mod course;
+mod curve;
 mod cuts;
 mod edge;
 mod figures;
+mod frame;
+mod legs;
 mod offset;
 mod optimal;
 mod program;
 mod quintic;
 mod reach;
 mod rows;
+mod slower;
 mod tangle;
 pub mod verify;
 mod write;
@@ -31,77 +36,105 @@ pub use program::Program;
 pub use rows::Row;
 pub use write::{TARGETS, Target};
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
-use self::clock::Clock;
-use self::course::{Leg, Pace, Pass, Reach, stretches};
-use self::quintic::{Allowed, Fit, Planned, Unfit};
+use self::course::{Course, Leg, Pace, Pass};
+use self::edge::Ring;
+use self::figures::Followed;
+use self::quintic::Solved;
+use self::rows::Moved;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Marker;
-use crate::machine::{Job, Planner};
-use crate::plan::{self, Cut, Peaks};
+use crate::machine::{Job, Mode, Planner, Table};
+use crate::plan::{self, Peaks};
 use crate::units::deg;
 use crate::units::number::fixed;
 
-/// Share of the tolerances that the planner of a head uses; the rest is for rows in decimals and curves in legs.
+/// Share of the tolerance that the planner of a head uses; the rest is for rows in decimals and curves in legs.
 const SHARE: f64 = 0.9;
-/// Shares of what the axes can do that the clock of polynomials asks of them, one after the other.
-const GENTLER: [f64; 4] = [1.0, 0.6, 0.35, 0.2];
 
-/// What of the head's motion is planned before passes are joined.
-#[derive(Default)]
-struct Solved {
-    cuts: Vec<Cut>,
-    velocities: Vec<Vec<[f64; 2]>>,
-    fits: Vec<Vec<Vec<Fit>>>,
+/// Says what of the edges of a marker a head cannot follow, and why; plans nothing.
+pub fn check(marker: &Marker, job: &Job, out: &mut Diagnostics) {
+    course(marker, job, out);
 }
 
 /// Plans how a head follows the edges of a marker. `None` when it cannot; why is a diagnostic.
 pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Program, Peaks)> {
-    let corner = job.profile.corner.angle();
-    let rings = edge::rings(marker, corner, out);
+    let (rings, course) = course(marker, job, out)?;
+    match moved(rings, course, job) {
+        Ok(planned) => Some(planned),
+        Err(refused) => {
+            refused.into_iter().for_each(|diagnostic| out.push(diagnostic));
+            None
+        }
+    }
+}
+
+/// A program with that of the planner `optimal` beside it, for a picture of both; alone where that is its own planner, or
+/// finds no way.
+pub fn beside_optimal(program: Program, marker: &Marker, job: &Job) -> Program {
+    let mut other = job.clone();
+    other.profile.tool.planner = Planner::Optimal;
+    if job.profile.tool.planner == Planner::Optimal || job.mode == Mode::Frame {
+        return program;
+    }
+    let planned = plan(marker, &other, &mut Diagnostics::default());
+    Program { beside: planned.map(|(other, _)| Box::new(other)), ..program }
+}
+
+/// The edges of a marker and the course along them.
+fn course(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Vec<Ring>, Course)> {
+    let pace = Pace::of(job);
+    let rings = edge::rings(marker, pace.corner, out);
     tangle::report(&rings, out);
     if out.has_errors() {
         return None;
     }
-    let pace = pace(job);
+    let rings = curve::drawn(rings, &job.profile.path, out);
     let ways = offset::loops(&rings, pace.distance);
     reach::report(&ways, &rings, pace.distance, out);
-    let mut passes = course::passes(&ways, &rings, corner, &pace);
+    let ways = ways.iter().map(|way| legs::legs(way, &rings, &pace)).filter(|legs| !legs.is_empty()).collect();
+    let mut passes = course::passes(ways, &pace);
     if passes.is_empty() {
         let message = format!("no edge can be followed at {} mm", fixed(pace.distance, 1));
         out.push(Diagnostic::new(&code::SPRAY_NOTHING, message).hint("take a smaller `tool.distance_mm`"));
         return None;
     }
     turn(&mut passes, job, out)?;
-    let tolerance = SHARE * job.profile.tolerance(marker.unit);
+    on_table(&passes, job, out)?;
+    Some((rings, Course { passes, pace, tolerance: SHARE * job.profile.tolerance(marker.unit) }))
+}
+
+/// The program along a course, by the planner of the job.
+fn moved(rings: Vec<Ring>, course: Course, job: &Job) -> Result<(Program, Peaks), Vec<Diagnostic>> {
     let head = cuts::job_of_head(job);
-    let mut toolpath = cuts::toolpath(&passes, tolerance);
-    let period = job.profile.time.period();
-    let solved = match job.profile.tool.planner {
-        Planner::Optimal => match optimal::solve(&mut toolpath, &passes, &head) {
-            Ok(cuts) => Solved { cuts, ..Solved::default() },
-            Err(refused) => {
-                for diagnostic in refused {
-                    out.push(diagnostic);
-                }
-                return None;
-            }
-        },
-        Planner::Quintic => fitted(&passes, &pace, tolerance, job, out)?,
+    let (toolpath, solved) = match (job.mode, job.profile.tool.planner) {
+        (Mode::Frame, _) => (frame::toolpath(&course, plan::home(&head)), Solved::default()),
+        (Mode::Cut | Mode::Dry, Planner::Optimal) => {
+            let mut toolpath = cuts::toolpath(&course);
+            let cuts = optimal::solve(&mut toolpath, &course.passes, &head)?;
+            (toolpath, Solved { cuts, ..Solved::default() })
+        }
+        (Mode::Cut | Mode::Dry, Planner::Quintic) => {
+            (cuts::toolpath(&course), quintic::solve(&course, job).map_err(|refused| vec![refused])?)
+        }
     };
     let mut planner = plan::Planner::new(&head);
     let motions = [planner.join(&toolpath, solved.cuts), planner.finish()];
-    if let Err(diagnostic) = planner.certify() {
-        let hint = format!("{}; give the axes more, or take smaller speeds of the tool", busiest(&planner.peaks()));
-        out.push(diagnostic.hint(hint));
-        return None;
-    }
-    let legs: Vec<&Leg> = passes.iter().flatten().collect();
-    let rows = rows::rows(&motions, &legs, &solved.velocities, job.mode.cuts(), period);
-    let figures = figures::edges(&passes, &rows, &solved.fits, period);
+    planner.certify().map_err(|diagnostic| {
+        let instead = match job.profile.tool.planner {
+            Planner::Optimal => "give the axes more, or take smaller speeds of the tool",
+            Planner::Quintic => "take `tool.planner = \"optimal\"`, smaller speeds of the tool, or give the axes more",
+        };
+        vec![diagnostic.hint(format!("{}; {instead}", busiest(&planner.peaks())))]
+    })?;
+    let Course { passes, pace, .. } = course;
+    let rows = rows::rows(&Moved { motions: &motions, passes: &passes, velocities: &solved.velocities }, job);
+    let period = job.profile.time.period();
+    let figures = figures::edges(Followed { passes: &passes, rows: &rows, period }, &solved.fits);
     let edges = rings.into_iter().map(|ring| ring.points).collect();
-    Some((Program { edges, passes, rows, period, figures, distance: pace.distance }, planner.peaks()))
+    let program = Program { edges, passes, rows, period, figures, distance: pace.distance, beside: None };
+    Ok((program, planner.peaks()))
 }
 
 /// What of the axes is nearest to its limit, or farthest beyond.
@@ -115,16 +148,18 @@ fn busiest(peaks: &Peaks) -> String {
     })
 }
 
-/// Distance and speeds of the head of a job.
-fn pace(job: &Job) -> Pace {
-    let tool = &job.profile.tool;
-    let [x, y, _] = job.profile.axes.limits();
-    Pace {
-        distance: tool.distance_mm,
-        edge_speed: tool.edge_speed_mm_s,
-        corner_speed: tool.corner_speed_mm_s,
-        reach: Reach { acceleration: x.acceleration.min(y.acceleration), jerk: x.jerk.min(y.jerk) },
+/// Whether the head stays over the table.
+fn on_table(passes: &[Pass], job: &Job, out: &mut Diagnostics) -> Option<()> {
+    let off = |leg: &Leg| job.profile.table.off(leg.ends[0].at.into());
+    let worst = passes.iter().flatten().max_by(|a, b| off(a).total_cmp(&off(b)))?;
+    if off(worst) <= Table::EDGE_MM {
+        return Some(());
     }
+    let (distance, beyond) = (fixed(job.profile.tool.distance_mm, 1), fixed(off(worst), 1));
+    let message = format!("the head, {distance} mm outside the edges, leaves the table by {beyond} mm");
+    let hint = "move the marker on it (`sheet.offset_mm`), or correct `table` in the profile";
+    out.push(Diagnostic::new(&code::MARKER_OFF_TABLE, message).hint(hint).on_cloth(worst.ends[0].at));
+    None
 }
 
 /// Turns passes by whole turns so that C has the least way between them and stays in its range.
@@ -152,50 +187,4 @@ fn turn(passes: &mut [Pass], job: &Job, out: &mut Diagnostics) -> Option<()> {
         last = pass[pass.len() - 1].ends[1].aim;
     }
     Some(())
-}
-
-/// Every pass by polynomials.
-fn fitted(passes: &[Pass], pace: &Pace, tolerance: f64, job: &Job, out: &mut Diagnostics) -> Option<Solved> {
-    let profile = &job.profile;
-    let (limits, period) = (profile.axes.limits(), profile.time.period());
-    let allowed = Allowed { distance: tolerance, turn: SHARE * profile.verify.max_heading_deg.to_radians() };
-    let mut solved = Solved::default();
-    let mut first = 1;
-    for pass in passes {
-        let stretches = stretches(pass);
-        let plan = |share: f64| {
-            let reach = Reach { acceleration: share * pace.reach.acceleration, jerk: share * pace.reach.jerk };
-            let clock = Clock::new(pass, &Pace { reach, ..*pace }, &limits, period);
-            quintic::plan(&clock, &stretches, &profile.quintic, allowed, (&limits, period))
-        };
-        // Polynomials ask more of the axes than the clock does: where they ask too much it goes more gently.
-        let mut planned = plan(GENTLER[0]);
-        for &share in &GENTLER[1..] {
-            if planned.as_ref().is_ok_and(|planned| planned.keeps(&limits, period)) {
-                break;
-            }
-            planned = plan(share).or(planned);
-        }
-        let Planned { mut poses, velocities, legs, fits } = match planned {
-            Ok(planned) => planned,
-            Err(Unfit { worst: [distance, turn] }) => {
-                let message = format!(
-                    "polynomials stay {} mm and {} degrees from the way of the head",
-                    fixed(distance, 3),
-                    fixed(deg(turn), 3)
-                );
-                let hint = "`quintic.basis = \"chebyshev\"`, a greater `path.tolerance_mm` or `verify.max_heading_deg`, or `tool.planner = \"optimal\"`";
-                out.push(Diagnostic::new(&code::SPRAY_UNFIT, message).hint(hint));
-                return None;
-            }
-        };
-        for pose in &mut poses {
-            pose.c.0 -= FRAC_PI_2;
-        }
-        solved.cuts.push(Cut::sampled(poses, cuts::spells(&legs, first), period));
-        solved.velocities.push(velocities);
-        solved.fits.push(fits);
-        first += pass.len() as u32;
-    }
-    Some(solved)
 }

@@ -20,6 +20,8 @@ pub struct Program {
     pub figures: Vec<Edge>,
     /// Head to edge, mm.
     pub distance: f64,
+    /// The same by the other planner, to show it beside.
+    pub(super) beside: Option<Box<Program>>,
 }
 
 impl Program {

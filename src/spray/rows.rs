@@ -1,8 +1,9 @@
 //! What the controller is given at each tick.
 
-use super::course::{Leg, Role};
+use super::course::{Leg, Pass, Role};
 use crate::ir::Motion;
 use crate::ir::toolpath::Pose;
+use crate::machine::Job;
 
 /// The head at a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,19 +18,24 @@ pub struct Row {
     pub leg: Option<usize>,
 }
 
-/// The rows of motions; `legs` are those of all passes, whose numbers from 1 the blocks of a cut are. Speeds are the mean of
-/// those before and behind a tick, but where `velocities` has those of a pass, tick by tick.
-pub(super) fn rows(
-    motions: &[Motion],
-    legs: &[&Leg],
-    velocities: &[Vec<[f64; 2]>],
-    sprays: bool,
-    period: f64,
-) -> Vec<Row> {
+/// What the rows are made of.
+pub(super) struct Moved<'a> {
+    /// All of it, in order; the blocks of a cut are numbers of legs, the first being 1, counted through all passes.
+    pub(super) motions: &'a [Motion],
+    /// What they follow.
+    pub(super) passes: &'a [Pass],
+    /// Speeds of X and Y of each pass at its ticks, mm/s, where they are known.
+    pub(super) velocities: &'a [Vec<[f64; 2]>],
+}
+
+/// The rows of motions. Speeds that are not known are the mean of those before and behind a tick.
+pub(super) fn rows(moved: &Moved, job: &Job) -> Vec<Row> {
+    let (sprays, period) = (job.mode.cuts(), job.profile.time.period());
+    let legs: Vec<&Leg> = moved.passes.iter().flatten().collect();
     let mut rows = Vec::new();
     let mut known: Vec<(usize, &Vec<[f64; 2]>)> = Vec::new();
-    let mut velocities = velocities.iter();
-    for phase in motions.iter().flat_map(|motion| &motion.phases) {
+    let mut velocities = moved.velocities.iter();
+    for phase in moved.motions.iter().flat_map(|motion| &motion.phases) {
         let cuts = !phase.spells.is_empty() && phase.length > 0.0;
         if cuts {
             known.extend(velocities.next().map(|of_pass| (rows.len(), of_pass)));

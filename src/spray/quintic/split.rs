@@ -1,6 +1,6 @@
 //! Splitting: a stretch is halved until a polynomial keeps each part of it.
 
-use super::polynomial::Polynomial;
+use super::polynomial::{Polynomial, State};
 use crate::machine::Basis;
 use crate::spray::clock::Timed;
 
@@ -9,11 +9,11 @@ const LEAST: usize = 12;
 
 /// How far a motion may be from the course at its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::spray) struct Allowed {
+pub(super) struct Allowed {
     /// The head, mm.
-    pub(in crate::spray) distance: f64,
+    pub(super) distance: f64,
     /// Its direction, rad.
-    pub(in crate::spray) turn: f64,
+    pub(super) turn: f64,
 }
 
 /// A polynomial that was fitted to samples.
@@ -31,18 +31,22 @@ impl Fit {
     /// The least squares.
     pub(super) fn of(samples: &[Timed], basis: Basis) -> Option<Self> {
         let (polynomial, condition) = Polynomial::fitted(samples, basis)?;
-        let worst = samples.iter().fold([0.0; 2], |worst, sample| {
-            let off = off(polynomial.at(sample.time), sample);
-            [f64::max(worst[0], off[0]), f64::max(worst[1], off[1])]
-        });
+        let worst = worst(|time| polynomial.at(time), samples);
         Some(Self { polynomial, condition, worst })
     }
 }
 
-/// How far a state is from a sample, mm and rad.
-pub(super) fn off([x, y, aim]: super::polynomial::State, sample: &Timed) -> [f64; 2] {
-    let node = sample.node;
-    [(x[0] - node.at.x).hypot(y[0] - node.at.y), (aim[0] - node.aim).abs()]
+/// How far a motion is from samples at their times, mm and rad. What is no number is the worst.
+pub(super) fn worst<'a>(motion: impl Fn(f64) -> State, samples: impl IntoIterator<Item = &'a Timed>) -> [f64; 2] {
+    let mut worst = [0.0_f64; 2];
+    for Timed { time, node, .. } in samples {
+        let [x, y, aim] = motion(*time);
+        let off = [(x[0] - node.at.x).hypot(y[0] - node.at.y), (aim[0] - node.aim).abs()];
+        for (worst, off) in worst.iter_mut().zip(off) {
+            *worst = if off.is_nan() { f64::INFINITY } else { worst.max(off) };
+        }
+    }
+    worst
 }
 
 /// As few halves of halves as keep what is allowed; where samples are too few to halve them, the best there is.

@@ -2,7 +2,7 @@
 //! acceleration at both ends.
 
 use super::polynomial::{Polynomial, State};
-use super::split::{Fit, off};
+use super::split::{Fit, worst};
 use crate::machine::Limits;
 use crate::spray::clock::Timed;
 
@@ -83,10 +83,7 @@ impl Timeline {
 
     /// How far it is from samples at their times, mm and rad.
     pub(super) fn worst<'a>(&self, samples: impl Iterator<Item = &'a Timed>) -> [f64; 2] {
-        samples.fold([0.0; 2], |worst, sample| {
-            let off = off(self.at(sample.time), sample);
-            [f64::max(worst[0], off[0]), f64::max(worst[1], off[1])]
-        })
+        worst(|time| self.at(time), samples)
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::Marker;
+use crate::machine::{Fit, MachineProfile};
 
 /// Points nearer to each other than that are one, mm.
 const SAME_EPSILON: f64 = 1e-6;
@@ -18,25 +19,63 @@ pub(super) struct Chord {
     pub(super) ends: [Point; 2],
     /// Unit vector away from the material.
     pub(super) out: Vector,
-    /// How far a curve through its ends may turn the way out from that, rad: half of the turn at each that is no corner, to
-    /// the left positive.
+    /// How far the way out of a curve through its ends may be turned from that at each end, rad, to the left positive: as far
+    /// as the way out of the chord beyond is; at a corner as at the other end.
     pub(super) bent: [f64; 2],
+    /// How far such a curve may lie on the near side of the chord, seen from outside, and on the far side, mm.
+    pub(super) bulge: [f64; 2],
     /// Its block.
     pub(super) block: u32,
+}
+
+/// What of a curve there is at one end of a chord.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Side {
+    /// The turn to the chord beyond, rad; nothing at a corner.
+    turn: f64,
+    /// The length of that chord, mm.
+    length: f64,
+}
+
+impl Side {
+    /// Between a chord and the one before it or behind it.
+    fn of(chord: [Point; 2], other: [Point; 2], corner: f64) -> Self {
+        let turn = if other[1] == chord[0] {
+            polyline::turn_at(other[0], chord[0], chord[1])
+        } else {
+            polyline::turn_at(chord[0], chord[1], other[1])
+        };
+        if turn.abs() < corner { Self { turn, length: (other[1] - other[0]).norm() } } else { Self::default() }
+    }
+
+    /// This, or at a corner the other one.
+    fn or(self, other: Self) -> Self {
+        if self.length > 0.0 { self } else { other }
+    }
+
+    /// How far a circle through the vertex and its neighbours bulges on a chord of that length, mm.
+    fn bulge(self, length: f64) -> f64 {
+        0.25 * length * self.turn * length / (length + self.length)
+    }
 }
 
 /// All edges.
 #[derive(Debug)]
 pub struct Ground {
     pub(super) chords: Vec<Chord>,
+    /// How far from its distance a head may be, mm.
+    pub(super) tolerance: f64,
     boxes: Boxes,
+    /// The greatest X of any edge, mm.
+    right: f64,
     /// The chords of each block.
     blocks: BTreeMap<u32, Vec<usize>>,
 }
 
 impl Ground {
-    /// The closed contours of a marker; vertices that turn by less than `corner` (rad) stand for curves.
-    pub fn new(marker: &Marker, corner: f64) -> Self {
+    /// The closed contours of a marker; vertices that turn by less than the corner angle of the profile stand for curves.
+    pub fn new(marker: &Marker, profile: &MachineProfile) -> Self {
+        let corner = profile.corner.angle();
         let mut chords: Vec<Chord> = Vec::new();
         for (_, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
             let points = marker.list.points(contour.range);
@@ -49,14 +88,16 @@ impl Ground {
                     ring.push((ends, spans[i.min(spans.len() - 1)].block));
                 }
             }
-            let turn = |i: usize, j: usize| {
-                let turn = polyline::turn_at(ring[i].0[0], ring[i].0[1], ring[j].0[1]);
-                if turn.abs() < corner { 0.5 * turn } else { 0.0 }
-            };
             let n = ring.len();
             for (i, &(ends, block)) in ring.iter().enumerate() {
-                let bent = [-turn((i + n - 1) % n, i), turn(i, (i + 1) % n)];
-                chords.push(Chord { ends, out: left((ends[1] - ends[0]).normalize()), bent, block });
+                let sides = [(i + n - 1) % n, (i + 1) % n].map(|j| Side::of(ends, ring[j].0, corner));
+                let out = left((ends[1] - ends[0]).normalize());
+                let bent = [-sides[0].or(sides[1]).turn, sides[1].or(sides[0]).turn];
+                let most = if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 };
+                let bulge = sides.map(|side| side.bulge((ends[1] - ends[0]).norm()).clamp(-most, most));
+                // A turn to the left bulges to the right, which is inwards as long as left is out.
+                let bulge = [bulge[0].min(bulge[1]).min(0.0).abs(), bulge[0].max(bulge[1]).max(0.0)];
+                chords.push(Chord { ends, out, bent, bulge, block });
             }
         }
         let boxes = Boxes::new(chords.iter().map(|chord| Extent::between(chord.ends[0], chord.ends[1])).collect());
@@ -64,30 +105,45 @@ impl Ground {
         for (i, chord) in chords.iter().enumerate() {
             blocks.entry(chord.block).or_default().push(i);
         }
-        let mut ground = Self { chords, boxes, blocks };
+        let right = chords.iter().flat_map(|chord| chord.ends).map(|end| end.x).fold(f64::NEG_INFINITY, f64::max);
+        let mut ground = Self { right, chords, tolerance: profile.tolerance(marker.unit), boxes, blocks };
         for i in 0..ground.chords.len() {
             let chord = ground.chords[i];
             let middle = chord.ends[0] + (chord.ends[1] - chord.ends[0]) * 0.5;
             if ground.is_material(middle + chord.out * BESIDE) {
                 ground.chords[i].out = -chord.out;
+                ground.chords[i].bulge.reverse();
             }
         }
         ground
     }
 
-    /// Whether a place lies in a part: an odd number of edges lies to the right of it.
+    /// Whether a place lies in a part: a ray to the right, to the end of everything, crosses an odd number of edges.
     fn is_material(&self, place: Point) -> bool {
-        let crosses = |chord: &&Chord| {
-            let [a, b] = chord.ends;
+        let crosses = |&i: &usize| {
+            let [a, b] = self.chords[i].ends;
             (a.y > place.y) != (b.y > place.y) && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y)
         };
-        self.chords.iter().filter(crosses).count() % 2 == 1
+        let ray = Extent::between(place, Point::new(self.right.max(place.x), place.y));
+        self.boxes.near(ray).filter(crosses).count() % 2 == 1
     }
 
-    /// How far the nearest chord is from a place, mm; looked for as far as `reach`.
-    pub(super) fn nearest(&self, place: Point, reach: f64) -> Option<f64> {
+    /// The chord nearest to a place, and how far outside of it that is, mm, inside being negative; looked for as far as `reach`.
+    pub(super) fn nearest(&self, place: Point, reach: f64) -> Option<(&Chord, f64)> {
         let near = self.boxes.near(Extent::between(place, place).grown(reach)).map(|i| &self.chords[i]);
-        near.map(|chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1])).min_by(f64::total_cmp)
+        let away = |chord: &Chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]);
+        // Of two that meet in the nearest vertex the one that faces the place tells outside from inside.
+        let height = |chord: &Chord| (place - chord.ends[0]).dot(&chord.out);
+        let order = |a: &&Chord, b: &&Chord| {
+            let [far_a, far_b] = [away(a), away(b)];
+            if (far_a - far_b).abs() > SAME_EPSILON {
+                far_a.total_cmp(&far_b)
+            } else {
+                height(b).abs().total_cmp(&height(a).abs())
+            }
+        };
+        let chord = near.min_by(order)?;
+        Some((chord, away(chord).copysign(height(chord))))
     }
 
     /// The chords that are no farther from a place than that, mm.

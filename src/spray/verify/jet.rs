@@ -18,119 +18,146 @@ const STEP: f64 = 1.0;
 /// Rounding of computations, mm and degrees.
 const EPSILON: f64 = 1e-6;
 
-/// Judges what the jet does on the edges; `tolerance` is that of the head, mm.
-pub(super) fn judge(rows: &[Row], ground: &Ground, job: &Job, tolerance: f64, worst: &mut Worst) {
-    let on = rows.iter().filter(|row| row.jet);
-    if !job.mode.cuts() {
-        worst.see(Rule::Jet, on.count() as f64, Some(0.0), rows.iter().find(|row| row.jet).map(at));
-        return;
-    }
-    let distance = job.profile.tool.distance_mm;
-    let spots: Vec<Point> = rows.iter().map(|row| row.head + Rotation(rad(row.c_deg)).unit() * distance).collect();
-    for (row, &spot) in rows.iter().zip(&spots) {
-        if row.jet {
-            aimed(row, spot, ground, job, tolerance, worst);
-        }
-        if (row.block > 0) && !row.jet {
-            worst.see(Rule::Block, f64::INFINITY, Some(0.0), Some(at(row)));
-        }
-    }
-    speeds(rows, &spots, job, worst);
-    coverage(rows, &spots, ground, job, tolerance, worst);
+/// What the jet does on the edges.
+pub(super) struct Jet<'a> {
+    rows: &'a [Row],
+    /// Where the middle of the jet is at each row.
+    spots: Vec<Point>,
+    ground: &'a Ground,
+    job: &'a Job,
 }
 
-/// Distance and direction of one row, and the block that it names.
-fn aimed(row: &Row, spot: Point, ground: &Ground, job: &Job, tolerance: f64, worst: &mut Worst) {
-    let profile = &job.profile;
-    let distance = profile.tool.distance_mm;
-    let reach = distance + tolerance + 1.0;
-    let Some(away) = ground.nearest(row.head, reach) else {
-        worst.see(Rule::Distance, f64::INFINITY, Some(tolerance), Some(at(row)));
-        return;
-    };
-    worst.see(Rule::Distance, (away - distance).abs(), Some(tolerance + EPSILON), Some(at(row)));
-    // Where the head is between two edges it may look at either.
-    let equal = ground.within(row.head, away + 2.0 * tolerance);
-    let askew = equal.map(|chord| askew(row, chord)).fold(f64::INFINITY, f64::min);
-    let limit = profile.verify.max_heading_deg + POSITION_ROUNDING + EPSILON;
-    worst.see(Rule::Heading, deg(askew), Some(limit), Some(at(row)));
-    let named = ground.of_block(row.block);
-    let off = named.map(|chord| polyline::distance_to_segment(spot, chord.ends[0], chord.ends[1]));
-    let off = off.fold(f64::INFINITY, f64::min);
-    // About the ends of a chord that stands for a curve the jet is ahead of the head, or behind it.
-    worst.see(Rule::Block, off, Some(tolerance + WAY), Some(at(row)));
+impl<'a> Jet<'a> {
+    /// That of some rows.
+    pub(super) fn new(rows: &'a [Row], ground: &'a Ground, job: &'a Job) -> Self {
+        let distance = job.profile.tool.distance_mm;
+        let spots = rows.iter().map(|row| row.head + Rotation(rad(row.c_deg)).unit() * distance).collect();
+        Self { rows, spots, ground, job }
+    }
+
+    /// Judges it.
+    pub(super) fn judge(&self, worst: &mut Worst) {
+        let rows = self.rows;
+        if !self.job.mode.cuts() {
+            let on = rows.iter().filter(|row| row.jet).count();
+            worst.see(Rule::Jet, on as f64, Some(0.0), rows.iter().find(|row| row.jet).map(at));
+            return;
+        }
+        for (row, &spot) in rows.iter().zip(&self.spots) {
+            if row.jet {
+                self.aimed(row, spot, worst);
+            }
+            if row.block > 0 && !row.jet {
+                worst.see(Rule::Block, f64::INFINITY, Some(0.0), Some(at(row)));
+            }
+        }
+        self.speeds(worst);
+        self.coverage(worst);
+    }
+
+    /// Distance and direction of one row, and the block that it names.
+    fn aimed(&self, row: &Row, spot: Point, worst: &mut Worst) {
+        let (profile, ground) = (&self.job.profile, self.ground);
+        let (distance, tolerance) = (profile.tool.distance_mm, ground.tolerance);
+        let reach = distance + tolerance + profile.path.chord_sag_max_mm + 1.0;
+        let Some((chord, away)) = ground.nearest(row.head, reach) else {
+            worst.see(Rule::Distance, f64::INFINITY, Some(tolerance), Some(at(row)));
+            return;
+        };
+        // What a curve lies beside its chord does not count; over the material the distance is negative.
+        let [near, far] = chord.bulge;
+        let off = (distance - far - away).max(away - distance - near).max(0.0);
+        worst.see(Rule::Distance, off, Some(tolerance + EPSILON), Some(at(row)));
+        // Where the head is between two edges it may look at either.
+        let equal = ground.within(row.head, away.abs() + 2.0 * tolerance);
+        let askew = equal.map(|chord| askew(row, chord)).fold(f64::INFINITY, f64::min);
+        let limit = profile.verify.max_heading_deg + POSITION_ROUNDING + EPSILON;
+        worst.see(Rule::Heading, deg(askew), Some(limit), Some(at(row)));
+        let named = ground.of_block(row.block);
+        let off = named.map(|chord| polyline::distance_to_segment(spot, chord.ends[0], chord.ends[1]));
+        let off = off.fold(f64::INFINITY, f64::min);
+        // About the ends of a chord that stands for a curve the jet is ahead of the head, or behind it.
+        worst.see(Rule::Block, off, Some(tolerance + WAY), Some(at(row)));
+    }
+
+    /// The speed of the jet over each centimetre of its way.
+    fn speeds(&self, worst: &mut Worst) {
+        let (rows, spots, tool) = (self.rows, &self.spots, &self.job.profile.tool);
+        let period = self.job.profile.time.period();
+        let share = tool.edge_speed_percent / 100.0;
+        let (limit, slow) = (tool.edge_speed_mm_s * (1.0 + share), tool.edge_speed_mm_s * (1.0 - share));
+        let (mut from, mut way, mut slow_way) = (0, 0.0, 0.0);
+        let step = |i: usize| if rows[i].jet && rows[i - 1].jet { (spots[i] - spots[i - 1]).norm() } else { 0.0 };
+        let mut slowest = None;
+        for (i, row) in rows.iter().enumerate().skip(1) {
+            if !row.jet {
+                // What was too short for a centimetre is judged as a whole.
+                if way > SPOT && way < WAY {
+                    let speed = way / ((i - 1 - from) as f64 * period);
+                    worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
+                }
+                (from, way) = (i, 0.0);
+                continue;
+            }
+            way += step(i);
+            while way - step(from + 1) >= WAY {
+                from += 1;
+                way -= step(from);
+            }
+            if way < WAY {
+                continue;
+            }
+            let speed = way / ((i - from) as f64 * period);
+            worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
+            if speed < slow {
+                slow_way += step(i);
+                slowest = slowest.or(Some(at(row)));
+            }
+        }
+        worst.see(Rule::EdgeSlow, slow_way, None, slowest);
+    }
+
+    /// How much of the edge that a head can face is not sprayed.
+    fn coverage(&self, worst: &mut Worst) {
+        let (rows, spots, ground) = (self.rows, &self.spots, self.ground);
+        let (distance, tolerance) = (self.job.profile.tool.distance_mm, ground.tolerance);
+        let ways: Vec<[Point; 2]> =
+            (1..rows.len()).filter(|&i| rows[i].jet && rows[i - 1].jet).map(|i| [spots[i - 1], spots[i]]).collect();
+        let boxes = Boxes::new(ways.iter().map(|[a, b]| Extent::between(*a, *b)).collect());
+        let spot = SPOT + tolerance;
+        let is_sprayed = |place: Point| {
+            let mut near = boxes.near(Extent::between(place, place).grown(spot));
+            near.any(|i| polyline::distance_to_segment(place, ways[i][0], ways[i][1]) <= spot)
+        };
+        let (mut left, mut first) = (0.0, None);
+        for chord in &ground.chords {
+            let [from, to] = chord.ends;
+            let length = (to - from).norm();
+            let steps = (length / STEP).ceil().max(1.0);
+            for i in 0..steps as usize {
+                let place = from + (to - from) * ((i as f64 + 0.5) / steps);
+                let head = place + chord.out * distance;
+                if ground.is_nearer(head, distance - tolerance) || is_sprayed(place) {
+                    continue;
+                }
+                left += length / steps;
+                first = first.or(Some(missing(place, chord.block)));
+            }
+        }
+        worst.see(Rule::Coverage, left, Some(EPSILON), first);
+    }
 }
 
 /// How far a row looks from square to a chord, rad.
 fn askew(row: &Row, chord: &Chord) -> f64 {
     let [from, to] = chord.ends;
-    let foot = from + (to - from) * polyline::foot(row.head, from, to).clamp(0.0, 1.0);
+    let along = polyline::foot(row.head, from, to).clamp(0.0, 1.0);
+    let foot = from + (to - from) * along;
     let looks = Rotation(rad(row.c_deg)).heading();
     let aim = Heading::of(foot - row.head).turn_to(looks);
-    // Between the ways out at both ends of the chord any is that of a curve through them.
+    // The way out of a curve goes from that of one chord to that of the next.
     let across = Heading::of(-chord.out).turn_to(looks);
-    let [least, most] = [chord.bent[0].min(chord.bent[1]).min(0.0), chord.bent[0].max(chord.bent[1]).max(0.0)];
-    let bent = if (least..=most).contains(&across) { 0.0 } else { (across - most).max(least - across) };
+    let [from, to] = [chord.bent[0] * (1.0 - along), chord.bent[1] * along];
+    let bent = (across - from.max(to).max(0.0)).max(from.min(to).min(0.0) - across).max(0.0);
     aim.abs().min(bent)
-}
-
-/// The speed of the jet over each centimetre of its way.
-fn speeds(rows: &[Row], spots: &[Point], job: &Job, worst: &mut Worst) {
-    let tool = &job.profile.tool;
-    let period = job.profile.time.period();
-    let share = tool.edge_speed_percent / 100.0;
-    let (limit, slow) = (tool.edge_speed_mm_s * (1.0 + share), tool.edge_speed_mm_s * (1.0 - share));
-    let (mut from, mut way, mut slow_way) = (0, 0.0, 0.0);
-    let step = |i: usize| if rows[i].jet && rows[i - 1].jet { (spots[i] - spots[i - 1]).norm() } else { 0.0 };
-    let mut slowest = None;
-    for (i, row) in rows.iter().enumerate().skip(1) {
-        if !row.jet {
-            (from, way) = (i, 0.0);
-            continue;
-        }
-        way += step(i);
-        while way - step(from + 1) >= WAY {
-            from += 1;
-            way -= step(from);
-        }
-        if way < WAY {
-            continue;
-        }
-        let speed = way / ((i - from) as f64 * period);
-        worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
-        if speed < slow {
-            slow_way += step(i);
-            slowest = slowest.or(Some(at(row)));
-        }
-    }
-    worst.see(Rule::EdgeSlow, slow_way, None, slowest);
-}
-
-/// How much of the edge that a head can face is not sprayed.
-fn coverage(rows: &[Row], spots: &[Point], ground: &Ground, job: &Job, tolerance: f64, worst: &mut Worst) {
-    let distance = job.profile.tool.distance_mm;
-    let ways: Vec<[Point; 2]> =
-        (1..rows.len()).filter(|&i| rows[i].jet && rows[i - 1].jet).map(|i| [spots[i - 1], spots[i]]).collect();
-    let boxes = Boxes::new(ways.iter().map(|[a, b]| Extent::between(*a, *b)).collect());
-    let spot = SPOT + tolerance;
-    let is_sprayed = |place: Point| {
-        let mut near = boxes.near(Extent::between(place, place).grown(spot));
-        near.any(|i| polyline::distance_to_segment(place, ways[i][0], ways[i][1]) <= spot)
-    };
-    let (mut left, mut first) = (0.0, None);
-    for chord in &ground.chords {
-        let [from, to] = chord.ends;
-        let length = (to - from).norm();
-        let steps = (length / STEP).ceil().max(1.0);
-        for i in 0..steps as usize {
-            let place = from + (to - from) * ((i as f64 + 0.5) / steps);
-            let head = place + chord.out * distance;
-            if ground.is_nearer(head, distance - tolerance) || is_sprayed(place) {
-                continue;
-            }
-            left += length / steps;
-            first = first.or(Some(missing(place, chord.block)));
-        }
-    }
-    worst.see(Rule::Coverage, left, Some(EPSILON), first);
 }

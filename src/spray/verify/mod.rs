@@ -15,6 +15,7 @@ pub use rules::{RULES, Row, Rule, rule};
 
 use std::io::{self, BufRead};
 
+use self::jet::Jet;
 use self::worst::Worst;
 use crate::ir::Finding;
 use crate::machine::Job;
@@ -33,15 +34,15 @@ pub fn begins(bytes: &[u8]) -> bool {
     bytes.starts_with(rows::HEADER.as_bytes())
 }
 
-/// Judges a program from its bytes; `tolerance` is that of the head, mm.
-pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job, tolerance: f64) -> io::Result<Verdict> {
+/// Judges a program from its bytes.
+pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<Verdict> {
     let mut worst = Worst::default();
     let read = rows::read(input)?;
     worst.see(Rule::Format, f64::from(u8::from(read.is_err())), Some(0.0), None);
     let unread = match read {
         Ok(rows) => {
             axes::judge(&rows, job, &mut worst);
-            jet::judge(&rows, ground, job, tolerance, &mut worst);
+            Jet::new(&rows, ground, job).judge(&mut worst);
             None
         }
         Err(unread) => Some(unread),

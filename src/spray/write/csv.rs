@@ -12,6 +12,7 @@ use crate::units::{deg, number};
 pub(super) const TARGET: Target = Target {
     name: "csv",
     about: "timed setpoints of X, Y and C with the velocities of X and Y, a row a period",
+    compares: false,
     write,
 };
 

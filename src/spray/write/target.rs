@@ -11,6 +11,8 @@ pub struct Target {
     pub name: &'static str,
     /// What it is here, in a line.
     pub about: &'static str,
+    /// Whether it shows what another planner makes of the same.
+    pub compares: bool,
     /// Writes it.
     pub write: fn(&Program, &mut dyn Write) -> io::Result<()>,
 }

@@ -73,3 +73,21 @@ fn a_tool_without_a_blade_follows_lines_as_a_point_does() {
         ["--set knife.width_mm=6: `tool.kind` is \"wheel\", which has no blade, but `knife.width_mm` is given"]
     );
 }
+
+#[test]
+fn tools_without_a_blade_follow_real_markers_within_the_limits_and_without_overlaps() {
+    for name in ["iso/seed-circle.cut", "iso/spaced-corner-lifts.cut", "iso/slit-in-the-contour.cut", "hpgl/arcs.plt"] {
+        let source = super::fixture(name);
+        for kind in ["wheel", "pen", "router"] {
+            let sets = [format!("tool.kind={kind}")];
+            let job = Job { profile: load(None, &sets).expect("a legal profile"), ..Job::default() };
+            let (made, ..) =
+                super::compiled(&source, "csv", &job).unwrap_or_else(|said| panic!("{name} {kind}: {said}"));
+            let verdict = made.verdict.expect("a verdict");
+            assert!(verdict.passes() && verdict.findings.len() > 20, "{name} {kind}");
+            // What is cut beyond a line would be an overlap.
+            let stray = verdict.findings.iter().find(|finding| finding.rule == "verify/stray");
+            assert!(stray.is_none_or(|finding| finding.worst < 0.1), "{name} {kind}: {stray:?}");
+        }
+    }
+}

@@ -80,6 +80,13 @@ fn every_rule_is_broken_by_its_damage_and_nothing_else_by_none() {
     check("table", &bytes, &job(&["table.y_mm=[-290, 2000]"]));
     check("velocity", &damaged(&|rows, at| rows[at][4] += 0.2), &head);
     check("distance", &damaged(&|rows, at| bump(rows, at, 2, 0.2)), &head);
+    // A head over the material that looks outwards is as far from the edge.
+    let inside = |rows: &mut Vec<Vec<f64>>, _: usize| {
+        for row in rows.iter_mut().filter(|row| row[6] == 1.0 && row[2] < -299.9) {
+            (row[2], row[3]) = (300.0, row[3] + 180.0);
+        }
+    };
+    check("distance", &damaged(&inside), &head);
     check("heading", &damaged(&|rows, at| bump(rows, at, 3, 3.0)), &head);
     check("edge-speed", &bytes, &job(&["tool.edge_speed_mm_s=250"]));
     check(

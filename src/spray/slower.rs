@@ -1,0 +1,81 @@
+//! Where the jet of a planned cut is too fast for its edge, and by what share its head must be slower there.
+//!
+//! Curves that a planner makes of the course swing a little about its curvature where a line meets an arc: there the jet is
+//! faster than the speed of the head says. So it is measured on what was planned.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::course::{Leg, Role};
+use crate::geom::{Heading, Point};
+use crate::machine::Job;
+use crate::plan::Cut;
+
+/// Way of the jet over which its speed is measured, mm.
+const WAY: f64 = 5.0;
+/// Share of how much faster the jet may be that is used.
+const SHARE: f64 = 0.8;
+/// How far below what is allowed it is brought.
+const LOWERED: f64 = 0.99;
+/// How far before and behind a place where the jet is too fast the head is slowed down, mm.
+const AROUND: f64 = 10.0;
+
+/// The share of its speed on each leg that the head of a cut must not pass; `None` where the jet is nowhere too fast.
+pub(super) fn shares(cut: &Cut, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
+    let tool = &job.profile.tool;
+    let most = tool.edge_speed_mm_s * (1.0 + SHARE * tool.edge_speed_percent / 100.0);
+    let period = job.profile.time.period();
+    let poses: Vec<_> = cut.poses().collect();
+    let spots: Vec<Point> =
+        poses.iter().map(|pose| pose.centre + Heading::new(pose.c.0 + FRAC_PI_2).unit() * tool.distance_mm).collect();
+    let legs = legs_at(cut, poses.len());
+    let (mut from, mut way) = (0, 0.0);
+    let step = |i: usize| (spots[i] - spots[i - 1]).norm();
+    let mut shares = vec![1.0_f64; pass.len()];
+    for i in 1..spots.len() {
+        way += step(i);
+        while way - step(from + 1) >= WAY {
+            from += 1;
+            way -= step(from);
+        }
+        let speed = way / ((i - from) as f64 * period);
+        if way >= WAY && speed > most && pass[legs[i]].role != Role::Air {
+            for leg in &legs[from..=i] {
+                shares[*leg] = shares[*leg].min(LOWERED * most / speed);
+            }
+        }
+    }
+    spread(&mut shares, pass);
+    shares.iter().any(|&share| share < 1.0).then_some(shares)
+}
+
+/// The leg at each tick.
+fn legs_at(cut: &Cut, ticks: usize) -> Vec<usize> {
+    // A cut begins on the first leg of its pass.
+    let first = cut.spells()[0].block;
+    let mut legs = vec![0; ticks];
+    for (spell, until) in
+        cut.spells().iter().zip(cut.spells().iter().skip(1).map(|next| next.first as usize).chain([ticks]))
+    {
+        legs[spell.first as usize..until].fill((spell.block - first) as usize);
+    }
+    legs
+}
+
+/// Lowers what is near a lowered leg as much.
+fn spread(shares: &mut [f64], pass: &[Leg]) {
+    let known = shares.to_vec();
+    let mut lower = |legs: &mut dyn Iterator<Item = usize>, share: f64| {
+        let mut way = 0.0;
+        for leg in legs {
+            shares[leg] = shares[leg].min(share);
+            way += pass[leg].length();
+            if way > AROUND {
+                break;
+            }
+        }
+    };
+    for (i, &share) in known.iter().enumerate().filter(|(_, share)| **share < 1.0) {
+        lower(&mut (i..pass.len()), share);
+        lower(&mut (0..i).rev(), share);
+    }
+}
