@@ -318,6 +318,8 @@ codes! {
     MARKER_NO_LENGTH = warning(Spares, Shape, "marker/no-length", "All points of a contour are the same place: nothing is cut there.", "Something was drawn there and shrank to a point, perhaps a notch below the unit of the file. If something is missing, export in a finer unit.");
     /// Contours of a piece that cross.
     MARKER_SELF_CROSSING = warning(Spoils, Shape, "marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.", "Where an outline crosses itself a small loose corner falls out, and the knife passes through cloth that is free. Mostly an offset or a seam allowance was folded over: mend the corner in the CAD system. Lines that cross are marks or hatchings that were not meant for the knife: leave them out of the export.");
+    /// Slits that meet.
+    MARKER_SEVERED = warning(Spoils, Shape, "marker/severed", "A slit comes within 0.5 mm of another slit of its piece, or of an edge on the other side of the part.", "What is left between the two tears at the next touch, or nothing is left: a strip comes apart, a cut-out opens to the edge. Narrow parts with notches that face each other are such places. Shorten the slits, or move them along the edge.");
     /// Contours of two pieces that cross.
     MARKER_OVERLAPPING = warning(Spoils, Shape, "marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.", "One of the two parts is cut into and will not fit at its seam. Move the pieces apart in the marker; look at the place in the picture (-t svg).");
     /// A notch that stands out into another piece.

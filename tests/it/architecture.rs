@@ -123,6 +123,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("search", "shares out searches over all pieces, for several passes"),
+    ("severed", "finds slits that meet, for the pass that warns"),
     ("sewn", "recognises files of sewing machines"),
     ("spare", "leaves out plunges of a nibbled curve that cut nothing new"),
     ("start", "finds where a run begins on a curve beside which the plunged blade would lie"),

@@ -15,6 +15,7 @@ mod sanity;
 mod saved;
 mod search;
 mod select;
+mod severed;
 mod sheet;
 mod slit;
 mod spike;

@@ -5,6 +5,7 @@
 //! - An outline crosses itself, or another one of its piece.
 //! - The outlines of two pieces overlap by more than edges of different parts may lie apart and still be one (`nest.band_mm`).
 //!   Pieces that lie edge to edge, or one in the other, do not.
+//! - A slit comes to another one of its piece, or to an edge on the other side.
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
 //! - The number of a piece comes again.
 
@@ -16,6 +17,7 @@ use rayon::prelude::*;
 
 use super::pass::MarkerPass;
 use super::search::{in_parts, search_ended};
+use super::severed::severing;
 use crate::analysis::depth::depth;
 use crate::analysis::outlines::{Outlines, slack};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -107,6 +109,13 @@ impl Alone {
                 let span = span(marker, i, &part, crossing.segments[1]);
                 let finding = Diagnostic::new(&code::MARKER_SELF_CROSSING, message);
                 alone.findings.push(finding.at(span).on_cloth(crossing.at));
+            }
+            if let Some(slit) = severing(&marker.pieces[i], &part, &mut work) {
+                let message =
+                    format!("a slit of {} comes to another cut of it: the part is severed there", name(marker, i));
+                let hint = "shorten it, or move it along the edge; `notch.depth_mm` gives slits another depth";
+                let finding = Diagnostic::new(&code::MARKER_SEVERED, message).at(slit.span).on_cloth(slit.tip);
+                alone.findings.push(finding.hint(hint));
             }
             // Its own piece is the likeliest.
             let outside = marker.pieces[i].drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
