@@ -106,9 +106,9 @@ impl<'a> Outlines<'a> {
         ends.map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
     }
 
-    /// Edges that may come so near to a place, mm, those of open lines among them.
-    pub fn edges_near(&self, at: Point, reach: f64) -> impl Iterator<Item = [Point; 2]> {
-        let near = self.chains.iter().zip(&self.boxes).filter(move |(_, extent)| extent.grown(reach).holds(at));
+    /// Edges that may come into a box, those of open lines among them.
+    pub fn edges_near(&self, around: Extent) -> impl Iterator<Item = [Point; 2]> {
+        let near = self.chains.iter().zip(&self.boxes).filter(move |(_, extent)| extent.meets(&around));
         near.flat_map(|(chain, _)| {
             self.points[chain.first as usize..=chain.last as usize].windows(2).map(|w| [w[0], w[1]])
         })

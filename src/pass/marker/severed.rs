@@ -1,13 +1,15 @@
 //! Slits that meet across their part: it comes apart there.
 
 use crate::analysis::outlines::Outlines;
-use crate::geom::Point;
 use crate::geom::budget::Budget;
 use crate::geom::polyline::{distance_of_segments, distance_to_segment};
+use crate::geom::{Extent, Point};
 use crate::ir::marker::{Notch, Piece};
 
 /// Cloth that is left between two cuts below this tears at the next touch, mm.
 const LEAST_BRIDGE: f64 = 0.5;
+/// Edges and slits so near to where a slit begins, mm, are those that it begins on.
+const AT_ROOT: f64 = 1.0;
 
 /// A slit of a piece that comes to another one, or through the part to another edge; `None` where there is none, or no work is
 /// left to find out.
@@ -20,17 +22,13 @@ pub(super) fn severing(piece: &Piece, part: &Outlines, work: &mut Budget) -> Opt
 fn meets(i: usize, slits: &[Notch], part: &Outlines, work: &mut Budget) -> bool {
     let slit = &slits[i];
     let ends = |slit: &Notch| [slit.root, slit.tip];
-    // Two strokes from one place are one notch.
-    let is_other = |other: &Notch| (other.root - slit.root).norm() > LEAST_BRIDGE;
-    let meets_slit = |other: &Notch| is_other(other) && distance_of_segments(ends(slit), ends(other)) < LEAST_BRIDGE;
-    if !work.spend(i) || slits[..i].iter().any(meets_slit) {
-        return !work.is_spent();
+    let comes_to = |line: [Point; 2]| distance_of_segments(ends(slit), line) < LEAST_BRIDGE;
+    // Strokes from one place are one notch.
+    let is_other = |other: &Notch| (other.root - slit.root).norm() > AT_ROOT;
+    if work.spend(i) && slits[..i].iter().any(|other| is_other(other) && comes_to(ends(other))) {
+        return true;
     }
-    part.edges_near(slit.tip, LEAST_BRIDGE).any(|edge| work.spend(1) && comes_to(slit, edge))
-}
-
-/// Whether a slit comes to an edge that it does not begin on.
-fn comes_to(slit: &Notch, [from, to]: [Point; 2]) -> bool {
-    let near = |at: Point| distance_to_segment(at, from, to);
-    near(slit.tip) < LEAST_BRIDGE && near(slit.root) > slit.depth() / 2.0
+    let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
+    let is_across = |[from, to]: [Point; 2]| distance_to_segment(slit.root, from, to) > AT_ROOT;
+    part.edges_near(around).any(|edge| work.spend(1) && is_across(edge) && comes_to(edge))
 }
