@@ -233,7 +233,9 @@ codes! {
     /// Something to cut that is not read.
     DXF_UNREAD_CUT = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
     /// A unit that nobody knows.
-    DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
+    DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH, or its header names a unit in which no patterns are drawn.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
+    /// A text that is not read.
+    DXF_TEXT = error(Text, "dxf/text", "A text of a DXF file that says a size, a quantity or the unit is in parts of more than 250 bytes, or has codes of its letters amid the value.", "A size that is lost is cut with every other one, and a unit that is lost makes all pieces too small. Let the CAD system write such texts as TEXT, one for each.");
     /// Texts that contradict each other.
     DXF_SAID_TWICE = error(Text, "dxf/said-twice", "Texts of a DXF file say two things where one can be right: two units, or of a piece two sizes or quantities.", "Which of them is meant nobody can tell, and the wrong one is another garment. See in the CAD system which is right; the unit and the quantity can be said beside the file.\n  cutc compile pattern.dxf --set dxf.unit=mm\n  cutc compile pattern.dxf --quantity one");
     /// Several sizes, and nobody says which.
@@ -309,7 +311,7 @@ codes! {
     /// The same contour twice.
     MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.
-    MARKER_EQUAL_POINTS = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.", "Harmless: a direction cannot be taken from two equal points, so one of them goes. Many of them hint at an export in too coarse a unit.");
+    MARKER_EQUAL_POINTS = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped, in files without a grid those within 0.01 mm of it, too; the message gives their count.", "Harmless: a direction cannot be taken from two points at one place, so one of them goes. Many of them hint at an export in too coarse a unit.");
     /// A slit again.
     MARKER_SLIT_TWICE = warning(Spares, Shape, "marker/slit-twice", "The same slit stands twice in a piece; it is cut once.", "Some systems write a notch once for each of the two pieces or sizes. A second cut in the same place would only widen the notch.");
     /// A slit without length.
@@ -448,7 +450,7 @@ codes! {
     // Tracking the centre of a moving cloth.
     /// The first row of a log.
     TRACK_HEADER = error(Text, "track/header", "The first row of a log does not name its columns.", "Without names I and J could be taken for each other, and the carriage would run away from the centre. Write them as the hint has them.\n  t_s,i,j");
-    /// A row that cannot be read.
+    /// A column that nothing is known of.
     TRACK_COLUMN = warning(Spares, Text, "track/column", "A log has columns that nothing is known of; they are passed over.", "If one of them is the place of the conveyor or of the carriage it has another name here. The hint has the names.\n  t_s,i,j,conv_mm,carriage_mm");
     /// A row that cannot be read.
     TRACK_ROW = error(Text, "track/row", "A row of a log cannot be read, or does not follow the one before it; the message says why.", "Leaving it out would shift all that the controller counts by a sample. Mend the row: decimal points, commas, times that go on.\n  0.010,33,31");
@@ -470,7 +472,7 @@ codes! {
     TRACK_NO_UPSTREAM = warning(Spares, Shape, "track/no-upstream", "The profile has rulers upstream, but the log does not have their readings; nothing is fed forward.", "The carriage then only follows what it sees, and is farther off centre than it could be. Log the readings as columns `up_i` and `up_j`.");
     /// No line to write.
     TRACK_NO_CENTRE = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
-    /// A scenario that cannot be read.
+    /// Cloth that nobody saw.
     TRACK_UNSEEN = warning(Spoils, Shape, "track/unseen", "A centre line goes over cloth whose edges were not both seen, or for which samples are missing; it is taken to go straight there.", "The cloth may have wandered meanwhile, and what is cut there is displaced by as much. Record that stretch again, or leave it out of the marker.");
     /// A scenario that cannot be read.
     TRACK_SCENARIO = error(Text, "track/scenario", "A scenario has a key that is none, or a value that is out of its range.", "A mistyped key would leave the cloth lying still without a word. `cutc manual tracking` lists the keys.\n  offset_mm = 20");
@@ -480,9 +482,9 @@ codes! {
     CENTRE_ROW = error(Text, "centre/row", "A row of a centre line cannot be read, or the conveyor does not go on in it; the message says why.", "Guessing it would cut parts beside their places. Mend the row, or make the file anew from the log.\n  125.5,-0.75");
     /// A line without two ends.
     CENTRE_SHORT = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
-    /// A marker that is longer than its centre line.
+    /// A centre line that no carriage follows.
     CENTRE_STEEP = warning(Spoils, Shape, "centre/steep", "A centre line goes across faster than a carriage could have followed it, by `track.max_speed_mm_s` and `track.cloth_mm_s`.", "Cloth hardly does that: its unit may be another, a row damaged, or the log's `carriage_mm` wrong. What is cut there is sheared by as much. Look at the line, and at the picture (-t svg).");
-    /// A marker beyond the ends.
+    /// A marker that is longer than its centre line.
     CENTRE_BEYOND = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
     // Flow cutting.
     /// No cut.

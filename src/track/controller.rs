@@ -52,6 +52,16 @@ pub enum Status {
     Width,
 }
 
+impl Status {
+    /// Whether both edges are seen, and the width is within its limits.
+    pub const fn sees_both_edges(self) -> bool {
+        match self {
+            Self::Centred | Self::Waiting | Self::Driving => true,
+            Self::LostCovered | Self::LostOpen | Self::Width => false,
+        }
+    }
+}
+
 /// What the drive has to do until the next command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command {

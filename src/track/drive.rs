@@ -6,6 +6,8 @@ use crate::machine::Tracking;
 
 /// Steps of the integration in a sample period.
 pub(super) const STEPS: usize = 10;
+/// A carriage that is slower stands, mm/s: within a shift it comes no micrometre on.
+const REST_EPSILON: f64 = 1e-8;
 
 /// A carriage on its drive: commands come to it after the latency, and it follows them with a time constant, no faster than
 /// its acceleration allows.
@@ -35,6 +37,11 @@ impl Drive {
             acceleration: track.carriage_acceleration_mm_s2,
             step,
         }
+    }
+
+    /// Whether it stands, and nothing on its way will move it.
+    pub(super) fn rests(&self) -> bool {
+        self.velocity.abs() <= REST_EPSILON && self.late.iter().all(|&velocity| velocity == 0.0)
     }
 
     /// Moves on by a sample period, in which a velocity is commanded, mm/s.

@@ -46,7 +46,7 @@ const LATEST: f64 = 1e11;
 /// A sample is missing where the time to the next differs from the period by more than this part of it.
 const MISSING: f64 = 0.4;
 
-/// Reads a log. Faults of the data are diagnostics; rows that have one are left out.
+/// Reads a log. Faults of the data are diagnostics.
 pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Vec<Row> {
     let bytes = source.bytes();
     let mut lines = Lines::of(bytes);

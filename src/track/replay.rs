@@ -10,9 +10,6 @@ use crate::machine::Tracking;
 use crate::source::Span;
 use crate::units::number::short;
 
-/// Sample periods behind which every carriage rests that nobody drives.
-const MOST_AT_REST: f64 = 10_000.0;
-
 /// A log with what the controller makes of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
@@ -96,7 +93,11 @@ pub(super) fn carriage(replay: &Replay, track: &Tracking, out: &mut Diagnostics)
         // Nothing is commanded while samples are missing: the drive comes to rest.
         if let Some(before) = before.filter(|before| is_gap(before, row, track)) {
             let missing = ((row.time - before.time) / track.period()).round() - 1.0;
-            (0..missing.clamp(0.0, MOST_AT_REST) as usize).for_each(|_| drive.follow(0.0));
+            let mut left = missing.max(0.0) as u64;
+            while left > 0 && !drive.rests() {
+                drive.follow(0.0);
+                left -= 1;
+            }
         }
         before = Some(row);
         let place = drive.place;

@@ -1,7 +1,7 @@
 //! What a log or a scenario came to: all that is written and shown of it.
 
-use super::controller::Status;
 use super::even::even;
+use super::log::is_gap;
 use super::measure::{Measures, measure};
 use super::replay::{self, Replay};
 use super::scenario::Scenario;
@@ -11,9 +11,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::{CentreLine, Tracking};
 use crate::source::Source;
 use crate::units::number::short;
-
-/// How many times as far apart as they are wanted places of a centre line are where nobody saw the cloth between them.
-const UNSEEN: f64 = 2.0;
 
 /// What must be known for something that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -94,7 +91,7 @@ impl Tracked {
             out.push(no_centre(&readings, track));
             return None;
         }
-        if let Some(unseen) = unseen(&self.centre, track) {
+        if let Some(unseen) = tell_unseen(&self.unseen(track)) {
             out.push(unseen);
         }
         Some(self)
@@ -106,18 +103,30 @@ impl Tracked {
         line.map_or_else(Vec::new, |line| self.conveyor.iter().map(|at| line.at(*at)).collect())
     }
 
+    /// Stretches between readings that see both edges, with others or missing samples between them, from and to places of the
+    /// conveyor, mm. What is within the stretch that a place of the line is made of is known from beside it.
+    fn unseen(&self, track: &Tracking) -> Vec<[f64; 2]> {
+        let mut stretches = Vec::new();
+        let mut seen: Option<usize> = None;
+        for i in (0..self.replay.rows.len()).filter(|&i| self.replay.commands[i].status.sees_both_edges()) {
+            if let Some(before) = seen {
+                let rows = &self.replay.rows;
+                let is_lost = i - before > 1 || is_gap(&rows[before], &rows[i], track);
+                let stretch = [self.conveyor[before], self.conveyor[i]];
+                stretches.extend((is_lost && stretch[1] - stretch[0] > track.centre_mm).then_some(stretch));
+            }
+            seen = Some(i);
+        }
+        stretches
+    }
+
     /// Where conveyor and centre of the cloth are by the readings that see both edges, mm: M = c - (I - J) q/2.
     fn readings(&self, track: &Tracking) -> impl Iterator<Item = [f64; 2]> {
         let half = track.pitch_mm / 2.0;
         let rows = self.replay.rows.iter().zip(&self.replay.commands);
         rows.zip(self.conveyor.iter().zip(&self.carriage)).filter_map(move |((row, command), (conveyor, carriage))| {
             let [left, right] = row.covered.map(f64::from);
-            match command.status {
-                Status::Centred | Status::Waiting | Status::Driving => {
-                    Some([*conveyor, carriage - (left - right) * half])
-                }
-                Status::LostCovered | Status::LostOpen | Status::Width => None,
-            }
+            command.status.sees_both_edges().then(|| [*conveyor, carriage - (left - right) * half])
         })
     }
 }
@@ -134,17 +143,15 @@ fn no_centre(readings: &[[f64; 2]], track: &Tracking) -> Diagnostic {
         short(to - from),
         short(track.centre_mm)
     );
-    let hint = "record more of the cloth; `conv_mm` is in mm, and `track.centre_mm` says how far apart places are";
+    let hint = "record more of the cloth; `conv_mm` is in mm, and `track.centre_mm` says of how much a place is made";
     Diagnostic::new(&code::TRACK_NO_CENTRE, message).hint(hint)
 }
 
-/// What is said where a centre line goes over cloth that nobody saw, by its rows.
-fn unseen(centre: &[[f64; 2]], track: &Tracking) -> Option<Diagnostic> {
-    let gaps = || {
-        centre.windows(2).map(|pair| [pair[0][0], pair[1][0]]).filter(|[from, to]| to - from > UNSEEN * track.centre_mm)
-    };
-    let [from, to] = gaps().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-    let places = match gaps().count() {
+/// What is said of stretches of cloth that nobody saw, from and to places of the conveyor, mm.
+fn tell_unseen(stretches: &[[f64; 2]]) -> Option<Diagnostic> {
+    let longest = stretches.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    let [from, to] = *longest;
+    let places = match stretches.len() {
         1 => String::new(),
         count => format!(" in {count} places, the longest"),
     };

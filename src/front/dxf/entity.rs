@@ -95,7 +95,8 @@ impl<'a> Entity<'a> {
 
     /// The name of its layer, as it is shown.
     pub(super) fn layer_name(&self) -> String {
-        self.bytes(LAYER).escape_ascii().to_string()
+        let bytes = self.bytes(LAYER);
+        std::str::from_utf8(bytes).map_or_else(|_| bytes.escape_ascii().to_string(), str::to_owned)
     }
 
     /// The number of a code; `None` when there is none.

@@ -54,10 +54,14 @@ impl Fold {
         (length > REACH).then_some(Self { drawn, length, axis: drawn })
     }
 
-    /// The same fold about the edge of a half from fold to fold. The cloth is folded where the half ends, and CAD systems
-    /// round the line beside it, or draw it a little aslant. An edge that is shorter than the line is the less certain one.
-    fn along_edge_of(self, half: &[Vertex]) -> Self {
-        let edge = Self::of(half).filter(|edge| edge.length >= self.length - 2.0 * REACH);
+    /// The same fold about the longest edge of an outline along it, of those that are drawn. The cloth is folded where the half
+    /// ends, and CAD systems round the line beside it, or draw it a little aslant. An edge that is shorter than the line is
+    /// the less certain one.
+    pub(super) fn about_longest(self, edges: impl Iterator<Item = [Vertex; 2]>) -> Self {
+        let along = edges.filter(|edge| self.is_along(edge.map(|vertex| vertex.at)));
+        let folds = along.filter_map(|edge| Self::of(&edge));
+        let longest = folds.reduce(|longest, next| if next.length > longest.length { next } else { longest });
+        let edge = longest.filter(|edge| edge.length >= self.length - 2.0 * REACH);
         edge.map_or(self, |edge| Self { axis: edge.axis, ..self })
     }
 
@@ -108,19 +112,15 @@ impl Fold {
         offsets().any(|offset| offset > REACH) && offsets().any(|offset| offset < -REACH)
     }
 
-    /// The whole of an outline of which half is drawn, and the fold about which all of the piece is mirrored; the outline may
-    /// be open where the fold is.
-    pub(super) fn unfold_outline(&self, outline: &Chain) -> Result<(Chain, Self), Refusal> {
+    /// The whole of an outline of which half is drawn; it may be open where the fold is.
+    pub(super) fn unfold_outline(&self, outline: &Chain) -> Result<Chain, Refusal> {
         if self.is_across(outline) {
             return Err(Refusal::Across);
         }
         let halves: Vec<Vec<Vertex>> =
             self.halves(outline).into_iter().filter(|half| half.len() >= LEAST_HALF).collect();
         match &halves[..] {
-            [half] if self.ends_on(half) == [true; 2] && self.is_parted_well(half) => {
-                let fold = self.along_edge_of(half);
-                Ok((fold.whole(half), fold))
-            }
+            [half] if self.ends_on(half) == [true; 2] && self.is_parted_well(half) => Ok(self.whole(half)),
             [] | [_] => Err(Refusal::Beside),
             [..] => Err(Refusal::Several),
         }
@@ -251,9 +251,9 @@ mod tests {
         ] {
             // However much of its edge the line is drawn along.
             let short = Fold::of(&line(&[[30.0, 0.0], [80.0, 0.0]], false).vertices).expect("it has a length");
-            let (unfolded, _) = short.unfold_outline(&drawn).expect("it has an edge on the fold");
+            let unfolded = short.unfold_outline(&drawn).expect("it has an edge on the fold");
             assert_eq!(places(&unfolded), whole);
-            let (unfolded, _) = fold().unfold_outline(&drawn).expect("it has an edge on the fold");
+            let unfolded = fold().unfold_outline(&drawn).expect("it has an edge on the fold");
             assert!(unfolded.is_closed);
             assert_eq!(places(&unfolded), whole);
         }
@@ -262,7 +262,10 @@ mod tests {
     #[test]
     fn a_half_is_mirrored_about_its_edge_where_the_fold_line_is_drawn_beside_it() {
         let drawn = [[0.0, 0.1], [100.0, -0.1], [100.0, 50.0], [0.0, 50.0]];
-        let (whole, about) = fold().unfold_outline(&line(&drawn, true)).expect("it has an edge along the fold");
+        let outline = line(&drawn, true);
+        let around: Vec<Vertex> = outline.round().collect();
+        let about = fold().about_longest(around.windows(2).map(|edge| [edge[0], edge[1]]));
+        let whole = about.unfold_outline(&outline).expect("it has an edge along the fold");
         let edge = Fold::of(&line(&drawn[..2], false).vertices).expect("it has a length");
         let lengths = |places: &[[f64; 2]]| {
             let points: Vec<Point> = places.iter().map(|&[x, y]| Point::new(x, y)).collect();
@@ -279,7 +282,7 @@ mod tests {
     fn a_slit_in_line_with_the_fold_is_cut_and_what_may_be_either_is_refused() {
         let drawn = line(&[[0.0, 0.0], [60.0, 0.0], [100.0, 0.0], [100.0, 50.0], [0.0, 50.0]], true);
         let fold = |from: f64, to: f64| Fold::of(&line(&[[from, 0.0], [to, 0.0]], false).vertices).expect("a length");
-        let unfolded = |from, to| fold(from, to).unfold_outline(&drawn).map(|(whole, _)| whole.vertices.len());
+        let unfolded = |from, to| fold(from, to).unfold_outline(&drawn).map(|whole| whole.vertices.len());
         assert_eq!([unfolded(0.0, 100.0), unfolded(0.0, 60.0)], [Ok(6), Ok(8)]);
         assert_eq!(unfolded(0.0, 40.0), Err(Refusal::Beside));
     }

@@ -9,7 +9,7 @@ use super::shape::Insert;
 use crate::geom::{Extent, Heading, Point, Vector};
 
 /// How much rounding turns or scales, as a part: of an angle that is written with four decimals.
-const AXIS_EPSILON: f64 = 1e-5;
+pub(super) const AXIS_EPSILON: f64 = 1e-5;
 
 /// How a piece is moved from where its block draws it.
 #[derive(Debug, Clone, Copy)]
@@ -73,6 +73,12 @@ impl Motion {
     pub(super) fn place(&self, at: Point) -> Point {
         // The negative of zero is another bit pattern than zero, though the same place.
         Point::from(self.x * at.x + self.y * at.y + self.offset).map(|value| value + 0.0)
+    }
+
+    /// Where a place of the cloth is as the piece is drawn; nothing is scaled.
+    pub(super) fn back(&self, at: Point) -> Point {
+        let way = at.coords - self.offset;
+        Point::new(self.x.dot(&way), self.y.dot(&way))
     }
 
     pub(super) fn heading(&self, heading: Heading) -> Heading {

@@ -18,6 +18,8 @@ pub(super) enum Does {
     Drill,
     /// Its lines are drawn on pieces, on both halves of one that is mirrored.
     Drawn,
+    /// The same; they are where parts are sewn together.
+    Seam,
     /// Its lines are drawn, once.
     Sign,
     /// Nothing: copies of other layers, points that say how others are graded.
@@ -89,6 +91,11 @@ impl Names {
     }
 }
 
+/// The layer of seam lines.
+const SEAM: u16 = 14;
+/// Its name as a pen.
+pub(super) const SEAMS: &str = "14";
+
 /// The layers of the convention.
 #[rustfmt::skip] // a table: one row a layer
 pub(super) const LAYERS: [Layer; 20] = [
@@ -102,7 +109,7 @@ pub(super) const LAYERS: [Layer; 20] = [
     Layer { number: 8, name: "internal line", about: "layer 8", does: Does::Drawn },
     Layer { number: 11, name: "cut-out", about: "layer 11", does: Does::Inner },
     Layer { number: 13, name: "drill hole", about: "layer 13", does: Does::Drill },
-    Layer { number: 14, name: "seam line", about: "layer 14", does: Does::Drawn },
+    Layer { number: SEAM, name: "seam line", about: "layer 14", does: Does::Seam },
     Layer { number: 15, name: "annotation", about: "layer 15", does: Does::Sign },
     Layer { number: 80, name: "T notch", about: "layer 80", does: Does::Notch(Form::T) },
     Layer { number: 81, name: "castle notch", about: "layer 81", does: Does::Notch(Form::Castle) },
@@ -123,20 +130,12 @@ pub(super) fn layer(number: Option<u16>) -> &'static Layer {
     LAYERS.iter().find(|layer| Some(layer.number) == number).unwrap_or(&OTHER)
 }
 
-/// The number of the layer of seam lines.
-const SEAM: u16 = 14;
-
 impl Layer {
-    /// Whether its lines are seams.
-    pub(super) fn is_seam(&self) -> bool {
-        self.number == SEAM
-    }
-
     /// Whether a piece is cut wrongly when something on it is not read.
     pub(super) fn is_cut(&self) -> bool {
         match self.does {
             Does::Outline | Does::Notch(_) | Does::Fold | Does::Inner | Does::Drill => true,
-            Does::Drawn | Does::Sign | Does::Nothing => false,
+            Does::Drawn | Does::Seam | Does::Sign | Does::Nothing => false,
         }
     }
 }

@@ -111,7 +111,7 @@ pub(super) fn drawing(set: &Set) -> Drawing {
     }
     set.apart.iter().for_each(|(layer, line)| draw(set.names.of(*layer), line, Motion::STILL));
     for entity in &set.unread {
-        let pen = drawing.pen(&entity.pen(), true);
+        let pen = drawing.pen(&entity.pen, true);
         drawing.unread.push(Unread { kind: entity.kind.clone(), pen, span: entity.span });
     }
     drawing

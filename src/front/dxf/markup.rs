@@ -7,6 +7,11 @@ const WITH_ARGUMENT: &[u8] = b"ACcFfHQpTW";
 /// Codes that switch a line over, through or under the letters.
 const SWITCHES: &[u8] = b"LlOoKk";
 
+/// Whether codes or braces are left in a part of a text: then nobody knows what its letters are.
+pub(super) fn has_codes(text: &[u8]) -> bool {
+    text.iter().any(|byte| b"{}\\".contains(byte))
+}
+
 /// Where the lines of a text are, without the codes before their first and the braces behind their last letters. A line
 /// ends at `\P`.
 pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> {
@@ -20,8 +25,8 @@ pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// How many bytes at the beginning of a line are no letters of it.
-fn codes_before(line: &[u8]) -> usize {
+/// How many bytes at the beginning of a line, or of a part of it, are blanks and codes.
+pub(super) fn codes_before(line: &[u8]) -> usize {
     let mut at = 0;
     loop {
         at += match line[at..] {

@@ -48,7 +48,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     extensions: &["dxf"],
     sniff,
     syntax: check_syntax,
-    read: Read::Patterns { cut: read, drawn: read_lines, seams: "14" },
+    read: Read::Patterns { cut: read, drawn: read_lines, seams: layer::SEAMS },
     words: words::WORDS,
 };
 

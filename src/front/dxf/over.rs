@@ -1,49 +1,55 @@
 //! Pieces that the file puts on others: no cloth has room for both.
 
+use super::chain::Chain;
 use super::lay::Laid;
+use super::piece::Piece;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::shape::Shape;
 use crate::geom::{Extent, Point, ring};
 use crate::source::Span;
 
-/// A piece where it lies: its outline, and the cut-outs in it.
-struct Cloth {
-    span: Span,
-    outline: Vec<Point>,
-    cut_outs: Vec<Vec<Point>>,
+/// A piece where it lies.
+struct Cloth<'p> {
+    laid: Laid<'p>,
+    extent: Extent,
+    /// A place in its cloth.
+    middle: Option<Point>,
 }
 
-impl Cloth {
-    fn of(Laid { piece, motion }: &Laid) -> Self {
-        let moved = |points: Vec<Point>| points.into_iter().map(|at| motion.place(at)).collect();
-        Self {
-            span: piece.span,
-            outline: moved(piece.plain.points()),
-            cut_outs: piece.inner.iter().map(|line| moved(line.points())).collect(),
-        }
-    }
+/// The lines that bound a piece.
+fn rings(piece: &Piece) -> Vec<Vec<Point>> {
+    std::iter::once(&piece.plain).chain(&piece.inner).map(Chain::points).collect()
+}
 
-    /// A place in its cloth, far from all edges.
-    fn middle(&self) -> Option<Point> {
-        let rings: Vec<&Vec<Point>> = std::iter::once(&self.outline).chain(&self.cut_outs).collect();
-        Shape::new(&rings).inner()
+impl<'p> Cloth<'p> {
+    fn of(laid: &Laid<'p>, work: &mut Budget) -> Option<Self> {
+        let outline = &laid.piece.plain;
+        if !work.spend(outline.vertices.len()) {
+            return None;
+        }
+        let mut extent = Extent::EMPTY;
+        outline.vertices.iter().for_each(|vertex| extent.add(laid.motion.place(vertex.at)));
+        let middle = Shape::new(&rings(laid.piece)).inner().map(|at| laid.motion.place(at));
+        Some(Self { laid: *laid, extent, middle })
     }
 
     fn has(&self, at: Point, work: &mut Budget) -> bool {
-        let rings = || std::iter::once(&self.outline).chain(&self.cut_outs);
-        let vertices = rings().map(Vec::len).sum();
-        work.spend(vertices) && rings().filter(|points| ring::contains(points, at)).count() == 1
+        let at = self.laid.motion.back(at);
+        let rings = rings(self.laid.piece);
+        let vertices = rings.iter().map(Vec::len).sum();
+        work.spend(vertices) && rings.iter().filter(|points| ring::contains(points, at)).count() == 1
     }
 }
 
-/// Those whose middle lies in the cloth of another, as far as there is work left to find out.
+/// Those a place of which, well inside, lies in the cloth of another, as far as there is work left to find out. Pieces whose
+/// edges overlap are told by the pass that looks for that in every marker.
 pub(super) fn on_others(laid: &[Laid], work: &mut Budget) -> Vec<Span> {
-    let all: Vec<Cloth> = laid.iter().map(Cloth::of).collect();
-    let boxes = Boxes::new(all.iter().map(|cloth| Extent::of(&cloth.outline)).collect());
+    let all: Vec<Cloth> = laid.iter().map_while(|laid| Cloth::of(laid, work)).collect();
+    let boxes = Boxes::new(all.iter().map(|cloth| cloth.extent).collect());
     let is_on_another = |(i, cloth): &(usize, &Cloth)| {
-        let Some(middle) = cloth.middle() else { return false };
+        let Some(middle) = cloth.middle else { return false };
         boxes.at(middle).any(|k| k != *i && all[k].has(middle, work))
     };
-    all.iter().enumerate().filter(is_on_another).map(|(_, cloth)| cloth.span).collect()
+    all.iter().enumerate().filter(is_on_another).map(|(_, cloth)| cloth.laid.piece.span).collect()
 }

@@ -1,6 +1,6 @@
 //! Pieces: the shapes of a block become what is cut of a piece and what is only drawn on it, both halves of it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::chain::{Chain, REACH, chains};
 use super::fold::{Fold, Refusal};
@@ -65,7 +65,8 @@ impl Making<'_> {
             self.see_stroke(line);
         }
         let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
-        let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).collect();
+        let of_edges = |fold: Fold| fold.about_longest(lines.iter().flat_map(Line::edges_of_outline));
+        let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).map(of_edges).collect();
         folded.dedup_by(|next, before| next.is_same(before));
         let is_folded = !folds.is_empty() || dots.iter().any(|dot| dot.layer.does == Does::Fold);
         let mut lines = joined(lines);
@@ -108,7 +109,7 @@ impl Making<'_> {
         let thing = match line.layer.does {
             Does::Notch(_) => Thing::StrokeOfNotch,
             Does::Drill => Thing::StrokeOfHole,
-            Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Sign | Does::Nothing => return,
+            Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Seam | Does::Sign | Does::Nothing => return,
         };
         self.tally.add(thing, line.vertices.first().map_or(Span::default(), |vertex| vertex.span));
     }
@@ -125,7 +126,7 @@ impl Making<'_> {
             (_, []) if is_folded => Some("the fold line (layer 6) has no length"),
             (_, []) => None,
             ([_], &[fold]) => match fold.unfold_outline(first) {
-                Ok((whole, fold)) => return vec![Some((whole, Some(fold)))],
+                Ok(whole) => return vec![Some((whole, Some(fold)))],
                 Err(Refusal::Across) => {
                     self.tally.add(Thing::FoldAcross, first.vertices[0].span);
                     None
@@ -179,6 +180,7 @@ impl Making<'_> {
     fn piece(&mut self, plain: Chain, fold: Option<Fold>, content: Content) -> Piece {
         let mut marks: Vec<Mark> = Vec::new();
         let mut drills: Vec<(Point, Span)> = Vec::new();
+        let mut holes = Holes::default();
         for dot in &content.dots {
             let mirrored = fold.filter(|fold| !fold.is_middle(dot.at));
             match dot.layer.does {
@@ -193,15 +195,14 @@ impl Making<'_> {
                 }
                 Does::Drill => {
                     // A hole may be drawn twice, as a circle and as its middle.
-                    let is_drilled =
-                        |drills: &[(Point, Span)]| drills.iter().any(|(at, _)| (at - dot.at).norm() <= REACH);
-                    if is_drilled(&drills) {
-                        continue;
+                    if holes.is_new(dot.at) {
+                        for at in [Some(dot.at), mirrored.map(|fold| fold.mirror(dot.at))].into_iter().flatten() {
+                            holes.add(at);
+                            drills.push((at, dot.span));
+                        }
                     }
-                    drills.push((dot.at, dot.span));
-                    drills.extend(mirrored.map(|fold| (fold.mirror(dot.at), dot.span)));
                 }
-                Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Sign | Does::Nothing => {}
+                Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Seam | Does::Sign | Does::Nothing => {}
             }
         }
         let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
@@ -213,7 +214,9 @@ impl Making<'_> {
         for (layer, line) in content.lines {
             match layer.does {
                 Does::Inner => inner.extend(on_both_sides(fold, &line)),
-                Does::Drawn => drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line))),
+                Does::Drawn | Does::Seam => {
+                    drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line)))
+                }
                 Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => {
                     drawn.push((layer, line));
                 }
@@ -226,7 +229,7 @@ impl Making<'_> {
                 self.tally.add(Thing::Outside, span);
             }
         }
-        let seams = drawn.iter().filter(|(layer, line): &&(Named, Chain)| layer.is_seam() && line.is_closed);
+        let seams = drawn.iter().filter(|(layer, line): &&(Named, Chain)| layer.does == Does::Seam && line.is_closed);
         for (_, seam) in seams.filter(|(_, seam)| around.is_in(seam)) {
             self.tally.add(Thing::SeamOutside, seam.vertices[0].span);
         }
@@ -246,22 +249,45 @@ fn on_both_sides(fold: Option<Fold>, line: &Chain) -> Vec<Chain> {
     fold.map_or_else(|| vec![line.clone()], |fold| fold.unfold(line))
 }
 
+/// Where holes are, by cells as wide as they lie apart that are two.
+#[derive(Debug, Default)]
+struct Holes(BTreeMap<[i64; 2], Vec<Point>>);
+
+impl Holes {
+    fn cell(at: Point) -> [i64; 2] {
+        [at.x, at.y].map(|value| (value / REACH).floor() as i64)
+    }
+
+    /// Whether no hole is there yet.
+    fn is_new(&self, at: Point) -> bool {
+        let [x, y] = Self::cell(at);
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        around.filter_map(|cell| self.0.get(&cell)).flatten().all(|hole| (hole - at).norm() > REACH)
+    }
+
+    fn add(&mut self, at: Point) {
+        self.0.entry(Self::cell(at)).or_default().push(at);
+    }
+}
+
 /// Lines with those of a layer joined that the convention lets be drawn in parts.
 fn joined(lines: Vec<Line>) -> Vec<(Named, Chain)> {
     let mut layers: Vec<(Named, Vec<Chain>)> = Vec::new();
+    let mut places: BTreeMap<u16, usize> = BTreeMap::new();
     for Line { layer, vertices, is_closed } in lines {
         let Some(chain) = Chain::of(vertices, is_closed) else { continue };
-        match layers.iter_mut().find(|(known, _)| known.place == layer.place) {
-            Some((_, chains)) => chains.push(chain),
-            None => layers.push((layer, vec![chain])),
-        }
+        let place = *places.entry(layer.place).or_insert_with(|| {
+            layers.push((layer, Vec::new()));
+            layers.len() - 1
+        });
+        layers[place].1.push(chain);
     }
     for (_, lines) in &mut layers {
         drop_doubled(lines);
     }
     let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
-            Does::Outline | Does::Inner | Does::Drawn => chains(lines),
+            Does::Outline | Does::Inner | Does::Drawn | Does::Seam => chains(lines),
             Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => lines,
         };
         lines.into_iter().map(move |line| (layer, line))

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::entity::{Block, NAME};
-use super::lay::{Drawn, Motion};
-use super::layer::layer;
+use super::lay::{AXIS_EPSILON, Drawn, Motion};
+use super::layer::Names;
 use super::shape::{Insert, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
@@ -18,14 +18,16 @@ pub(super) const MOST_PIECES: usize = 100_000;
 #[derive(Debug)]
 pub(super) struct Held {
     /// Whether it holds anything to cut, or a block that may.
-    is_cut: bool,
-    /// The layers of its lines that may be sewn.
-    sewn: BTreeSet<u16>,
+    pub(super) is_cut: bool,
+    /// The pens of what else is drawn in it.
+    drawn: BTreeSet<String>,
 }
 
 impl Held {
-    pub(super) fn of(shapes: &Shapes) -> Self {
-        Self { is_cut: shapes.is_cut(), sewn: shapes.sewn() }
+    pub(super) fn of(shapes: &Shapes, names: &Names) -> Self {
+        let lines = shapes.lines.iter().map(|line| names.of(line.layer).to_owned());
+        let unread = shapes.unread.iter().map(|unread| unread.pen.clone());
+        Self { is_cut: shapes.is_cut(), drawn: lines.chain(unread).collect() }
     }
 }
 
@@ -36,8 +38,8 @@ pub(super) struct Placing<'a> {
     names: BTreeMap<Vec<u8>, usize>,
     /// Base point and beginning of each block.
     blocks: Vec<(Point, Span)>,
-    /// Blocks whose name begins with `*`.
-    unnamed: BTreeSet<usize>,
+    /// Which blocks have a name of their own, or are put somewhere.
+    is_piece: Vec<bool>,
     /// What the attributes of its insertions say of each.
     attributes: Vec<Facts>,
     /// Those that stand in no block.
@@ -52,12 +54,12 @@ impl<'a> Placing<'a> {
             names.entry(block.head.bytes(NAME).to_ascii_uppercase()).or_insert(k);
         }
         let attributes = vec![Facts::default(); blocks.len()];
-        let is_unnamed = |k: &usize| blocks[*k].head.bytes(NAME).starts_with(b"*");
-        let unnamed = (0..blocks.len()).filter(is_unnamed).collect();
+        let is_piece = blocks.iter().map(|block| !block.head.bytes(NAME).starts_with(b"*")).collect();
         let blocks = bases.into_iter().zip(blocks).map(|(base, block)| (base, block.head.span())).collect();
-        let mut placing = Self { names, blocks, unnamed, attributes, inserts };
+        let mut placing = Self { names, blocks, is_piece, attributes, inserts };
         for i in 0..placing.inserts.len() {
             if let Some(k) = placing.block(&placing.inserts[i]) {
+                placing.is_piece[k] = true;
                 placing.attributes[k] = placing.attributes[k].and(placing.inserts[i].facts, source);
             }
         }
@@ -70,7 +72,7 @@ impl<'a> Placing<'a> {
 
     /// What is said of a block: by the attributes of its insertions, else by its own texts.
     pub(super) fn facts(&self, block: usize, own: Facts) -> Facts {
-        own.below(&self.attributes[block])
+        own.under_attributes(&self.attributes[block])
     }
 
     /// Tells blocks that insertions in a block put there, though they have something to cut; what else of them may be sewn is
@@ -81,9 +83,8 @@ impl<'a> Placing<'a> {
             match self.block(insert).map(|k| &held[k]) {
                 None => tally.add(Thing::NoBlock, insert.span),
                 Some(held) if held.is_cut => tally.add(Thing::Nested, insert.span),
-                Some(held) => unread.extend(held.sewn.iter().map(|&number| Unread {
-                    layer: layer(Some(number)),
-                    layer_name: number.to_string(),
+                Some(held) => unread.extend(held.drawn.iter().map(|pen| Unread {
+                    pen: pen.clone(),
                     kind: "INSERT".to_owned(),
                     span: insert.span,
                 })),
@@ -95,8 +96,7 @@ impl<'a> Placing<'a> {
     /// Whether a block is a piece. CAD systems have blocks without a name of their own, which begin with `*`: for dimensions,
     /// groups and sheets. Those are pieces where an insertion puts them.
     pub(super) fn is_piece(&self, block: usize) -> bool {
-        let is_inserted = || self.inserts.iter().any(|insert| self.block(insert) == Some(block));
-        !self.unnamed.contains(&block) || is_inserted()
+        self.is_piece[block]
     }
 
     /// Where the insertions put the pieces that blocks draw; `None` when all of them put them nowhere, at the origin.
@@ -110,10 +110,11 @@ impl<'a> Placing<'a> {
                 continue;
             };
             counts[k] += 1;
-            if insert.scale.iter().any(|scale| scale.abs() != 1.0) {
+            let (pieces, base) = (drawn[k].pieces.clone(), self.blocks[k].0);
+            let is_scaled = |scale: &f64| (scale.abs() - 1.0).abs() > AXIS_EPSILON;
+            if !pieces.is_empty() && insert.scale.iter().any(is_scaled) {
                 tally.add(Thing::Scaled, insert.span);
             }
-            let (pieces, base) = (drawn[k].pieces.clone(), self.blocks[k].0);
             let motion = Motion::of_insert(insert, base);
             is_placing |= !pieces.is_empty() && !motion.is_still();
             // Beyond so many the file is refused.

@@ -60,6 +60,10 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let Sections { blocks, entities, unit: of_header, hidden } = sections(source, &groups, out);
     let own: Vec<Facts> = blocks.iter().map(|block| Facts::of(&block.entities, source)).collect();
     let file = own.iter().fold(Facts::of(&entities, source), |facts, of_block| facts.and(*of_block, source));
+    if let Some(span) = file.unread {
+        let message = "a text that says a size, a quantity or the unit is not read: it is long, or has codes amid it";
+        out.push(Diagnostic::new(&code::DXF_TEXT, message).at(span).hint("write it as a TEXT of its own"));
+    }
     let asked = Asked { source, job, file };
     let unit = unit(&asked, of_header, out);
     let mut reader = Reader {
@@ -73,12 +77,16 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         hidden: None,
         out,
     };
-    let drawn: Vec<Shapes> = blocks.iter().map(|block| reader.shapes(&block.entities)).collect();
     let mut loose = reader.shapes(&entities);
     let bases: Vec<Point> = blocks.iter().map(|block| reader.base(&block.head)).collect();
-    let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
     let placing = Placing::of(source, &blocks, bases, std::mem::take(&mut loose.inserts));
-    let facts: Vec<Facts> = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own)).collect();
+    let drawn: Vec<Shapes> = (0..blocks.len()).map(|k| reader.block(&blocks[k], placing.is_piece(k))).collect();
+    let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
+    let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
+    let own = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own));
+    // What frames and legends say of sizes is of no piece.
+    let is_cut = |k: usize| held[k].is_cut && placing.is_piece(k);
+    let facts: Vec<Facts> = own.enumerate().map(|(k, own)| if is_cut(k) { own } else { Facts::default() }).collect();
     let chosen = Chosen::of(&asked, &facts, out);
     let mut making = Making {
         notch_depth: job.profile.dxf.notch_mm,
@@ -87,9 +95,11 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         apart: Vec::new(),
         out,
     };
-    let held: Vec<Held> = drawn.iter().map(Held::of).collect();
     let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), names, ..Set::default() };
     for ((k, mut shapes), (block, facts)) in drawn.into_iter().enumerate().zip(blocks.iter().zip(&facts)) {
+        if held[k].is_cut && !placing.is_piece(k) {
+            making.tally.add(Thing::Unnamed, block.head.span());
+        }
         if !chosen.has(facts) || !placing.is_piece(k) {
             set.add(Vec::new(), None);
             continue;
@@ -129,7 +139,7 @@ impl Set {
             let pieces = self.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
             self.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
         }
-        if self.placed.is_some() && !making.out.has_errors() {
+        if self.placed.is_some() && self.count() <= MOST_PIECES && !making.out.has_errors() {
             let on_others = over::on_others(&self.laid(), &mut making.work);
             for span in on_others {
                 making.tally.add(Thing::OnAnother, span);

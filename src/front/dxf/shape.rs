@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::curve::{Arc, bulged, height};
-use super::entity::{Entity, FLAGS, NAME, TEXT, number_at};
-use super::layer::{Does, Layer, Named, Names, OTHER, layer};
+use super::entity::{Block, Entity, FLAGS, NAME, TEXT, number_at};
+use super::layer::{Does, Layer, Named, Names, layer};
 use super::text::{Facts, is_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
@@ -61,6 +61,21 @@ pub(super) struct Line {
     pub(super) is_closed: bool,
 }
 
+impl Line {
+    /// The edges of it, if it is of an outline.
+    pub(super) fn edges_of_outline(&self) -> impl Iterator<Item = [Vertex; 2]> + '_ {
+        let count = self.vertices.len();
+        let edges = if self.layer.does != Does::Outline || count < 2 {
+            0
+        } else if self.is_closed {
+            count
+        } else {
+            count - 1
+        };
+        (0..edges).map(move |k| [self.vertices[k], self.vertices[(k + 1) % count]])
+    }
+}
+
 /// A point with what it says of a notch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dot {
@@ -88,18 +103,10 @@ pub(super) struct Insert<'a> {
 /// An entity of a kind that is not read, on a layer that is not cut.
 #[derive(Debug, Clone)]
 pub(super) struct Unread {
-    pub(super) layer: &'static Layer,
-    /// What the file calls the layer.
-    pub(super) layer_name: String,
+    /// The name of its layer, as [`Names`] has it.
+    pub(super) pen: String,
     pub(super) kind: String,
     pub(super) span: Span,
-}
-
-impl Unread {
-    /// The pen that it would be drawn with.
-    pub(super) fn pen(&self) -> String {
-        if self.layer.number == OTHER.number { self.layer_name.clone() } else { self.layer.number.to_string() }
-    }
 }
 
 /// Everything in a block.
@@ -110,19 +117,15 @@ pub(super) struct Shapes<'a> {
     pub(super) texts: Vec<Label>,
     pub(super) inserts: Vec<Insert<'a>>,
     pub(super) unread: Vec<Unread>,
+    /// Whether something that is cut could not be read, which was not said.
+    pub(super) is_faulty: bool,
 }
 
 impl Shapes<'_> {
     /// Whether it holds anything to cut, or a block that may.
     pub(super) fn is_cut(&self) -> bool {
         let lines = self.lines.iter().any(|line| line.layer.is_cut());
-        lines || !self.inserts.is_empty() || self.dots.iter().any(|dot| dot.layer.is_cut())
-    }
-
-    /// The layers of its lines that may be sewn.
-    pub(super) fn sewn(&self) -> BTreeSet<u16> {
-        let layers = self.lines.iter().map(|line| line.layer);
-        layers.filter(|layer| layer.does == Does::Drawn).map(|layer| layer.number).collect()
+        lines || self.is_faulty || !self.inserts.is_empty() || self.dots.iter().any(|dot| dot.layer.is_cut())
     }
 }
 
@@ -181,6 +184,19 @@ impl<'a> Reader<'a, '_> {
         shapes
     }
 
+    /// Reads a block. What is at fault in one that is no piece does not matter, unless a piece inserts it.
+    pub(super) fn block(&mut self, block: &Block<'a>, is_piece: bool) -> Shapes<'a> {
+        if is_piece {
+            return self.shapes(&block.entities);
+        }
+        let mut unsaid = Diagnostics::default();
+        std::mem::swap(self.out, &mut unsaid);
+        let mut shapes = self.shapes(&block.entities);
+        std::mem::swap(self.out, &mut unsaid);
+        shapes.is_faulty = unsaid.has_errors();
+        shapes
+    }
+
     fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
         let layer = self.names.layer(entity.layer(), || entity.layer_name());
         // Lines and points have their coordinates in space whichever side they are seen from (DXF reference, OCS).
@@ -200,9 +216,14 @@ impl<'a> Reader<'a, '_> {
         } else if entity.is("POINT") {
             let size = |code| match layer.does {
                 Does::Notch(_) => self.size(entity, code),
-                Does::Outline | Does::Fold | Does::Inner | Does::Drill | Does::Drawn | Does::Sign | Does::Nothing => {
-                    Ok(0.0)
-                }
+                Does::Outline
+                | Does::Fold
+                | Does::Inner
+                | Does::Drill
+                | Does::Drawn
+                | Does::Seam
+                | Does::Sign
+                | Does::Nothing => Ok(0.0),
             };
             let heading = entity.number(ANGLE)?.map(|degrees| Heading::new(rad(degrees)));
             let (depth, width, span) = (size(DEPTH)?, size(WIDTH)?, entity.span());
@@ -214,7 +235,7 @@ impl<'a> Reader<'a, '_> {
             let text = entity.value(TEXT).filter(|span| span.start < span.end);
             shapes.texts.extend(text.map(|span| Label { at, heading, span, mirrored: None }));
         } else if !entity.is("SEQEND") {
-            shapes.unread.push(unread(entity)?);
+            shapes.unread.push(self.unread(entity)?);
         }
         Ok(())
     }
@@ -248,7 +269,7 @@ impl<'a> Reader<'a, '_> {
             flat(entity)?;
         }
         if flags & MESHES != 0 {
-            shapes.unread.push(unread(entity)?);
+            shapes.unread.push(self.unread(entity)?);
             return Ok(());
         }
         let mut places = Vec::with_capacity(vertices.len());
@@ -355,6 +376,18 @@ impl<'a> Reader<'a, '_> {
         Ok(count)
     }
 
+    /// An entity of a kind that is not read: an error where a cut would be missing.
+    fn unread(&mut self, entity: &Entity) -> Result<Unread, Diagnostic> {
+        let layer = self.names.layer(entity.layer(), || entity.layer_name());
+        let kind = entity.kind().escape_ascii().to_string();
+        if layer.is_cut() {
+            let message = format!("{kind} on layer {}, which is cut, is not read", entity.layer_name());
+            let finding = Diagnostic::new(&code::DXF_UNREAD_CUT, message).at(entity.span());
+            return Err(finding.hint("export polylines: read are polylines, lines, arcs, circles, points and texts"));
+        }
+        Ok(Unread { pen: self.names.of(layer).to_owned(), kind, span: entity.span() })
+    }
+
     /// The place of two codes, mm.
     pub(super) fn place(&self, entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
         self.on_table([entity.coordinate(x)?, entity.coordinate(y)?], entity.value(x).unwrap_or(entity.span()))
@@ -388,18 +421,6 @@ impl<'a> Reader<'a, '_> {
         }
         Ok(Point::new(x, y))
     }
-}
-
-/// An entity of a kind that is not read: an error where a cut would be missing.
-fn unread(entity: &Entity) -> Result<Unread, Diagnostic> {
-    let (layer, layer_name) = (layer(entity.layer()), entity.layer_name());
-    let kind = entity.kind().escape_ascii().to_string();
-    if layer.is_cut() {
-        let message = format!("{kind} on layer {layer_name}, which is cut, is not read");
-        let finding = Diagnostic::new(&code::DXF_UNREAD_CUT, message).at(entity.span());
-        return Err(finding.hint("export polylines: read are polylines, lines, arcs, circles, points and texts"));
-    }
-    Ok(Unread { layer, layer_name, kind, span: entity.span() })
 }
 
 /// Refuses what is drawn on another plane than the cloth: seen from above it is mirrored or slanted.

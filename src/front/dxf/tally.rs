@@ -31,6 +31,8 @@ pub(super) enum Thing {
     Scaled,
     /// A block is put nowhere, while others are.
     NotPlaced,
+    /// A block without a name of its own has something to cut, and no insertion puts it anywhere.
+    Unnamed,
     /// A piece is put where another one is.
     OnAnother,
     /// An outline takes most of another one, in which it lies.
@@ -88,6 +90,7 @@ fn row(thing: Thing) -> Row {
         Thing::Nested => Row { code: &code::DXF_NESTED, one: "an INSERT in a block puts another block there that is cut", many: "INSERTs in blocks put other blocks there that are cut", hint: "explode it in the CAD system, so that each piece is drawn in one block" },
         Thing::Scaled => Row { code: &code::DXF_SCALE, one: "an INSERT scales a piece", many: "INSERTs scale pieces", hint: "pieces are cut in the size in which their blocks are drawn; `dxf.unit` says another unit" },
         Thing::NotPlaced => Row { code: &code::DXF_NOT_PLACED, one: "a piece is placed by no INSERT while others are, and is not cut", many: "pieces are placed by no INSERT while others are, and are not cut", hint: "count the pieces with `cutc info`" },
+        Thing::Unnamed => Row { code: &code::DXF_NOT_PLACED, one: "a block whose name begins with `*` draws on layers that are cut, no INSERT places it, and it is not cut", many: "blocks whose names begin with `*` draw on layers that are cut, no INSERT places them, and they are not cut", hint: "CAD systems have such blocks for dimensions and groups; count the pieces with `cutc info`" },
         Thing::OnAnother => Row { code: &code::DXF_ON_ANOTHER, one: "an INSERT puts this piece on another one", many: "pieces are put on others by INSERTs", hint: "patterns have their INSERTs at the origin, or none; a marker has a place for each" },
         Thing::LargeCutOut => Row { code: &code::DXF_LARGE_CUT_OUT, one: "an outline lies in another one and takes more than half of it; it is cut as a cut-out", many: "outlines lie in others and take more than half of them; they are cut as cut-outs", hint: "see in the picture (-t svg) whether the same outline is drawn twice, or its seam line with it" },
         Thing::SeamOutside => Row { code: &code::DXF_SEAM_OUTSIDE, one: "a seam line (layer 14) goes round its outline (layer 1)", many: "seam lines (layer 14) go round their outlines (layer 1)", hint: "the layers may be exchanged: compare the extent with the piece with its seam allowance" },

@@ -6,6 +6,11 @@ use super::entity::{Entity, NAME, TEXT};
 use super::markup;
 use crate::source::{Source, Span};
 
+/// Code of all parts but the last of a text of more than 250 bytes.
+const PART: i32 = 3;
+/// What a text says facts by.
+const FACTS: [&str; 3] = ["SIZE", "UNIT", "QUANTITY"];
+
 /// What the texts of a block, or of the file, say.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Facts {
@@ -17,6 +22,8 @@ pub(super) struct Facts {
     pub(super) units: Said,
     /// How often a piece is cut: as it is drawn, and mirrored.
     pub(super) quantity: Said,
+    /// A text that says one of these and is in so many parts, or with such codes amid it, that it is not read.
+    pub(super) unread: Option<Span>,
 }
 
 /// What texts say under one key.
@@ -29,7 +36,7 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// This, and one more.
+    /// What is said here, with what the next text says under the same key.
     fn and(self, next: Option<Span>, source: &Source) -> Self {
         let (Some(first), Some(next)) = (self.first, next) else {
             return Self { first: self.first.or(next), ..self };
@@ -38,7 +45,7 @@ impl Said {
         Self { other: self.other.or(if is_same { None } else { Some(next) }), ..self }
     }
 
-    /// This, and all of those.
+    /// What is said in two places, the first before the second.
     fn and_all(self, those: Self, source: &Source) -> Self {
         self.and(those.first, source).and(those.other, source)
     }
@@ -54,6 +61,7 @@ impl Facts {
     pub(super) fn of<'a>(entities: impl IntoIterator<Item = &'a Entity<'a>>, source: &Source) -> Self {
         let mut facts = Self::default();
         for entity in entities.into_iter().filter(|entity| is_text(entity)) {
+            facts.unread = facts.unread.or(long(entity, source));
             for (key, value) in said(entity, source) {
                 let fact = match key.as_str() {
                     "SIZE" => &mut facts.size,
@@ -62,28 +70,43 @@ impl Facts {
                     "QUANTITY" => &mut facts.quantity,
                     _ => continue,
                 };
+                if entity.is("MTEXT") && markup::has_codes(source.slice(value)) {
+                    facts.unread = facts.unread.or(Some(value));
+                }
                 *fact = fact.and(Some(value), source);
             }
         }
         facts
     }
 
-    /// These and those.
+    /// What is said in two places, the first before the second.
     pub(super) fn and(self, those: Self, source: &Source) -> Self {
         Self {
             size: self.size.and_all(those.size, source),
             sample_size: self.sample_size.and_all(those.sample_size, source),
             units: self.units.and_all(those.units, source),
             quantity: self.quantity.and_all(those.quantity, source),
+            unread: self.unread.or(those.unread),
         }
     }
 
-    /// These of a block, and before them what the attributes of its insertion say.
-    pub(super) fn below(self, attributes: &Self) -> Self {
+    /// What the attributes of insertions say of a block, and where they say nothing its own texts.
+    pub(super) fn under_attributes(self, attributes: &Self) -> Self {
         let before = |told: Said, own: Said| if told.first.is_some() { told } else { own };
         let (size, quantity) = (before(attributes.size, self.size), before(attributes.quantity, self.quantity));
         Self { size, quantity, ..self }
     }
+}
+
+/// The beginning of a text of several parts, as DXF has those of more than 250 bytes, that may say a fact.
+fn long(entity: &Entity, source: &Source) -> Option<Span> {
+    let parts = || entity.groups().iter().filter(|group| group.code == PART || group.code == TEXT);
+    let says = |part: &[u8]| {
+        let part = part.to_ascii_uppercase();
+        FACTS.iter().any(|fact| memchr::memmem::find(&part, fact.as_bytes()).is_some())
+    };
+    let is_long = entity.is("MTEXT") && entity.value(PART).is_some();
+    entity.value(PART).filter(|_| is_long && parts().any(|part| says(source.slice(part.value))))
 }
 
 /// What the lines of a text say: keys in capitals with one blank between their words, and where their values are; of an
@@ -102,7 +125,9 @@ fn said(entity: &Entity, source: &Source) -> Vec<(String, Span)> {
             let tag = entity.bytes(NAME);
             return (!entity.is("TEXT") && !tag.is_empty()).then(|| (key(tag), line));
         };
-        let blanks = text[colon + 1..].len() - text[colon + 1..].trim_ascii_start().len();
+        let value = &text[colon + 1..];
+        let blanks =
+            if entity.is("MTEXT") { markup::codes_before(value) } else { value.len() - value.trim_ascii_start().len() };
         Some((key(&text[..colon]), Span { start: line.start + (colon + 1 + blanks) as u32, ..line }))
     };
     lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).collect()

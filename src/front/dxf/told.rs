@@ -12,7 +12,7 @@ pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     for entity in unread {
         let (of_kind, layers) = kinds.entry(&entity.kind).or_default();
         of_kind.push(entity);
-        layers.insert(&entity.layer_name);
+        layers.insert(&entity.pen);
     }
     for (kind, (of_kind, layers)) in kinds {
         let word = if layers.len() == 1 { "layer" } else { "layers" };

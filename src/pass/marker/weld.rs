@@ -17,9 +17,15 @@ use crate::source::Span;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "weld", about: "drops equal points and joins what the file interrupts", run };
 
-fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
-    let mut dropped =
-        Dropped { longest: if marker.unit > 0.0 { LENGTH_EPSILON } else { OFF_GRID_EPSILON }, ..Dropped::default() };
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    let mut dropped = Dropped {
+        longest: if marker.unit > 0.0 {
+            LENGTH_EPSILON
+        } else {
+            OFF_GRID.min(OFF_GRID_PART * job.profile.tolerance(0.0))
+        },
+        ..Dropped::default()
+    };
     for piece in &mut marker.pieces {
         let number = piece.number;
         piece.contours.retain_mut(|contour| {
@@ -40,9 +46,11 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
 
 /// Longest segment without length, mm: rounding of places that were computed, as of the ends of arcs.
 const LENGTH_EPSILON: f64 = 1e-6;
-/// The same where numbers are on no grid, mm. Such files are written with two or three decimals; programs that offset, join
-/// or mirror outlines leave points there that go a few micrometres on or back, each of which would be a corner.
-const OFF_GRID_EPSILON: f64 = 0.01;
+/// How near to each other points are one where numbers are on no grid, mm, and as a part of the tolerance at the most. Such
+/// files are written with two or three decimals; programs that offset, join or mirror outlines leave points there that go
+/// a few micrometres on or back, each of which would be a corner.
+const OFF_GRID: f64 = 0.01;
+const OFF_GRID_PART: f64 = 0.25;
 
 /// Segments without length that were taken out.
 #[derive(Default)]

@@ -12,7 +12,7 @@ use crate::ir::drawing::Vertex;
 use crate::ir::marker::{Contour, OutlineNotch};
 use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
-use crate::pass::marker::{DRAWN_PASSES, MARKER_PASSES};
+use crate::pass::marker::MARKER_PASSES;
 use crate::recognise;
 use crate::sew::asked::Asked;
 use crate::sew::pattern::{Pattern, Seam};
@@ -125,11 +125,18 @@ impl Reader<'_> {
     }
 }
 
+/// Passes that find the notches of a marker.
+const OF_NOTCHES: [&str; 4] = ["weld", "spike", "slit", "notch"];
+
 /// The contours of a marker. Notches are for the knife: slits are not sewn, and seams run straight over the mouths of others.
+/// A list of points, which lies on no grid and has no patterns, has lines alone.
 fn contours(mut marker: Marker, job: &Job) -> Vec<Line> {
-    // What is said of cuts does not matter here.
-    let mut unsaid = Diagnostics::default();
-    MARKER_PASSES[..DRAWN_PASSES].iter().for_each(|pass| (pass.run)(&mut marker, job, &mut unsaid));
+    if marker.unit > 0.0 || marker.drawing.is_some() {
+        // What is said of cuts does not matter here.
+        let mut unsaid = Diagnostics::default();
+        let passes = MARKER_PASSES.iter().filter(|pass| OF_NOTCHES.contains(&pass.name));
+        passes.for_each(|pass| (pass.run)(&mut marker, job, &mut unsaid));
+    }
     let line = |(i, contour): (usize, &Contour)| {
         let piece = &marker.pieces[i];
         let points = marker.points(contour);

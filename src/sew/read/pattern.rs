@@ -94,8 +94,8 @@ fn point(text: &str, separator: char) -> Result<(Point, &str), String> {
     let mut fields = text.splitn(3, separator);
     let mut number = || {
         let field = fields.next().unwrap_or_default().trim();
-        // Where a semicolon parts the fields, a comma is decimal.
-        let decimal = if separator == ';' { field.replace(',', ".") } else { field.to_owned() };
+        // Where a comma parts no fields it is decimal.
+        let decimal = if separator != ',' { field.replace(',', ".") } else { field.to_owned() };
         match decimal.parse::<f64>() {
             Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0),
             Ok(_) | Err(_) => Err(format!("`{field}` is no coordinate in mm")),

@@ -1,7 +1,7 @@
 //! Where what blocks cut lies on the cloth: in a row, or where insertions put it. The keys of the profile and the options of
 //! the job alone say so.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::cuts::{Cuts, MEETS, Mark, Measure, Place, Round};
 use super::tags::{Item, Sheet, sheets};
@@ -13,8 +13,9 @@ use crate::units::MM_PER_INCH;
 /// Places of a curve that are looked at to find its box.
 const SAMPLES: usize = 720;
 
-/// Numbers of units in the header, and their lengths, mm: inch, mm, cm, m.
-const UNITS: [(f64, f64); 4] = [(1.0, MM_PER_INCH), (4.0, 1.0), (5.0, 10.0), (6.0, 1000.0)];
+/// Numbers of units in the header, and their lengths, mm: inch, foot, mm, cm, m, yard, dm.
+const UNITS: [(f64, f64); 7] =
+    [(1.0, MM_PER_INCH), (2.0, 304.8), (4.0, 1.0), (5.0, 10.0), (6.0, 1000.0), (10.0, 914.4), (14.0, 100.0)];
 
 /// Below this an insertion neither turns nor scales: rounding of an angle in degrees, rad.
 const TURNS: f64 = 1e-5;
@@ -147,26 +148,22 @@ impl<'a> Sheets<'a> {
             let text = if text.contains('\u{fffd}') { format!("{bytes:x?}") } else { text };
             text.trim().to_uppercase()
         };
-        let sizes: Vec<Option<String>> = self.of_each("SIZE").into_iter().map(|size| size.map(name)).collect();
-        let of_file = self.says("SAMPLE SIZE").map(name).filter(|sample| sizes.contains(&Some(sample.clone())));
-        let inserts = || self.loose.items.iter().filter(|item| item.kind == b"INSERT");
-        let is_wanted = |(block, size): (&Sheet, &Option<String>)| {
-            // Blocks without a name of their own are parts of the drawing, unless the drawing itself puts them somewhere.
-            let is_put = || inserts().any(|insert| insert.text(2).eq_ignore_ascii_case(&block.name));
-            if block.name.starts_with(b"*") && !is_put() {
-                return false;
-            }
-            let Some(size) = size else { return true };
-            match &job.patterns.sizes {
-                Some(Sizes::All) => true,
-                Some(Sizes::Named(names)) => names.iter().any(|name| name.trim().to_uppercase() == *size),
-                None => {
-                    let own = || block.says("SAMPLE SIZE").map(name);
-                    of_file.as_ref().is_none_or(|sample| own().as_ref().unwrap_or(sample) == size)
-                }
-            }
+        // Blocks without a name of their own are parts of the drawing, unless the drawing itself puts them somewhere.
+        let put: BTreeSet<usize> =
+            self.loose.items.iter().filter(|item| item.kind == b"INSERT").filter_map(|item| self.block(item)).collect();
+        let is_piece =
+            |k: usize| self.blocks[k].asks_for_cuts() && (!self.blocks[k].name.starts_with(b"*") || put.contains(&k));
+        let told = self.of_each("SIZE").into_iter().enumerate();
+        let sizes: Vec<Option<String>> = told.map(|(k, size)| size.filter(|_| is_piece(k)).map(name)).collect();
+        let all: BTreeSet<&String> = sizes.iter().flatten().collect();
+        let sample = self.says("SAMPLE SIZE").map(name).filter(|sample| all.contains(sample));
+        let is_wanted = |size: &String| match &job.patterns.sizes {
+            Some(Sizes::All) => true,
+            Some(Sizes::Named(names)) => names.iter().any(|name| name.trim().to_uppercase() == *size),
+            None => all.len() < 2 || sample.as_ref().is_none_or(|sample| sample == size),
         };
-        self.blocks.iter().zip(&sizes).map(is_wanted).collect()
+        let is_cut = |(k, size): (usize, &Option<String>)| is_piece(k) && size.as_ref().is_none_or(is_wanted);
+        sizes.iter().enumerate().map(is_cut).collect()
     }
 
     /// What blocks cut where insertions put them, and what stands in none where it is drawn; `None` when they put nothing
@@ -242,6 +239,7 @@ impl Cuts {
         // Insertions may scale; patterns are scaled alike in both directions.
         let scale = right.norm().max(up.norm());
         self.places.extend(cuts.places.iter().map(|place| Place { at: moved(place.at, to), ..*place }));
+        self.spare.extend(cuts.spare.iter().map(|at| moved(*at, to)));
         self.rounds.extend(cuts.rounds.iter().map(|round| round.moved(to, scale)));
         self.faults += cuts.faults;
         self.length += cuts.length * scale;

@@ -151,7 +151,7 @@ impl Both<'_> {
                 wrong.see(place.at, 0);
             }
         }
-        let of_file = Lookup::of(cuts.places.iter().map(|place| place.at), *reach);
+        let of_file = Lookup::of(cuts.places.iter().map(|place| place.at).chain(cuts.spare.iter().copied()), *reach);
         let rounds = Boxes::new(cuts.rounds.iter().map(|round| round.extent().grown(*reach)).collect());
         let is_on = |at: Point, round: &Round| ((at - round.centre).norm() - round.radius).abs() <= *reach;
         for &(at, block) in drawn().filter(|place| notched.binary_search(&place.1).is_err()) {

@@ -20,6 +20,8 @@ const ROUND_EPSILON: f64 = 1e-8;
 pub(super) struct Cuts {
     /// Places that the knife comes to.
     pub(super) places: Vec<Place>,
+    /// Places that it may come to in their stead: ends of lines on a fold, where ends that meet are one.
+    pub(super) spare: Vec<Point>,
     /// Circles along which it may come to more.
     pub(super) rounds: Vec<Round>,
     /// Way of the knife, and what chords of curves and gaps may change of it.
@@ -138,22 +140,18 @@ impl Fold {
         offs().any(|off| off > MEETS) != offs().any(|off| off < -MEETS)
     }
 
-    /// The fold of a half: where its outline is as long on the line as that is, the cloth is folded along the outline.
+    /// The fold of a half: where an edge of its outline is as long on the line as that is, the cloth is folded along the longest.
     fn of_half(self, outlines: &[Path]) -> Self {
-        let mut on: Vec<Point> = Vec::new();
-        for path in outlines {
-            let edges = path.curves.iter().enumerate().map(|(k, curve)| (path.edge(k), *curve));
-            on.extend(edges.filter(|(ends, curve)| self.has_edge(*ends, *curve)).flat_map(|(ends, _)| ends));
-            let ends = [path.points.first(), path.points.last()].into_iter().flatten().copied();
-            on.extend(ends.filter(|at| !path.is_closed && self.drawn.off(*at).abs() <= MEETS));
-        }
-        on.sort_by(|a, b| self.drawn.station(*a).total_cmp(&self.drawn.station(*b)));
-        match on[..] {
-            [first, .., last] if (last - first).norm() >= self.length - 2.0 * MEETS => {
-                Self { about: Axis::between(first, last), ..self }
+        let edges = outlines.iter().flat_map(|path| (0..path.curves.len()).map(|k| (path.edge(k), path.curves[k])));
+        let mut longest = self.length - 2.0 * MEETS;
+        let mut fold = self;
+        for (ends, _) in edges.filter(|(ends, curve)| self.has_edge(*ends, *curve)) {
+            let length = (ends[1] - ends[0]).norm();
+            if length > longest || (length >= longest && fold.about.from == self.about.from) {
+                (longest, fold.about) = (length, Axis::between(ends[0], ends[1]));
             }
-            _ => self,
         }
+        fold
     }
 }
 
@@ -178,13 +176,14 @@ impl Cuts {
         for paths in clusters(paths(11)) {
             cuts.add(&paths, fold.filter(|fold| fold.halves(&paths)), measure.sagitta);
         }
+        let mut holes: Vec<[Option<Point>; 2]> = Vec::new();
         for item in &sheet.items {
             let Some(at) = item.pair([10, 20]).map(|[x, y]| Point::new(x * measure.unit, y * measure.unit)) else {
                 continue;
             };
             let also = fold.filter(|fold| fold.off(at).abs() > MEETS).map(|fold| fold.across(at));
             match (&item.kind[..], item.layer()) {
-                (b"POINT" | b"CIRCLE", Some(13)) => cuts.drill([Some(at), also]),
+                (b"POINT" | b"CIRCLE", Some(13)) => holes.push([Some(at), also]),
                 (b"POINT", Some(layer @ (4 | 80..=83))) => {
                     let size = |code| item.number(code).unwrap_or(0.0).abs() * measure.unit;
                     let depth = if size(30) > 0.0 { size(30) } else { measure.notch };
@@ -194,20 +193,26 @@ impl Cuts {
                     cuts.marks.extend(also.map(|at| Mark { at, ..mark }));
                 }
                 (b"ARC", Some(13)) if round_path(item, Some(at), measure).is_some_and(|path| path.is_closed) => {
-                    cuts.drill([Some(at), also]);
+                    holes.push([Some(at), also]);
                 }
                 _ => {}
             }
         }
+        cuts.drill(&holes);
         cuts
     }
 
-    /// Adds a hole and its mirror image, unless one is there already.
-    fn drill(&mut self, both: [Option<Point>; 2]) {
-        if let [Some(at), _] = both
-            && self.holes.iter().all(|hole| (hole - at).norm() > MEETS)
-        {
-            self.holes.extend(both.into_iter().flatten());
+    /// Adds holes with their mirror images, but for those where one is already.
+    fn drill(&mut self, asked: &[[Option<Point>; 2]]) {
+        let all: Vec<(usize, Point)> =
+            asked.iter().enumerate().flat_map(|(k, both)| both.iter().flatten().map(move |at| (k, *at))).collect();
+        let lookup = Lookup::of(all.iter().map(|hole| hole.1), MEETS);
+        let mut is_made = vec![false; asked.len()];
+        for (k, both) in asked.iter().enumerate() {
+            let Some(at) = both[0] else { continue };
+            let is_there = lookup.near(at).any(|i| all[i].0 < k && is_made[all[i].0]);
+            is_made[k] = !is_there;
+            self.holes.extend(both.iter().flatten().filter(|_| !is_there));
         }
     }
 
@@ -233,8 +238,12 @@ impl Cuts {
                 }
                 self.length += times * way;
             }
-            for (k, &at) in path.points.iter().enumerate().filter(|(k, _)| is_met[*k]) {
+            for (k, &at) in path.points.iter().enumerate() {
                 let is_end = !path.is_closed && (k == 0 || k + 1 == count);
+                if !is_met[k] {
+                    self.spare.extend(is_end.then_some(at));
+                    continue;
+                }
                 self.places.push(Place { at, is_end });
                 let Some(fold) = fold else { continue };
                 if fold.off(at).abs() > MEETS {

@@ -112,22 +112,33 @@ impl<'a> Item<'a> {
     }
 }
 
-/// What stands behind a key and its colon in a text whose lines end at `\P`, and in which codes up to a `;` and braces say
+/// What stands behind a key and its colon in a text whose lines end at `\P`, and in which codes with a backslash and braces say
 /// how letters look.
 fn behind(mut text: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<&[u8]> {
     while !text.is_empty() {
         let end = text.windows(2).position(|pair| pair == b"\\P").unwrap_or(text.len());
         let line = &text[..end];
         if let Some(colon) = line.iter().position(|&byte| byte == b':') {
-            let name = line[..colon].rsplit(|byte| b"{;".contains(byte)).next().unwrap_or_default();
-            let value = line[colon + 1..].split(|&byte| byte == b'}').next().unwrap_or_default().trim_ascii();
-            if is_key(name) && !value.is_empty() {
+            let value = bare(&line[colon + 1..]).split(|&byte| byte == b'}').next().unwrap_or_default().trim_ascii();
+            if is_key(bare(&line[..colon])) && !value.is_empty() {
                 return Some(value);
             }
         }
         text = text.get(end + 2..).unwrap_or_default();
     }
     None
+}
+
+/// A text behind the codes with which it begins: `{`, one letter for lines beside the letters, or more up to a `;`.
+fn bare(text: &[u8]) -> &[u8] {
+    let text = text.trim_ascii_start();
+    match text {
+        [b'{', rest @ ..] | [b'\\', b'L' | b'l' | b'O' | b'o' | b'K' | b'k', rest @ ..] => bare(rest),
+        [b'\\', b'A' | b'C' | b'c' | b'F' | b'f' | b'H' | b'Q' | b'p' | b'T' | b'W', rest @ ..] => {
+            rest.iter().position(|&byte| byte == b';').map_or(text, |end| bare(&rest[end + 1..]))
+        }
+        _ => text,
+    }
 }
 
 fn number(text: &[u8]) -> Option<f64> {
@@ -137,7 +148,8 @@ fn number(text: &[u8]) -> Option<f64> {
 impl Sheet<'_> {
     /// Whether anything in it asks for cuts, or may.
     pub(super) fn asks_for_cuts(&self) -> bool {
-        self.items.iter().any(|item| item.is_of_cuts() || item.kind == b"INSERT")
+        let is_part = |item: &Item| item.kind == b"VERTEX" || item.kind == b"SEQEND";
+        self.items.iter().any(|item| item.is_of_cuts() && !is_part(item) || item.kind == b"INSERT")
     }
 
     /// What its texts say under a key, the first of them.
@@ -165,7 +177,13 @@ pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>, Option<f64>) {
     let is_part =
         |item: &Item| [&b"VERTEX"[..], b"SEQEND", b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK"].contains(&&item.kind[..]);
     let is_drawn = |item: &Item| item.number(67) != Some(1.0) || item.is_text() || is_part(item);
-    for item in items.into_iter().filter(is_drawn) {
+    // The attributes of an insertion stand behind it, and are where that is.
+    let mut is_on_paper = false;
+    for item in items {
+        is_on_paper = if item.kind == b"ATTRIB" { is_on_paper } else { !is_drawn(&item) };
+        if is_on_paper {
+            continue;
+        }
         match &item.kind[..] {
             b"SECTION" => {
                 section = item.text(2).to_ascii_uppercase();
