@@ -87,7 +87,8 @@ fn draw(panel: &Panel, times: &[f64], top: f64, out: &mut dyn Write) -> io::Resu
     let [start, end] = [times[0], times[times.len() - 1]];
     let all = || panel.lines.iter().flat_map(|(_, values)| values.iter().copied());
     let [least, most] = all().fold([0.0_f64; 2], |[least, most], value| [least.min(value), most.max(value)]);
-    let margin = (0.05 * (most - least)).max(f64::MIN_POSITIVE);
+    // A line that is 0 throughout has a unit about it.
+    let margin = if most > least { 0.05 * (most - least) } else { 1.0 };
     let (least, most) = (least - margin, most + margin);
     let px = |time: f64| LEFT + (time - start) / (end - start).max(f64::MIN_POSITIVE) * (WIDTH - LEFT - RIGHT);
     let py = |value: f64| top + (most - value) / (most - least) * PANEL;

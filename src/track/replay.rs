@@ -76,13 +76,20 @@ pub(super) fn carriage(replay: &Replay, track: &Tracking, out: &mut Diagnostics)
     let hint = "log its encoder as a column `carriage_mm`: the centre line is only as true as that";
     out.push(Diagnostic::new(&code::TRACK_CARRIAGE, message).hint(hint));
     let mut drive = Drive::new(track);
-    replay
-        .commands
-        .iter()
-        .map(|command| {
-            let place = drive.place;
-            drive.follow(command.velocity);
-            place
-        })
-        .collect()
+    let befores = std::iter::once(None).chain(replay.rows.iter().map(Some));
+    let samples = replay.rows.iter().zip(&replay.commands).zip(befores);
+    let place = |((row, command), before): ((&Row, &Command), Option<&Row>)| {
+        // Where samples are missing nothing commands the drive.
+        if let Some(before) = before.filter(|before| is_gap(before, row, track)) {
+            let missing = ((row.time - before.time) / track.period()).round().clamp(1.0, STOPPED) as u32 - 1;
+            (0..missing).for_each(|_| drive.follow(0.0));
+        }
+        let place = drive.place;
+        drive.follow(command.velocity);
+        place
+    };
+    samples.map(place).collect()
 }
+
+/// Periods after which a drive that nothing commands stands.
+const STOPPED: f64 = 100_000.0;

@@ -201,3 +201,19 @@ fn a_controller_decides_as_the_paper_has_it() {
     assert_eq!([said(37, 38), said(38, 38)].map(|said| said.0), [Status::Driving, Status::Width]);
     assert_eq!([said(27, 26), said(26, 26)].map(|said| said.0), [Status::Driving, Status::Width]);
 }
+
+#[test]
+fn cloth_that_moved_while_its_edge_was_lost_upstream_is_no_motion_when_it_is_seen_again() {
+    let track = Tracking { upstream_mm: Some(400.0), ..Tracking::default() };
+    let (law, mut controller) = (law(&track), Controller::new());
+    let mut step = |upstream: [u16; 2]| {
+        controller.step(&law, Reading { left: 32, right: 32, upstream: Some(upstream) }).velocity.abs()
+    };
+    let settled = (0..400).map(|_| step([32, 32])).fold(0.0, f64::max);
+    // Nothing is seen for a second, in which the cloth moves by 5 mm.
+    let lost = (0..100).map(|_| step([0, 32])).fold(0.0, f64::max);
+    let found = (0..400).map(|_| step([27, 37])).fold(0.0, f64::max);
+    assert_eq!([settled, lost, found], [0.0; 3]);
+    // The same motion before the eyes of the rulers is fed forward.
+    assert!((0..400).map(|_| step([32, 32])).fold(0.0, f64::max) > 0.0);
+}
