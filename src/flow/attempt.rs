@@ -197,12 +197,12 @@ impl Work<'_> {
         program.ticks = last as u64;
         let layout =
             Figures { rows: layout.rows, rows_exact: layout.exact, heads_bound: at_least, ..Figures::default() };
-        program.figures = self.figures(&program, layout);
+        program.figures = self.figures(&program, &layout);
         Ok(program)
     }
 
     /// The figures of a program; those of its layout are known.
-    fn figures(&self, program: &Program, layout: Figures) -> Figures {
+    fn figures(&self, program: &Program, layout: &Figures) -> Figures {
         let profile = &self.job.profile;
         let bounds = Bounds::of(profile);
         let Program { strokes, heads, moving, .. } = program;
@@ -226,7 +226,7 @@ impl Work<'_> {
             cut_m: self.lines.iter().map(|line| polyline::length(&line.run.points)).sum::<f64>() / MM_PER_M,
             time_s: time,
             busy: if heads.is_empty() { 0.0 } else { cutting / (time * heads.len() as f64) },
-            ..layout
+            ..layout.clone()
         }
     }
 }

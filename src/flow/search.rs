@@ -38,7 +38,7 @@ pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> 
         Ok(program) if !out.has_errors() => Some(program),
         Ok(_) => None,
         Err((missing, speed)) => {
-            refuse(&work, missing, speed, out);
+            refuse(&work, &missing, speed, out);
             None
         }
     }
@@ -125,12 +125,14 @@ fn tried(work: &Work, speed: f64, out: &mut Diagnostics) -> Option<Program> {
 }
 
 /// Says what is missing, and what each remedy takes.
-fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
+fn refuse(work: &Work, missing: &Missing, speed: f64, out: &mut Diagnostics) {
     let flow = &work.job.profile.flow;
     let shown = fixed(speed, 1);
-    let (message, place) = match &missing {
+    let (message, place) = match missing {
         Missing::Plan(refused) => {
-            refused.iter().for_each(|refused| out.push(refused.clone()));
+            for refused in refused {
+                out.push(refused.clone());
+            }
             return;
         }
         Missing::Way(more) => {
@@ -162,7 +164,7 @@ fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
     if let Some(at) = place {
         found = found.on_cloth(at);
     }
-    for hint in hints(work, &missing, speed) {
+    for hint in hints(work, missing, speed) {
         found = found.hint(hint);
     }
     out.push(found);

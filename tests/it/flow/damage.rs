@@ -155,14 +155,6 @@ const DAMAGES: &[Damage] = &[
         let row = (0..last).rev().find(|&row| { let here = case.place(0, row); (here.0 - end.0).hypot(here.1 - end.1) > 2.0 }).expect("a way");
         case.knife(0, row..=last, false);
     }),
-    Damage("a head lets go for a moment", "flow-verify/overlap", |case| {
-        // Over 5 mm of the line: where it plunges again its blade of 6.6 mm still reaches back to where it was lifted.
-        let row = case.amid(0);
-        let from = case.place(0, row);
-        let gone = |row: &usize| { let here = case.place(0, *row); (here.0 - from.0).hypot(here.1 - from.1) > 5.0 };
-        let to = (row..case.heads[0].len()).find(gone).expect("a way");
-        case.knife(0, row..to, false);
-    }),
     Damage("a head cuts on beyond its end", "flow-verify/overcut", |case| { let [_, last] = case.down(0); case.knife(0, last..last + 400, true); }),
     Damage("a row names another block", "flow-verify/block", |case| { let row = case.amid(0); case.set(0, row, BLOCK, "4000"); }),
 ];
