@@ -15,6 +15,7 @@ use crate::machine::plot::{Inner, Lines};
 use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
 use crate::source::Source;
 use crate::track;
+pub(super) use crate::units::number::counted;
 
 /// For an option behind those that stand under a heading of their own: it belongs to the command itself.
 pub(super) const NO_HEADING: Option<&str> = None;
@@ -327,9 +328,4 @@ pub(super) fn refuse(faults: &Faults, file: Option<&Source>) -> Finished {
     let name = file.map_or_else(String::new, |file| format!(" `{}`", file.name()));
     say(&mut said, format_args!("the machine profile{name} has {}", counted(count, "error")));
     Finished::text(String::new(), said, if faults.file.has_errors() { FAULTY } else { USAGE })
-}
-
-/// A number with its noun: `1 error`, `2 errors`.
-pub(super) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -470,6 +470,8 @@ codes! {
     TRACK_CARRIAGE = warning(Spoils, Shape, "track/carriage-assumed", "A log does not tell where the carriage was; it is taken to have followed the commands.", "The rulers tell where the cloth is from the carriage, so the centre line is only as true as its place. Log its encoder as the column `carriage_mm`, in mm to the right of the middle.");
     /// Upstream rulers that nobody logged.
     TRACK_NO_UPSTREAM = warning(Spares, Shape, "track/no-upstream", "The profile has rulers upstream, but the log does not have their readings; nothing is fed forward.", "The carriage then only follows what it sees, and is farther off centre than it could be. Log the readings as columns `up_i` and `up_j`.");
+    /// The commands break the law.
+    TRACK_BROKEN = error(Shape, "track/broken", "The commands for the carriage, read back, are not those that the readings and the profile ask for; the message names the row.", "Nothing is written: the carriage would be driven away from the cloth. Please report the log: what is written should keep the law.");
     /// No line to write.
     TRACK_NO_CENTRE = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
     /// Cloth that nobody saw.
@@ -482,10 +484,10 @@ codes! {
     CENTRE_ROW = error(Text, "centre/row", "A row of a centre line cannot be read, or the conveyor does not go on in it; the message says why.", "Guessing it would cut parts beside their places. Mend the row, or make the file anew from the log.\n  125.5,-0.75");
     /// A line without two ends.
     CENTRE_SHORT = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
-    /// A centre line that no carriage follows.
-    CENTRE_STEEP = warning(Spoils, Shape, "centre/steep", "A centre line goes across faster than a carriage could have followed it, by `track.max_speed_mm_s` and `track.cloth_mm_s`.", "Cloth hardly does that: its unit may be another, a row damaged, or the log's `carriage_mm` wrong. What is cut there is sheared by as much. Look at the line, and at the picture (-t svg).");
     /// A marker that is longer than its centre line.
     CENTRE_BEYOND = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
+    /// A centre line that no cloth takes.
+    CENTRE_STEEP = warning(Spoils, Shape, "centre/steep", "The centre line runs across more steeply than cloth does on a conveyor, or bends within a notch, which is cut straight.", "Parts are sheared along the line: where it is wrong they are spoilt. Compare the file with the cloth; a column in another unit, or damage of an edge that was taken for its way, looks like that.\n  cutc track log.csv -t centre,svg");
     // Flow cutting.
     /// No cut.
     FLOW_NOTHING = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");
@@ -494,7 +496,7 @@ codes! {
     /// More than the machine has.
     FLOW_INFEASIBLE = error(Shape, "flow/infeasible", "The machine cannot cut the marker at this speed of the conveyor; the message says what it takes, the hints what would help, each with its figure.", "A head that comes too late would leave a stretch uncut that is gone for good. Slow the conveyor down, give heads more travel along the feed (`flow.travel_mm`), or take more heads and rows.\n  cutc flow marker.cut -p flow.toml --speed max -o out");
     /// Off the conveyor.
-    FLOW_OFF_TABLE = error(Shape, "flow/off-table", "A head would leave the table across the feed (`table.y_mm`).", "There it has no cloth to cut and runs into its end. Move the marker on the cloth (`sheet.offset_mm`), or mend the key.");
+    FLOW_OFF_TABLE = error(Shape, "flow/off-table", "A head would leave the table across the feed (`table.y_mm`).", "There it has no cloth to cut and runs into its end. Move the marker across (`sheet.origin`), or mend the key.");
     /// The program breaks a rule.
     FLOW_BROKEN = error(Shape, "flow/broken", "The programs of the heads, read back, break a rule; the message names the rule, the worst value, the limit, the head and the row.", "Nothing is written: cloth would be spoilt. Please report the file: a marker that is planned should be cut as it is.");
 

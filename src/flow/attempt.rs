@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::Figures;
 use super::bound::{self, Bounds};
 use super::chains::{Chain, Line, Parting};
-use super::heads::{self, Links, Start, Task};
+use super::heads::{Links, Schedule, Start, Task};
 use super::link::{Link, State, Wait};
 use super::moving::Moving;
 use super::pace::paced;
@@ -16,7 +16,7 @@ use super::program::{self, Head, Program};
 use super::stroke::{self, Stroke};
 use super::track::{BLOCK, Track};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
+use crate::geom::{Point, polyline};
 use crate::machine::Job;
 use crate::pass::toolpath::Scene;
 use crate::units::MM_PER_M;
@@ -58,9 +58,11 @@ pub(super) enum Missing {
 }
 
 /// Parts of the travel along the feed that a turn back may take within a chain, from the one that parts least.
-const BACKS: [f64; 4] = [f64::INFINITY, 0.25, 0.0625, 0.0];
+const BACKS: [f64; 3] = [f64::INFINITY, 0.25, 0.0625];
 /// Part of the travel that is left to a chain which turns back: what it takes makes the next one late.
 const SHARE: f64 = 0.7;
+/// A chain that takes so much of the travel by its line as drawn is not tried: smoothed, it takes little less.
+const HOPELESS: f64 = 1.1;
 /// A turn back of so many tolerances parts nothing.
 const WAVE: f64 = 3.0;
 
@@ -93,7 +95,7 @@ fn off_table(strokes: &[Stroke], job: &Job, out: &mut Diagnostics) {
     let off = ys.map(|at| ((least - at.y).max(at.y - most), at)).max_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((beyond, at)) = off.filter(|(beyond, _)| *beyond > 0.0) {
         let message = format!("a head would leave the table across the feed by {} mm", up(beyond, 2));
-        let hint = "move the marker on the cloth (`sheet.offset_mm`), or mend `table.y_mm`";
+        let hint = "move the marker across (`sheet.origin`), or mend `table.y_mm`";
         out.push(Diagnostic::new(&code::FLOW_OFF_TABLE, message).on_cloth(at).by(beyond).hint(hint));
     }
 }
@@ -104,8 +106,9 @@ impl Work<'_> {
         let profile = &self.job.profile;
         let bounds = Bounds::of(profile);
         let takes_more = |line: &Line| {
-            let chains = line.chains(self.parting(line, 0.0));
-            chains.iter().any(|chain| bounds.lag(chain.points(), speed) > profile.flow.travel_mm)
+            let parting = self.parting(line, 0.0);
+            let most = HOPELESS * profile.flow.travel_mm + line.toolpath.tolerance;
+            line.chains(parting).iter().any(|chain| bounds.lag(&chain.way(parting), speed) > most)
         };
         speed >= bounds.speeds[0] || self.lines.par_iter().any(takes_more)
     }
@@ -125,12 +128,12 @@ impl Work<'_> {
     fn cut(&self, line: &Line, moving: &Moving) -> Result<(Vec<Stroke>, Diagnostics), Missing> {
         let bounds = Bounds::of(&self.job.profile);
         let mut parted = 0;
-        for (i, part) in BACKS.into_iter().enumerate() {
-            let chains = line.chains(self.parting(line, part * moving.travel));
-            let is_last = i + 1 == BACKS.len();
-            let share = |chain: &Chain| if chain.falls { 1.0 } else { SHARE };
-            let may_fit = |chain: &Chain| bounds.lag(chain.points(), moving.speed) <= share(chain) * moving.travel;
-            if !is_last && (chains.len() == parted || !chains.iter().all(may_fit)) {
+        let share = |chain: &Chain| if chain.falls { 1.0 } else { SHARE };
+        for part in BACKS {
+            let parting = self.parting(line, part * moving.travel);
+            let chains = line.chains(parting);
+            let may_fit = |chain: &Chain| bounds.lag(&chain.way(parting), moving.speed) <= share(chain) * moving.travel;
+            if chains.len() == parted || !chains.iter().all(may_fit) {
                 continue;
             }
             parted = chains.len();
@@ -138,11 +141,14 @@ impl Work<'_> {
             let strokes = self.strokes(&chains, moving, &mut found)?;
             let fits =
                 |(stroke, chain): (&Stroke, &Chain)| stroke.lag.travel(moving.ramp.way) <= share(chain) * moving.travel;
-            if is_last || strokes.iter().zip(&chains).all(fits) {
+            if strokes.iter().zip(&chains).all(fits) {
                 return Ok((strokes, found));
             }
         }
-        Ok((Vec::new(), Diagnostics::default()))
+        // Parted at every turn back: what does not fit now does not at all.
+        let mut found = Diagnostics::default();
+        let strokes = self.strokes(&line.chains(self.parting(line, 0.0)), moving, &mut found)?;
+        Ok((strokes, found))
     }
 
     fn strokes(&self, chains: &[Chain], moving: &Moving, out: &mut Diagnostics) -> Result<Vec<Stroke>, Missing> {
@@ -164,14 +170,18 @@ impl Work<'_> {
             waits: vec![Wait::There; tasks.len() + 1],
             tasks,
         };
-        let few: Vec<Head> = heads::assign(&tasks, &linking).into_iter().map(head).collect();
+        let schedule = Schedule { tasks: &tasks, links: &linking };
+        let few: Vec<Head> = schedule.heads().into_iter().map(head).collect();
         let (rows, in_rows): (Vec<usize>, Vec<Head>) =
-            heads::assign_in_rows(&tasks, &linking).into_iter().map(|(row, tasks)| (row, head(tasks))).unzip();
+            schedule.heads_in_rows().into_iter().map(|(row, tasks)| (row, head(tasks))).unzip();
+        let at_least = heads_at_least(&tasks, &moving);
         let stations = program::stations(self.front, self.job);
         let (speed, figures) = (moving.speed, Figures::default());
         let mut program = Program { strokes, heads: Vec::new(), speed, stations, ticks: 0, figures, moving };
-        let layouts =
-            [placing::place(&program, &few, None, self.job), placing::place(&program, &in_rows, Some(rows), self.job)];
+        let layouts = [
+            placing::place(&program, (&few, None), self.job),
+            placing::place(&program, (&in_rows, Some(rows)), self.job),
+        ];
         let is_there = |layout: &Layout| layout.heads.len() <= flow.heads as usize && layout.rows <= flow.rows as usize;
         let cost = |layout: &Layout| (!is_there(layout), layout.heads.len() + layout.rows, layout.heads.len());
         let [a, b] = layouts;
@@ -185,32 +195,48 @@ impl Work<'_> {
             return Err(Missing::Way(-first as f64 * program.moving.step()));
         }
         program.ticks = last as u64;
-        program.figures = self.figures(&program, layout.rows, layout.exact);
+        let layout =
+            Figures { rows: layout.rows, rows_exact: layout.exact, heads_bound: at_least, ..Figures::default() };
+        program.figures = self.figures(&program, &layout);
         Ok(program)
     }
 
-    fn figures(&self, program: &Program, rows: usize, exact: bool) -> Figures {
-        let bounds = Bounds::of(&self.job.profile);
+    /// The figures of a program; those of its layout are known.
+    fn figures(&self, program: &Program, layout: &Figures) -> Figures {
+        let profile = &self.job.profile;
+        let bounds = Bounds::of(profile);
         let Program { strokes, heads, moving, .. } = program;
-        let flow = &self.job.profile.flow;
-        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let fastest = strokes.iter().map(|stroke| bounds.fastest(&stroke.points, flow.travel_mm, flow.max_speed_mm_s));
+        let flow = &profile.flow;
+        let bound = |stroke: &Stroke| {
+            let way = stroke.way(&profile.knife);
+            let fastest = bounds.fastest(&way, flow.travel_mm, flow.max_speed_mm_s);
+            (bounds.lag(&way, moving.speed), fastest)
+        };
+        let bounds: Vec<(f64, f64)> = strokes.par_iter().map(bound).collect();
         let time = program.ticks as f64 * moving.period;
         let cutting: f64 = strokes.iter().map(|stroke| f64::from(stroke.ticks) * moving.period).sum();
+        let travel = strokes.iter().map(|stroke| stroke.lag.travel(moving.ramp.way)).fold(0.0, f64::max);
         Figures {
             chains: strokes.len(),
             heads: heads.len(),
-            heads_bound: bound::heads(strokes.iter().map(|stroke| stroke.span)),
-            rows,
-            rows_exact: exact,
-            travel_mm: most(&mut strokes.iter().map(|stroke| stroke.lag.travel(moving.ramp.way))),
-            travel_bound_mm: most(&mut strokes.iter().map(|stroke| bounds.lag(&stroke.points, moving.speed))),
-            speed_bound_mm_s: fastest.fold(flow.max_speed_mm_s, f64::min),
-            cut_m: strokes.iter().map(Stroke::length).sum::<f64>() / MM_PER_M,
+            chains_abreast: bound::abreast(strokes.iter().map(|stroke| stroke.span)),
+            travel_mm: travel,
+            travel_bound_mm: bounds.iter().map(|bound| bound.0).fold(0.0, f64::max),
+            speed_bound_mm_s: bounds.iter().map(|bound| bound.1).fold(flow.max_speed_mm_s, f64::min),
+            cut_m: self.lines.iter().map(|line| polyline::length(&line.run.points)).sum::<f64>() / MM_PER_M,
             time_s: time,
             busy: if heads.is_empty() { 0.0 } else { cutting / (time * heads.len() as f64) },
+            ..layout.clone()
         }
     }
+}
+
+/// The fewest heads that can make tasks: the most that there are none of which can be made behind another. Two cannot where each
+/// must start before the other one, however early, is done and left behind.
+fn heads_at_least(tasks: &[Task], moving: &Moving) -> usize {
+    let between = i64::from(Link::fewest(moving));
+    let spans = tasks.iter().map(|task| [task.window[0] + task.ticks + between, task.window[1]]);
+    bound::abreast(spans.filter(|[left, starts]| left > starts).map(|span| span.map(|tick| tick as f64))).max(1)
 }
 
 /// Least distance of two heads beyond the width of one, mm: places are looked at once in some periods.

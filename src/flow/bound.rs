@@ -5,7 +5,7 @@
 //! corner takes the time of lift, turn and plunge. A head that is early waits: q := max(0, q + v t - dx). A chain can be cut
 //! iff the greatest lag is no more than the travel of the head along the feed.
 
-use crate::geom::{Point, polyline};
+use crate::geom::{Point, Vector, polyline};
 use crate::machine::{Limits, MachineProfile};
 
 /// What bounds a head.
@@ -17,8 +17,6 @@ pub struct Bounds {
     pub feed: f64,
     /// Time of lift and plunge at a corner, s.
     pub lift: f64,
-    /// A turn that is more is a corner, rad.
-    pub corner: f64,
 }
 
 impl Bounds {
@@ -29,48 +27,32 @@ impl Bounds {
             speeds: profile.axes.limits().map(speed),
             feed: profile.knife.feed_mm_s.unwrap_or(f64::INFINITY),
             lift: profile.knife.clear() + profile.knife.plunge(),
-            corner: profile.corner.angle(),
         }
     }
 
-    /// The greatest lag along a chain at a speed of the conveyor, mm.
-    pub fn lag(&self, points: &[Point], speed: f64) -> f64 {
+    /// The greatest lag along a way at a speed of the conveyor, mm.
+    pub fn lag(&self, way: &[Step], speed: f64) -> f64 {
         let [x, y, c] = self.speeds;
         let (mut lag, mut most) = (0.0_f64, 0.0_f64);
-        let mut pass = |time: f64, advance: f64| {
-            lag = (lag + speed * time - advance).max(0.0);
-            most = most.max(lag);
-        };
-        for (i, ends) in points.windows(2).enumerate() {
-            let way = ends[1] - ends[0];
-            let advance = -way.x;
-            let turn = |at: usize| polyline::turn_at(points[at - 1], points[at], points[at + 1]).abs();
-            let mut turned = 0.0;
-            if i > 0 {
-                if turn(i) > self.corner {
-                    pass(self.lift + turn(i) / c, 0.0);
-                } else {
-                    turned += turn(i) / 2.0;
-                }
-            }
-            if i + 2 < points.len() && turn(i + 1) <= self.corner {
-                turned += turn(i + 1) / 2.0;
-            }
+        for step in way {
+            let advance = -step.along.x;
             let along = if advance >= 0.0 { advance / (speed + x) } else { -advance / (x - speed) };
-            let time = (way.y.abs() / y).max(way.norm() / self.feed).max(along).max(turned / c);
-            pass(time, advance);
+            let time = (step.along.y.abs() / y).max(step.tip / self.feed).max(along).max(step.turned / c);
+            let lift = if step.lifted { self.lift } else { 0.0 };
+            lag = (lag + speed * (time + lift) - advance).max(0.0);
+            most = most.max(lag);
         }
         most
     }
 
-    /// The greatest speed of the conveyor at which a chain takes no more travel than that, up to `most`; mm and mm/s.
-    pub fn fastest(&self, points: &[Point], travel: f64, most: f64) -> f64 {
-        let fits = |speed: f64| self.lag(points, speed) <= travel;
+    /// The greatest speed of the conveyor at which a way takes no more travel than that, up to `most`; mm and mm/s.
+    pub fn fastest(&self, way: &[Step], travel: f64, most: f64) -> f64 {
+        let fits = |speed: f64| self.lag(way, speed) <= travel;
         let [mut slow, mut fast] = [0.0, most.min(self.speeds[0])];
         if fits(fast) {
             return fast;
         }
-        for _ in 0..60 {
+        for _ in 0..BISECTIONS {
             let middle = f64::midpoint(slow, fast);
             if fits(middle) { slow = middle } else { fast = middle }
         }
@@ -78,9 +60,41 @@ impl Bounds {
     }
 }
 
-/// The least number of heads: the most chains, of which each is a greatest and a least x, that one place along the feed is
-/// on.
-pub(super) fn heads(spans: impl Iterator<Item = [f64; 2]>) -> usize {
+/// Halvings of a range of speeds: far below what is printed of them.
+const BISECTIONS: u32 = 40;
+
+/// A step of a way: a chord, or a turn on the spot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// How far the head goes over the cloth, mm.
+    pub along: Vector,
+    /// How far the tip goes, mm.
+    pub tip: f64,
+    /// How much C turns, without sign, rad.
+    pub turned: f64,
+    /// Whether the knife is lifted for it and lowered again.
+    pub lifted: bool,
+}
+
+/// The way along a line as it is drawn; `is_corner` tells at which of its points the knife is lifted.
+pub(super) fn drawn(points: &[Point], is_corner: impl Fn(usize) -> bool) -> Vec<Step> {
+    let turn = |at: usize| polyline::turn_at(points[at - 1], points[at], points[at + 1]).abs();
+    let inner = 1..points.len() - 1;
+    // Between two chords without a corner C turns along both.
+    let half = |at: usize| if inner.contains(&at) && !is_corner(at) { turn(at) / 2.0 } else { 0.0 };
+    let mut way = Vec::with_capacity(points.len());
+    for (i, ends) in points.windows(2).enumerate() {
+        if inner.contains(&i) && is_corner(i) {
+            way.push(Step { along: Vector::zeros(), tip: 0.0, turned: turn(i), lifted: true });
+        }
+        let along = ends[1] - ends[0];
+        way.push(Step { along, tip: along.norm(), turned: half(i) + half(i + 1), lifted: false });
+    }
+    way
+}
+
+/// The most spans, of which each is an upper and a lower end, that one place is in.
+pub(super) fn abreast(spans: impl Iterator<Item = [f64; 2]>) -> usize {
     let mut ends: Vec<(f64, bool)> = spans.flat_map(|[most, least]| [(least, true), (most, false)]).collect();
     // Where one ends another may begin.
     ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -95,15 +109,17 @@ pub(super) fn heads(spans: impl Iterator<Item = [f64; 2]>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flow::heads::{Links, Start, Task, assign};
+    use crate::flow::heads::{Links, Schedule, Start, Task};
     use crate::flow::rows::{Conflicts, colour};
 
-    const BOUNDS: Bounds = Bounds {
-        speeds: [1000.0, 1000.0, 25.132_741_228_718_345],
-        feed: f64::INFINITY,
-        lift: 0.15,
-        corner: 0.349_065_850_398_865_9,
-    };
+    const BOUNDS: Bounds = Bounds { speeds: [1000.0, 1000.0, 25.132_741_228_718_345], feed: f64::INFINITY, lift: 0.15 };
+
+    /// Turns of more than 20 degrees are corners.
+    fn way(points: &[Point]) -> Vec<Step> {
+        drawn(points, |at| {
+            polyline::turn_at(points[at - 1], points[at], points[at + 1]).abs() > 0.349_065_850_398_865_9
+        })
+    }
 
     fn points(list: &[(f64, f64)]) -> Vec<Point> {
         list.iter().map(|&(x, y)| Point::new(x, y)).collect()
@@ -113,9 +129,21 @@ mod tests {
     fn a_rectangle_is_cut_at_the_speeds_that_its_edge_across_the_feed_allows() {
         let chain = points(&[(300.0, 0.0), (300.0, 200.0), (0.0, 200.0)]);
         for (travel, expected) in [(50.0, 121.212), (200.0, 484.848), (500.0, 1000.0)] {
-            let speed = BOUNDS.fastest(&chain, travel, 1e4);
+            let speed = BOUNDS.fastest(&way(&chain), travel, 1e4);
             assert!((speed - expected).abs() < 1e-3, "{travel} mm: {speed} mm/s");
         }
+    }
+
+    #[test]
+    fn a_corner_takes_the_travel_of_its_lift_its_turn_and_its_plunge() {
+        // Both edges run straight against the feed, on which no head is late: what it lags behind at the corner is all.
+        let (speed, turn) = (100.0, std::f64::consts::FRAC_PI_3);
+        let chain = points(&[(200.0, 0.0), (100.0, 0.0), (50.0, 50.0 * 3.0_f64.sqrt())]);
+        let free = Bounds { speeds: [1e9, 1e9, BOUNDS.speeds[2]], ..BOUNDS };
+        let travel = free.lag(&way(&chain), speed);
+        assert!((travel - speed * (0.15 + turn / BOUNDS.speeds[2])).abs() < 1e-5, "{travel}");
+        // Below the angle of a corner C turns as the blade goes.
+        assert!(free.lag(&drawn(&chain, |_| false), speed) < 0.1 * travel);
     }
 
     #[test]
@@ -124,7 +152,7 @@ mod tests {
         let half: Vec<Point> =
             (0..=20_000).map(|i| Point::new(100.0 * angle(i).cos(), 100.0 * angle(i).sin())).collect();
         let bounds = Bounds { speeds: [1e9, 1000.0, 1e9], ..BOUNDS };
-        let travel = bounds.lag(&half, 200.0);
+        let travel = bounds.lag(&way(&half), 200.0);
         assert!((travel - 100.0 * (1.04_f64.sqrt() - 1.0)).abs() < 2e-3, "{travel}");
     }
 
@@ -161,7 +189,8 @@ mod tests {
                 Task { window: [start; 2], ticks: end - start }
             })
             .collect();
-        let heads = assign(&tasks, &Change(chains.iter().map(|chain| chain[0].y).collect()));
+        let links = Change(chains.iter().map(|chain| chain[0].y).collect());
+        let heads = Schedule { tasks: &tasks, links: &links }.heads();
         let y = |chain: &[Point], x: f64| {
             let ends = chain.windows(2).find(|ends| ends[0].x >= x && ends[1].x <= x)?;
             Some(ends[0].y + (ends[1].y - ends[0].y) * (ends[0].x - x) / (ends[0].x - ends[1].x))
@@ -182,7 +211,7 @@ mod tests {
     #[test]
     fn three_diamonds_take_four_heads_in_two_rows_up_to_the_speed_of_their_change_and_six_beyond() {
         let spans = [0.0, 0.0, 20.0, 20.0, -260.0, -260.0].map(|x| [x + 100.0, x - 100.0]);
-        assert_eq!(heads(spans.into_iter()), 4);
+        assert_eq!(abreast(spans.into_iter()), 4);
         assert_eq!(diamonds(50.0), [4, 2]);
         assert_eq!(diamonds(186.6), [4, 2]);
         assert_eq!(diamonds(186.8), [6, 2]);

@@ -4,6 +4,7 @@
 //! behind it where it ends one, so that each of two chains of a rectangle has one. A turn back that is shorter than what a
 //! caller allows parts nothing: a head with some travel along the feed makes it by itself.
 
+use super::bound;
 use crate::geom::{Point, corner};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
@@ -39,7 +40,7 @@ pub(super) struct Chain {
     pub(super) cut: u32,
     /// One open run, raw.
     pub(super) toolpath: Toolpath,
-    /// Whether x falls all along it.
+    /// Whether x falls all along it, but for what an overlap leads back.
     pub(super) falls: bool,
 }
 
@@ -91,21 +92,11 @@ impl Line {
         if self.run.joints[vertex % n].lift {
             return true;
         }
-        let (before, behind) = if self.is_closed() {
-            let at = vertex % n;
-            ((1..n).map(|i| (at + n - i) % n).collect(), (1..n).map(|i| (at + i) % n).collect())
-        } else {
-            ((0..vertex).rev().collect::<Vec<_>>(), (vertex + 1..=n).collect::<Vec<_>>())
-        };
-        let points = |list: &Vec<usize>| list.iter().map(|&i| self.point(i)).collect::<Vec<_>>();
-        let (before, behind) = (points(&before), points(&behind));
-        corner::is_corner(
-            self.point(vertex),
-            &before.iter().copied(),
-            &behind.iter().copied(),
-            parting.corner,
-            parting.unit,
-        )
+        let (count, [back, on]) = if self.is_closed() { (n, [n - 1; 2]) } else { (n + 1, [vertex, n - vertex]) };
+        let at = vertex % count;
+        let before = (1..=back).map(|i| self.point((at + count - i) % count));
+        let behind = (1..=on).map(|i| self.point((at + i) % count));
+        corner::is_corner(self.point(vertex), &before, &behind, parting.corner, parting.unit)
     }
 
     /// The chain between two vertices, turned round where x rises.
@@ -130,7 +121,11 @@ impl Line {
             run.turned = !run.turned;
             run.joints.iter_mut().for_each(turn);
         }
-        let falls = run.points.windows(2).all(|ends| ends[1].x <= ends[0].x + parting.overlap);
+        let mut least = f64::INFINITY;
+        let falls = run.points.iter().all(|point| {
+            least = least.min(point.x);
+            point.x <= least + parting.overlap
+        });
         let steps = vec![Step::Run(run)];
         Chain { cut: self.cut, toolpath: Toolpath { steps, ..self.toolpath.clone() }, falls }
     }
@@ -256,6 +251,16 @@ impl Chain {
             [Step::Run(run), ..] => &run.points,
             _ => &[],
         }
+    }
+
+    /// The way along it, as it is drawn.
+    pub(super) fn way(&self, parting: Parting) -> Vec<bound::Step> {
+        let [Step::Run(run), ..] = &self.toolpath.steps[..] else { return Vec::new() };
+        let is_corner = |at: usize| {
+            let (before, behind) = (run.points[..at].iter().rev().copied(), run.points[at + 1..].iter().copied());
+            run.joints[at].lift || corner::is_corner(run.points[at], &before, &behind, parting.corner, parting.unit)
+        };
+        bound::drawn(&run.points, is_corner)
     }
 
     /// Where it starts and where it ends along the feed, mm.

@@ -41,23 +41,10 @@ pub struct Start {
 /// that is.
 const ROUNDS: usize = 4;
 
-/// The tasks of each head, in order.
-pub(super) fn assign(tasks: &[Task], links: &impl Links) -> Vec<Vec<Start>> {
-    let mut order: Vec<usize> = (0..tasks.len()).collect();
-    order.sort_by_key(|&i| (tasks[i].window[0], tasks[i].window[1], i));
-    let mut heads: Vec<Vec<Start>> = Vec::new();
-    for task in order {
-        let free = heads.iter().enumerate().filter_map(|(head, done)| {
-            let last = *done.last()?;
-            let tick = start(tasks, last, task, links)?;
-            Some((links.cost(last.task, task), head, tick))
-        });
-        match free.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
-            Some((_, head, tick)) => heads[head].push(Start { task, tick }),
-            None => heads.push(vec![Start { task, tick: tasks[task].window[0] }]),
-        }
-    }
-    heads
+/// Tasks, and what lies between them.
+pub(super) struct Schedule<'a, L> {
+    pub(super) tasks: &'a [Task],
+    pub(super) links: &'a L,
 }
 
 /// A head of a row that is being filled.
@@ -65,67 +52,117 @@ pub(super) fn assign(tasks: &[Task], links: &impl Links) -> Vec<Vec<Start>> {
 struct Slot {
     row: usize,
     done: Vec<Start>,
+    /// On which side of each slot before it this one has been, as [`Links::side`] tells; 0 = of none yet.
+    sides: Vec<f64>,
 }
 
-/// The row and the tasks of each head, in order, where tasks go to rows in which they clash with none.
-pub(super) fn assign_in_rows(tasks: &[Task], links: &impl Links) -> Vec<(usize, Vec<Start>)> {
-    let mut order: Vec<usize> = (0..tasks.len()).collect();
-    order.sort_by_key(|&i| (tasks[i].window[0], tasks[i].window[1], i));
-    let mut slots: Vec<Slot> = Vec::new();
-    for task in order {
-        let free = slots.iter().enumerate().filter_map(|(head, slot)| {
-            let last = *slot.done.last()?;
-            let start = Start { task, tick: start(tasks, last, task, links)? };
-            fits(&slots, slot.row, Some(head), start, tasks, links).then(|| (links.cost(last.task, task), head, start))
-        });
-        let best = free.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        if let Some((_, head, start)) = best {
+impl<L: Links> Schedule<'_, L> {
+    /// The tasks of each head, in order.
+    pub(super) fn heads(&self) -> Vec<Vec<Start>> {
+        let mut heads: Vec<Vec<Start>> = Vec::new();
+        for task in self.order() {
+            let lasts = heads.iter().map(|done| done.last());
+            let found = self.nearest(lasts, task).into_iter().find_map(|head| {
+                let start = self.start(*heads[head].last()?, task)?;
+                Some((head, start))
+            });
+            match found {
+                Some((head, start)) => heads[head].push(start),
+                None => heads.push(vec![self.earliest(task)]),
+            }
+        }
+        heads
+    }
+
+    /// The row and the tasks of each head, in order, where tasks go to rows in which they clash with none.
+    pub(super) fn heads_in_rows(&self) -> Vec<(usize, Vec<Start>)> {
+        let mut slots: Vec<Slot> = Vec::new();
+        for task in self.order() {
+            let lasts = slots.iter().map(|slot| slot.done.last());
+            let found = self.nearest(lasts, task).into_iter().find_map(|head| {
+                let start = self.start(*slots[head].done.last()?, task)?;
+                Some((head, start, self.sides(&slots, head, start)?))
+            });
+            let (head, start, sides) = found.unwrap_or_else(|| {
+                let start = self.earliest(task);
+                let rows = slots.iter().map(|slot| slot.row + 1).max().unwrap_or(0);
+                let head = slots.len();
+                slots.push(Slot { row: rows, done: Vec::new(), sides: vec![0.0; head] });
+                for row in 0..rows {
+                    slots[head].row = row;
+                    if let Some(sides) = self.sides(&slots, head, start) {
+                        return (head, start, sides);
+                    }
+                }
+                slots[head].row = rows;
+                (head, start, Vec::new())
+            });
             slots[head].done.push(start);
-            continue;
+            for (mate, side) in sides {
+                let [low, high] = [head.min(mate), head.max(mate)];
+                slots[high].sides[low] = if head > mate { side } else { -side };
+            }
         }
-        let start = Start { task, tick: tasks[task].window[0] };
-        let rows = slots.iter().map(|slot| slot.row + 1).max().unwrap_or(0);
-        let row = (0..rows).find(|&row| fits(&slots, row, None, start, tasks, links)).unwrap_or(rows);
-        slots.push(Slot { row, done: vec![start] });
+        slots.into_iter().map(|slot| (slot.row, slot.done)).collect()
     }
-    slots.into_iter().map(|slot| (slot.row, slot.done)).collect()
-}
 
-/// Whether a head of a row, or one that comes into it, can make a task beside the others of the row: it meets none, and is
-/// on the same side of each as before.
-fn fits(slots: &[Slot], row: usize, head: Option<usize>, start: Start, tasks: &[Task], links: &impl Links) -> bool {
-    let mates = slots.iter().enumerate().filter(|(mate, slot)| slot.row == row && Some(*mate) != head);
-    let own = head.map_or(&[][..], |head| &slots[head].done);
-    mates.into_iter().all(|(_, mate)| {
-        let side = side_of(start, &mate.done, tasks, links);
-        side != Some(0.0) && {
-            let before = || own.iter().rev().find_map(|&own| side_of(own, &mate.done, tasks, links));
-            side.is_none_or(|side| before().is_none_or(|before| before * side > 0.0))
-        }
-    })
-}
-
-/// On which side of a task those of another head are that are made at the same time; 0 where any comes too near.
-fn side_of(start: Start, done: &[Start], tasks: &[Task], links: &impl Links) -> Option<f64> {
-    let late = done.iter().rev().take_while(|other| other.tick + tasks[other.task].ticks >= start.tick);
-    let sides = late.filter_map(|&other| links.side(start, other));
-    sides.reduce(|a, b| if a * b > 0.0 { a } else { 0.0 })
-}
-
-/// When a head that made one task can start another one; `None` when that is too late.
-fn start(tasks: &[Task], last: Start, task: usize, links: &impl Links) -> Option<i64> {
-    let end = last.tick + tasks[last.task].ticks;
-    let [earliest, latest] = tasks[task].window;
-    let mut tick = earliest;
-    for _ in 0..ROUNDS {
-        let ready = end + links.ticks(last, Start { task, tick });
-        if ready <= tick {
-            return Some(tick);
-        }
-        tick = ready;
-        if tick > latest {
-            return None;
-        }
+    /// All tasks, in the order in which they may start.
+    fn order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.tasks.len()).collect();
+        order.sort_by_key(|&i| (self.tasks[i].window[0], self.tasks[i].window[1], i));
+        order
     }
-    None
+
+    /// Heads by their last tasks, the one first that has the least way to another.
+    fn nearest<'s>(&self, lasts: impl Iterator<Item = Option<&'s Start>>, task: usize) -> Vec<usize> {
+        let cost = |(head, last): (usize, Option<&Start>)| Some((self.links.cost(last?.task, task), head));
+        let mut heads: Vec<(f64, usize)> = lasts.enumerate().filter_map(cost).collect();
+        heads.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        heads.into_iter().map(|(_, head)| head).collect()
+    }
+
+    fn earliest(&self, task: usize) -> Start {
+        Start { task, tick: self.tasks[task].window[0] }
+    }
+
+    /// When a head that made one task can start another one; `None` when that is too late.
+    fn start(&self, last: Start, task: usize) -> Option<Start> {
+        let end = last.tick + self.tasks[last.task].ticks;
+        let [earliest, latest] = self.tasks[task].window;
+        let mut tick = earliest;
+        for _ in 0..ROUNDS {
+            let ready = end + self.links.ticks(last, Start { task, tick });
+            if ready <= tick {
+                return Some(Start { task, tick });
+            }
+            tick = ready;
+            if tick > latest {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The sides of the other heads of its row on which a head is that makes a task, of those that it meets; `None` where it
+    /// comes too near to one, or would pass it.
+    fn sides(&self, slots: &[Slot], head: usize, start: Start) -> Option<Vec<(usize, f64)>> {
+        let mut met = Vec::new();
+        let row = slots[head].row;
+        for (mate, slot) in slots.iter().enumerate().filter(|(mate, slot)| *mate != head && slot.row == row) {
+            let Some(side) = self.side_of(start, &slot.done) else { continue };
+            let before = if head > mate { slots[head].sides[mate] } else { -slot.sides[head] };
+            if side == 0.0 || before * side < 0.0 {
+                return None;
+            }
+            met.push((mate, side));
+        }
+        Some(met)
+    }
+
+    /// On which side of a task those of another head are that are made at the same time; 0 where any comes too near.
+    fn side_of(&self, start: Start, done: &[Start]) -> Option<f64> {
+        let is_late = |other: &&Start| other.tick + self.tasks[other.task].ticks >= start.tick;
+        let sides = done.iter().rev().take_while(is_late).filter_map(|&other| self.links.side(start, other));
+        sides.reduce(|a, b| if a * b > 0.0 { a } else { 0.0 })
+    }
 }

@@ -61,6 +61,15 @@ impl Shift {
     }
 }
 
+/// What lies between two chains.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gap {
+    pub(super) ends: [State; 2],
+    /// Whether the head moves with the cloth at its start, and at its end.
+    pub(super) moves: [bool; 2],
+    pub(super) wait: Wait,
+}
+
 /// What a head does between two chains.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
@@ -76,9 +85,9 @@ pub(super) struct Link {
 }
 
 impl Link {
-    /// The link between two states that takes so many ticks.
-    pub(super) fn new(ends: [State; 2], moves: [bool; 2], ticks: u32, wait: Wait, moving: &Moving) -> Self {
-        let ramp = moving.ramp;
+    /// The link over a gap that takes so many ticks.
+    pub(super) fn new(gap: &Gap, ticks: u32, moving: &Moving) -> Self {
+        let (ramp, Gap { ends, moves, wait }) = (moving.ramp, *gap);
         let [from, to] = ends;
         let x = Shift::new(rests(ends, moves, &ramp), 0, moving).begun(if moves[0] { ramp.ticks } else { 0 });
         let place = match wait {
@@ -99,6 +108,11 @@ impl Link {
         let knife = &moving.either.profile.knife;
         let rising = if moves[0] { periods(knife.lift() - knife.clear(), moving.period) } else { 0 };
         along.max(taken([from.y, to.y], 1)).max(taken([from.c, to.c], 2)).max(rising)
+    }
+
+    /// The least ticks that any link between two chains takes.
+    pub(super) fn fewest(moving: &Moving) -> u32 {
+        2 * moving.ramp.ticks
     }
 
     /// Whether there is time to wait where it does.

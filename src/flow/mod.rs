@@ -48,19 +48,21 @@ pub struct Figures {
     pub chains: usize,
     /// Heads in use.
     pub heads: usize,
-    /// The most chains that one place along the feed is on: without travel along the feed no fewer heads can do it.
+    /// No fewer heads can make these chains, whoever has which: so many are there none of which can be made behind another.
     pub heads_bound: usize,
+    /// The most chains that one place along the feed is on: without travel along the feed no fewer heads would do.
+    pub chains_abreast: usize,
     /// Rows in use.
     pub rows: usize,
     /// Whether there are provably no fewer rows for these heads.
     pub rows_exact: bool,
     /// Greatest travel along the feed that a chain takes, its ramps included, mm.
     pub travel_mm: f64,
-    /// The same by the closed form, without accelerations and ramps, mm.
+    /// The least travel that the ways of the chains take, without accelerations and ramps, mm.
     pub travel_bound_mm: f64,
-    /// Greatest speed of the conveyor at which every chain would be cut by the closed form, mm/s.
+    /// Greatest speed of the conveyor at which they would take no more than there is, mm/s.
     pub speed_bound_mm_s: f64,
-    /// Length of all cuts, m.
+    /// Length of all cuts, without overlaps, m.
     pub cut_m: f64,
     /// Time of the program, s.
     pub time_s: f64,

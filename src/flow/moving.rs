@@ -7,6 +7,10 @@
 use super::ramp::Ramp;
 use crate::machine::{Job, Limits};
 
+/// Periods of travel that whole ones take: half a period at either end for the place of the cloth, and one because a chain
+/// starts no earlier than it may.
+const WHOLE_PERIODS: f64 = 2.0;
+
 /// Cloth that moves under heads.
 #[derive(Debug, Clone)]
 pub(super) struct Moving {
@@ -47,9 +51,14 @@ impl Moving {
             acceleration: cut[0].acceleration.min(rapid[0].acceleration),
             jerk: cut[0].jerk.min(rapid[0].jerk),
         };
-        let travel = job.profile.flow.travel_mm - 2.0 * speed * period;
+        let travel = job.profile.flow.travel_mm - WHOLE_PERIODS * speed * period;
         let ramp = Ramp::new(speed, gentler, period);
         Some(Self { speed, period, travel, ramp, falling: with(most), either: with(least), rapid })
+    }
+
+    /// What is left of the travel at either end, mm: the place of the cloth at a station is rounded to half a period.
+    pub(super) fn reserve(&self) -> f64 {
+        self.step() / 2.0
     }
 
     /// How far the cloth moves in a period, mm.

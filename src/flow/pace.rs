@@ -1,21 +1,21 @@
 //! A head that is too fast along the feed comes to the end of its travel and would have to wait with the knife down. It is
 //! slowed before that: chord by chord, to the speed at which it arrives where the cloth is.
 //!
-//! The fastest motion tells how long each chord takes at the least; the lag before a chord, how much sooner than the cloth
-//! the head may arrive. A motion under these caps starts from rest and so is later than they say, never earlier; its lag is
-//! taken into account in the next round.
+//! The fastest motion tells how long each chord takes at the least; what the lag before a chord leaves, how much sooner than
+//! the cloth the head may arrive. A motion under these caps speeds up and slows down and so is later than they say, never
+//! earlier: by how much is known when it is planned, and counts in the next round.
 
 use super::chains::Chain;
 use super::moving::Moving;
 use super::stroke::{Stroke, stroke};
 use crate::diagnostic::Diagnostic;
-use crate::geom::{Point, polyline};
+use crate::geom::{Point, Rotation, polyline};
 use crate::ir::Toolpath;
 use crate::ir::motion::{Kind, Phase};
 use crate::ir::toolpath::{Run, Step};
 
 /// Rounds of slowing down.
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 3;
 /// A chain that takes no more of the travel needs no better pace.
 const PLENTY: f64 = 0.5;
 /// Speeds that differ by less are alike.
@@ -38,19 +38,21 @@ struct Leg {
 pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Result<Stroke, Vec<Diagnostic>> {
     let mut best = stroke(chain, toolpath, moving)?;
     let travel = |stroke: &Stroke| stroke.lag.travel(moving.ramp.way);
+    if travel(&best) <= PLENTY * moving.travel {
+        return Ok(best);
+    }
     let fastest = legs(toolpath, &best, moving);
-    let mut now = fastest.clone();
+    let mut late = vec![0.0; fastest.len()];
     let mut capped = toolpath.clone();
-    for round in 0..ROUNDS {
-        if travel(&best) <= PLENTY * moving.travel {
+    for _ in 0..ROUNDS {
+        let times = times(&fastest, &late, moving.speed);
+        if !cap(&mut capped, toolpath, &fastest, &times) {
             break;
         }
-        let lags = if round == 0 { lags_of_bound(&fastest, moving.speed) } else { lags(&now, moving.speed) };
-        if !cap(&mut capped, toolpath, &fastest, &lags, moving.speed) {
-            break;
-        }
-        let slower = stroke(chain, &capped, moving)?;
-        now = legs(&capped, &slower, moving);
+        // What cannot be planned so slowly is cut at the pace that was found before.
+        let Ok(slower) = stroke(chain, &capped, moving) else { break };
+        let now = legs(&capped, &slower, moving);
+        late = now.iter().zip(&times).map(|(leg, time)| (leg.time - time).max(0.0)).collect();
         if travel(&slower) < travel(&best) {
             best = slower;
         }
@@ -58,37 +60,27 @@ pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Resu
     Ok(best)
 }
 
-/// The lag before each leg where a head waits when it would be early: it never falls below that of its start, mm.
-fn lags_of_bound(legs: &[Leg], speed: f64) -> Vec<f64> {
-    let mut lag: f64 = 0.0;
-    let before = |leg: &Leg| {
-        let before = lag;
-        lag = (lag + speed * leg.time - leg.advance).max(0.0);
-        before
+/// How long each leg should take so that the head is never early, its lag never below that of its start, s; `late` is by how
+/// much a leg takes longer than it should.
+fn times(fastest: &[Leg], late: &[f64], speed: f64) -> Vec<f64> {
+    let mut lag = 0.0;
+    let time = |(leg, late): (&Leg, &f64)| {
+        let time = leg.time.max((leg.advance - lag) / speed - late);
+        lag += speed * (time + late) - leg.advance;
+        time
     };
-    legs.iter().map(before).collect()
+    fastest.iter().zip(late).map(time).collect()
 }
 
-/// The lag before each leg of a motion, mm.
-fn lags(legs: &[Leg], speed: f64) -> Vec<f64> {
-    let mut lag: f64 = 0.0;
-    let before = |leg: &Leg| {
-        let before = lag;
-        lag += speed * leg.time - leg.advance;
-        before
-    };
-    legs.iter().map(before).collect()
-}
-
-/// Caps the chords at whose fastest the lag would fall below that of the start; says whether any cap is another one than
-/// before.
-fn cap(capped: &mut Toolpath, plain: &Toolpath, fastest: &[Leg], lags: &[f64], speed: f64) -> bool {
+/// Caps the chords that should take longer than they do at their fastest; says whether any cap is another one than before.
+fn cap(capped: &mut Toolpath, plain: &Toolpath, fastest: &[Leg], times: &[f64]) -> bool {
     let mut is_other = false;
-    for (leg, lag) in fastest.iter().zip(lags) {
+    for (leg, &time) in fastest.iter().zip(times) {
         let Some([step, chord]) = leg.chord else { continue };
         let (Step::Run(run), Step::Run(of)) = (&mut capped.steps[step], &plain.steps[step]) else { continue };
-        let time = (leg.advance - lag) / speed;
-        let feed = if time > leg.time { of.feeds[chord].min(leg.way / time) } else { of.feeds[chord] };
+        // A chord that is shorter than the way of a period goes by its neighbours.
+        let is_slowed = time > leg.time && leg.way > 0.0;
+        let feed = if is_slowed { of.feeds[chord].min(leg.way / time) } else { of.feeds[chord] };
         is_other |= (run.feeds[chord] / feed - 1.0).abs() > SAME;
         run.feeds[chord] = feed;
     }
@@ -113,7 +105,7 @@ fn legs(toolpath: &Toolpath, stroke: &Stroke, moving: &Moving) -> Vec<Leg> {
         match current {
             Some((step, Some(run))) if phase.kind == Kind::Cut => {
                 let lead = run.edge.lead(knife.ends());
-                legs.extend(of_cut(step, run, phase, lead, end, moving));
+                legs.extend(Cut { step, run, phase, lead, end }.legs(moving));
             }
             _ => {
                 let time = f64::from(phase.ticks) * moving.period;
@@ -124,34 +116,35 @@ fn legs(toolpath: &Toolpath, stroke: &Stroke, moving: &Moving) -> Vec<Leg> {
     legs
 }
 
-/// The legs of a cut, a chord each: where the tip is along the polyline is told by how far it still has to go.
-fn of_cut(step: usize, run: &Run, phase: &Phase, lead: f64, end: f64, moving: &Moving) -> Vec<Leg> {
-    let turn = run.edge.turn() + moving.either.profile.knife.yaw();
-    let tip = |tick: u32| -> Point {
-        let pose = phase.pose(tick);
-        pose.centre + crate::geom::Rotation(pose.c.0 - turn).unit() * lead
-    };
-    let mut way = Vec::with_capacity(phase.ticks as usize + 1);
-    let (mut last, mut sum) = (tip(0), 0.0);
-    for tick in 0..phase.ticks {
-        let here = tip(tick);
-        sum += (here - last).norm();
-        way.push(sum);
-        last = here;
-    }
-    let stations = polyline::stations(&run.points);
-    let whole = stations[stations.len() - 1] + run.front;
-    let total = phase.length.max(sum);
-    // The tick at which the tip is at a station, and the place of the centre then.
-    let reach =
-        |station: f64| way.partition_point(|&at| at < total - (whole - station)).min(phase.ticks as usize) as u32;
-    let x = |tick: u32| if tick < phase.ticks { phase.pose(tick).centre.x } else { end };
-    let last_chord = stations.len() - 2;
-    let mut from = 0;
-    (0..=last_chord)
-        .map(|chord| {
+/// A run as it is cut.
+struct Cut<'a> {
+    /// Its place among the steps.
+    step: usize,
+    run: &'a Run,
+    phase: &'a Phase,
+    /// From the C axis to the leading end of the blade, mm.
+    lead: f64,
+    /// The place of the C axis along the feed where it ends, mm.
+    end: f64,
+}
+
+impl Cut<'_> {
+    /// Its legs, a chord each: where the tip is along the polyline is told by how far it still has to go.
+    fn legs(&self, moving: &Moving) -> Vec<Leg> {
+        let Self { step, run, phase, end, .. } = *self;
+        let way = self.way(moving);
+        let stations = polyline::stations(&run.points);
+        let whole = stations[stations.len() - 1] + run.front;
+        let total = phase.length.max(way.last().copied().unwrap_or(0.0));
+        // The tick at which the tip is at a station, and the place of the centre then.
+        let reach =
+            |station: f64| way.partition_point(|&at| at < total - (whole - station)).min(phase.ticks as usize) as u32;
+        let x = |tick: u32| if tick < phase.ticks { phase.pose(tick).centre.x } else { end };
+        let travelled = |tick: u32| way.get(tick as usize).copied().unwrap_or(total);
+        let last_chord = stations.len() - 2;
+        let mut from = 0;
+        let leg = |chord: usize| {
             let to = if chord == last_chord { phase.ticks } else { reach(stations[chord + 1]).max(from) };
-            let travelled = |tick: u32| way.get(tick as usize).copied().unwrap_or(total);
             let leg = Leg {
                 chord: Some([step, chord]),
                 time: f64::from(to - from) * moving.period,
@@ -160,6 +153,25 @@ fn of_cut(step: usize, run: &Run, phase: &Phase, lead: f64, end: f64, moving: &M
             };
             from = to;
             leg
-        })
-        .collect()
+        };
+        (0..=last_chord).map(leg).collect()
+    }
+
+    /// The way of the tip up to each tick, mm.
+    fn way(&self, moving: &Moving) -> Vec<f64> {
+        let Self { run, phase, lead, .. } = *self;
+        let turn = run.edge.turn() + moving.either.profile.knife.yaw();
+        let tip = |tick: u32| -> Point {
+            let pose = phase.pose(tick);
+            pose.centre + Rotation(pose.c.0 - turn).unit() * lead
+        };
+        let (mut last, mut sum) = (tip(0), 0.0);
+        let to = |tick: u32| {
+            let here = tip(tick);
+            sum += (here - last).norm();
+            last = here;
+            sum
+        };
+        (0..phase.ticks).map(to).collect()
+    }
 }

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::link::Wait;
 use super::program::{Head, Program};
 use super::rows::{self, Conflicts};
 use super::track::Track;
@@ -20,7 +21,7 @@ pub(super) struct Layout {
 }
 
 /// Rows for heads that cut the strokes of a program: those that they come with, or as few as are found.
-pub(super) fn place(program: &Program, heads: &[Head], rows: Option<Vec<usize>>, job: &Job) -> Layout {
+pub(super) fn place(program: &Program, (heads, rows): (&[Head], Option<Vec<usize>>), job: &Job) -> Layout {
     let flow = &job.profile.flow;
     let width = flow.head_width_mm;
     let span = span(program, heads);
@@ -56,7 +57,7 @@ pub(super) fn place(program: &Program, heads: &[Head], rows: Option<Vec<usize>>,
     }
     let mut placed = Vec::with_capacity(mates.len());
     for (row, members) in filled.iter().enumerate() {
-        let waits = waits(&room, &mates, members).unwrap_or_default();
+        let waits = waits(&room, &mates, members).expect("its members were joined with room for each");
         placed.extend(members.iter().zip(waits).map(|(&head, waits)| Head { row, waits, ..heads[head].clone() }));
     }
     Layout { heads: placed, rows: filled.len(), exact }
@@ -99,7 +100,7 @@ fn joined(room: &Room, mates: &[Mate], members: &[usize], head: usize) -> Option
     })
 }
 
-fn waits(room: &Room, mates: &[Mate], row: &[usize]) -> Option<Vec<Vec<super::link::Wait>>> {
+fn waits(room: &Room, mates: &[Mate], row: &[usize]) -> Option<Vec<Vec<Wait>>> {
     let row: Vec<&Mate> = row.iter().map(|&head| &mates[head]).collect();
     room.waits(&row)
 }

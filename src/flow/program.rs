@@ -1,7 +1,7 @@
 //! What the heads do: every chain on a head, every head in a row, and where each head is at every tick.
 
 use super::heads::Start;
-use super::link::{Link, State, Wait};
+use super::link::{Gap, Link, State, Wait};
 use super::moving::Moving;
 use super::stroke::Stroke;
 use super::yielding::ends_of;
@@ -132,7 +132,8 @@ impl Program {
             if ends[1].is_none() {
                 last.xi += ramp;
             }
-            Link::new([first, last], ends.map(|end| end.is_some()), ticks, wait, &self.moving)
+            let gap = Gap { ends: [first, last], moves: ends.map(|end| end.is_some()), wait };
+            Link::new(&gap, ticks, &self.moving)
         });
         (0..ticks).filter_map(move |tick| link.map(|link| (link.at(tick), false, 0)))
     }

@@ -9,7 +9,7 @@ use crate::ir::Marker;
 use crate::ir::toolpath::Step;
 use crate::machine::Job;
 use crate::pass::toolpath::{Scene, trace};
-use crate::units::number::{fixed, up};
+use crate::units::number::{counted, fixed, up};
 
 /// Plans how a marker is cut while it moves; `None` where it cannot, and the diagnostics say why.
 pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> Option<Program> {
@@ -24,6 +24,13 @@ pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> 
     let flow = &job.profile.flow;
     let tried = match speed {
         Speed::Profile => attempt(&work, flow.speed_mm_s, out).map_err(|missing| (missing, flow.speed_mm_s)),
+        Speed::Of(speed) if speed > flow.max_speed_mm_s => {
+            let [asked, most] = [speed, flow.max_speed_mm_s].map(|speed| fixed(speed, 1));
+            let message = format!("the conveyor runs at {most} mm/s at the most, and {asked} are asked for");
+            let hint = "`--speed max` finds the greatest speed; the conveyor's own is `flow.max_speed_mm_s`";
+            out.push(Diagnostic::new(&code::FLOW_INFEASIBLE, message).hint(hint));
+            return None;
+        }
         Speed::Of(speed) => attempt(&work, speed, out).map_err(|missing| (missing, speed)),
         Speed::Most => fastest(&work, out),
     };
@@ -31,7 +38,7 @@ pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> 
         Ok(program) if !out.has_errors() => Some(program),
         Ok(_) => None,
         Err((missing, speed)) => {
-            refuse(&work, missing, speed, out);
+            refuse(&work, &missing, speed, out);
             None
         }
     }
@@ -51,7 +58,7 @@ fn lines(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Vec<Line> {
         }
     }
     if let Some(first) = drills.first() {
-        let message = format!("{} holes are not made: no head has a drill", drills.len());
+        let message = format!("no head has a drill: {} left out", counted(drills.len(), "hole"));
         let hint = "drill them before or behind the conveyor, as in `cutc compile` with the same file";
         out.push(Diagnostic::new(&code::FLOW_LEFT_OUT, message).on_cloth(first.at).hint(hint));
     }
@@ -70,14 +77,18 @@ const MENTIONED_ACCURACY: f64 = 4.0;
 /// The slowest conveyor that is looked at, mm/s.
 const SLOWEST: f64 = 1.0;
 
+/// The greatest speed that is looked at, mm/s.
+fn limit(work: &Work) -> f64 {
+    let profile = &work.job.profile;
+    profile.flow.max_speed_mm_s.min(profile.axes.limits()[0].speed)
+}
+
 /// The program at the greatest speed that is found, or what is missing at the slowest.
 fn fastest(work: &Work, out: &mut Diagnostics) -> Result<Program, (Missing, f64)> {
-    let flow = &work.job.profile.flow;
-    let limit = flow.max_speed_mm_s.min(work.job.profile.axes.limits()[0].speed);
     let mut found = Diagnostics::default();
-    let best = match tried(work, limit, &mut found) {
+    let best = match tried(work, limit(work), &mut found) {
         Some(program) => Some((program, found)),
-        None => below(work, limit, SPEED_ACCURACY),
+        None => below(work, limit(work), SPEED_ACCURACY),
     };
     match best {
         Some((program, found)) => {
@@ -88,7 +99,8 @@ fn fastest(work: &Work, out: &mut Diagnostics) -> Result<Program, (Missing, f64)
     }
 }
 
-/// The program at the greatest speed below another one, to an accuracy, mm/s.
+/// The program at the greatest speed below another one that is found, to an accuracy, mm/s; `None` where even the slowest is
+/// too fast.
 fn below(work: &Work, speed: f64, accuracy: f64) -> Option<(Program, Diagnostics)> {
     let [mut slow, mut fast] = [SLOWEST, speed];
     let mut best = None;
@@ -100,7 +112,11 @@ fn below(work: &Work, speed: f64, accuracy: f64) -> Option<(Program, Diagnostics
             None => fast = middle,
         }
     }
-    best
+    best.or_else(|| {
+        let mut found = Diagnostics::default();
+        let program = (speed > SLOWEST).then(|| attempt(work, SLOWEST, &mut found).ok())??;
+        Some((program, found))
+    })
 }
 
 /// The program at a speed, if there is one: what not even the closed form allows is not planned.
@@ -109,18 +125,18 @@ fn tried(work: &Work, speed: f64, out: &mut Diagnostics) -> Option<Program> {
 }
 
 /// Says what is missing, and what each remedy takes.
-fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
+fn refuse(work: &Work, missing: &Missing, speed: f64, out: &mut Diagnostics) {
     let flow = &work.job.profile.flow;
     let shown = fixed(speed, 1);
     let (message, place) = match missing {
         Missing::Plan(refused) => {
             for refused in refused {
-                out.push(refused);
+                out.push(refused.clone());
             }
             return;
         }
         Missing::Way(more) => {
-            let message = format!("the first row stands {} mm too near to the cloth", up(more, 0));
+            let message = format!("the first row stands {} mm too near to the cloth", up(*more, 0));
             let hint = format!("`flow.first_row_mm` = {}", up(flow.first_row_mm + more, 0));
             out.push(Diagnostic::new(&code::FLOW_INFEASIBLE, message).hint(hint));
             return;
@@ -128,16 +144,18 @@ fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
         Missing::Axis => (format!("no head can keep up with a conveyor of {shown} mm/s along the feed"), None),
         Missing::Travel { needed, at } => {
             let has = fixed(flow.travel_mm, 1);
-            let needed = up(needed, 1);
+            let needed = up(*needed, 1);
             (
                 format!("at {shown} mm/s a chain takes {needed} mm of travel along the feed, and heads have {has} mm"),
-                Some(at),
+                Some(*at),
             )
         }
         Missing::Machine { heads, rows } => {
             let message = format!(
-                "at {shown} mm/s it takes {heads} heads in {rows} rows, and the machine has {} in {}",
-                flow.heads, flow.rows
+                "at {shown} mm/s it takes {}, and the machine has {} in {}",
+                told([*heads, *rows]),
+                flow.heads,
+                flow.rows
             );
             (message, None)
         }
@@ -146,7 +164,7 @@ fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
     if let Some(at) = place {
         found = found.on_cloth(at);
     }
-    for hint in hints(work, &missing, speed) {
+    for hint in hints(work, missing, speed) {
         found = found.hint(hint);
     }
     out.push(found);
@@ -161,34 +179,52 @@ fn hints(work: &Work, missing: &Missing, speed: f64) -> Vec<String> {
     match missing {
         Missing::Travel { needed, .. } => {
             let travel = needed.ceil();
+            let key = travel_key(work, travel);
             hints.push(with_travel(work, travel, speed).map_or_else(
-                || format!("a longer travel: `flow.travel_mm` = {travel}"),
-                |[heads, rows]| {
-                    format!("a longer travel: `flow.travel_mm` = {travel} does, with {heads} heads in {rows} rows")
-                },
+                || format!("a longer travel: {key}"),
+                |needed| format!("a longer travel: {key} does, with {}", told(needed)),
             ));
         }
-        Missing::Machine { heads, rows } => {
-            hints.push(format!("more heads: `flow.heads` = {heads} and `flow.rows` = {rows}"));
+        &Missing::Machine { heads, rows } => {
             let flow = &work.job.profile.flow;
+            let keys = [("flow.heads", heads, flow.heads), ("flow.rows", rows, flow.rows)];
+            let more = keys.iter().filter(|(_, needed, has)| *needed > *has as usize);
+            let more: Vec<String> = more.map(|(key, needed, _)| format!("`{key}` = {needed}")).collect();
+            hints.push(format!("a larger machine: {}", more.join(" and ")));
             let longer = TRAVELS.iter().map(|part| (part * flow.travel_mm).ceil());
             let fits = |&[heads, rows]: &[usize; 2]| heads <= flow.heads as usize && rows <= flow.rows as usize;
             let found = longer
                 .filter_map(|travel| Some((travel, with_travel(work, travel, speed)?)))
                 .find(|(_, machine)| fits(machine));
-            hints.extend(found.map(|(travel, [heads, rows])| {
-                format!("a longer travel: with `flow.travel_mm` = {travel} it takes {heads} heads in {rows} rows")
+            hints.extend(found.map(|(travel, machine)| {
+                format!("a longer travel: with {} it takes {}", travel_key(work, travel), told(machine))
             }));
         }
         Missing::Axis | Missing::Way(_) | Missing::Plan(_) => {}
     }
-    hints.push(match below(work, speed, MENTIONED_ACCURACY) {
+    hints.push(match below(work, speed.min(limit(work)), MENTIONED_ACCURACY) {
         Some((program, _)) => {
-            format!("a slower conveyor: {} mm/s can be cut on this machine", fixed(program.speed, 1))
+            format!("a slower conveyor: {} mm/s, for one, can be cut on this machine", fixed(program.speed, 1))
         }
         None => "no slower conveyor would do".to_owned(),
     });
     hints
+}
+
+/// The keys that make the travel so long, mm: rows stand no nearer to each other than that.
+fn travel_key(work: &Work, travel: f64) -> String {
+    let flow = &work.job.profile.flow;
+    let pitch = if flow.rows > 1 && flow.row_pitch_mm < travel {
+        format!(" and `flow.row_pitch_mm` = {travel}")
+    } else {
+        String::new()
+    };
+    format!("`flow.travel_mm` = {travel}{pitch}")
+}
+
+/// Heads and rows in words.
+fn told([heads, rows]: [usize; 2]) -> String {
+    format!("{} in {}", counted(heads, "head"), counted(rows, "row"))
 }
 
 /// Heads and rows that it takes with another travel along the feed; `None` where that is still too short.

@@ -1,13 +1,14 @@
 //! A chain as a head cuts it: its motion over the cloth, and how far along the feed it drifts meanwhile.
 
+use super::bound::Step;
 use super::chains::Chain;
 use super::moving::Moving;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::geom::Point;
+use crate::geom::{Point, Rotation};
 use crate::ir::Toolpath;
 use crate::ir::motion::{Kind, Phase};
 use crate::ir::toolpath::Pose;
-use crate::machine::Job;
+use crate::machine::{Job, Knife};
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES};
 use crate::plan::{self, Planner};
 
@@ -60,8 +61,7 @@ impl Lag {
     /// When it may start, in s before the place x = 0 of the cloth meets the station: the earliest and the latest.
     pub(super) fn window(&self, moving: &Moving) -> [f64; 2] {
         let [most, least] = self.reach(moving.ramp.way);
-        // What whole periods take is left at either end.
-        let reserve = moving.step();
+        let reserve = moving.reserve();
         [(reserve - least) / moving.speed, (moving.travel + reserve - most) / moving.speed]
     }
 }
@@ -78,12 +78,12 @@ pub(super) fn toolpath(chain: &Chain, scene: &Scene, out: &mut Diagnostics) -> T
 /// The motion of a chain, or why there is none.
 pub(super) fn stroke(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Result<Stroke, Vec<Diagnostic>> {
     if chain.falls {
-        let stroke = along(chain, toolpath, moving, &moving.falling)?;
+        let stroke = Stroke::of(chain, joined(toolpath, &moving.falling)?, moving);
         if keeps_up(&stroke, moving) {
             return Ok(stroke);
         }
     }
-    along(chain, toolpath, moving, &moving.either)
+    Ok(Stroke::of(chain, joined(toolpath, &moving.either)?, moving))
 }
 
 /// Whether a head nowhere runs farther ahead along the feed than its axis can, at the speed of the cloth.
@@ -97,29 +97,57 @@ fn keeps_up(stroke: &Stroke, moving: &Moving) -> bool {
     })
 }
 
-fn along(chain: &Chain, toolpath: &Toolpath, moving: &Moving, job: &Job) -> Result<Stroke, Vec<Diagnostic>> {
+/// The motion along a toolpath, from its first plunge on: how the head comes to that is for those who know where it was before.
+fn joined(toolpath: &Toolpath, job: &Job) -> Result<Vec<Phase>, Vec<Diagnostic>> {
     let cuts = plan::solve(toolpath, job)?;
     let motion = Planner::new(job).join(toolpath, cuts);
-    // How the head comes to its start is for those who know where it was before.
-    let phases: Vec<Phase> = motion.phases.into_iter().skip_while(|phase| phase.kind != Kind::Plunge).collect();
-    let [Some(first), Some(last)] = [phases.first(), phases.last()] else { return Err(Vec::new()) };
-    let ends = [first.pose(0), last.pose(last.ticks - 1)];
-    let ticks = phases.iter().map(|phase| phase.ticks).sum();
-    let mut stroke = Stroke {
-        cut: chain.cut,
-        piece: [toolpath.piece, toolpath.part],
-        points: chain.points().to_vec(),
-        phases,
-        ticks,
-        ends,
-        span: chain.span(),
-        lag: Lag { first: 0.0, last: 0.0, least: f64::INFINITY, most: f64::NEG_INFINITY },
-    };
-    stroke.lag = stroke.measured(moving);
-    Ok(stroke)
+    Ok(motion.phases.into_iter().skip_while(|phase| phase.kind != Kind::Plunge).collect())
 }
 
 impl Stroke {
+    /// A chain with its motion, which begins with a plunge.
+    fn of(chain: &Chain, phases: Vec<Phase>, moving: &Moving) -> Self {
+        let [Some(first), Some(last)] = [phases.first(), phases.last()] else {
+            unreachable!("a chain is a run, which begins with a plunge")
+        };
+        let ends = [first.pose(0), last.pose(last.ticks - 1)];
+        let ticks = phases.iter().map(|phase| phase.ticks).sum();
+        let mut stroke = Self {
+            cut: chain.cut,
+            piece: [chain.toolpath.piece, chain.toolpath.part],
+            points: chain.points().to_vec(),
+            phases,
+            ticks,
+            ends,
+            span: chain.span(),
+            lag: Lag { first: 0.0, last: 0.0, least: f64::INFINITY, most: f64::NEG_INFINITY },
+        };
+        stroke.lag = stroke.measured(moving);
+        stroke
+    }
+
+    /// The way of its motion, tick by tick, but for the first plunge and the last lift: what it takes without accelerations is
+    /// less than what is planned.
+    pub(super) fn way(&self, knife: &Knife) -> Vec<Step> {
+        // With two edges either end of the blade may lead: then no feed counts.
+        let lead = if knife.edges == 1 { knife.radius() } else { 0.0 };
+        let tip = |pose: &Pose| pose.centre + Rotation(pose.c.0 - knife.yaw()).unit() * lead;
+        let mut way: Vec<Step> = Vec::with_capacity(self.ticks as usize);
+        let mut last: Option<(Pose, bool)> = None;
+        for (pose, down, _) in self.poses() {
+            if let Some((before, was_down)) = last.replace((pose, down)) {
+                let moved = (tip(&pose) - tip(&before)).norm();
+                way.push(Step {
+                    along: pose.centre - before.centre,
+                    tip: if down && knife.edges == 1 { moved } else { 0.0 },
+                    turned: (pose.c.0 - before.c.0).abs(),
+                    lifted: down && !was_down,
+                });
+            }
+        }
+        way
+    }
+
     /// The pose over the cloth, whether the knife is down, and the block, tick by tick; the last tick is that at which the
     /// next thing begins, and is not among them.
     pub(super) fn poses(&self) -> impl Iterator<Item = (Pose, bool, u32)> + '_ {

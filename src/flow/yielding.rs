@@ -4,7 +4,7 @@
 //! ended, or at a third place: the first of these that keeps it a head's width above the head below, and as many widths
 //! below each head above that cuts as there are heads up to it.
 
-use super::link::{Link, State, Wait};
+use super::link::{Gap, Link, State, Wait};
 use super::moving::Moving;
 use super::track::{BLOCK, Track};
 
@@ -28,6 +28,15 @@ pub(super) struct Room<'a> {
     pub(super) table: [f64; 2],
 }
 
+/// A head with those of its row.
+struct Between<'a> {
+    mate: &'a Mate,
+    /// Where the one below it is all along.
+    below: Option<&'a Track>,
+    /// Where those above it cut, and how many heads there are up to each.
+    above: Vec<(&'a Track, f64)>,
+}
+
 /// Least distance beyond the width of a head, mm: places are looked at once in some periods.
 const MARGIN: f64 = 0.01;
 
@@ -38,11 +47,11 @@ impl Room<'_> {
         let mut below: Option<Track> = None;
         let mut all = Vec::with_capacity(mates.len());
         for (k, mate) in mates.iter().enumerate() {
-            let above: Vec<(&Track, f64)> =
-                mates[k + 1..].iter().zip(1..).map(|(mate, n)| (&mate.busy, f64::from(n))).collect();
+            let above = mates[k + 1..].iter().zip(1..).map(|(mate, n)| (&mate.busy, f64::from(n))).collect();
+            let between = Between { mate, below: below.as_ref(), above };
             let mut track = mate.busy.clone();
             let waits: Option<Vec<Wait>> =
-                (0..=mate.chains.len()).map(|gap| self.wait(mate, gap, below.as_ref(), &above, &mut track)).collect();
+                (0..=mate.chains.len()).map(|gap| self.wait(&between, gap, &mut track)).collect();
             all.push(waits?);
             below = Some(track);
         }
@@ -50,14 +59,8 @@ impl Room<'_> {
     }
 
     /// Where a head waits in a gap between its chains; puts it there.
-    fn wait(
-        &self,
-        mate: &Mate,
-        gap: usize,
-        below: Option<&Track>,
-        above: &[(&Track, f64)],
-        track: &mut Track,
-    ) -> Option<Wait> {
+    fn wait(&self, between: &Between, gap: usize, track: &mut Track) -> Option<Wait> {
+        let Between { mate, below, above } = between;
         let before = gap.checked_sub(1).map(|i| mate.chains[i]);
         let behind = mate.chains.get(gap).copied();
         let span =
@@ -72,7 +75,7 @@ impl Room<'_> {
         }
         for (above, heads) in above {
             for (room, block) in corridor.iter_mut().zip(above.between(span)) {
-                room[1] = room[1].min(block[0] - heads * gap_width);
+                room[1] = room[1].min(block[0] - *heads * gap_width);
             }
         }
         let ends = [before.map(|(_, states)| states[1]), behind.map(|(_, states)| states[0])];
@@ -106,7 +109,7 @@ impl Room<'_> {
     fn link(&self, ends: [Option<State>; 2], [from, to]: [i64; 2], wait: Wait) -> Option<Link> {
         let states = ends_of(ends, wait)?;
         let ticks = u32::try_from(to - from).ok()?;
-        Some(Link::new(states, ends.map(|end| end.is_some()), ticks, wait, self.moving))
+        Some(Link::new(&Gap { ends: states, moves: ends.map(|end| end.is_some()), wait }, ticks, self.moving))
     }
 }
 

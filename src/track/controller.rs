@@ -40,7 +40,7 @@ pub struct Reading {
 pub enum Status {
     /// I = J, or one count beyond that on the way to it: nothing to do.
     Centred,
-    /// Off centre, but not long enough yet.
+    /// Off centre, but not long enough yet: nothing is done about it.
     Waiting,
     /// Off centre: the carriage is driven.
     Driving,
@@ -65,7 +65,8 @@ impl Status {
 /// What the drive has to do until the next command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command {
-    /// Why.
+    /// Where the cloth lies, and what is done about that. What is fed forward comes to it: then the carriage may move while the
+    /// cloth lies in its centre.
     pub status: Status,
     /// Velocity of the carriage, mm/s, positive to the right; 0 = stop.
     pub velocity: f64,

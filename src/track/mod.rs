@@ -7,7 +7,7 @@
 //! bytes -> scenario ->         simulate -> the same, with others beside, measured
 //! ```
 //!
-//! `controller` is what a firmware runs; `law` makes of the profile what it goes by. `drive`, `rulers` and `rivals` are the
+//! `verify` reads the commands back that were written. `controller` is what a firmware runs; `law` makes of the profile what it goes by. `drive`, `rulers` and `rivals` are the
 //! plant of the simulation. `centre` reads and writes centre lines, which `compile --centre` takes, too.
 
 pub mod centre;
@@ -26,6 +26,7 @@ mod rulers;
 pub mod scenario;
 pub mod simulate;
 mod tracked;
+pub mod verify;
 mod write;
 
 pub use replay::Replay;

@@ -19,6 +19,8 @@ pub struct Target {
     pub extension: &'static str,
     /// What must be known for it.
     pub needs: Needs,
+    /// Whether it is read back and judged before it takes its place.
+    pub is_judged: bool,
     /// Writes it.
     pub write: fn(&Tracked, &mut dyn Write) -> io::Result<()>,
 }
@@ -30,6 +32,7 @@ pub const TARGETS: &[Target] = &[
         about: "what the controller makes of each row: `t_s,i,j,status,direction,v_mm_s`",
         extension: "commands.csv",
         needs: Needs::Commands,
+        is_judged: true,
         write: commands,
     },
     Target {
@@ -37,6 +40,7 @@ pub const TARGETS: &[Target] = &[
         about: "the centre line of the cloth by the place of the conveyor: `conv_mm,centre_mm`",
         extension: "centre.csv",
         needs: Needs::Centre,
+        is_judged: false,
         write: |tracked, out| centre::write(&tracked.centre, out),
     },
     Target {
@@ -44,6 +48,7 @@ pub const TARGETS: &[Target] = &[
         about: "the log, with the places of conveyor and carriage: `t_s,i,j,conv_mm,carriage_mm`",
         extension: "log.csv",
         needs: Needs::Places,
+        is_judged: false,
         write: log,
     },
     Target {
@@ -51,6 +56,7 @@ pub const TARGETS: &[Target] = &[
         about: "a picture: positions, error and speed over time",
         extension: "svg",
         needs: Needs::Centre,
+        is_judged: false,
         write: chart::write,
     },
 ];

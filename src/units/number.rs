@@ -99,6 +99,11 @@ pub fn short(value: f64) -> String {
     exact(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
+/// A number with its noun: `1 error`, `2 errors`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

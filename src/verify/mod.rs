@@ -22,7 +22,7 @@ mod worst;
 pub use declared::Declared;
 pub use program::cutter_file::cutter_file;
 pub use reference::ground::Ground;
-pub use reference::required::{Required, RequiredCut, required};
+pub use reference::required::{Capped, Required, RequiredCut, required};
 pub use rules::{RULES, Rule, rule};
 pub use source::audit::source_audit;
 pub use source::census::Census;
@@ -30,6 +30,9 @@ pub use source::dxf::{CutPlaces, pattern_audit};
 pub use source::kept::Works;
 pub use source::sheet::Drawn;
 pub use verdict::{Verdict, sort};
+
+pub(crate) use axes::crawl;
+pub(crate) use program::number;
 
 use std::io::BufRead;
 

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::earlier::{self, PLAN};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files;
+use crate::cli::finished::failure;
 use crate::cli::options::typed;
 use crate::cli::provenance::CentreFile;
 use crate::cli::report::pretty;
@@ -38,6 +39,8 @@ pub(super) struct Made<'a> {
 pub(super) struct Written {
     /// What the programs of each target are worth.
     pub(super) verdicts: Vec<(&'static str, Verdict)>,
+    /// Programs of heads.
+    pub(super) programs: usize,
     /// Files beside the plan.
     pub(super) files: usize,
     /// What is said of earlier ones.
@@ -89,6 +92,7 @@ impl Made<'_> {
                 }
             }
         }
+        let programs = judged.iter().map(|(_, _, programs)| programs.len()).sum();
         let text = pretty(&plan);
         let mut verdicts = Vec::new();
         for (target, bytes, mut programs) in judged {
@@ -102,8 +106,7 @@ impl Made<'_> {
         let files = drafts.len();
         let path = folder.join(PLAN);
         let mut draft = Draft::new(&path)?;
-        let meta = draft.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error));
-        meta?;
+        draft.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
         drafts.push(self.meta(&path, &mut draft)?);
         drafts.push(draft);
         let mut said = String::new();
@@ -112,7 +115,7 @@ impl Made<'_> {
             said = earlier::move_aside(folder, &kept);
             draft::publish(drafts, || Ok(()))?;
         }
-        Ok(Written { verdicts, files, said })
+        Ok(Written { verdicts, programs, files, said })
     }
 
     /// What the programs of a target are worth, from their bytes.
@@ -124,8 +127,11 @@ impl Made<'_> {
             file.rewind()?;
             Ok(Box::new(BufReader::with_capacity(BLOCK_BYTES, file.try_clone()?)))
         };
-        let judged = verify::judge(plan, bytes, &open, &ground);
-        let mut verdict = judged.map_err(|error| files::cannot_write(Path::new(PLAN), &error))?;
+        let judged = verify::judge(plan, (bytes, &open), &ground);
+        let mut verdict = judged.map_err(|error| {
+            let hint = "the disk may fail, or something takes files away while they are written";
+            failure(format!("the programs cannot be read back: {}", files::reason(&error)), hint)
+        })?;
         verdict.seen.extend(self.audit.iter().map(|finding| Seen { finding: finding.clone(), head: None }));
         Ok(verdict)
     }

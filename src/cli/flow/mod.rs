@@ -21,7 +21,7 @@ use super::report;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::flow::{self, Program, Speed, TARGETS, Target};
 use crate::ir::{Finding, Marker};
-use crate::machine::{Centre, Job, Mode};
+use crate::machine::{Centre, Job, Mode, ToolKind};
 use crate::pipeline::{self, Judged};
 use crate::source::Source;
 
@@ -51,6 +51,12 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             "leave `--dry-run` and `--frame` out",
         ));
     }
+    if job.profile.tool.kind == ToolKind::Spray {
+        return Err(failure(
+            "`tool.kind` is \"spray\", and heads over a conveyor follow lines with a tool that touches the cloth",
+            "take a profile of another tool, or `cutc compile` for the spray head",
+        ));
+    }
     let job = on_cloth(job, arguments, &source);
     let _made = MadeFolders::of([plan.as_path()])?;
     let mut diagnostics = Diagnostics::default();
@@ -64,16 +70,16 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         return Ok(refused(arguments, &source, &diagnostics, &job));
     }
     let mut said = render_with(&diagnostics, &source, arguments.messages.detail(arguments.format));
-    let figures = summary::Figures::of(&program, written.verdicts);
-    let stdout = match arguments.format {
-        Format::Json => report::json_by_profile(figures, &diagnostics, &source, &job),
-        Format::Text => summary::text(&source, &figures, &program, arguments.messages.quiet),
-    };
     said.push_str(&written.said);
     if !arguments.messages.quiet {
         let count = counted(written.files, "file");
         say(&mut said, format_args!("wrote `{}` and {count} beside it", plan.display()));
     }
+    let figures = summary::Figures::of(&program, written);
+    let stdout = match arguments.format {
+        Format::Json => report::json_by_profile(figures, &diagnostics, &source, &job),
+        Format::Text => summary::text(&source, &figures, arguments.messages.quiet),
+    };
     Ok(Finished { stdout: Stdout::Text(stdout), stderr: said, code: DONE })
 }
 

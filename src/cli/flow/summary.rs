@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::made::Written;
 use crate::cli::options::counted;
 use crate::cli::report::{self, WorstOf};
 use crate::flow::verify::Verdict;
@@ -18,6 +19,9 @@ pub(super) struct Figures {
     #[serde(flatten)]
     plan: flow::Figures,
     verified: Vec<Verified>,
+    /// Programs that are written.
+    #[serde(skip)]
+    programs: usize,
 }
 
 /// What the programs of a target are worth.
@@ -28,7 +32,7 @@ struct Verified {
 }
 
 impl Figures {
-    pub(super) fn of(program: &Program, verdicts: Vec<(&'static str, Verdict)>) -> Self {
+    pub(super) fn of(program: &Program, Written { verdicts, programs, .. }: Written) -> Self {
         let rule = |seen: &flow::verify::Seen| WorstOf::from(&seen.finding);
         let verified = |(target, verdict): (&'static str, Verdict)| Verified {
             target,
@@ -38,20 +42,21 @@ impl Figures {
             speed_mm_s: program.speed,
             plan: program.figures.clone(),
             verified: verdicts.into_iter().map(verified).collect(),
+            programs,
         }
     }
 }
 
 /// The keys of the figures, all null.
 pub(super) fn nothing() -> serde_json::Value {
-    report::nothing(&Figures { speed_mm_s: 0.0, plan: flow::Figures::default(), verified: Vec::new() })
+    report::nothing(&Figures { speed_mm_s: 0.0, plan: flow::Figures::default(), verified: Vec::new(), programs: 0 })
 }
 
 /// Parts in percent.
 const PERCENT: f64 = 100.0;
 
 /// The figures for people.
-pub(super) fn text(source: &Source, figures: &Figures, program: &Program, quiet: bool) -> String {
+pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     let mut out = String::new();
     if quiet {
         return out;
@@ -62,14 +67,24 @@ pub(super) fn text(source: &Source, figures: &Figures, program: &Program, quiet:
         let _ = writeln!(out, "  {label:10} {text}");
     };
     let bound = fixed(plan.speed_bound_mm_s, 1);
-    line("conveyor", format!("{} mm/s; without accelerations {bound} at the most", fixed(figures.speed_mm_s, 1)));
+    let speed = fixed(figures.speed_mm_s, 1);
+    line("conveyor", format!("{speed} mm/s; along these ways no more than {bound}, even without accelerations"));
     line("cuts", format!("{} in {}", fixed(plan.cut_m, 2) + " m", counted(plan.chains, "chain")));
     let exact = if plan.rows_exact { "" } else { " or fewer" };
-    line("heads", format!("{} (bound {}) in {}{exact}", plan.heads, plan.heads_bound, counted(plan.rows, "row")));
-    let travel = fixed(plan.travel_mm, 1);
-    line("travel", format!("{travel} mm along the feed; without accelerations {}", fixed(plan.travel_bound_mm, 1)));
+    let [heads, least, abreast] = [plan.heads, plan.heads_bound, plan.chains_abreast];
+    let rows = counted(plan.rows, "row");
+    line(
+        "heads",
+        format!("{heads} in {rows}{exact}; no fewer than {least} can do it, up to {abreast} chains are abreast"),
+    );
+    let [travel, bound] = [plan.travel_mm, plan.travel_bound_mm].map(|travel| fixed(travel, 1));
+    line(
+        "travel",
+        format!("{travel} mm along the feed; along these ways no less than {bound}, even without accelerations"),
+    );
     line("time", format!("{} s, heads at work {} %", fixed(plan.time_s, 1), fixed(PERCENT * plan.busy, 0)));
     match &figures.verified[..] {
+        [] if figures.programs == 0 => line("verified", "nothing: no program was asked for".to_owned()),
         [] => line("verified", "no".to_owned()),
         verified => {
             for target in verified {
@@ -77,5 +92,5 @@ pub(super) fn text(source: &Source, figures: &Figures, program: &Program, quiet:
             }
         }
     }
-    format!("{}: {}\n{out}", source.name(), counted(program.heads.len(), "program"))
+    format!("{}: {}\n{out}", source.name(), counted(figures.programs, "program"))
 }

@@ -1,7 +1,7 @@
 //! Files that are written, with their provenance beside them, all or none.
 
 use std::fs::File;
-use std::io::{BufWriter, Seek as _, Write as _};
+use std::io::{BufReader, BufWriter, Read, Seek, Write as _};
 use std::path::Path;
 
 use tempfile::SpooledTempFile;
@@ -11,56 +11,91 @@ use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::finished::failure;
 use crate::cli::provenance::{self, Verified};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::{Job, blake3_of};
 use crate::source::Source;
-use crate::track::{Target, Tracked};
+use crate::track::{Target, Tracked, verify};
 
 /// Bytes that are kept in memory for standard output; more go to a temporary file.
 const SPOOL_BYTES: usize = 16 << 20;
 
-/// Writes everything to its place; what is for standard output is handed back.
-pub(super) fn write(
-    tracked: &Tracked,
-    places: &[(&'static Target, Place)],
-    source: &Source,
-    job: &Job,
-) -> anyhow::Result<Option<SpooledTempFile>> {
-    let mut stdout = None;
-    let mut drafts = Vec::new();
-    for (target, place) in places {
-        match place {
-            Place::Stdout => {
-                let mut spool = SpooledTempFile::new(SPOOL_BYTES);
-                (target.write)(tracked, &mut spool).map_err(|error| {
-                    let hint = "make room for temporary files, or write to a file";
-                    failure(format!("cannot spool what is written: {error}"), hint)
-                })?;
-                stdout = Some(spool);
-            }
-            Place::File(path) => {
-                let mut draft = Draft::new(path)?;
-                let mut writer = BufWriter::new(draft.file());
-                let written = (target.write)(tracked, &mut writer).and_then(|()| writer.flush());
-                drop(writer);
-                written.map_err(|error| files::cannot_write(path, &error))?;
-                drafts.push(meta(&files::meta(path), draft.file(), target, source, job)?);
-                drafts.push(draft);
-            }
-        }
-    }
-    draft::publish(drafts, || Ok(()))?;
-    Ok(stdout)
+/// What is written of a log, and what it is made of.
+pub(super) struct Made<'a> {
+    pub(super) tracked: &'a Tracked,
+    pub(super) places: &'a [(&'static Target, Place)],
+    pub(super) source: &'a Source,
+    pub(super) job: &'a Job,
 }
 
-/// The provenance of a file, as a draft.
-fn meta(path: &Path, written: &mut File, target: &Target, source: &Source, job: &Job) -> anyhow::Result<Draft> {
-    let mut meta = Draft::new(path)?;
-    let done = written.rewind().and_then(|()| blake3_of(&mut *written)).and_then(|blake3| {
-        let (target, blake3, verified) = (target.name, &blake3[..], Verified::No);
-        let text =
-            provenance::json(&provenance::Made { source, job, target, verified, blake3, cut: None, options: "" });
-        meta.file().write_all(text.as_bytes())
-    });
-    done.map_err(|error| files::cannot_write(path, &error))?;
-    Ok(meta)
+impl Made<'_> {
+    /// Writes everything to its place; what is for standard output is handed back. Nothing is written when commands, read back,
+    /// break the law.
+    pub(super) fn write(&self, out: &mut Diagnostics) -> anyhow::Result<Option<SpooledTempFile>> {
+        let Self { tracked, places, .. } = *self;
+        let mut stdout = None;
+        let mut drafts = Vec::new();
+        for (target, place) in places {
+            match place {
+                Place::Stdout => {
+                    let mut spool = SpooledTempFile::new(SPOOL_BYTES);
+                    (target.write)(tracked, &mut spool).map_err(|error| {
+                        let hint = "make room for temporary files, or write to a file";
+                        failure(format!("cannot spool what is written: {error}"), hint)
+                    })?;
+                    self.judge(target, &mut spool, out)?;
+                    stdout = Some(spool);
+                }
+                Place::File(path) => {
+                    let mut draft = Draft::new(path)?;
+                    let mut writer = BufWriter::new(draft.file());
+                    let written = (target.write)(tracked, &mut writer).and_then(|()| writer.flush());
+                    drop(writer);
+                    written.map_err(|error| files::cannot_write(path, &error))?;
+                    self.judge(target, draft.file(), out)?;
+                    drafts.push(self.meta(&files::meta(path), draft.file(), target)?);
+                    drafts.push(draft);
+                }
+            }
+        }
+        if !out.has_errors() {
+            draft::publish(drafts, || Ok(()))?;
+        }
+        Ok(stdout)
+    }
+
+    /// Reads commands back and holds them against the readings.
+    fn judge(&self, target: &Target, written: &mut (impl Read + Seek), out: &mut Diagnostics) -> anyhow::Result<()> {
+        if !target.is_judged {
+            return Ok(());
+        }
+        let read = written.rewind().and_then(|()| {
+            let rows = &self.tracked.replay.rows;
+            verify::commands(&mut BufReader::new(&mut *written), rows, &self.job.profile.track)
+        });
+        let wrong = read.map_err(|error| {
+            failure(format!("the commands cannot be read back: {}", files::reason(&error)), "the disk may fail")
+        })?;
+        if let Some(wrong) = wrong {
+            out.push(Diagnostic::new(&code::TRACK_BROKEN, format!("the commands, read back, break the law: {wrong}")));
+        }
+        written
+            .rewind()
+            .map_err(|error| failure(format!("cannot read back: {}", files::reason(&error)), "the disk may fail"))?;
+        Ok(())
+    }
+
+    /// The provenance of a file, as a draft.
+    fn meta(&self, path: &Path, written: &mut File, target: &Target) -> anyhow::Result<Draft> {
+        let Self { source, job, .. } = *self;
+        let mut meta = Draft::new(path)?;
+        let done = written.rewind().and_then(|()| blake3_of(&mut *written)).and_then(|blake3| {
+            let verified = if target.is_judged { Verified::Yes } else { Verified::No };
+            let (target, blake3) = (target.name, &blake3[..]);
+            let text =
+                provenance::json(&provenance::Made { source, job, target, verified, blake3, cut: None, options: "" });
+            meta.file().write_all(text.as_bytes())
+        });
+        done.map_err(|error| files::cannot_write(path, &error))?;
+        Ok(meta)
+    }
 }

@@ -9,6 +9,7 @@ pub(super) use arguments::Arguments;
 
 use std::path::Path;
 
+use self::made::Made;
 use self::place::Place;
 use super::choices::Format;
 use super::draft::MadeFolders;
@@ -56,7 +57,11 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let Some(tracked) = tracked else {
         return Ok(refused(arguments, &source, &paths, &diagnostics, &job));
     };
-    let spool = made::write(&tracked, &places, &source, &job)?;
+    let made = Made { tracked: &tracked, places: &places, source: &source, job: &job };
+    let spool = made.write(&mut diagnostics)?;
+    if diagnostics.has_errors() {
+        return Ok(refused(arguments, &source, &paths, &diagnostics, &job));
+    }
     let mut said = render_with(&diagnostics, &source, arguments.messages.detail(arguments.format));
     let figures = summary::Figures::of(&tracked);
     let text = summary::text(&source, &figures, arguments.messages.quiet);

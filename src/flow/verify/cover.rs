@@ -1,10 +1,9 @@
 //! What of each cut is cut, how often, and how far strokes overlap.
 
 use super::ground::Ground;
-use super::lines::Lines;
+use super::lines::{Line, Lines};
 use super::rules::Rule;
 use super::worst::{Place, Worst};
-use crate::geom::polyline;
 
 /// What a stroke cuts of a line.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +21,7 @@ pub(super) struct Cover {
 /// What is cut of every line.
 pub(super) struct Covers<'a> {
     lines: &'a Lines,
+    ground: &'a Ground<'a>,
     of: Vec<Vec<Cover>>,
 }
 
@@ -29,8 +29,8 @@ pub(super) struct Covers<'a> {
 const END: f64 = 0.3;
 
 impl<'a> Covers<'a> {
-    pub(super) fn new(lines: &'a Lines) -> Self {
-        Self { lines, of: lines.all.iter().map(|_| Vec::new()).collect() }
+    pub(super) fn new(lines: &'a Lines, ground: &'a Ground<'a>) -> Self {
+        Self { lines, ground, of: lines.all.iter().map(|_| Vec::new()).collect() }
     }
 
     pub(super) fn add(&mut self, line: usize, cover: Cover) {
@@ -52,16 +52,20 @@ impl<'a> Covers<'a> {
     }
 
     /// Judges all lines.
-    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+    pub(super) fn judge(&self, worst: &mut Worst) {
         for line in 0..self.of.len() {
-            self.judge_line(line, ground, worst);
+            self.judge_line(line, worst);
         }
     }
 
-    fn judge_line(&self, line: usize, ground: &Ground, worst: &mut Worst) {
-        let of = &self.lines.all[line];
+    /// Strokes that are no farther from each other leave nothing uncut between them, mm.
+    fn uncut(&self) -> f64 {
+        self.ground.profile.verify.max_uncut_mm + self.ground.tolerance()
+    }
+
+    fn judge_line(&self, line: usize, worst: &mut Worst) {
+        let (of, uncut) = (&self.lines.all[line], self.uncut());
         let length = of.length();
-        let uncut = ground.profile.verify.max_uncut_mm + ground.tolerance();
         let mut covers = self.of[line].clone();
         if covers.is_empty() {
             let place = Place { head: 0, row: 0, time: 0.0, point: of.points[0] };
@@ -87,8 +91,7 @@ impl<'a> Covers<'a> {
             let overlap = reached.min(cover.span[1]) - cover.span[0];
             worst.see(Rule::Uncut, -overlap, uncut, Some(cover.place));
             if let Some(before) = last.filter(|_| overlap > -uncut) {
-                let overlap = Join { overlap, covers: &covers, uncut };
-                self.judge_join(line, [before, cover], &overlap, ground, worst);
+                self.judge_join(&Join { line: of, strokes: [before, cover], overlap, covers: &covers, uncut }, worst);
             }
             if last.is_none_or(|last| cover.span[1] > last.span[1]) {
                 last = Some(cover);
@@ -99,24 +102,33 @@ impl<'a> Covers<'a> {
         }
     }
 
+    /// Whether a head goes round a bend there that is too tight for its blade: it lifts it, or plunges chord by chord, and the
+    /// blade is longer than each.
+    fn is_tight(&self, join: &Join, about: [f64; 2]) -> bool {
+        let [a, b] = join.strokes;
+        let limit = self.ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
+        a.head == b.head && (a.plunge || b.plunge || join.line.turns_between(about) >= limit)
+    }
+
     /// Judges the overlap of two strokes that follow each other along a line.
-    fn judge_join(&self, line: usize, [a, b]: [Cover; 2], join: &Join, ground: &Ground, worst: &mut Worst) {
-        let knife = &ground.profile.knife;
-        let due = 2.0 * ground.profile.flow.overlap_mm;
+    fn judge_join(&self, join: &Join, worst: &mut Worst) {
+        let knife = &self.ground.profile.knife;
+        let [a, b] = join.strokes;
+        let due = 2.0 * self.ground.profile.flow.overlap_mm;
         let rejoined = knife.corner_heel_overlap_mm + knife.corner_front_overlap_mm;
         let blade = if a.plunge || b.plunge { knife.width_mm } else { 0.0 };
         worst.see(Rule::Twice, join.overlap, due.max(rejoined).max(blade) + 2.0 * END, Some(b.place));
         let at = f64::midpoint(a.span[1].min(b.span[1]), b.span[0]);
-        let corner = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
-        let of = &self.lines.all[line];
-        if a.head != b.head && of.turn_about(at, due + END) < corner {
-            let point = polyline::place(&of.points, &of.stations, at.rem_euclid(of.length()));
-            let round = of.closed.then_some(of.length());
-            let overlap = if join.overlap < due { join.of_heads([a, b], round) } else { join.overlap };
-            worst.see(Rule::Overlap, due - overlap, END, Some(Place { point, ..b.place }));
+        let reach = due + END;
+        if join.line.corner_near(at) > reach && !self.is_tight(join, [at - reach, at + reach]) {
+            let place = Place { point: join.line.place(at), ..b.place };
+            worst.see(Rule::Overlap, due - join.of_heads(due), END, Some(place));
         }
     }
 }
+
+/// Part of the angle of a corner by which its turn may be less: rounding.
+const CORNER_EPSILON: f64 = 1e-6;
 
 /// How many times round a line something may lie beside where it is counted.
 fn turns(closed: bool) -> impl Iterator<Item = f64> {
@@ -125,6 +137,9 @@ fn turns(closed: bool) -> impl Iterator<Item = f64> {
 
 /// Where two strokes meet on a line.
 struct Join<'a> {
+    line: &'a Line,
+    /// The one that ends there, and the one that goes on.
+    strokes: [Cover; 2],
     /// How much both cut, mm.
     overlap: f64,
     /// All that is cut of the line.
@@ -134,10 +149,16 @@ struct Join<'a> {
 }
 
 impl Join<'_> {
-    /// How much the heads of two strokes both cut there, all that each cuts without a gap taken together: a head that lifts
-    /// its blade at a bend near the end of what it cuts has two strokes there.
-    fn of_heads(&self, strokes: [Cover; 2], round: Option<f64>) -> f64 {
-        let [a, b] = strokes.map(|stroke| self.together(stroke, round));
+    /// How much both cut there, mm. Where heads take over from each other and that is less than it should be, all that each cuts
+    /// without a gap is taken together: a head that lifts its blade at a bend near the end of what it cuts has two strokes
+    /// there.
+    fn of_heads(&self, due: f64) -> f64 {
+        let [a, b] = self.strokes;
+        if a.head == b.head || self.overlap >= due {
+            return self.overlap;
+        }
+        let round = self.line.closed.then(|| self.line.length());
+        let [a, b] = [a, b].map(|stroke| self.together(stroke, round));
         a[1].min(b[1]) - b[0]
     }
 
@@ -161,6 +182,3 @@ impl Join<'_> {
         }
     }
 }
-
-/// Part of the angle of a corner by which its turn may be less: rounding.
-const CORNER_EPSILON: f64 = 1e-6;

@@ -75,7 +75,14 @@ mod tests {
     /// What is said of a cut for two parts, one of which has its edge 0.2 mm aside.
     fn broken(cut: &[(f64, f64)]) -> Vec<&'static str> {
         let points = |list: &[(f64, f64)]| list.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>();
-        let cuts = vec![RequiredCut { points: points(cut), closed: false, blocks: vec![1], drawn: false }];
+        let cuts = vec![RequiredCut {
+            points: points(cut),
+            closed: false,
+            blocks: vec![1],
+            caps: Vec::new(),
+            corners: Vec::new(),
+            drawn: false,
+        }];
         let edges = vec![points(&[(0.0, 0.0), (100.0, 0.0)]), points(&[(100.0, 0.2), (0.0, 0.2)])];
         let required = Required { cuts, edges, common: 0.3 };
         let (marker, profile) = (Marker::default(), MachineProfile::default());

@@ -12,31 +12,44 @@ use crate::units::deg;
 /// less than 0.02 degrees, and the tightest bend within a tolerance still looks straight over it.
 const LOOK: f64 = 0.005;
 
-/// Judges a stroke; `under` is the way that lies under the blade as it is plunged, without the leading end.
-pub(super) fn judge(stroke: &Stroke, under: &[Point], ground: &Ground, worst: &mut Worst) {
-    let width = ground.profile.knife.width_mm;
-    let limit = ground.profile.verify.max_heading_deg;
-    // The trailing end of a blade that is a chord goes along the line that lay under it: that is known to the tolerance.
-    let beside = if width > 0.0 { deg((ground.tolerance() / width).atan()) } else { 0.0 };
-    let way: Vec<Point> = under.iter().chain(&stroke.trace[1..]).copied().collect();
-    let (mut behind, mut gone, mut lead_at_plunge) = (0, 0.0, None);
-    for (i, along) in stroke.along.iter().enumerate() {
-        let lead = under.len() + i;
-        while behind + 1 < lead && (way[behind + 1] - way[lead]).norm() > width {
-            behind += 1;
+/// The blade of a stroke.
+pub(super) struct Blade<'a> {
+    pub(super) stroke: &'a Stroke,
+    /// The way that lies under it as it is plunged, without its leading end.
+    pub(super) under: Vec<Point>,
+    /// How much the line under it turns then, rad: no chord of that leans more.
+    pub(super) bend: f64,
+}
+
+impl Blade<'_> {
+    /// Judges its heading.
+    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+        let Self { stroke, under, bend } = self;
+        let width = ground.profile.knife.width_mm;
+        let limit = ground.profile.verify.max_heading_deg;
+        // The trailing end of a blade that is a chord goes along the line that lay under it: that is known to the tolerance.
+        let beside = if width > 0.0 { deg((ground.tolerance() / width).atan()) } else { 0.0 };
+        let way: Vec<Point> = under.iter().chain(&stroke.trace[1..]).copied().collect();
+        let (mut behind, mut gone, mut lead_at_plunge) = (0, 0.0, None);
+        for (i, along) in stroke.along.iter().enumerate() {
+            let lead = under.len() + i;
+            while behind + 1 < lead && (way[behind + 1] - way[lead]).norm() > width {
+                behind += 1;
+            }
+            if i > 0 {
+                gone += (way[lead] - way[lead - 1]).norm();
+            }
+            let Some(tangent) = direction(stroke, i) else { continue };
+            let ahead = angle::turn(*along, tangent);
+            let at_plunge = *lead_at_plunge.get_or_insert(ahead.clamp(-bend, *bend));
+            let fading = if gone < width { at_plunge * left(gone / width) } else { 0.0 };
+            let off = |way: Vector| deg(angle::turn(way, *along)).abs();
+            let chord = if width > 0.0 { chord([way[behind], way[behind + 1]], way[lead], width) } else { None };
+            let allowed = limit + if behind < under.len() { beside } else { 0.0 };
+            let off = chord.map_or(off(tangent), |chord| off(chord).min(off(tangent)));
+            let off = off.min(deg(angle::wrap(ahead - fading)).abs());
+            worst.see(Rule::Heading, off, allowed, Some(stroke.places[i]));
         }
-        if i > 0 {
-            gone += (way[lead] - way[lead - 1]).norm();
-        }
-        let Some(tangent) = direction(stroke, i) else { continue };
-        let ahead = angle::turn(*along, tangent);
-        let fading = if gone < width { *lead_at_plunge.get_or_insert(ahead) * left(gone / width) } else { 0.0 };
-        let off = |way: Vector| deg(angle::turn(way, *along)).abs();
-        let chord = if width > 0.0 { chord([way[behind], way[behind + 1]], way[lead], width) } else { None };
-        let allowed = limit + if behind < under.len() { beside } else { 0.0 };
-        let off = chord.map_or(off(tangent), |chord| off(chord).min(off(tangent)));
-        let off = off.min(deg(angle::wrap(ahead - fading)).abs());
-        worst.see(Rule::Heading, off, allowed, Some(stroke.places[i]));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, polyline};
-use crate::verify::{Required, RequiredCut};
+use crate::verify::{Capped, Required, RequiredCut};
 
 /// A cut.
 #[derive(Debug)]
@@ -15,6 +15,10 @@ pub(super) struct Line {
     pub(super) closed: bool,
     /// The blocks that it came from, in order.
     pub(super) blocks: Vec<u32>,
+    /// How fast the tip may go, stretch by stretch.
+    caps: Vec<Capped>,
+    /// Where the knife is lifted at a corner, mm along it.
+    corners: Vec<f64>,
 }
 
 /// All cuts.
@@ -43,6 +47,8 @@ impl Lines {
             points: cut.points.clone(),
             closed: cut.closed,
             blocks: cut.blocks.clone(),
+            caps: cut.caps.clone(),
+            corners: cut.corners.clone(),
         };
         let all: Vec<Line> = required.cuts.iter().map(line).collect();
         let segments: Vec<(usize, usize)> =
@@ -127,19 +133,62 @@ impl Line {
         found
     }
 
-    /// How much the line turns, to either side, at the vertices within a distance of a station, rad.
-    pub(super) fn turn_about(&self, station: f64, reach: f64) -> f64 {
+    /// How far a station is from the nearest place where the knife is lifted at a corner, or where an open line ends, mm;
+    /// infinite where there is none.
+    pub(super) fn corner_near(&self, station: f64) -> f64 {
         let length = self.length();
-        let count = self.points.len() - 1;
-        let first = usize::from(!self.closed);
-        let turns = (first..count).filter_map(|vertex| {
-            let away = (self.stations[vertex] - station).abs();
+        let ends = if self.closed { &[][..] } else { &[0.0, length][..] };
+        let away = |at: &f64| {
+            let away = (at - station).abs();
             let round = away.rem_euclid(length);
-            let away = if self.closed { round.min(length - round) } else { away };
-            let before = self.points[if vertex == 0 { count - 1 } else { vertex - 1 }];
-            let turn = || polyline::turn_at(before, self.points[vertex], self.points[vertex + 1]).abs();
-            (away <= reach).then(turn)
-        });
-        turns.sum()
+            if self.closed { round.min(length - round) } else { away }
+        };
+        self.corners.iter().chain(ends).map(away).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How much the line turns between two stations, to either side, rad.
+    pub(super) fn turns_between(&self, ends: [f64; 2]) -> f64 {
+        let [from, to] = ends.map(|station| self.place(station));
+        let inner = self.between(ends);
+        let way: Vec<Point> = [from].into_iter().chain(inner).chain([to]).collect();
+        way.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum()
+    }
+
+    /// The place at a station.
+    pub(super) fn place(&self, station: f64) -> Point {
+        polyline::place(&self.points, &self.stations, self.within(station))
+    }
+
+    /// A station as it is counted from the start of the line.
+    pub(super) fn within(&self, station: f64) -> f64 {
+        if self.closed { station.rem_euclid(self.length()) } else { station }
+    }
+
+    /// The one speed that caps the tip all along, mm/s; `None` when there are several.
+    pub(super) fn only_cap(&self) -> Option<f64> {
+        let first = self.caps.first()?.speeds[0];
+        self.caps.iter().all(|cap| cap.speeds == [first; 2]).then_some(first)
+    }
+
+    /// The greatest cap between two stations of a tip that goes with the line, or against it, mm/s.
+    pub(super) fn cap(&self, [low, high]: [f64; 2], with: bool) -> f64 {
+        let length = self.length();
+        let over = |[low, high]: [f64; 2]| {
+            let first = self.caps.partition_point(|cap| cap.to < low).min(self.caps.len() - 1);
+            let from = |i: usize| if i == 0 { 0.0 } else { self.caps[i - 1].to };
+            let on = (first..self.caps.len()).take_while(|&i| i == first || from(i) <= high);
+            on.map(|i| self.caps[i].speeds[usize::from(!with)]).fold(0.0, f64::max)
+        };
+        let (from, way) = (self.within(low), (high - low).min(length));
+        if self.closed && from + way > length {
+            over([from, length]).max(over([0.0, from + way - length]))
+        } else {
+            over([from, from + way])
+        }
+    }
+
+    /// The slowest of all caps, mm/s.
+    pub(super) fn least_cap(&self) -> f64 {
+        self.caps.iter().flat_map(|cap| cap.speeds).fold(f64::INFINITY, f64::min)
     }
 }

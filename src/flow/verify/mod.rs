@@ -8,6 +8,7 @@
 mod cover;
 mod drawn;
 mod follow;
+mod going;
 mod ground;
 mod heading;
 mod limits;
@@ -17,6 +18,7 @@ mod rest;
 mod rows;
 mod rules;
 mod strokes;
+mod trail;
 mod worst;
 
 pub use ground::Ground;
@@ -29,6 +31,7 @@ use std::io::{self, BufRead};
 use rayon::prelude::*;
 
 use self::cover::Covers;
+use self::follow::Follower;
 use self::ground::Unread;
 use self::limits::Limits;
 use self::lines::Lines;
@@ -65,9 +68,10 @@ impl Verdict {
 pub type Open<'a> = &'a (dyn Fn(usize) -> io::Result<Box<dyn BufRead>> + Sync);
 
 /// Judges the programs of a plan from their bytes.
-pub fn judge(plan: &str, bytes: Bytes, open: Open, ground: &Ground) -> io::Result<Verdict> {
+pub fn judge(plan: &str, (bytes, open): (Bytes, Open), ground: &Ground) -> io::Result<Verdict> {
     let mut worst = Worst::new();
-    let unread = match judge_all(plan, bytes, open, ground, &mut worst) {
+    let judged = plan_file::read(plan).and_then(|plan| Judge { plan, bytes, open, ground }.all(&mut worst));
+    let unread = match judged {
         Ok(()) => None,
         Err(Unread::Io(error)) => return Err(error),
         Err(Unread::Row(message)) => Some(message),
@@ -76,34 +80,12 @@ pub fn judge(plan: &str, bytes: Bytes, open: Open, ground: &Ground) -> io::Resul
     Ok(Verdict { seen: worst.findings(), unread })
 }
 
-fn judge_all(plan: &str, bytes: Bytes, open: Open, ground: &Ground, worst: &mut Worst) -> Result<(), Unread> {
-    let plan = plan_file::read(plan)?;
-    plan_file::judge(&plan, ground, worst);
-    let required = required(ground.marker, ground.profile);
-    let lines = Lines::new(&required);
-    drawn::judge(&required, &lines, ground, worst);
-    let mut covers = Covers::new(&lines);
-    let mut row_mates: Vec<(u64, Vec<f64>)> = Vec::new();
-    let mut count = None;
-    // As many at a time as there are threads: what is kept of a head until it is judged is large.
-    let heads: Vec<usize> = (0..plan.heads.len()).collect();
-    let read = |&i: &usize| read_head(&plan, i, bytes, open(i)?.as_mut(), ground);
-    let at_once = heads.chunks(rayon::current_num_threads());
-    for (i, head) in at_once.flat_map(|some| some.par_iter().map(read).collect::<Vec<_>>()).enumerate() {
-        let (row, head) = (plan.heads[i].0, head?);
-        worst.merge(head.worst);
-        worst.count(Rule::Ends, head.ends.0, head.ends.1);
-        if *count.get_or_insert(head.ys.len()) != head.ys.len() {
-            return Err(Unread::Row(format!("head {} has {} rows, others have more or fewer", i + 1, head.ys.len())));
-        }
-        distances(&row_mates, row, &head.ys, ground, worst);
-        row_mates.push((row, head.ys));
-        for stroke in &head.strokes {
-            follow::judge(stroke, &lines, ground, &mut covers, worst);
-        }
-    }
-    covers.judge(ground, worst);
-    Ok(())
+/// A plan with the programs of its heads.
+struct Judge<'a> {
+    plan: Plan,
+    bytes: Bytes,
+    open: Open<'a>,
+    ground: &'a Ground<'a>,
 }
 
 /// What is kept of a head when its program has been read.
@@ -116,58 +98,104 @@ struct Head {
     ends: (usize, Option<Place>),
 }
 
-fn read_head(plan: &Plan, i: usize, bytes: Bytes, input: &mut dyn BufRead, ground: &Ground) -> Result<Head, Unread> {
-    let mut worst = Worst::new();
-    let (_, station) = plan.heads[i];
-    let period = ground.profile.time.period();
-    let (mut limits, mut rest) = (Limits::new(ground.profile), Rest::new(ground.profile));
-    let mut strokes = Strokes::new(ground.profile);
-    let mut ys = Vec::new();
-    rows::read(bytes, input, &mut |row: Row| {
-        let number = ys.len();
-        let due = number as f64 * period;
-        let place = [station + row.place[0] - row.conveyor, row.place[1]];
-        let point = Point::new(place[0], place[1]);
-        let at = Place { head: i + 1, row: number, time: row.time, point };
-        worst.see(Rule::Period, (row.time - due).abs(), ROW_TIME, Some(at));
-        worst.see(Rule::Conveyor, (row.conveyor - plan.speed * due).abs(), ROW_WAY, Some(at));
-        bounds(&row, at, ground, &mut worst);
-        limits.see(&row, at, &mut worst);
-        rest.see(&row, at, &mut worst);
-        strokes.see(&row, at);
-        ys.push(row.place[1]);
-    })?;
-    Ok(Head { strokes: strokes.finish(), ys, worst, ends: rest.finish(i + 1) })
+impl Judge<'_> {
+    fn all(&self, worst: &mut Worst) -> Result<(), Unread> {
+        let ground = self.ground;
+        plan_file::judge(&self.plan, ground, worst);
+        let required = required(ground.marker, ground.profile);
+        let lines = Lines::new(&required);
+        drawn::judge(&required, &lines, ground, worst);
+        let covers = Covers::new(&lines, ground);
+        let mut follower = Follower { lines: &lines, ground, speed: self.plan.speed, covers };
+        let mut mates = Mates { ground, heads: Vec::new() };
+        let mut count = None;
+        // As many at a time as there are threads: what is kept of a head until it is judged is large.
+        let heads: Vec<usize> = (0..self.plan.heads.len()).collect();
+        let at_once = heads.chunks(rayon::current_num_threads());
+        let read = at_once.flat_map(|some| some.par_iter().map(|&head| self.read(head)).collect::<Vec<_>>());
+        for (i, head) in read.enumerate() {
+            let head = head?;
+            worst.merge(head.worst);
+            worst.count(Rule::Ends, head.ends.0, head.ends.1);
+            let rows = head.ys.len();
+            if rows == 0 {
+                return Err(Unread::Row(format!("head {} has no row", i + 1)));
+            }
+            if *count.get_or_insert(rows) != rows {
+                return Err(Unread::Row(format!("head {} has {rows} rows, others have more or fewer", i + 1)));
+            }
+            mates.join(self.plan.heads[i].0, head.ys, worst);
+            for stroke in &head.strokes {
+                follower.judge(stroke, worst);
+            }
+        }
+        follower.covers.judge(worst);
+        Ok(())
+    }
+
+    /// Reads the program of a head and judges its rows by themselves.
+    fn read(&self, head: usize) -> Result<Head, Unread> {
+        let profile = self.ground.profile;
+        let mut worst = Worst::new();
+        let (_, station) = self.plan.heads[head];
+        let period = profile.time.period();
+        let (mut limits, mut rest) = (Limits::new(profile), Rest::new(profile));
+        let mut strokes = Strokes::new(profile);
+        let mut ys = Vec::new();
+        rows::read(self.bytes, (self.open)(head)?.as_mut(), &mut |row: Row| {
+            let number = ys.len();
+            let due = number as f64 * period;
+            let point = Point::new(station + row.place[0] - row.conveyor, row.place[1]);
+            let at = Place { head: head + 1, row: number, time: row.time, point };
+            worst.see(Rule::Period, (row.time - due).abs(), ROW_TIME, Some(at));
+            worst.see(Rule::Conveyor, (row.conveyor - self.plan.speed * due).abs(), ROW_WAY, Some(at));
+            self.bounds(&row, at, &mut worst);
+            limits.see(&row, at, &mut worst);
+            rest.see(&row, at, &mut worst);
+            strokes.see(&row, at);
+            ys.push(row.place[1]);
+        })?;
+        Ok(Head { strokes: strokes.finish(), ys, worst, ends: rest.finish(head + 1) })
+    }
+
+    /// Whether the axes are where they can be.
+    fn bounds(&self, row: &Row, at: Place, worst: &mut Worst) {
+        let profile = self.ground.profile;
+        let beyond = |value: f64, [least, most]: [f64; 2]| (least - value).max(value - most);
+        worst.see(Rule::Travel, beyond(row.place[0], [0.0, profile.flow.travel_mm]), ROW_WAY, Some(at));
+        if let Some(range) = profile.table.y_mm {
+            worst.see(Rule::Across, beyond(row.place[1], range), ROW_WAY, Some(at));
+        }
+        if let Some(range) = profile.c.range_deg {
+            worst.see(Rule::Range, beyond(row.c, range), ROW_WAY, Some(at));
+        }
+    }
 }
 
 /// Rounding of times, s, and of ways, mm, in rows of six decimals.
 const ROW_TIME: f64 = 1e-6;
 const ROW_WAY: f64 = 2e-6;
 
-/// Whether the axes are where they can be.
-fn bounds(row: &Row, at: Place, ground: &Ground, worst: &mut Worst) {
-    let profile = ground.profile;
-    let beyond = |value: f64, [least, most]: [f64; 2]| (least - value).max(value - most);
-    worst.see(Rule::Travel, beyond(row.place[0], [0.0, profile.flow.travel_mm]), ROW_WAY, Some(at));
-    if let Some(range) = profile.table.y_mm {
-        worst.see(Rule::Across, beyond(row.place[1], range), ROW_WAY, Some(at));
-    }
-    if let Some(range) = profile.c.range_deg {
-        worst.see(Rule::Range, beyond(row.c, range), ROW_WAY, Some(at));
-    }
+/// Heads that were read, by their rows: each with where it is across the feed, mm.
+struct Mates<'a> {
+    ground: &'a Ground<'a>,
+    heads: Vec<(u64, Vec<f64>)>,
 }
 
-/// Whether a head stays apart from those of its row that were read before.
-fn distances(before: &[(u64, Vec<f64>)], row: u64, ys: &[f64], ground: &Ground, worst: &mut Worst) {
-    let width = ground.profile.flow.head_width_mm;
-    let period = ground.profile.time.period();
-    for (_, others) in before.iter().filter(|mate| mate.0 == row) {
-        let side = (others[0] - ys[0]).signum();
-        let gaps = others.iter().zip(ys).map(|(other, y)| (other - y) * side);
-        if let Some((tick, gap)) = gaps.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) {
-            let point = Point::new(0.0, ys[tick]);
-            let at = Place { head: before.len() + 1, row: tick, time: tick as f64 * period, point };
-            worst.see(Rule::Distance, width - gap, ROW_WAY, Some(at));
+impl Mates<'_> {
+    /// Judges whether a head stays apart from those of its row that were read before, and adds it to them.
+    fn join(&mut self, row: u64, ys: Vec<f64>, worst: &mut Worst) {
+        let width = self.ground.profile.flow.head_width_mm;
+        let period = self.ground.profile.time.period();
+        for (_, others) in self.heads.iter().filter(|mate| mate.0 == row) {
+            let side = (others[0] - ys[0]).signum();
+            let gaps = others.iter().zip(&ys).map(|(other, y)| (other - y) * side);
+            if let Some((tick, gap)) = gaps.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) {
+                let point = Point::new(0.0, ys[tick]);
+                let at = Place { head: self.heads.len() + 1, row: tick, time: tick as f64 * period, point };
+                worst.see(Rule::Distance, width - gap, ROW_WAY, Some(at));
+            }
         }
+        self.heads.push((row, ys));
     }
 }

@@ -36,7 +36,8 @@ pub(super) fn judge(plan: &Plan, ground: &Ground, worst: &mut Worst) {
     let flow = &ground.profile.flow;
     let too_many = plan.heads.len().saturating_sub(flow.heads as usize);
     let no_row = plan.heads.iter().filter(|(row, _)| *row < 1 || *row > u64::from(flow.rows)).count();
-    worst.see(Rule::Plan, (too_many + no_row) as f64, 0.0, None);
+    let too_fast = usize::from(plan.speed > flow.max_speed_mm_s);
+    worst.see(Rule::Plan, (too_many + no_row + too_fast) as f64, 0.0, None);
     for &(row, station) in &plan.heads {
         worst.see(Rule::Station, (station - ground.station(row)).abs(), STATION, None);
     }

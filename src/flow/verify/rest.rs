@@ -1,5 +1,5 @@
-//! Whether blades go down and come up at rest in the cloth, are up before they go down again, and programs begin and end at
-//! rest.
+//! Whether blades go down and come up at rest in the cloth, are all the way down and up before they are sent back, and
+//! programs begin and end at rest.
 
 use super::rows::Row;
 use super::rules::Rule;
@@ -38,11 +38,10 @@ impl Rest {
     /// Sees the next row.
     pub(super) fn see(&mut self, row: &Row, at: Place, worst: &mut Worst) {
         if row.knife != self.is_down {
-            if row.knife
-                && let Some((since, _, _)) = self.since
-            {
-                let lacking = (self.ticks[2] as f64 - (at.row - since) as f64) * self.period;
-                worst.see(Rule::Up, lacking, TIME, Some(at));
+            if let Some((since, _, _)) = self.since {
+                let (rule, ticks) = if row.knife { (Rule::Up, self.ticks[2]) } else { (Rule::Dwell, self.ticks[0]) };
+                let lacking = (ticks as f64 - (at.row - since) as f64) * self.period;
+                worst.see(rule, lacking, TIME, Some(at));
             }
             self.is_down = row.knife;
             self.since = Some((at.row, at.point, row.c));

@@ -3,6 +3,7 @@
 use std::io::{BufRead, Read as _};
 
 use super::ground::Unread;
+use crate::verify::number;
 
 /// What kind of bytes the programs of heads are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,36 +47,59 @@ pub(super) fn read(bytes: Bytes, input: &mut dyn BufRead, each: &mut dyn FnMut(R
 }
 
 fn text(input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {
-    let mut line = String::new();
-    input.read_line(&mut line)?;
-    if line.trim_end_matches(['\r', '\n']) != NAMES.join(",") {
+    let mut line = Vec::new();
+    input.read_until(b'\n', &mut line)?;
+    if line.trim_ascii_end() != NAMES.join(",").as_bytes() {
         return Err(Unread::Row(format!("the first line is not {}", NAMES.join(","))));
     }
+    let mut last = Last::default();
     for number in 2.. {
         line.clear();
-        if input.read_line(&mut line)? == 0 {
+        if input.read_until(b'\n', &mut line)? == 0 {
             return Ok(());
         }
-        if !line.ends_with('\n') {
+        if line.last() != Some(&b'\n') {
             return Err(Unread::Row(format!("line {number} is cut off")));
         }
-        let row = row(line.trim_end_matches(['\r', '\n']));
+        let row = last.row(line.trim_ascii_end());
         each(row.ok_or_else(|| Unread::Row(format!("line {number} is no row")))?);
     }
     Ok(())
 }
 
-fn row(line: &str) -> Option<Row> {
-    let mut fields = line.split(',');
-    let mut number = || fields.next()?.parse::<f64>().ok().filter(|value| value.is_finite());
-    let (time, conveyor, x, y, c) = (number()?, number()?, number()?, number()?, number()?);
+/// The row before: a head that waits has the same fields behind time and conveyor for long, and these are read once.
+#[derive(Default)]
+struct Last {
+    fields: Vec<u8>,
+    row: Option<Row>,
+}
+
+impl Last {
+    fn row(&mut self, line: &[u8]) -> Option<Row> {
+        let mut fields = line.splitn(3, |&byte| byte == b',');
+        let (time, conveyor) = (number::decimal(fields.next()?)?, number::decimal(fields.next()?)?);
+        let rest = fields.next()?;
+        if self.row.is_none() || self.fields != rest {
+            self.row = Some(of_fields(rest)?);
+            self.fields.clear();
+            self.fields.extend_from_slice(rest);
+        }
+        self.row.map(|row| Row { time, conveyor, ..row })
+    }
+}
+
+/// A row, of its fields behind time and conveyor.
+fn of_fields(fields: &[u8]) -> Option<Row> {
+    let mut fields = fields.split(|&byte| byte == b',');
+    let mut number = || number::decimal(fields.next()?);
+    let (x, y, c) = (number()?, number()?, number()?);
     let knife = match fields.next()? {
-        "0" => false,
-        "1" => true,
+        b"0" => false,
+        b"1" => true,
         _ => return None,
     };
-    let block = fields.next()?.parse().ok()?;
-    fields.next().is_none().then_some(Row { time, conveyor, place: [x, y], c, knife, block })
+    let block = number::whole(fields.next()?)?;
+    fields.next().is_none().then_some(Row { time: 0.0, conveyor: 0.0, place: [x, y], c, knife, block })
 }
 
 fn records(input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {

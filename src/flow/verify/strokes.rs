@@ -24,6 +24,8 @@ pub(super) struct Strokes {
     width: f64,
     radius: f64,
     yaw: f64,
+    /// Whether the blade has two edges, so that it may go heel first.
+    is_double: bool,
     /// The rows of the stroke that goes on.
     now: Vec<(Point, Vector, Place, u32)>,
     done: Vec<Stroke>,
@@ -35,7 +37,9 @@ const STILL: f64 = 1e-3;
 impl Strokes {
     pub(super) fn new(profile: &MachineProfile) -> Self {
         let knife = &profile.knife;
-        Self { width: knife.width_mm, radius: knife.radius(), yaw: knife.yaw(), now: Vec::new(), done: Vec::new() }
+        let is_double = knife.edges == 2;
+        let (width, radius, yaw) = (knife.width_mm, knife.radius(), knife.yaw());
+        Self { width, radius, yaw, is_double, now: Vec::new(), done: Vec::new() }
     }
 
     /// Sees the next row.
@@ -54,8 +58,8 @@ impl Strokes {
         let rows = std::mem::take(&mut self.now);
         let (first, last) = (rows[0], rows[rows.len() - 1]);
         let moved = rows.iter().map(|row| row.0 - first.0).find(|way| way.norm() > STILL);
-        // A blade with two edges may go heel first.
-        let is_turned = moved.is_some_and(|way| way.dot(&first.1) < 0.0);
+        // A blade with one edge goes that way, or it tears the cloth: then it lies the wrong way along its line.
+        let is_turned = self.is_double && moved.is_some_and(|way| way.dot(&first.1) < 0.0);
         let (lead, side) = if is_turned { (self.width - self.radius, -1.0) } else { (self.radius, 1.0) };
         let along: Vec<Vector> = rows.iter().map(|row| row.1 * side).collect();
         let mut trace = vec![first.0 + along[0] * (lead - self.width)];

@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use super::target::{Kind, Target};
-use crate::flow::program::{Head, Program};
+use crate::flow::program::{Head, Program, Setpoint};
 use crate::flow::verify::Bytes;
 use crate::units::{deg, number};
 
@@ -24,23 +24,36 @@ const BLOCK: usize = 1 << 16;
 
 fn write(program: &Program, head: &Head, out: &mut dyn Write) -> io::Result<()> {
     let mut rows = b"t_s,conv_mm,x_mm,y_mm,c_deg,knife,block\n".to_vec();
+    // A head that waits has the same fields behind time and conveyor for long: they are printed once.
+    let (mut rest, mut last) = (Vec::new(), None);
     for setpoint in program.setpoints(head) {
-        let conveyor = program.conveyor(setpoint.tick);
-        let state = setpoint.state;
         number::push_fixed(&mut rows, setpoint.tick as f64 * program.period(), DECIMALS);
-        for value in [conveyor, state.xi, state.y, deg(state.c)] {
-            rows.push(b',');
-            number::push_fixed(&mut rows, value, DECIMALS);
+        rows.push(b',');
+        number::push_fixed(&mut rows, program.conveyor(setpoint.tick), DECIMALS);
+        let Setpoint { state, knife, block, .. } = setpoint;
+        if last != Some((state, knife, block)) {
+            last = Some((state, knife, block));
+            fields(&setpoint, &mut rest);
         }
-        rows.push(b',');
-        number::push_integer(&mut rows, u64::from(setpoint.knife));
-        rows.push(b',');
-        number::push_integer(&mut rows, u64::from(setpoint.block));
-        rows.push(b'\n');
+        rows.extend_from_slice(&rest);
         if rows.len() > BLOCK {
             out.write_all(&rows)?;
             rows.clear();
         }
     }
     out.write_all(&rows)
+}
+
+/// The fields of a row behind time and conveyor.
+fn fields(setpoint: &Setpoint, rest: &mut Vec<u8>) {
+    rest.clear();
+    for value in [setpoint.state.xi, setpoint.state.y, deg(setpoint.state.c)] {
+        rest.push(b',');
+        number::push_fixed(rest, value, DECIMALS);
+    }
+    for value in [u64::from(setpoint.knife), u64::from(setpoint.block)] {
+        rest.push(b',');
+        number::push_integer(rest, value);
+    }
+    rest.push(b'\n');
 }

@@ -215,7 +215,7 @@ impl Making<'_> {
             match layer.does {
                 Does::Inner => inner.extend(on_both_sides(fold, &line)),
                 Does::Drawn | Does::Seam => {
-                    drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line)))
+                    drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line)));
                 }
                 Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => {
                     drawn.push((layer, line));

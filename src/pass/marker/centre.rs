@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::{Marker, OutlineNotch, Piece};
-use crate::machine::{CentreLine, Job, Tracking};
+use crate::machine::{CentreLine, Job};
 use crate::units::number::{fixed, up};
 
 pub(super) const PASS: MarkerPass =
@@ -20,6 +20,8 @@ pub(super) const PASS: MarkerPass =
 const PART: f64 = 0.25;
 /// A line is not parted where it leaves the centre line by less if it is not, mm: no file resolves it.
 const STRAIGHT_EPSILON: f64 = 0.001;
+/// How far a cloth may wander across, in parts of the way of the conveyor, without being asked about.
+const STEEP: f64 = 0.5;
 /// Decimals of places of the conveyor, mm.
 const DECIMALS: u32 = 1;
 
@@ -30,10 +32,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     tell(&centre.line, [extent.min.x, extent.max.x], diagnostics);
-    if let Some(steep) = steep(&centre.line, &job.profile.track) {
-        diagnostics.push(steep);
-    }
     let shift = Shift(centre.line.simplified(PART * job.profile.tolerance(marker.unit)));
+    steep(&shift, [extent.min.x, extent.max.x], diagnostics);
+    bent(&shift, marker, job.profile.tolerance(marker.unit), diagnostics);
     for piece in &mut marker.pieces {
         for contour in &mut piece.contours {
             part(&mut marker.list, &mut contour.range, &shift);
@@ -67,25 +68,31 @@ fn tell(centre: &CentreLine, [from, to]: [f64; 2], diagnostics: &mut Diagnostics
     diagnostics.push(Diagnostic::new(&code::CENTRE_BEYOND, message).by(beyond).hint(hint));
 }
 
-/// Says where a centre line goes across faster than a carriage can.
-fn steep(line: &CentreLine, track: &Tracking) -> Option<Diagnostic> {
-    let most = track.max_speed_mm_s / track.cloth_mm_s;
-    let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]).abs() / (pair[1][0] - pair[0][0]);
-    let steepest = line.rows().windows(2).max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
-    let [[from, before], [to, behind]] = [steepest[0], steepest[1]];
-    let found = slope(steepest);
-    (found > most).then(|| {
-        let place = |value: f64| fixed(value, DECIMALS);
-        let message = format!(
-            "the centre line goes {} mm across from {} to {} mm of the conveyor: no carriage follows that",
-            place((behind - before).abs()),
-            place(from),
-            place(to)
-        );
-        let hint =
-            "its numbers are mm; a carriage goes `track.max_speed_mm_s` across while the cloth goes `track.cloth_mm_s`";
-        Diagnostic::new(&code::CENTRE_STEEP, message).by(found).hint(hint)
-    })
+/// Says where the cloth would run across more steeply than any does: a file in another unit, or damage that was followed.
+fn steep(Shift(line): &Shift, [from, to]: [f64; 2], diagnostics: &mut Diagnostics) {
+    let across = |ends: &[[f64; 2]]| [ends[1][0] - ends[0][0], (ends[1][1] - ends[0][1]).abs()];
+    let on = line.rows().windows(2).filter(|ends| ends[1][0] > from && ends[0][0] < to);
+    let slope = |ends: &[[f64; 2]]| across(ends)[1] / across(ends)[0];
+    let Some(worst) = on.max_by(|a, b| slope(a).total_cmp(&slope(b))).filter(|ends| slope(ends) > STEEP) else {
+        return;
+    };
+    let [way, off] = across(worst).map(|length| up(length, DECIMALS));
+    let message = format!(
+        "the centre of the cloth goes {off} mm across within {way} mm of the conveyor, at {} mm",
+        fixed(worst[0][0], DECIMALS)
+    );
+    let hint = "look at the centre line there: both columns are in mm, and damage longer than `track.debounce_ms` is no wander";
+    diagnostics.push(Diagnostic::new(&code::CENTRE_STEEP, message).by(slope(worst)).hint(hint));
+}
+
+/// Says where the cloth bends so much within a notch that its stroke, which stays straight, leaves it.
+fn bent(shift: &Shift, marker: &Marker, tolerance: f64, diagnostics: &mut Diagnostics) {
+    let notches = marker.pieces.iter().flat_map(|piece| &piece.notches);
+    let off = notches.map(|notch| (shift.bend(notch.root.x, notch.tip.x), notch.root));
+    let Some((off, at)) = off.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(off, _)| *off > tolerance) else { return };
+    let message = format!("the cloth bends by {} mm within a notch, which is cut straight", up(off, 2));
+    let hint = "look at the centre line there, or take a longer `track.centre_mm` when you make it";
+    diagnostics.push(Diagnostic::new(&code::CENTRE_STEEP, message).on_cloth(at).by(off).hint(hint));
 }
 
 /// How places move across, by a line of few rows.
@@ -123,7 +130,15 @@ impl Shift {
         bends
     }
 
-    /// Moves what a piece has beside its contours. Strokes of notches are short: they are not parted.
+    /// How far the line leaves the straight one between two places of the conveyor, mm.
+    fn bend(&self, from: f64, to: f64) -> f64 {
+        let Self(line) = self;
+        let straight = |at: f64| line.at(from) + (line.at(to) - line.at(from)) * ((at - from) / (to - from));
+        self.bends(from, to).into_iter().map(|at| (line.at(at) - straight(at)).abs()).fold(0.0, f64::max)
+    }
+
+    /// Moves what a piece has beside its contours. Strokes of notches are short: they are not
+    /// parted, and what that takes is told.
     fn piece(&self, piece: &mut Piece) {
         piece.places_mut().for_each(|at| self.move_place(at));
         piece.labels.iter_mut().filter_map(|label| label.at.as_mut()).for_each(|at| self.move_place(at));

@@ -95,7 +95,7 @@ fn point(text: &str, separator: char) -> Result<(Point, &str), String> {
     let mut number = || {
         let field = fields.next().unwrap_or_default().trim();
         // Where a comma parts no fields it is decimal.
-        let decimal = if separator != ',' { field.replace(',', ".") } else { field.to_owned() };
+        let decimal = if separator == ',' { field.to_owned() } else { field.replace(',', ".") };
         match decimal.parse::<f64>() {
             Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0),
             Ok(_) | Err(_) => Err(format!("`{field}` is no coordinate in mm")),

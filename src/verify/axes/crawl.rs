@@ -13,17 +13,17 @@ use crate::verify::worst::Worst;
 
 /// How many times as long as its limits let it a move may take: half the speed that the profile asks for is somebody's
 /// choice, a tenth is a slip. The slowest cuts that cutter files ask for, M67, have 60 percent of a feed.
-const SLOWNESS_MAX: f64 = 4.0;
+pub(crate) const SLOWNESS_MAX: f64 = 4.0;
 /// Part of its acceleration that a planner has left along an arc between two other moves: half of it is for the move
 /// that blends in, half of that leans towards the centre.
 const ARC_SHARE: f64 = 0.25;
 
 /// The way that is looked at, mm: shorter ones are the matter of starts and stops.
-const WAY: f64 = 1.0;
+pub(crate) const WAY: f64 = 1.0;
 
 /// The longest that a blade stays within a millimetre, in times of what it may take: `fair` s. Rows are given by their
 /// times, s, and the places of the tip.
-pub(in crate::verify) fn longest(times: &[f64], tips: &[Point], fair: f64) -> (f64, usize) {
+pub(crate) fn longest(times: &[f64], tips: &[Point], fair: f64) -> (f64, usize) {
     let last = times.len() - 1;
     let mut longest = (0.0, 0);
     let mut end = 0;
@@ -41,7 +41,7 @@ pub(in crate::verify) fn longest(times: &[f64], tips: &[Point], fair: f64) -> (f
 
 /// How long a blade may take to plunge, to go a millimetre at `speed` mm/s and to turn round, from rest to rest, s. An axis
 /// that goes d from rest to rest takes no longer than d/v + 2 sqrt(d/a) + 2 a/j.
-pub(in crate::verify) fn fair_time(profile: &MachineProfile, speed: f64) -> f64 {
+pub(crate) fn fair_time(profile: &MachineProfile, speed: f64) -> f64 {
     let [x, y, c] = profile.axes.limits();
     let time = |way: f64, speed: f64, limits: &Limits| {
         let Limits { acceleration, jerk, .. } = *limits;

@@ -3,7 +3,7 @@
 //! Receives rows as they come and the profile, promises the worst value of each rule on axes and outputs. Never judges what
 //! is cut.
 
-pub(super) mod crawl;
+pub(crate) mod crawl;
 pub(super) mod events;
 pub(super) mod limits;
 pub(super) mod rest;

@@ -8,7 +8,7 @@ pub(super) mod cutter_file;
 pub(super) mod gcode;
 pub(super) mod hal;
 pub(super) mod npy;
-pub(super) mod number;
+pub(crate) mod number;
 pub(super) mod row;
 pub(super) mod rows;
 pub(super) mod spelling;

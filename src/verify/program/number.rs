@@ -13,7 +13,7 @@ pub(in crate::verify) fn quoted(field: &[u8]) -> String {
 }
 
 /// A whole number below 2^32.
-pub(in crate::verify) fn whole(field: &[u8]) -> Option<u32> {
+pub(crate) fn whole(field: &[u8]) -> Option<u32> {
     if field.is_empty() || field.len() > 10 {
         return None;
     }
@@ -22,7 +22,7 @@ pub(in crate::verify) fn whole(field: &[u8]) -> Option<u32> {
 }
 
 /// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
-pub(in crate::verify) fn decimal(field: &[u8]) -> Option<f64> {
+pub(crate) fn decimal(field: &[u8]) -> Option<f64> {
     short(field).or_else(|| {
         // Exponents and long numbers: the standard library; it also knows words, which are no numbers here.
         let is_number = field.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'e' | b'E' | b'+' | b'-'));

@@ -148,6 +148,26 @@ impl BothWays {
         }
     }
 
+    /// The stretches of a line of that length along which both caps stay as they are: where each ends, and the caps with the
+    /// line and against it.
+    pub(in crate::verify) fn stretches(&self, length: f64) -> Vec<(f64, [f64; 2])> {
+        let [with, against] = match self {
+            Self::One(cap) => return vec![(length, [*cap; 2])],
+            Self::Each(ways) => &**ways,
+        };
+        let starts = with.later.iter().map(|&[start, _]| start);
+        let mut ends: Vec<f64> = starts.chain(against.later.iter().map(|&[start, _]| length - start)).collect();
+        ends.push(length);
+        ends.sort_by(f64::total_cmp);
+        let mut from = 0.0;
+        let stretch = |to: f64| {
+            let middle = f64::midpoint(from, to);
+            from = to;
+            (to, [with.over([middle; 2], f64::max), against.over([length - middle; 2], f64::max)])
+        };
+        ends.into_iter().map(stretch).collect()
+    }
+
     /// One of the caps between two stations, of which those against the line count from its end; `round` is the length of a
     /// line that goes round and round.
     pub(in crate::verify) fn over(&self, ends: [f64; 2], Way { sign, round }: Way, pick: Pick) -> f64 {

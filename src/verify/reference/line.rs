@@ -261,6 +261,11 @@ impl<'a> Line<'a> {
         self.caps.only(sign)
     }
 
+    /// The stretches along which these stay as they are: where each ends, and the speeds with the line and against it.
+    pub(in crate::verify) fn caps(&self) -> Vec<(f64, [f64; 2])> {
+        self.caps.stretches(self.length())
+    }
+
     /// One of the speeds that the tip may have between two stations, mm/s; `sign` is +1 with the line, -1 against it.
     pub(in crate::verify) fn cap(&self, [low, high]: [f64; 2], sign: f64, pick: Pick) -> f64 {
         let length = self.length();

@@ -25,8 +25,22 @@ pub struct RequiredCut {
     pub closed: bool,
     /// The source blocks that it comes from, in rising order.
     pub blocks: Vec<u32>,
+    /// How fast the tip may go along it, in order.
+    pub caps: Vec<Capped>,
+    /// Where the knife is lifted at a corner of it, mm from its start, in order; the start of a closed one is one of these where
+    /// there is any.
+    pub corners: Vec<f64>,
     /// Whether contours and notches themselves say that it is cut; else the marker does, for edges of several parts.
     pub drawn: bool,
+}
+
+/// How fast the tip may go along a stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Capped {
+    /// Where it ends, mm from the start of the cut.
+    pub to: f64,
+    /// With the cut and against it, mm/s; infinite where nothing caps the tip.
+    pub speeds: [f64; 2],
 }
 
 /// What must be cut of a marker.
@@ -41,16 +55,22 @@ pub fn required(marker: &Marker, profile: &MachineProfile) -> Required {
             continue;
         }
         let blocks = (0..line.chords()).map(|chord| line.block(chord));
+        let caps = |from: f64| line.caps().into_iter().map(move |(to, speeds)| Capped { to: from + to, speeds });
         if last == Some(line.cut.index) {
             // The next stretch of the same cut begins where the one before it ends.
             let cut = cuts.last_mut().expect("a line came before");
             cut.points.extend(line.points().skip(1));
             cut.blocks.extend(blocks);
+            let from = cut.caps.last().map_or(0.0, |last| last.to);
+            cut.corners.push(from);
+            cut.caps.extend(caps(from));
         } else {
             let piece = line.piece as usize;
             let drawn = !shared[piece] || of_pieces[piece].slits.contains(&i);
             let closed = line.cut.round.is_some();
-            cuts.push(RequiredCut { points: line.points().collect(), closed, blocks: blocks.collect(), drawn });
+            let (points, blocks, caps) = (line.points().collect(), blocks.collect(), caps(0.0).collect());
+            let corners = if closed && !line.ring { vec![0.0] } else { Vec::new() };
+            cuts.push(RequiredCut { points, closed, blocks, caps, corners, drawn });
         }
         last = Some(line.cut.index);
     }

@@ -28,8 +28,9 @@ fn every_marker_of_the_fixtures_is_cut_and_said() {
             let figures = &planned.program.figures;
             let _ = writeln!(
                 all,
-                "{name} at {speed} mm/s: {} chains, {} heads (bound {}) in {} rows, travel {:.1} mm (bound {:.1}), {:.2} s",
+                "{name} at {speed} mm/s: {} chains, {} abreast, {} heads (at least {}) in {} rows, travel {:.1} mm (bound {:.1}), {:.2} s",
                 figures.chains,
+                figures.chains_abreast,
                 figures.heads,
                 figures.heads_bound,
                 figures.rows,
@@ -90,7 +91,7 @@ fn a_plan_is_written_whole_and_takes_the_place_of_an_earlier_one() {
     room.write("flow.toml", &machine);
     room.write("two-discs.csv", &super::fixture("flow/two-discs.csv"));
     let (said, _) = room.expect("flow two-discs.csv -p flow.toml --speed 100 -o out -t csv,npy,svg,timing,html", DONE);
-    assert!(said.contains("4 heads") || said.contains("4 (bound"), "{said}");
+    assert!(said.contains("4 in 2 rows; "), "{said}");
     for name in
         ["plan.json", "plan.json.meta.json", "head-04.csv", "head-04.npy", "chains.svg", "rows.svg", "player.html"]
     {

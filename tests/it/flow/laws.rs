@@ -19,11 +19,27 @@ fn a_rectangle_is_cut_below_the_speed_that_its_edges_across_the_feed_allow() {
         let (planned, said) = plan("flow/rectangle.csv", Speed::Most, &job);
         let planned = planned.unwrap_or_else(|| panic!("{said}"));
         let speed = planned.program.speed;
+        // Of the way that is planned: the plunge alone cuts a blade's width of the edge, overlaps make it longer.
         let own = planned.program.figures.speed_bound_mm_s;
-        assert!((own - bound).abs() < 0.01, "{travel} mm: bound {own} mm/s");
-        assert!(speed < bound && speed > least * bound, "{travel} mm: {speed} of {bound} mm/s");
+        assert!(speed <= own && (own / bound - 1.0).abs() < 0.1, "{travel} mm: {speed} of {own} of {bound} mm/s");
+        assert!(speed > least * bound, "{travel} mm: {speed} of {bound} mm/s");
         assert_eq!(broken(&planned, &job), [""; 0], "{travel} mm");
     }
+}
+
+#[test]
+fn a_corner_that_is_lifted_takes_the_travel_of_its_lift() {
+    let figures = |lift: &str| {
+        let sets = [format!("knife.clear_ms={lift}"), format!("knife.lift_ms={lift}")];
+        let sets = [&sets[0], &sets[1], "flow.travel_mm=200", "knife.plunge_ms=75", "corner.angle_deg=20"];
+        planned("flow/rectangle.csv", 100.0, &job(&sets)).program.figures
+    };
+    let [short, long] = ["75", "225"].map(figures);
+    // 0.15 s more at 100 mm/s: at the corner, and once more behind the last edge.
+    let bound = long.travel_bound_mm - short.travel_bound_mm;
+    assert!((bound - 15.0).abs() < 0.2, "{short:?} {long:?}");
+    assert!(long.travel_mm - short.travel_mm >= bound - 0.2, "{short:?} {long:?}");
+    assert!(short.travel_mm > short.travel_bound_mm && long.travel_mm > long.travel_bound_mm);
 }
 
 #[test]
@@ -40,7 +56,8 @@ fn three_diamonds_take_four_heads_in_two_rows_where_the_conveyor_is_slow() {
     let job = job(&["flow.travel_mm=100"]);
     let figures = |speed: f64| planned("flow/diamonds.csv", speed, &job).program.figures;
     let slow = figures(50.0);
-    assert_eq!((slow.heads, slow.heads_bound, slow.rows), (4, 4, 2));
+    assert_eq!((slow.heads, slow.chains_abreast, slow.rows), (4, 4, 2));
+    assert!((2..=4).contains(&slow.heads_bound), "{slow:?}");
     let fast = figures(160.0);
     assert!(fast.heads >= 4 && fast.heads <= 6 && fast.rows >= 2, "{fast:?}");
 }

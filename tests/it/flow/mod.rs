@@ -74,7 +74,7 @@ fn written(planned: &Planned, job: &Job, name: &str) -> (String, Vec<Vec<u8>>) {
 fn judged(marker: &Marker, job: &Job, plan: &str, bytes: Bytes, heads: &[Vec<u8>]) -> Verdict {
     let ground = Ground { marker, profile: &job.profile };
     let open = |i: usize| -> std::io::Result<Box<dyn BufRead>> { Ok(Box::new(Cursor::new(heads[i].clone()))) };
-    verify::judge(plan, bytes, &open, &ground).expect("memory is readable")
+    verify::judge(plan, (bytes, &open), &ground).expect("memory is readable")
 }
 
 /// The rules that the programs of a plan break, with what breaks them.

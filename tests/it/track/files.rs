@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::machine::Tracking;
 use cutc::track::scenario::Scenario;
-use cutc::track::{Needs, Tracked, centre};
+use cutc::track::{Needs, Tracked, centre, verify};
 use fastrand::Rng;
 
 use super::{fixture, replayed, source, written};
@@ -134,4 +134,66 @@ fn the_command_writes_all_or_nothing_and_says_how_well_the_cloth_is_followed() {
     assert!(!room.has("step.log.commands.csv") && room.has("step.log.commands.csv.stale"));
     room.expect("track step.toml -o step.toml", USAGE);
     room.expect("track -o x.csv -t log,centre step.log.csv", USAGE);
+}
+
+#[test]
+fn commands_that_break_the_law_are_seen() {
+    let track = Tracking { width_range_mm: Some([1480.0, 1520.0]), ..Tracking::default() };
+    let name = "track/step.toml";
+    let (toml, mut out) = (source(name, fixture(name)), Diagnostics::default());
+    let tracked = Tracked::of_scenario(&toml, &track, Needs::Commands, &mut out).expect("a scenario");
+    let text = String::from_utf8(written(&tracked, "commands")).expect("text");
+    let rows = &tracked.replay.rows;
+    let judged = |text: &str| verify::commands(&mut text.as_bytes(), rows, &track).expect("memory is readable");
+    assert_eq!(judged(&text), None);
+    // The first rows of each status, as they stand.
+    let row = |status: &str| text.lines().find(|line| line.contains(status)).unwrap_or_else(|| panic!("no {status}"));
+    let (waiting, driving, centred) = (row(",waiting,"), row(",driving,"), row(",centred,"));
+    let fields: Vec<&str> = driving.split(',').collect();
+    let other = |direction: &str, speed: &str| format!("{},{direction},{speed}", fields[..4].join(","));
+    let damages = [
+        text.replacen(waiting, &waiting.replace("waiting,0,0.000", "driving,1,7.000"), 1),
+        text.replacen(driving, &driving.replace(",driving,", ",waiting,"), 1),
+        text.replacen(driving, &other(if fields[4] == "1" { "-1" } else { "1" }, fields[5]), 1),
+        text.replacen(driving, &other(fields[4], "999.000"), 1),
+        text.replacen(driving, &other(fields[4], "190.000"), 1),
+        text.replacen(driving, &other(fields[4], "0.500"), 1),
+        text.replacen(driving, &other("0", fields[5]), 1),
+        text.replacen(centred, &centred.replace("centred,0,0.000", "centred,1,2.000"), 1),
+        text.replacen(centred, &centred.replace(",32,32,", ",31,32,"), 1),
+        text.replacen("t_s,i,j", "t_s,j,i", 1),
+        text.lines().take(40).map(|line| format!("{line}\n")).collect(),
+        format!("{text}9.000000,32,32,centred,0,0.000\n"),
+        text.replacen(centred, "half a row", 1),
+    ];
+    for (i, damaged) in damages.iter().enumerate() {
+        assert_ne!(*damaged, text, "damage {i} does nothing");
+        assert!(judged(damaged).is_some(), "damage {i}");
+    }
+}
+
+#[test]
+fn alarms_and_gaps_are_held_against_the_readings() {
+    let track = Tracking { width_range_mm: Some([1490.0, 1510.0]), ..Tracking::default() };
+    let mut log = String::from("t_s,i,j\n");
+    let readings = [[32, 32], [64, 10], [30, 34], [30, 34], [0, 40], [20, 20], [30, 34]];
+    for (k, [i, j]) in readings.iter().flat_map(|reading| std::iter::repeat_n(reading, 10)).enumerate() {
+        let gap = if k < 35 { 0 } else { 50 };
+        let _ = writeln!(log, "{:.2},{i},{j}", 0.01 * f64::from(k as u32 + gap));
+    }
+    let (tracked, said) = replayed("x.csv", log, &track);
+    let tracked = tracked.unwrap_or_else(|| panic!("{said}"));
+    let text = String::from_utf8(written(&tracked, "commands")).expect("text");
+    let judged =
+        |text: &str| verify::commands(&mut text.as_bytes(), &tracked.replay.rows, &track).expect("memory is readable");
+    assert_eq!(judged(&text), None);
+    for status in ["lost-covered", "lost-open", "width"] {
+        let line = text.lines().find(|line| line.contains(status)).unwrap_or_else(|| panic!("no {status}"));
+        assert!(judged(&text.replacen(line, &line.replace(",0,0.000", ",1,4.000"), 1)).is_some(), "{status}");
+        assert!(judged(&text.replacen(line, &line.replace(status, "centred"), 1)).is_some(), "{status}");
+    }
+    // Behind the gap nothing is held: a carriage that goes on there does not wait.
+    let behind = text.lines().find(|line| line.starts_with("0.85")).expect("a row behind the gap");
+    assert!(behind.contains(",waiting,"), "{behind}");
+    assert!(judged(&text.replacen(behind, &behind.replace("waiting,0,0.000", "driving,1,4.000"), 1)).is_some());
 }

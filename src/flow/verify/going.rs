@@ -1,0 +1,66 @@
+//! How fast the blade goes along its line, over the cloth: no faster than it may, and nowhere so slowly that it stands.
+
+use super::ground::{Ground, ROUNDING};
+use super::lines::Line;
+use super::rules::Rule;
+use super::strokes::Stroke;
+use super::trail::reach;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::verify::crawl;
+
+/// How much farther along the line than it seems a place of the blade may be, mm: caps change at places.
+const ASIDE: f64 = 1.0;
+
+/// A stroke along its line.
+pub(super) struct Going<'a> {
+    pub(super) stroke: &'a Stroke,
+    pub(super) line: &'a Line,
+    /// Where it comes to the line, and where it leaves it, mm along that.
+    pub(super) stations: [f64; 2],
+    /// Speed of the cloth, mm/s.
+    pub(super) conveyor: f64,
+}
+
+impl Going<'_> {
+    /// Judges both.
+    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+        self.feed(ground, worst);
+        self.crawl(ground, worst);
+    }
+
+    /// The places of the leading end, row by row.
+    fn way(&self) -> &[Point] {
+        &self.stroke.trace[1..]
+    }
+
+    /// The way from row to row against the greatest cap that holds anywhere on it.
+    fn feed(&self, ground: &Ground, worst: &mut Worst) {
+        let period = ground.profile.time.period();
+        let only = self.line.only_cap();
+        let [mut at, to] = self.stations;
+        let with = to >= at;
+        for (i, ends) in self.way().windows(2).enumerate() {
+            let step = (ends[1] - ends[0]).norm();
+            let cap = only.unwrap_or_else(|| {
+                let before = at;
+                let found = self.line.foot_near(ends[1], at, reach(step)).station;
+                at = if found.is_nan() { before } else { found };
+                let aside = ground.tolerance() + ASIDE;
+                self.line.cap([before.min(at) - aside, before.max(at) + aside], with)
+            });
+            if cap.is_finite() {
+                worst.see(Rule::Feed, step / period, cap + 2.0 * ROUNDING / period, Some(self.stroke.places[i + 1]));
+            }
+        }
+    }
+
+    /// How long the blade stays within a millimetre: a head that waits lets the cloth pass at its own speed.
+    fn crawl(&self, ground: &Ground, worst: &mut Worst) {
+        let times: Vec<f64> = self.stroke.places.iter().map(|place| place.time).collect();
+        let passing = crawl::WAY / self.conveyor / crawl::SLOWNESS_MAX;
+        let fair = crawl::fair_time(ground.profile, self.line.least_cap()) + passing;
+        let (longest, row) = crawl::longest(&times, self.way(), fair);
+        worst.see(Rule::Crawl, longest, crawl::SLOWNESS_MAX, Some(self.stroke.places[row]));
+    }
+}
