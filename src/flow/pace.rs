@@ -38,7 +38,8 @@ struct Leg {
 pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Result<Stroke, Vec<Diagnostic>> {
     let mut best = stroke(chain, toolpath, moving)?;
     let travel = |stroke: &Stroke| stroke.lag.travel(moving.ramp.way);
-    if travel(&best) <= PLENTY * moving.travel {
+    let has_plenty = |stroke: &Stroke| travel(stroke) <= PLENTY * moving.travel;
+    if has_plenty(&best) {
         return Ok(best);
     }
     let fastest = legs(toolpath, &best, moving);
@@ -55,6 +56,9 @@ pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Resu
         late = now.iter().zip(&times).map(|(leg, time)| (leg.time - time).max(0.0)).collect();
         if travel(&slower) < travel(&best) {
             best = slower;
+        }
+        if has_plenty(&best) {
+            break;
         }
     }
     Ok(best)

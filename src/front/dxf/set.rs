@@ -12,7 +12,7 @@ use super::placing::{Held, MOST_PIECES, Placing};
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
-use super::told::{say_hidden, say_on_paper, say_unread};
+use super::told::{say_hidden, say_on_paper, say_text, say_unread};
 use super::unit::unit;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
@@ -60,10 +60,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let Sections { blocks, entities, unit: of_header, hidden } = sections(source, &groups, out);
     let own: Vec<Facts> = blocks.iter().map(|block| Facts::of(&block.entities, source)).collect();
     let file = own.iter().fold(Facts::of(&entities, source), |facts, of_block| facts.and(*of_block, source));
-    if let Some(span) = file.unread {
-        let message = "a text that says a size, a quantity or the unit is not read: it is long, or has codes amid it";
-        out.push(Diagnostic::new(&code::DXF_TEXT, message).at(span).hint("write it as a TEXT of its own"));
-    }
+    say_text(file.unread, out);
     let asked = Asked { source, job, file };
     let unit = unit(&asked, of_header, out);
     let mut reader = Reader {

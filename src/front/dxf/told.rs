@@ -43,3 +43,11 @@ pub(super) fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
         );
     }
 }
+
+/// A text that says what must be known, and is not read.
+pub(super) fn say_text(unread: Option<Span>, out: &mut Diagnostics) {
+    if let Some(span) = unread {
+        let message = "a text that may say a size, a quantity or the unit is long, or has codes amid it";
+        out.push(Diagnostic::new(&code::DXF_TEXT, message).at(span).hint("write it as a TEXT of its own"));
+    }
+}
