@@ -207,12 +207,14 @@ impl Work<'_> {
         let bounds = Bounds::of(profile);
         let Program { strokes, heads, moving, .. } = program;
         let flow = &profile.flow;
-        let bound = |stroke: &Stroke| {
-            let way = stroke.way(&profile.knife);
-            let fastest = bounds.fastest(&way, flow.travel_mm, flow.max_speed_mm_s);
-            (bounds.lag(&way, moving.speed), fastest)
-        };
-        let bounds: Vec<(f64, f64)> = strokes.par_iter().map(bound).collect();
+        let (mut travel_bound, mut speed_bound) = (0.0_f64, flow.max_speed_mm_s.min(bounds.speeds[0]));
+        for way in strokes.iter().map(|stroke| stroke.way(&profile.knife)) {
+            travel_bound = travel_bound.max(bounds.lag(&way, moving.speed));
+            // Most strokes allow what those before them do.
+            if bounds.lag(&way, speed_bound) > flow.travel_mm {
+                speed_bound = bounds.fastest(&way, flow.travel_mm, speed_bound);
+            }
+        }
         let time = program.ticks as f64 * moving.period;
         let cutting: f64 = strokes.iter().map(|stroke| f64::from(stroke.ticks) * moving.period).sum();
         let travel = strokes.iter().map(|stroke| stroke.lag.travel(moving.ramp.way)).fold(0.0, f64::max);
@@ -221,8 +223,8 @@ impl Work<'_> {
             heads: heads.len(),
             chains_abreast: bound::abreast(strokes.iter().map(|stroke| stroke.span)),
             travel_mm: travel,
-            travel_bound_mm: bounds.iter().map(|bound| bound.0).fold(0.0, f64::max),
-            speed_bound_mm_s: bounds.iter().map(|bound| bound.1).fold(flow.max_speed_mm_s, f64::min),
+            travel_bound_mm: travel_bound,
+            speed_bound_mm_s: speed_bound,
             cut_m: self.lines.iter().map(|line| polyline::length(&line.run.points)).sum::<f64>() / MM_PER_M,
             time_s: time,
             busy: if heads.is_empty() { 0.0 } else { cutting / (time * heads.len() as f64) },
