@@ -3,6 +3,7 @@
 mod command;
 mod damage;
 mod laws;
+mod shapes;
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -128,7 +129,7 @@ fn curves_of_coarse_chords_are_followed_as_curves_by_either_planner() {
         for planner in ["optimal", "quintic"] {
             let (compiled, _, said) = compiled(&source, "csv", &job(&[&format!("tool.planner={planner}")]))
                 .unwrap_or_else(|said| panic!("{long} x {short}, {planner}: {said}"));
-            assert_eq!(said, "", "{long} x {short}, {planner}");
+            assert!(!said.contains("spray/coarse"), "{long} x {short}, {planner}: {said}");
             let edges = compiled.report.edges.expect("edges");
             assert!(edges.iter().all(|edge| edge.deviation_mm <= 0.05), "{edges:?}");
         }
