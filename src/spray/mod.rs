@@ -120,7 +120,10 @@ fn moved(rings: Vec<Ring>, course: Course, job: &Job) -> Result<(Program, Peaks)
         (Mode::Frame, _) => (frame::toolpath(&course, plan::home(&head)), Solved::default()),
         (Mode::Cut | Mode::Dry, Planner::Optimal) => {
             let mut toolpath = cuts::toolpath(&course);
-            let cuts = optimal::solve(&mut toolpath, &course.passes, &head)?;
+            let hinted =
+                |refused: Diagnostic| refused.hint("try `tool.planner = \"quintic\"`, or another `path.tolerance_mm`");
+            let cuts = optimal::solve(&mut toolpath, &course.passes, &head)
+                .map_err(|refused| refused.into_iter().map(hinted).collect::<Vec<_>>())?;
             (toolpath, Solved { cuts, ..Solved::default() })
         }
         (Mode::Cut | Mode::Dry, Planner::Quintic) => {

@@ -50,7 +50,11 @@ pub(in crate::spray) fn solve(course: &Course, job: &Job) -> Result<Solved, Diag
     let mut first = 1;
     for pass in &course.passes {
         let mut slowed = pass.clone();
-        let driven = |pass: &[Leg]| Ok(driven(gentle(pass, course, job)?, pass, first, job));
+        let driven = |pass: &[Leg]| {
+            let planned = gentle(pass, course, job)?;
+            let strain = strain(&planned, pass, job);
+            Ok(Driven { strain, ..driven(planned, first, job) })
+        };
         let mut last = driven(&slowed).map_err(unfit)?;
         for _ in 0..ROUNDS {
             let mut slower =
@@ -78,16 +82,21 @@ pub(in crate::spray) fn solve(course: &Course, job: &Job) -> Result<Solved, Diag
     Ok(solved)
 }
 
+/// By what share the head must be slower on each leg, and on those near it, so that the axes can follow what was planned.
+fn strain(planned: &Planned, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
+    let mut shares = planned.strain(pass.len(), &Drives::of(job))?;
+    slower::spread(&mut shares, pass);
+    Some(shares)
+}
+
 /// What was planned for a pass whose first leg has that number, as a cut.
-fn driven(planned: Planned, pass: &[Leg], first: u32, job: &Job) -> Driven {
-    let mut strain = planned.strain(pass.len(), &Drives::of(job));
-    strain.iter_mut().for_each(|shares| slower::spread(shares, pass));
+fn driven(planned: Planned, first: u32, job: &Job) -> Driven {
     let Planned { mut poses, velocities, legs, fits } = planned;
     for pose in &mut poses {
         pose.c.0 -= FRAC_PI_2;
     }
     let cut = Cut::sampled(poses, cuts::spells(&legs, first), job.profile.time.period());
-    Driven { cut, velocities, fits, strain }
+    Driven { cut, velocities, fits, strain: None }
 }
 
 /// A pass: polynomials ask more of the axes than its clock does, so where they ask too much it goes more gently.
