@@ -442,6 +442,8 @@ codes! {
     SPRAY_UNFIT = error(Shape, "spray/unfit", "Polynomials stay farther from the way of the head than is allowed, however often edges are split.", "The program would not be judged good. Powers of the time (`quintic.basis`) are ill-conditioned on long edges; Chebyshev polynomials are not.\n  quintic.basis = \"chebyshev\"");
     /// Chords that are too coarse for a curve.
     SPRAY_COARSE = warning(Spares, Shape, "spray/coarse", "Chords look like those of a curve, but leave it by more than `path.chord_sag_max_mm`: they are followed as straight lines.", "A head swings from chord to chord then, and asks much of its axes. If a curve is meant, say how far its chords may leave it, or export it in finer ones; `path.fit = \"polygon\"` says that none is.\n  path.chord_sag_max_mm = 0.5");
+    /// A jet that is slow.
+    SPRAY_SLOW = warning(Spoils, Shape, "spray/slow", "The jet passes an edge more slowly than by twice `tool.edge_speed_percent`, on more than its two ends.", "Its coat is thicker there. The axes cannot follow the head through so tight a curve at its speed, or chords are too coarse for one.\n  tool.edge_speed_mm_s = 200");
     /// C beyond its range.
     SPRAY_RANGE = error(Shape, "spray/c-range", "Around an edge the head turns farther than `c.range_deg` lets it.", "Around a part without corners inwards the head turns once, and its hoses with it. Widen the range, or let C turn without end.\n  c.range_deg = \"unbounded\"");
     /// A target that tells of a knife.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::Fault;
 use super::key::{Key, PERCENT, SPEED, Takes, from};
-use super::knife::Knife;
+use super::knife::{Follow, Knife, Spare, TightCurves};
 use super::word::words;
 
 /// The keys `tool.*` and `quintic.*`.
@@ -103,20 +103,37 @@ impl Default for Quintic {
     }
 }
 
-/// A length of a blade.
-type Length = fn(&Knife) -> f64;
+/// A key of the knife, and whether what it says of a knife asks for something.
+type Asks = (&'static str, fn(&Knife) -> bool);
 
-/// What a tool without a blade does not have: keys of the knife, and what they say, mm.
-const OF_BLADES: &[(&str, Length)] = &[
-    ("knife.width_mm", |knife| knife.width_mm),
-    ("knife.back_mm", |knife| knife.back_mm.unwrap_or(0.0)),
-    ("knife.radius_mm", |knife| knife.radius_mm.unwrap_or(0.0)),
-    ("knife.front_overlap_mm", |knife| knife.front_overlap_mm),
-    ("knife.corner_front_overlap_mm", |knife| knife.corner_front_overlap_mm),
-    ("knife.heel_overlap_mm", |knife| knife.heel_overlap_mm),
-    ("knife.corner_heel_overlap_mm", |knife| knife.corner_heel_overlap_mm),
-    ("knife.reflex_front_overlap_mm", |knife| knife.reflex_front_overlap_mm),
-    ("knife.reflex_heel_overlap_mm", |knife| knife.reflex_heel_overlap_mm),
+/// What a tool without a blade does not have.
+const OF_BLADES: &[Asks] = &[
+    ("knife.width_mm", |knife| knife.width_mm > 0.0),
+    ("knife.back_mm", |knife| knife.back_mm.is_some_and(|back| back > 0.0)),
+    ("knife.radius_mm", |knife| knife.radius_mm.is_some_and(|radius| radius > 0.0)),
+    ("knife.front_overlap_mm", |knife| knife.front_overlap_mm > 0.0),
+    ("knife.corner_front_overlap_mm", |knife| knife.corner_front_overlap_mm > 0.0),
+    ("knife.heel_overlap_mm", |knife| knife.heel_overlap_mm > 0.0),
+    ("knife.corner_heel_overlap_mm", |knife| knife.corner_heel_overlap_mm > 0.0),
+    ("knife.reflex_front_overlap_mm", |knife| knife.reflex_front_overlap_mm > 0.0),
+    ("knife.reflex_heel_overlap_mm", |knife| knife.reflex_heel_overlap_mm > 0.0),
+    ("knife.edges", |knife| knife.edges > 1),
+    ("knife.follow", |knife| knife.follow == Follow::Chord),
+    ("knife.tight_curves", |knife| knife.tight_curves != TightCurves::Follow),
+    ("knife.spare", |knife| knife.spare != Spare::Both),
+    ("knife.max_bow_mm", |_| true),
+];
+
+/// What a head that never touches the material does not do besides: plunge, lift, or go at the speed of a cut.
+const OF_CUTS: &[Asks] = &[
+    ("knife.feed_mm_s", |knife| knife.feed_mm_s.is_some()),
+    ("knife.slow_percent", |_| true),
+    ("knife.near_percent", |_| true),
+    ("knife.plunge_ms", |knife| knife.plunge_ms > 0.0),
+    ("knife.lift_ms", |knife| knife.lift_ms > 0.0),
+    ("knife.clear_ms", |knife| knife.clear_ms.is_some()),
+    ("knife.max_down_mm", |knife| knife.max_down_mm.is_some()),
+    ("knife.yaw_deg", |knife| knife.yaw_deg != 0.0),
 ];
 
 impl ToolKind {
@@ -160,11 +177,25 @@ impl ToolKind {
 
 /// Keys that contradict the tool.
 pub(super) fn faults(tool: &Tool, knife: &Knife, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
-    let is_odd = |(key, length): &&(&str, Length)| !tool.kind.has_blade() && length(knife) > 0.0 && is_given(key);
-    let name = tool.kind.name();
-    let fault = |(key, _): &(&str, Length)| {
-        let message = format!("`tool.kind` is \"{name}\", which has no blade, but `{key}` is given");
-        Fault::of_range(&[key, "tool.kind"], message, "leave it out, or set `tool.kind = \"knife\"`")
+    let lacks = match tool.kind {
+        ToolKind::Knife => &[][..],
+        ToolKind::Wheel | ToolKind::Pen | ToolKind::Router => &[("has no blade", OF_BLADES)][..],
+        ToolKind::Spray => &[("has no blade", OF_BLADES), ("does not cut", OF_CUTS)][..],
     };
-    OF_BLADES.iter().filter(is_odd).map(fault).collect()
+    let name = tool.kind.name();
+    let odd = |&(why, keys): &(&str, &'static [Asks])| {
+        let given = keys.iter().filter(|(key, asks)| asks(knife) && is_given(key));
+        let fault = |(key, _): &Asks| {
+            let message = format!("`tool.kind` is \"{name}\", which {why}, but `{key}` is given");
+            Fault::of_range(&[key, "tool.kind"], message, "leave it out, or set `tool.kind = \"knife\"`")
+        };
+        given.map(fault).collect::<Vec<_>>()
+    };
+    let mut faults: Vec<Fault> = lacks.iter().flat_map(odd).collect();
+    if tool.kind != ToolKind::Spray && tool.planner != Planner::Optimal && is_given("tool.planner") {
+        let message = format!("`tool.kind` is \"{name}\", but `tool.planner` is that of a head at a distance");
+        let hint = "leave it out, or set `tool.kind = \"spray\"`";
+        faults.push(Fault::of_range(&["tool.planner", "tool.kind"], message, hint));
+    }
+    faults
 }

@@ -66,6 +66,8 @@ pub(super) type Pass = Vec<Leg>;
 pub(super) struct Pace {
     /// The least turn of a corner, rad.
     pub(super) corner: f64,
+    /// How far the head may look askew, rad.
+    pub(super) askew: f64,
     /// To the edge, mm.
     pub(super) distance: f64,
     /// Of the jet along the edge, mm/s.
@@ -83,6 +85,7 @@ impl Pace {
         let [x, y, _] = job.profile.axes.limits();
         Self {
             corner: job.profile.corner.angle(),
+            askew: job.profile.verify.max_heading_deg.to_radians(),
             distance: tool.distance_mm,
             edge_speed: tool.edge_speed_mm_s,
             corner_speed: tool.corner_speed_mm_s,
@@ -105,7 +108,7 @@ const RUN_UP_FACTOR: f64 = 1.5;
 
 impl Reach {
     /// The way on which a head comes from rest to a speed, mm: half of it for the time that acceleration and jerk take.
-    fn run_up(&self, speed: f64) -> f64 {
+    pub(super) fn run_up(&self, speed: f64) -> f64 {
         RUN_UP_FACTOR * 0.5 * speed * (speed / self.acceleration + self.acceleration / self.jerk)
     }
 }
@@ -139,7 +142,7 @@ fn from_origin(leg: &Leg) -> f64 {
 /// A closed way from rest to rest: parted where it has a corner itself, and led up to and away from where it starts.
 fn parted(way: &[Leg], pace: &Pace) -> Vec<Pass> {
     let n = way.len();
-    let stops: Vec<usize> = (0..n).filter(|&i| is_stop(&way[(i + n - 1) % n], &way[i], pace.corner)).collect();
+    let stops: Vec<usize> = (0..n).filter(|&i| is_stop(&way[(i + n - 1) % n], &way[i], pace)).collect();
     let mut passes: Vec<Pass> = Vec::new();
     let mut from = 0;
     for to in stops.iter().copied().filter(|&stop| stop > 0).chain([n]) {
@@ -183,10 +186,11 @@ fn air(legs: impl Iterator<Item = Leg>, length: f64) -> Vec<Leg> {
     taken
 }
 
-/// Whether the head must stop between two legs: its way has a corner.
-fn is_stop(before: &Leg, behind: &Leg, corner: f64) -> bool {
+/// Whether the head must stop between two legs: its way has a corner, or it looks elsewhere all at once.
+fn is_stop(before: &Leg, behind: &Leg, pace: &Pace) -> bool {
     let [a, b] = [before, behind].map(|leg| leg.ends[1].at - leg.ends[0].at);
-    angle::turn(a, b).abs() >= corner
+    let jump = angle::wrap(behind.ends[0].aim - before.ends[1].aim);
+    angle::turn(a, b).abs() >= pace.corner || jump.abs() >= pace.askew
 }
 
 /// Makes the directions of a pass go on from leg to leg.

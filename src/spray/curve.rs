@@ -16,6 +16,8 @@ const ALIKE: f64 = 4.0;
 /// How far the new chords may be from the curve, mm: far below any tolerance.
 const ACCURACY: f64 = 1e-3;
 
+/// What chords turn by that are followed as straight lines is a corner from here on, rad (half a degree).
+const CORNER: f64 = 0.008_726_646_259_971_648;
 /// What bulges more is a polygon for sure, mm: no export of curves is as coarse.
 const POLYGON: f64 = 3.0;
 
@@ -54,6 +56,8 @@ fn report(ring: &Ring, most: f64, out: &mut Diagnostics) {
 fn smooth(ring: &Ring, most: f64) -> Ring {
     let n = ring.points.len();
     let curved: Vec<bool> = (0..n).map(|chord| circle(ring, chord).is_some_and(|bulge| bulge <= most)).collect();
+    let is_of_polygon =
+        |vertex: usize| !curved[vertex] && !curved[ring.before(vertex)] && ring.turns[vertex].abs() > CORNER;
     let (mut points, mut spans, mut corners) = (Vec::new(), Vec::new(), Vec::new());
     for chord in 0..n {
         let [from, to] = ring.chord(chord);
@@ -66,7 +70,7 @@ fn smooth(ring: &Ring, most: f64) -> Ring {
         for piece in 0..pieces as usize {
             points.push(on_cubic([from, to], ends, piece as f64 / pieces));
             spans.push(ring.spans[chord]);
-            corners.push(piece == 0 && ring.is_corner(chord));
+            corners.push(piece == 0 && (ring.is_corner(chord) || is_of_polygon(chord)));
         }
     }
     Ring::with_corners(points, spans, corners)

@@ -36,9 +36,18 @@ fn pose(leg: &Leg, end: usize) -> Pose {
     Pose { centre: node.at, c: Rotation(node.aim - FRAC_PI_2) }
 }
 
+/// Share of what a head may look askew that the curves of its planner use.
+const SHARE: f64 = 0.9;
+
+/// How near to its course the head stays, mm: where a line meets an arc of a radius a curve that leaves them by so much is
+/// turned by up to the root of its share of the radius.
+fn tolerance(course: &Course) -> f64 {
+    course.tolerance.min(course.pace.distance * (SHARE * course.pace.askew).powi(2))
+}
+
 /// All passes, a run each. Its blocks are numbers of legs, the first being 1, counted through all passes.
 pub(super) fn toolpath(course: &Course) -> Toolpath {
-    let mut toolpath = Toolpath { tolerance: course.tolerance, ..Toolpath::default() };
+    let mut toolpath = Toolpath { tolerance: tolerance(course), ..Toolpath::default() };
     let mut first = 1;
     let mut at = Pose::default();
     for pass in &course.passes {

@@ -63,9 +63,19 @@ pub(super) struct Followed<'a> {
     pub(super) period: f64,
 }
 
-/// The figures of all edges of a course; `fits` has those of each stretch of each pass, or nothing.
-pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
-    let Followed { passes, rows, period } = followed;
+/// An edge of a course.
+pub(super) struct OnEdge<'a> {
+    /// Its pass, and which of the stretches of that it is.
+    place: [usize; 2],
+    /// Its legs.
+    pub(super) legs: &'a [Leg],
+    /// The rows on them.
+    pub(super) rows: &'a [Row],
+}
+
+/// The edges of a course on which a row falls.
+pub(super) fn on_edges(followed: Followed) -> Vec<OnEdge> {
+    let Followed { passes, rows, .. } = followed;
     let mut edges = Vec::new();
     let (mut first, mut at) = (0, 0);
     for (i, pass) in passes.iter().enumerate() {
@@ -76,14 +86,21 @@ pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
             let from = at + rows[at..].iter().take_while(is_before).count();
             at = from + rows[from..].iter().take_while(|row| row.leg.is_some_and(|leg| leg < end)).count();
             if stretch.role == Role::Edge && from < at {
-                let fits = fits.get(i).map_or(&[][..], |fits| &fits[j]);
-                let pieces = fits.iter().map(Piece::of).collect();
-                edges.push(Edge { pieces, ..edge(&pass[stretch.legs], &rows[from..at], period) });
+                edges.push(OnEdge { place: [i, j], legs: &pass[stretch.legs], rows: &rows[from..at] });
             }
         }
         first += pass.len();
     }
     edges
+}
+
+/// The figures of all edges of a course; `fits` has those of each stretch of each pass, or nothing.
+pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
+    let figures = |OnEdge { place: [pass, stretch], legs, rows }| {
+        let fits = fits.get(pass).map_or(&[][..], |fits| &fits[stretch]);
+        Edge { pieces: fits.iter().map(Piece::of).collect(), ..edge(legs, rows, followed.period) }
+    };
+    on_edges(followed).into_iter().map(figures).collect()
 }
 
 /// One edge: its legs and the rows on them.

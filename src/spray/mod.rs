@@ -26,7 +26,9 @@ mod program;
 mod quintic;
 mod reach;
 mod rows;
+mod slow;
 mod slower;
+mod table;
 mod tangle;
 pub mod verify;
 mod write;
@@ -38,14 +40,14 @@ pub use write::{TARGETS, Target};
 
 use std::f64::consts::TAU;
 
-use self::course::{Course, Leg, Pace, Pass};
+use self::course::{Course, Pace, Pass};
 use self::edge::Ring;
 use self::figures::Followed;
 use self::quintic::Solved;
 use self::rows::Moved;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Marker;
-use crate::machine::{Job, Mode, Planner, Table};
+use crate::machine::{Job, Mode, Planner};
 use crate::plan::{self, Peaks};
 use crate::units::deg;
 use crate::units::number::fixed;
@@ -62,9 +64,15 @@ pub fn check(marker: &Marker, job: &Job, out: &mut Diagnostics) {
 pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Program, Peaks)> {
     let (rings, course) = course(marker, job, out)?;
     match moved(rings, course, job) {
-        Ok(planned) => Some(planned),
+        Ok(planned) => {
+            let Program { passes, rows, period, .. } = &planned.0;
+            slow::report(Followed { passes, rows, period: *period }, job, out);
+            Some(planned)
+        }
         Err(refused) => {
-            refused.into_iter().for_each(|diagnostic| out.push(diagnostic));
+            for diagnostic in refused {
+                out.push(diagnostic);
+            }
             None
         }
     }
@@ -101,7 +109,7 @@ fn course(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Vec<Ring
         return None;
     }
     turn(&mut passes, job, out)?;
-    on_table(&passes, job, out)?;
+    table::report(&passes, job, out)?;
     Some((rings, Course { passes, pace, tolerance: SHARE * job.profile.tolerance(marker.unit) }))
 }
 
@@ -112,7 +120,10 @@ fn moved(rings: Vec<Ring>, course: Course, job: &Job) -> Result<(Program, Peaks)
         (Mode::Frame, _) => (frame::toolpath(&course, plan::home(&head)), Solved::default()),
         (Mode::Cut | Mode::Dry, Planner::Optimal) => {
             let mut toolpath = cuts::toolpath(&course);
-            let cuts = optimal::solve(&mut toolpath, &course.passes, &head)?;
+            let hinted =
+                |refused: Diagnostic| refused.hint("try `tool.planner = \"quintic\"`, or another `path.tolerance_mm`");
+            let cuts = optimal::solve(&mut toolpath, &course.passes, &head)
+                .map_err(|refused| refused.into_iter().map(hinted).collect::<Vec<_>>())?;
             (toolpath, Solved { cuts, ..Solved::default() })
         }
         (Mode::Cut | Mode::Dry, Planner::Quintic) => {
@@ -146,20 +157,6 @@ fn busiest(peaks: &Peaks) -> String {
     worst.map_or_else(String::new, |(axis, order, peak)| {
         format!("the {order} of {axis} is {} % of its limit", fixed(100.0 * peak.worst / peak.limit, 0))
     })
-}
-
-/// Whether the head stays over the table.
-fn on_table(passes: &[Pass], job: &Job, out: &mut Diagnostics) -> Option<()> {
-    let off = |leg: &Leg| job.profile.table.off(leg.ends[0].at.into());
-    let worst = passes.iter().flatten().max_by(|a, b| off(a).total_cmp(&off(b)))?;
-    if off(worst) <= Table::EDGE_MM {
-        return Some(());
-    }
-    let (distance, beyond) = (fixed(job.profile.tool.distance_mm, 1), fixed(off(worst), 1));
-    let message = format!("the head, {distance} mm outside the edges, leaves the table by {beyond} mm");
-    let hint = "move the marker on it (`sheet.offset_mm`), or correct `table` in the profile";
-    out.push(Diagnostic::new(&code::MARKER_OFF_TABLE, message).hint(hint).on_cloth(worst.ends[0].at));
-    None
 }
 
 /// Turns passes by whole turns so that C has the least way between them and stays in its range.

@@ -15,6 +15,9 @@ const FOUND_EPSILON: f64 = 1e-2;
 /// Pieces of the way that are shorter do not count, mm: rounding.
 const LENGTH_EPSILON: f64 = 1e-6;
 
+/// Closed ways that are smaller are none, as a share of the distance: in them the head stands and turns.
+const SMALL_SHARE: f64 = 0.01;
+
 /// What an element of the way runs beside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Beside {
@@ -56,7 +59,14 @@ pub(super) fn loops(rings: &[Ring], distance: f64) -> Vec<Vec<Element>> {
     let places = Places::new(rings);
     let ways = offset.ccw_plines.iter().chain(&offset.cw_plines);
     let ways = ways.map(|way| elements(&way.polyline, rings, &places, distance));
-    ways.filter(|way| !way.is_empty()).collect()
+    ways.filter(|way| !is_small(way, distance)).collect()
+}
+
+/// Whether a closed way is no more than a place: what a hole as wide as twice the distance leaves of it.
+fn is_small(way: &[Element], distance: f64) -> bool {
+    let places: Vec<Point> = way.iter().flat_map(|element| element.ends).collect();
+    let Extent { min, max } = Extent::of(&places);
+    way.is_empty() || (max - min).norm() < SMALL_SHARE * distance
 }
 
 /// The elements of one way.

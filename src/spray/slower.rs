@@ -39,8 +39,11 @@ pub(super) fn shares(cut: &Cut, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
         }
         let speed = way / ((i - from) as f64 * period);
         if way >= WAY && speed > most && pass[legs[i]].role != Role::Air {
-            for leg in &legs[from..=i] {
-                shares[*leg] = shares[*leg].min(LOWERED * most / speed);
+            // Where it is slow enough on its way so far is not why.
+            for tick in (from + 1..=i).filter(|&tick| step(tick) > most * period) {
+                for leg in [legs[tick - 1], legs[tick]] {
+                    shares[leg] = shares[leg].min(LOWERED * most / speed);
+                }
             }
         }
     }
@@ -61,21 +64,24 @@ fn legs_at(cut: &Cut, ticks: usize) -> Vec<usize> {
     legs
 }
 
-/// Lowers what is near a lowered leg as much.
-fn spread(shares: &mut [f64], pass: &[Leg]) {
+/// Lowers what is near a lowered leg as much; but no edge for a corner, on which the jet stands.
+pub(super) fn spread(shares: &mut [f64], pass: &[Leg]) {
     let known = shares.to_vec();
-    let mut lower = |legs: &mut dyn Iterator<Item = usize>, share: f64| {
+    let mut lower = |from: usize, legs: &mut dyn Iterator<Item = usize>| {
         let mut way = 0.0;
         for leg in legs {
-            shares[leg] = shares[leg].min(share);
+            if pass[from].role == Role::Corner && pass[leg].role == Role::Edge {
+                break;
+            }
+            shares[leg] = shares[leg].min(known[from]);
             way += pass[leg].length();
             if way > AROUND {
                 break;
             }
         }
     };
-    for (i, &share) in known.iter().enumerate().filter(|(_, share)| **share < 1.0) {
-        lower(&mut (i..pass.len()), share);
-        lower(&mut (0..i).rev(), share);
+    for from in (0..known.len()).filter(|&leg| known[leg] < 1.0) {
+        lower(from, &mut (from..pass.len()));
+        lower(from, &mut (0..from).rev());
     }
 }

@@ -106,7 +106,7 @@ fn every_command_of_the_manual_runs() {
     for name in ["step.toml", "wander.toml"] {
         fs::copy(root().join("fixtures/track").join(name), room.at(name)).expect("a copy");
     }
-    for name in ["spray/panel.csv", "machines/spray.toml"] {
+    for name in ["spray/panel.csv", "machines/spray.toml", "machines/spray-plain.toml"] {
         let (_, to) = name.split_once('/').expect("a folder");
         fs::copy(root().join("fixtures").join(name), room.at(to)).expect("a copy");
     }

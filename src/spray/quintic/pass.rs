@@ -16,6 +16,9 @@ const LEAST_SAMPLES: usize = 24;
 const LESS: f64 = 0.6;
 /// Rounds of that.
 const ROUNDS: usize = 8;
+/// How far below what the axes can do a leg is slowed down, and the least share of its speed at once.
+const LOWERED: f64 = 0.97;
+const LEAST_SHARE: f64 = 0.5;
 
 /// The motion of a pass.
 #[derive(Debug)]
@@ -31,23 +34,41 @@ pub(super) struct Planned {
 }
 
 impl Planned {
-    /// Whether the differences of the poses keep the limits of the axes, which rest before and behind.
-    pub(super) fn keeps(&self, drives: &Drives) -> bool {
-        let Drives { limits, period } = *drives;
+    /// By what share the head must be slower on each leg so that the differences of the poses keep the limits of the axes,
+    /// which rest before and behind; `None` where they do.
+    pub(super) fn strain(&self, legs: usize, drives: &Drives) -> Option<Vec<f64>> {
+        let last = self.poses.len() - 1;
+        let tick = |i: usize| i.saturating_sub(3).min(last);
         let place = |i: usize| {
-            let pose = &self.poses[i.saturating_sub(3).min(self.poses.len() - 1)];
+            let pose = &self.poses[tick(i)];
             [pose.centre.x, pose.centre.y, pose.c.0]
         };
-        (3..self.poses.len() + 6).all(|i| {
-            let [a, b, c, d] = [place(i), place(i - 1), place(i - 2), place(i - 3)];
-            (0..3).all(|axis| {
-                let Limits { speed, acceleration, jerk } = limits[axis];
-                (a[axis] - b[axis]).abs() <= speed * period
-                    && (a[axis] - 2.0 * b[axis] + c[axis]).abs() <= acceleration * period.powi(2)
-                    && (a[axis] - 3.0 * b[axis] + 3.0 * c[axis] - d[axis]).abs() <= jerk * period.powi(3)
-            })
-        })
+        let mut shares = vec![1.0_f64; legs];
+        for i in 3..last + 7 {
+            let strain = strain([i, i - 1, i - 2, i - 3].map(place), drives);
+            if strain > 1.0 {
+                for leg in &mut shares[self.legs[tick(i - 3)]..=self.legs[tick(i)]] {
+                    *leg = leg.min((LOWERED / strain).max(LEAST_SHARE));
+                }
+            }
+        }
+        shares.iter().any(|&share| share < 1.0).then_some(shares)
     }
+}
+
+/// How many times too fast four places in a row are for the axes: a motion that is slower by so much keeps each order of
+/// difference.
+fn strain([a, b, c, d]: [[f64; 3]; 4], drives: &Drives) -> f64 {
+    let Drives { limits, period } = *drives;
+    let of_axis = |axis: usize| {
+        let (Limits { speed, acceleration, jerk }, [a, b, c, d]) =
+            (limits[axis], [a, b, c, d].map(|place| place[axis]));
+        let speed = (a - b).abs() / (speed * period);
+        let acceleration = (a - 2.0 * b + c).abs() / (acceleration * period.powi(2));
+        let jerk = (a - 3.0 * b + 3.0 * c - d).abs() / (jerk * period.powi(3));
+        speed.max(acceleration.sqrt()).max(jerk.cbrt())
+    };
+    (0..3).map(of_axis).fold(0.0, f64::max)
 }
 
 /// What polynomials could not be found for.

@@ -18,8 +18,11 @@ const SHARE: f64 = 0.9;
 /// Shares of what the axes can do that the clock of polynomials asks of them, one after the other.
 const GENTLER: [f64; 4] = [1.0, 0.6, 0.35, 0.2];
 
-/// Rounds of slowing down where the jet is too fast; what is left then the verifier judges.
-const ROUNDS: usize = 6;
+/// Rounds of slowing down where the jet is too fast, or the axes are; what is left then certify and the verifier judge.
+const ROUNDS: usize = 12;
+
+/// The least share of its speed that a leg is brought to.
+const LEAST_SHARE: f64 = 0.1;
 
 /// What of the head's motion is planned before passes are joined.
 #[derive(Debug, Default)]
@@ -37,6 +40,8 @@ struct Driven {
     cut: Cut,
     velocities: Vec<[f64; 2]>,
     fits: Vec<Vec<Fit>>,
+    /// The share of its speed on each leg that the axes can follow; `None` where they can everywhere.
+    strain: Option<Vec<f64>>,
 }
 
 /// All passes of a course; why there are no polynomials for one is a diagnostic.
@@ -45,22 +50,43 @@ pub(in crate::spray) fn solve(course: &Course, job: &Job) -> Result<Solved, Diag
     let mut first = 1;
     for pass in &course.passes {
         let mut slowed = pass.clone();
-        let driven = |pass: &[Leg]| Ok(driven(gentle(pass, course, job)?, first, job));
+        let driven = |pass: &[Leg]| {
+            let planned = gentle(pass, course, job)?;
+            let strain = strain(&planned, pass, job);
+            Ok(Driven { strain, ..driven(planned, first, job) })
+        };
         let mut last = driven(&slowed).map_err(unfit)?;
         for _ in 0..ROUNDS {
-            let Some(shares) = slower::shares(&last.cut, &slowed, job) else { break };
-            slowed.iter_mut().zip(&shares).for_each(|(leg, share)| leg.speed *= share);
+            let mut slower =
+                [slower::shares(&last.cut, &slowed, job), last.strain.take()].into_iter().flatten().peekable();
+            if slower.peek().is_none() {
+                break;
+            }
+            for shares in slower {
+                slowed.iter_mut().zip(&shares).for_each(|(leg, share)| leg.speed *= share);
+            }
+            // Where so much is asked the axes cannot follow polynomials: certify says so.
+            if slowed.iter().zip(pass).any(|(slowed, leg)| slowed.speed < LEAST_SHARE * leg.speed) {
+                break;
+            }
             // What the clock of slower legs cannot be fitted to is left as it was: then the verifier judges.
             let Ok(next) = driven(&slowed) else { break };
             last = next;
         }
-        let Driven { cut, velocities, fits } = last;
+        let Driven { cut, velocities, fits, .. } = last;
         solved.cuts.push(cut);
         solved.velocities.push(velocities);
         solved.fits.push(fits);
         first += pass.len() as u32;
     }
     Ok(solved)
+}
+
+/// By what share the head must be slower on each leg, and on those near it, so that the axes can follow what was planned.
+fn strain(planned: &Planned, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
+    let mut shares = planned.strain(pass.len(), &Drives::of(job))?;
+    slower::spread(&mut shares, pass);
+    Some(shares)
 }
 
 /// What was planned for a pass whose first leg has that number, as a cut.
@@ -70,7 +96,7 @@ fn driven(planned: Planned, first: u32, job: &Job) -> Driven {
         pose.c.0 -= FRAC_PI_2;
     }
     let cut = Cut::sampled(poses, cuts::spells(&legs, first), job.profile.time.period());
-    Driven { cut, velocities, fits }
+    Driven { cut, velocities, fits, strain: None }
 }
 
 /// A pass: polynomials ask more of the axes than its clock does, so where they ask too much it goes more gently.
@@ -86,7 +112,7 @@ fn gentle(pass: &[Leg], course: &Course, job: &Job) -> Result<Planned, Unfit> {
     };
     let mut planned = plan(GENTLER[0]);
     for &share in &GENTLER[1..] {
-        if planned.as_ref().is_ok_and(|planned| planned.keeps(&drives)) {
+        if planned.as_ref().is_ok_and(|planned| planned.strain(pass.len(), &drives).is_none()) {
             break;
         }
         planned = plan(share).or(planned);

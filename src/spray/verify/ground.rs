@@ -28,6 +28,15 @@ pub(super) struct Chord {
     pub(super) block: u32,
 }
 
+impl Chord {
+    /// Curvature of the curve that it stands for, 1/mm, inwards (a bay) positive.
+    pub(super) fn bay(&self) -> f64 {
+        let way = self.ends[1] - self.ends[0];
+        let turn = 0.5 * (self.bent[1] - self.bent[0]);
+        turn / way.norm() * left(way).dot(&self.out).signum()
+    }
+}
+
 /// What of a curve there is at one end of a chord.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Side {

@@ -1,22 +1,17 @@
 //! What the jet does: how far the head is from the edge, which way it looks, how fast the jet goes, what it leaves.
 
+use super::coat::Coat;
+use super::dwell;
 use super::ground::{Chord, Ground};
-use super::rows::{POSITION_ROUNDING, Row};
+use super::rows::{EPSILON, POSITION_ROUNDING, Row, WAY};
 use super::rules::Rule;
-use super::worst::{Worst, at, missing};
-use crate::geom::boxes::Boxes;
-use crate::geom::{Extent, Heading, Point, Rotation, polyline};
+use super::worst::{Worst, at};
+use crate::geom::{Heading, Point, Rotation, polyline};
 use crate::machine::Job;
 use crate::units::{deg, rad};
 
-/// Way of the jet over which its speed is measured, mm: less than any jet is wide.
-const WAY: f64 = 10.0;
-/// How near to a place of the edge the middle of the jet must come, mm: far less than any jet is wide.
-const SPOT: f64 = 2.0;
-/// How far places of the edge are apart at which it is looked at, mm.
-const STEP: f64 = 1.0;
-/// Rounding of computations, mm and degrees.
-const EPSILON: f64 = 1e-6;
+/// Sprays that are shorter are no edge, mm.
+const SHORT: f64 = 2.0;
 
 /// What the jet does on the edges.
 pub(super) struct Jet<'a> {
@@ -52,7 +47,9 @@ impl<'a> Jet<'a> {
             }
         }
         self.speeds(worst);
-        self.coverage(worst);
+        dwell::judge(rows, &self.spots, self.job, worst);
+        let coat = Coat::new(rows, &self.spots, self.ground, self.job);
+        coat.judge(worst);
     }
 
     /// Distance and direction of one row, and the block that it names.
@@ -92,7 +89,7 @@ impl<'a> Jet<'a> {
         for (i, row) in rows.iter().enumerate().skip(1) {
             if !row.jet {
                 // What was too short for a centimetre is judged as a whole.
-                if way > SPOT && way < WAY {
+                if way > SHORT && way < WAY {
                     let speed = way / ((i - 1 - from) as f64 * period);
                     worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
                 }
@@ -115,36 +112,6 @@ impl<'a> Jet<'a> {
             }
         }
         worst.see(Rule::EdgeSlow, slow_way, None, slowest);
-    }
-
-    /// How much of the edge that a head can face is not sprayed.
-    fn coverage(&self, worst: &mut Worst) {
-        let (rows, spots, ground) = (self.rows, &self.spots, self.ground);
-        let (distance, tolerance) = (self.job.profile.tool.distance_mm, ground.tolerance);
-        let ways: Vec<[Point; 2]> =
-            (1..rows.len()).filter(|&i| rows[i].jet && rows[i - 1].jet).map(|i| [spots[i - 1], spots[i]]).collect();
-        let boxes = Boxes::new(ways.iter().map(|[a, b]| Extent::between(*a, *b)).collect());
-        let spot = SPOT + tolerance;
-        let is_sprayed = |place: Point| {
-            let mut near = boxes.near(Extent::between(place, place).grown(spot));
-            near.any(|i| polyline::distance_to_segment(place, ways[i][0], ways[i][1]) <= spot)
-        };
-        let (mut left, mut first) = (0.0, None);
-        for chord in &ground.chords {
-            let [from, to] = chord.ends;
-            let length = (to - from).norm();
-            let steps = (length / STEP).ceil().max(1.0);
-            for i in 0..steps as usize {
-                let place = from + (to - from) * ((i as f64 + 0.5) / steps);
-                let head = place + chord.out * distance;
-                if ground.is_nearer(head, distance - tolerance) || is_sprayed(place) {
-                    continue;
-                }
-                left += length / steps;
-                first = first.or(Some(missing(place, chord.block)));
-            }
-        }
-        worst.see(Rule::Coverage, left, Some(EPSILON), first);
     }
 }
 

@@ -4,6 +4,8 @@
 //! measures from the chords as drawn. Never repairs anything.
 
 mod axes;
+mod coat;
+mod dwell;
 mod ground;
 mod jet;
 mod rows;

@@ -10,6 +10,10 @@ pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,vx_mm_s,vy_mm_s,jet,block";
 pub(super) const POSITION_ROUNDING: f64 = 0.5e-6;
 pub(super) const TIME_ROUNDING: f64 = 0.5e-6;
 pub(super) const SPEED_ROUNDING: f64 = 0.5e-4;
+/// Rounding of computations with them, mm, degrees and s.
+pub(super) const EPSILON: f64 = 1e-6;
+/// Way of the jet over which its speed is measured, mm: less than any jet is wide.
+pub(super) const WAY: f64 = 10.0;
 
 /// A row.
 #[derive(Debug, Clone, Copy, PartialEq)]

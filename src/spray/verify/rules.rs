@@ -45,8 +45,12 @@ pub enum Rule {
     EdgeSpeed,
     /// The jet is slow.
     EdgeSlow,
+    /// The jet does not stand.
+    Dwell,
     /// Everything that can be is sprayed.
     Coverage,
+    /// Nothing is sprayed again.
+    Twice,
     /// The jet stays off in a dry run.
     Jet,
     /// Blocks are those of the edge.
@@ -79,7 +83,9 @@ pub const RULES: &[Row] = &[
     Row { rule: Rule::Heading, name: "spray-verify/heading", unit: "deg", about: "while the jet is on, the head looks at the nearest place of the edge, square to it", more: "A jet that meets the edge askew coats one side of it. The limit is verify.max_heading_deg; where chords stand for a curve any direction between those of its chords is square." },
     Row { rule: Rule::EdgeSpeed, name: "spray-verify/edge-speed", unit: "mm/s", about: "over no centimetre of edge the jet is faster than tool.edge_speed_mm_s and tool.edge_speed_percent", more: "Where the jet is faster the coat is thinner. On a convex curve the head must be faster than the jet, in a bay slower." },
     Row { rule: Rule::EdgeSlow, name: "spray-verify/edge-slow", unit: "mm", about: "how much of the edge the jet passes more slowly than by tool.edge_speed_percent", more: "There the coat is thicker: where the head comes to rest at corners inwards, and where it gathers the speed of a curve. Only reported." },
+    Row { rule: Rule::Dwell, name: "spray-verify/dwell", unit: "s", about: "about no place the jet stays longer than twice what its speeds, the turn of the head and a rest take", more: "A jet that stands floods the place. Around corners the head goes at tool.corner_speed_mm_s; slow axes or a small jerk make it linger there." },
     Row { rule: Rule::Coverage, name: "spray-verify/coverage", unit: "mm", about: "every place of every edge that a head at the distance can face without coming nearer to another one is sprayed", more: "What is left has no coat. Places that nothing can face are told by the compile (spray/unreached), and do not count." },
+    Row { rule: Rule::Twice, name: "spray-verify/twice", unit: "mm", about: "no stretch of an edge is sprayed again", more: "Its coat would be twice as thick, and run. Where a closed edge begins it ends, and few millimetres meet. The value is the longest stretch." },
     Row { rule: Rule::Jet, name: "spray-verify/jet", unit: "", about: "in a dry run the jet stays off", more: "With --dry-run and --frame the head moves and nothing is sprayed. The value is how many rows have the jet on." },
     Row { rule: Rule::Block, name: "spray-verify/block", unit: "mm", about: "rows with the jet on name the block that drew the edge there, and no others name one", more: "A program is resumed, and reports say where, by the blocks that its rows name. The value is how far the named block is from where the jet meets the edge." },
 ];

@@ -1,5 +1,6 @@
 //! Target `svg`: the part, the course and the way of the head over it, and speeds over time.
 
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use super::target::Target;
@@ -112,7 +113,7 @@ impl<'a> Ways<'a> {
     fn of(program: &'a Program, width: f64) -> Self {
         let programs = [Some(program), program.beside.as_deref()];
         let offs = programs.map(|program| program.map(offs).unwrap_or_default());
-        let worst = offs.iter().flatten().map(|off| off.norm()).fold(0.0, f64::max);
+        let worst = offs.iter().flatten().map(crate::geom::Vector::norm).fold(0.0, f64::max);
         // What can be seen is drawn as it is.
         let times = if worst > 0.0 { round(0.5 * VISIBLE * width / worst).clamp(1.0, MOST_TIMES) } else { 1.0 };
         let classes = [["way", "jet"], ["other", "other-jet"]];
@@ -296,9 +297,9 @@ impl Chart {
         };
         let (mut head, mut spots, mut drawn) = (String::new(), String::new(), false);
         for from in (0..rows.len()).step_by(every) {
-            head += &format!("{}{}", if head.is_empty() { 'M' } else { 'L' }, place(&speed, from));
+            let _ = write!(head, "{}{}", if head.is_empty() { 'M' } else { 'L' }, place(&speed, from));
             if rows[from].jet {
-                spots += &format!("{}{}", if drawn { 'L' } else { 'M' }, place(&jet, from));
+                let _ = write!(spots, "{}{}", if drawn { 'L' } else { 'M' }, place(&jet, from));
             }
             drawn = rows[from].jet;
         }

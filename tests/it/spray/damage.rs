@@ -50,6 +50,63 @@ fn bump(rows: &mut [Vec<f64>], at: usize, column: usize, height: f64) {
     }
 }
 
+/// The head comes to stand for three seconds in the middle of a straight edge along X, smoothly.
+fn linger(rows: &mut Vec<Vec<f64>>, at: usize) {
+    let (ramp, stand) = (1200, 3000);
+    let all = 2 * ramp + stand;
+    let slow = |tick: usize| {
+        let away = if tick < ramp { ramp - tick } else { tick.saturating_sub(ramp + stand) };
+        (1.0 - (away as f64 / ramp as f64).powi(2)).powi(4)
+    };
+    let sum: f64 = (0..all).map(slow).sum();
+    // What is left out is a whole number of rows.
+    let kept = (all as f64 - 0.9999 * sum).ceil() as usize;
+    let depth = (all - kept) as f64 / sum;
+    let from = at - kept / 2;
+    let mut reached = from as f64;
+    let mut lingering = Vec::new();
+    for tick in 0..all {
+        let (before, share) = (reached as usize, reached.fract());
+        let mut row = rows[before].clone();
+        for column in 1..=3 {
+            row[column] += (rows[before + 1][column] - row[column]) * share;
+        }
+        lingering.push(row);
+        reached += 1.0 - depth * slow(tick);
+    }
+    rows.splice(from..from + kept, lingering);
+    for (tick, row) in rows.iter_mut().enumerate() {
+        row[0] = tick as f64 * 1e-3;
+    }
+    for i in from..from + all {
+        for column in [1, 2] {
+            rows[i][column + 3] = (rows[i + 1][column] - rows[i - 1][column]) / 2e-3;
+        }
+    }
+}
+
+/// A disc whose outer edge is gone round two times: the second time begins with a jerk, and everything is sprayed again.
+fn sprayed_again() -> &'static str {
+    let (disc, head) = (fixture("spray/disc.csv"), job(&[]));
+    let (_, bytes, _) = compiled(&disc, "csv", &head).unwrap_or_else(|said| panic!("{said}"));
+    let again = Program::of(&bytes).damaged(|rows, _| {
+        let on = |row: &Vec<f64>| row[6] == 1.0;
+        let first = rows.iter().position(on).expect("a jet");
+        let last = first + rows[first..].iter().take_while(|row| on(row)).count() - 1;
+        let turn = rows[last][3] - rows[first][3];
+        let mut second = rows.split_off(first);
+        rows.extend_from_slice(&second[..=last - first]);
+        second.iter_mut().for_each(|row| row[3] += turn);
+        rows.append(&mut second);
+        for (tick, row) in rows.iter_mut().enumerate() {
+            row[0] = tick as f64 * 1e-3;
+        }
+    });
+    let found = broken(&disc, &again, &head);
+    assert!(found.contains(&"spray-verify/twice") && !found.contains(&"spray-verify/coverage"), "{found:?}");
+    "spray-verify/twice"
+}
+
 #[test]
 fn every_rule_is_broken_by_its_damage_and_nothing_else_by_none() {
     let (panel, head) = (fixture("spray/panel.csv"), job(&["park=[-400, -400, 360]", "c.range_deg=[-100, 500]"]));
@@ -89,13 +146,16 @@ fn every_rule_is_broken_by_its_damage_and_nothing_else_by_none() {
     check("distance", &damaged(&inside), &head);
     check("heading", &damaged(&|rows, at| bump(rows, at, 3, 3.0)), &head);
     check("edge-speed", &bytes, &job(&["tool.edge_speed_mm_s=250"]));
-    check(
-        "coverage",
-        &damaged(&|rows, at| rows[at..at + 50].iter_mut().for_each(|row| (row[6], row[7]) = (0.0, 0.0))),
-        &head,
-    );
+    // Ten milliseconds without a jet are 3 mm without a coat.
+    let gap = damaged(&|rows, at| rows[at..at + 10].iter_mut().for_each(|row| (row[6], row[7]) = (0.0, 0.0)));
+    assert_eq!(broken(&panel, &gap, &head), ["spray-verify/coverage"]);
+    check("coverage", &gap, &head);
+    let standing = damaged(&linger);
+    assert_eq!(broken(&panel, &standing, &head), ["spray-verify/dwell"]);
+    check("dwell", &standing, &head);
     check("block", &damaged(&|rows, at| rows[at][7] = 134.0), &head);
     check("jet", &bytes, &Job { mode: Mode::Dry, ..head.clone() });
+    seen.insert(sprayed_again().to_owned());
     let reported = ["spray-verify/edge-slow"];
     let all: BTreeSet<String> =
         RULES.iter().map(|row| row.name.to_owned()).filter(|name| !reported.contains(&name.as_str())).collect();

@@ -3,6 +3,7 @@
 mod command;
 mod damage;
 mod laws;
+mod shapes;
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -112,8 +113,8 @@ fn the_figures_of_the_study_hold_for_a_rectangle_with_one_curved_side() {
 fn drawing(name: &str, points: impl Iterator<Item = [f64; 2]>) -> Source {
     let mut points: Vec<[f64; 2]> = points.collect();
     points.push(points[0]);
-    let rows: String = points.iter().map(|[x, y]| format!("{x:.4},{y:.4}\n")).collect();
-    Source::new(name, format!("x_mm,y_mm\n{rows}").into_bytes()).expect("small")
+    let rows: Vec<String> = points.iter().map(|[x, y]| format!("{x:.4},{y:.4}\n")).collect();
+    Source::new(name, format!("x_mm,y_mm\n{}", rows.concat()).into_bytes()).expect("small")
 }
 
 #[test]
@@ -128,7 +129,7 @@ fn curves_of_coarse_chords_are_followed_as_curves_by_either_planner() {
         for planner in ["optimal", "quintic"] {
             let (compiled, _, said) = compiled(&source, "csv", &job(&[&format!("tool.planner={planner}")]))
                 .unwrap_or_else(|said| panic!("{long} x {short}, {planner}: {said}"));
-            assert_eq!(said, "", "{long} x {short}, {planner}");
+            assert!(!said.contains("spray/coarse"), "{long} x {short}, {planner}: {said}");
             let edges = compiled.report.edges.expect("edges");
             assert!(edges.iter().all(|edge| edge.deviation_mm <= 0.05), "{edges:?}");
         }

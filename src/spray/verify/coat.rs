@@ -1,0 +1,162 @@
+//! What the jet leaves on the edges: every place that a head can face is passed, and once.
+
+use super::ground::{Chord, Ground};
+use super::rows::{EPSILON, Row, WAY};
+use super::rules::Rule;
+use super::worst::{Worst, missing};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline};
+use crate::machine::Job;
+
+/// How far beside the edge the middle of the jet may pass, mm: far less than any jet is wide.
+const SPOT: f64 = 2.0;
+/// How far places of the edge are apart at which it is looked at, mm.
+const STEP: f64 = 1.0;
+
+/// Bare stretches of up to so much do not count, mm, by how many of their sides are hidden: where a way ends the head may be a
+/// little before or beyond, and amid what is hidden it could face some places without a way between them.
+const FEW: [f64; 3] = [0.0, SPOT, WAY];
+
+/// The jet from a row to the next.
+struct Way {
+    /// Where its middle is, mm.
+    ends: [Point; 2],
+    /// Where the head is, mm.
+    head: Point,
+    /// The row.
+    row: usize,
+}
+
+/// What there is to say of a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Coated {
+    /// No head can face it.
+    Hidden,
+    /// It has no coat.
+    Bare,
+    /// It is passed once.
+    Once,
+    /// It is passed again later.
+    Again,
+}
+
+/// Places in a row of which the same is said.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    coated: Coated,
+    /// mm.
+    length: f64,
+    /// The first place, and its block.
+    at: Point,
+    block: u32,
+}
+
+/// The coat of the edges.
+pub(super) struct Coat<'a> {
+    ground: &'a Ground,
+    job: &'a Job,
+    ways: Vec<Way>,
+    boxes: Boxes,
+}
+
+impl<'a> Coat<'a> {
+    /// That of some rows, with the middle of the jet at each.
+    pub(super) fn new(rows: &[Row], spots: &[Point], ground: &'a Ground, job: &'a Job) -> Self {
+        let way = |i: usize| Way { ends: [spots[i - 1], spots[i]], head: rows[i].head, row: i };
+        let ways: Vec<Way> = (1..rows.len()).filter(|&i| rows[i].jet && rows[i - 1].jet).map(way).collect();
+        let boxes = Boxes::new(ways.iter().map(|way| Extent::between(way.ends[0], way.ends[1])).collect());
+        Self { ground, job, ways, boxes }
+    }
+
+    /// Judges it.
+    pub(super) fn judge(&self, worst: &mut Worst) {
+        let (mut bare, mut first, mut again) = (0.0, None, (0.0, None));
+        let is_joined = |a: &Chord, b: &Chord| a.ends[1] == b.ends[0];
+        for ring in self.ground.chords.chunk_by(is_joined) {
+            let runs = runs(ring.iter().flat_map(|chord| self.places(chord)));
+            let n = runs.len();
+            for (i, run) in runs.iter().enumerate() {
+                let sides = [runs[(i + n - 1) % n], runs[(i + 1) % n]];
+                let hidden = sides.iter().filter(|side| side.coated == Coated::Hidden).count();
+                if run.coated == Coated::Bare && run.length > FEW[if n > 1 { hidden } else { 0 }] {
+                    bare += run.length;
+                    first = first.or(Some(missing(run.at, run.block)));
+                }
+                if run.coated == Coated::Again && run.length > again.0 {
+                    again = (run.length, Some(missing(run.at, run.block)));
+                }
+            }
+        }
+        worst.see(Rule::Coverage, bare, Some(EPSILON), first);
+        // Where a closed edge begins it ends, too; and the jet may be ahead there or behind by what the head may look askew.
+        let profile = &self.job.profile;
+        let ahead = profile.tool.distance_mm * profile.verify.max_heading_deg.to_radians().tan();
+        let most = 2.0 * (SPOT + self.ground.tolerance + ahead);
+        worst.see(Rule::Twice, again.0, Some(most), again.1);
+    }
+
+    /// What there is to say of the places of a chord.
+    fn places(&self, chord: &Chord) -> Vec<Run> {
+        let [from, to] = chord.ends;
+        let length = (to - from).norm();
+        let steps = (length / STEP).ceil().max(1.0);
+        let place = |i: usize| from + (to - from) * ((i as f64 + 0.5) / steps);
+        let run = |at: Point| Run { coated: self.coated(at, chord), length: length / steps, at, block: chord.block };
+        (0..steps as usize).map(|i| run(place(i))).collect()
+    }
+
+    fn coated(&self, place: Point, chord: &Chord) -> Coated {
+        let (distance, tolerance) = (self.job.profile.tool.distance_mm, self.ground.tolerance);
+        let passes = self.passes(place, chord);
+        if passes > 0 {
+            return if passes == 1 { Coated::Once } else { Coated::Again };
+        }
+        // In a bay as tight as the distance the head has no way: on a centimetre of it, none that is longer than the tolerance.
+        let has_way = 1.0 - distance * chord.bay() > 2.0 * tolerance / WAY;
+        if !has_way || self.ground.is_nearer(place + chord.out * distance, distance - tolerance) {
+            Coated::Hidden
+        } else {
+            Coated::Bare
+        }
+    }
+
+    /// How often the jet passes a place of a chord: on its side, and so that no gap is left along it that is longer than what
+    /// the jet goes in a period.
+    fn passes(&self, place: Point, chord: &Chord) -> usize {
+        let (tool, period) = (&self.job.profile.tool, self.job.profile.time.period());
+        let across = SPOT + self.ground.tolerance;
+        let slack = 2.0 * tool.edge_speed_mm_s * period + 2.0 * self.ground.tolerance;
+        let along = (chord.ends[1] - chord.ends[0]).normalize();
+        let is_passed = |way: &Way| {
+            let [a, b] = way.ends.map(|end| (end - place).dot(&along));
+            a.min(b) <= slack
+                && a.max(b) >= -slack
+                && (way.head - place).dot(&chord.out) > 0.0
+                && polyline::distance_to_segment(place, way.ends[0], way.ends[1]) <= across
+        };
+        let near = self.boxes.near(Extent::between(place, place).grown(across)).map(|i| &self.ways[i]);
+        let mut rows: Vec<usize> = near.filter(|way| is_passed(way)).map(|way| way.row).collect();
+        rows.sort_unstable();
+        // Longer than a centimetre takes, the jet was elsewhere meanwhile.
+        let away = WAY / tool.edge_speed_mm_s / period + 1.0;
+        let again = rows.windows(2).filter(|pair| (pair[1] - pair[0]) as f64 > away).count();
+        again + usize::from(!rows.is_empty())
+    }
+}
+
+/// Places around a ring, joined where the same is said of them.
+fn runs(places: impl Iterator<Item = Run>) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for place in places {
+        match runs.last_mut() {
+            Some(last) if last.coated == place.coated => last.length += place.length,
+            Some(_) | None => runs.push(place),
+        }
+    }
+    if runs.len() > 1 && runs[0].coated == runs[runs.len() - 1].coated {
+        // A ring has no first place.
+        let last = runs.pop().expect("more than one");
+        runs[0] = Run { length: runs[0].length + last.length, ..last };
+    }
+    runs
+}

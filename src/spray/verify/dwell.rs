@@ -1,0 +1,60 @@
+//! How long the jet stays about a place: a jet that stands floods it.
+
+use super::rows::{EPSILON, Row, WAY};
+use super::rules::Rule;
+use super::worst::{Worst, at};
+use crate::geom::Point;
+use crate::machine::{Job, Limits};
+use crate::units::rad;
+
+/// How many times as long as at its speeds the jet may take: the axes are shared, and bends ask more of them.
+const PATIENCE: f64 = 2.0;
+
+/// Judges how long the jet is about each place, on any centimetre of its way at the most.
+pub(super) fn judge(rows: &[Row], spots: &[Point], job: &Job, worst: &mut Worst) {
+    let (period, allowed) = (job.profile.time.period(), Allowed::of(job));
+    let step = |i: usize| (spots[i] - spots[i - 1]).norm();
+    // From there to here: way of the jet, way of the head, turn of C.
+    let (mut from, mut way, mut head, mut turn) = (0, 0.0, 0.0, 0.0);
+    let moved = |i: usize| (rows[i].head - rows[i - 1].head).norm();
+    let turned = |i: usize| rad((rows[i].c_deg - rows[i - 1].c_deg).abs());
+    for i in 1..rows.len() {
+        if !(rows[i].jet && rows[i - 1].jet) {
+            (from, way, head, turn) = (i, 0.0, 0.0, 0.0);
+            continue;
+        }
+        (way, head, turn) = (way + step(i), head + moved(i), turn + turned(i));
+        while way > WAY && from + 1 < i {
+            from += 1;
+            (way, head, turn) = (way - step(from), head - moved(from), turn - turned(from));
+        }
+        let time = (i - from) as f64 * period;
+        worst.see(Rule::Dwell, time, Some(allowed.time(head, turn) + EPSILON), Some(at(&rows[from])));
+    }
+}
+
+/// What a head needs that is as fast as it should be.
+struct Allowed {
+    /// Time of the jet on a centimetre, and of coming to rest and leaving it, s.
+    always: f64,
+    /// Speed of the head, mm/s, and of C, rad/s.
+    speeds: [f64; 2],
+}
+
+impl Allowed {
+    fn of(job: &Job) -> Self {
+        let (tool, [x, y, c]) = (&job.profile.tool, job.profile.axes.limits());
+        let slower = if x.speed < y.speed { x } else { y };
+        let speed = |asked: f64| asked.min(slower.speed);
+        let [edge, corner] = [tool.edge_speed_mm_s, tool.corner_speed_mm_s].map(speed);
+        // To a speed and back from it, at a steady jerk and acceleration.
+        let rest = |limits: Limits, speed: f64| 2.0 * (speed / limits.acceleration + limits.acceleration / limits.jerk);
+        let rests = rest(x, edge.max(corner)).max(rest(y, edge.max(corner))) + rest(c, c.speed);
+        Self { always: PATIENCE * WAY / edge + rests, speeds: [corner, c.speed] }
+    }
+
+    /// With that way of the head and that turn of C, s.
+    fn time(&self, head: f64, turn: f64) -> f64 {
+        self.always + PATIENCE * (head / self.speeds[0] + turn / self.speeds[1])
+    }
+}
