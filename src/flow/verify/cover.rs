@@ -179,7 +179,8 @@ impl Join<'_> {
             let beyond = if self.line.closed { beyond.rem_euclid(self.line.length()) } else { beyond };
             (0.0..=to - from).contains(&beyond)
         };
-        let others = self.covers.iter().filter(|other| other.head == stroke.head && other.place.row != stroke.place.row);
+        let others =
+            self.covers.iter().filter(|other| other.head == stroke.head && other.place.row != stroke.place.row);
         others.flat_map(|other| other.span).any(is_there)
     }
 

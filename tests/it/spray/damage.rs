@@ -96,7 +96,9 @@ fn sprayed_again() -> &'static str {
         let turn = rows[last][3] - rows[first][3];
         let mut second = rows.split_off(first);
         rows.extend_from_slice(&second[..=last - first]);
-        second.iter_mut().for_each(|row| row[3] += turn);
+        for row in &mut second {
+            row[3] += turn;
+        }
         rows.append(&mut second);
         for (tick, row) in rows.iter_mut().enumerate() {
             row[0] = tick as f64 * 1e-3;

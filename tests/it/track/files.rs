@@ -162,7 +162,7 @@ fn commands_that_break_the_law_are_seen() {
         text.replacen(centred, &centred.replace("centred,0,0.000", "centred,1,2.000"), 1),
         text.replacen(centred, &centred.replace(",32,32,", ",31,32,"), 1),
         text.replacen("t_s,i,j", "t_s,j,i", 1),
-        text.lines().take(40).map(|line| format!("{line}\n")).collect(),
+        text.split_inclusive('\n').take(40).collect(),
         format!("{text}9.000000,32,32,centred,0,0.000\n"),
         text.replacen(centred, "half a row", 1),
     ];
