@@ -119,7 +119,7 @@ const DAMAGES: &[Damage] = &[
     Damage("the knife stays down", "flow-verify/ends", |case| { let [_, last] = case.down(0); let end = case.heads[0].len(); case.knife(0, last..end, true); }),
     Damage("a program ends in motion", "flow-verify/ends", |case| { let end = case.heads[0].len(); case.add(0, end - 1..end, X, |_| 0.1); }),
     Damage("a head cuts beside its line", "flow-verify/stray", |case| { let all = case.all(); case.add(0, all, Y, |_| 25.0); }),
-    Damage("a head cuts along another line of the table", "flow-verify/deviation", |case| { let all = case.all(); case.add(0, all, X, |_| 25.0); }),
+    Damage("a head is behind the cloth", "flow-verify/deviation", |case| { let all = case.all(); case.add(0, all, X, |_| 2.0); }),
     Damage("a bulge in a cut", "flow-verify/deviation", |case| { let row = case.amid(0); case.add(0, row - 200..row + 200, Y, |i| 0.8 * (std::f64::consts::PI * i as f64 / 400.0).sin().powi(2)); }),
     Damage("the blade is askew", "flow-verify/heading", |case| { let all = case.all(); case.add(0, all, C, |_| 2.0); }),
     Damage("the blade lies as the head moves over the table", "flow-verify/heading", |case| { let row = case.amid(0); case.add(0, row - 100..row + 100, C, |i| 20.0 * (std::f64::consts::PI * i as f64 / 200.0).sin().powi(2)); }),
