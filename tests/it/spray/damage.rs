@@ -90,13 +90,15 @@ fn sprayed_again() -> &'static str {
     let (disc, head) = (fixture("spray/disc.csv"), job(&[]));
     let (_, bytes, _) = compiled(&disc, "csv", &head).unwrap_or_else(|said| panic!("{said}"));
     let again = Program::of(&bytes).damaged(|rows, _| {
-        let on = |row: &Vec<f64>| row[6] == 1.0;
-        let first = rows.iter().position(on).expect("a jet");
-        let last = first + rows[first..].iter().take_while(|row| on(row)).count() - 1;
+        let on = |row: &&Vec<f64>| row[6] == 1.0;
+        let first = rows.iter().position(|row| on(&row)).expect("a jet");
+        let last = first + rows[first..].iter().take_while(on).count() - 1;
         let turn = rows[last][3] - rows[first][3];
         let mut second = rows.split_off(first);
         rows.extend_from_slice(&second[..=last - first]);
-        second.iter_mut().for_each(|row| row[3] += turn);
+        for row in &mut second {
+            row[3] += turn;
+        }
         rows.append(&mut second);
         for (tick, row) in rows.iter_mut().enumerate() {
             row[0] = tick as f64 * 1e-3;
