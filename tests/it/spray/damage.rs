@@ -90,9 +90,9 @@ fn sprayed_again() -> &'static str {
     let (disc, head) = (fixture("spray/disc.csv"), job(&[]));
     let (_, bytes, _) = compiled(&disc, "csv", &head).unwrap_or_else(|said| panic!("{said}"));
     let again = Program::of(&bytes).damaged(|rows, _| {
-        let on = |row: &Vec<f64>| row[6] == 1.0;
-        let first = rows.iter().position(on).expect("a jet");
-        let last = first + rows[first..].iter().take_while(|row| on(row)).count() - 1;
+        let on = |row: &&Vec<f64>| row[6] == 1.0;
+        let first = rows.iter().position(|row| on(&row)).expect("a jet");
+        let last = first + rows[first..].iter().take_while(on).count() - 1;
         let turn = rows[last][3] - rows[first][3];
         let mut second = rows.split_off(first);
         rows.extend_from_slice(&second[..=last - first]);
