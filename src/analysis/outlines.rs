@@ -109,8 +109,15 @@ impl<'a> Outlines<'a> {
     /// Edges that may come into a box, those of open lines among them.
     pub fn edges_near(&self, around: Extent) -> impl Iterator<Item = [Point; 2]> {
         let near = self.chains.iter().zip(&self.boxes).filter(move |(_, extent)| extent.meets(&around));
-        near.flat_map(|(chain, _)| {
-            self.points[chain.first as usize..=chain.last as usize].windows(2).map(|w| [w[0], w[1]])
+        near.flat_map(move |(chain, _)| {
+            let points = &self.points[chain.first as usize..=chain.last as usize];
+            // Along a chain X does not turn back.
+            let is_rising = points[points.len() - 1].x >= points[0].x;
+            let [enters, leaves] = if is_rising { [around.min.x, around.max.x] } else { [around.max.x, around.min.x] };
+            let is_before = |x: f64, limit: f64| if is_rising { x < limit } else { x > limit };
+            let first = points.partition_point(|point| is_before(point.x, enters)).saturating_sub(1);
+            let end = points.partition_point(|point| !is_before(leaves, point.x));
+            points[first..(end + 1).min(points.len())].windows(2).map(|w| [w[0], w[1]])
         })
     }
 
