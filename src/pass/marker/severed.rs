@@ -15,20 +15,32 @@ const AT_ROOT: f64 = 1.0;
 /// left to find out.
 pub(super) fn severing(piece: &Piece, part: &Outlines, work: &mut Budget) -> Option<Notch> {
     let slits = &piece.notches;
-    let is_long = |slit: &Notch| slit.depth() > LEAST_BRIDGE;
-    (0..slits.len()).find(|&i| is_long(&slits[i]) && meets(i, slits, part, work)).map(|i| slits[i])
+    let deepest = slits.iter().map(Notch::depth).fold(0.0, f64::max);
+    (0..slits.len())
+        .find(|&i| meets_slit(&slits[i], &slits[..i], deepest, work) || meets_edge(&slits[i], part, work))
+        .map(|i| slits[i])
 }
 
-fn meets(i: usize, slits: &[Notch], part: &Outlines, work: &mut Budget) -> bool {
-    let slit = &slits[i];
-    let ends = |slit: &Notch| [slit.root, slit.tip];
-    let comes_to = |line: [Point; 2]| distance_of_segments(ends(slit), line) < LEAST_BRIDGE;
-    // Strokes from one place are one notch.
-    let is_other = |other: &Notch| (other.root - slit.root).norm() > AT_ROOT;
-    if work.spend(i) && slits[..i].iter().any(|other| is_other(other) && comes_to(ends(other))) {
-        return true;
-    }
+fn ends(slit: &Notch) -> [Point; 2] {
+    [slit.root, slit.tip]
+}
+
+/// Whether a slit comes to one of some others, none of which is deeper than `deepest`, mm. Strokes from one place are one notch.
+fn meets_slit(slit: &Notch, others: &[Notch], deepest: f64, work: &mut Budget) -> bool {
+    let reach = 2.0 * deepest + LEAST_BRIDGE;
+    let meets = |other: &Notch| {
+        let apart = (other.root - slit.root).norm_squared();
+        apart < reach * reach
+            && apart > AT_ROOT * AT_ROOT
+            && distance_of_segments(ends(slit), ends(other)) < LEAST_BRIDGE
+    };
+    work.spend(others.len()) && others.iter().any(meets)
+}
+
+/// Whether a slit comes to an edge that it does not begin on.
+fn meets_edge(slit: &Notch, part: &Outlines, work: &mut Budget) -> bool {
     let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
     let is_across = |[from, to]: [Point; 2]| distance_to_segment(slit.root, from, to) > AT_ROOT;
+    let comes_to = |edge: [Point; 2]| distance_of_segments(ends(slit), edge) < LEAST_BRIDGE;
     part.edges_near(around).any(|edge| work.spend(1) && is_across(edge) && comes_to(edge))
 }
