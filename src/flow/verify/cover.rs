@@ -110,14 +110,6 @@ impl<'a> Covers<'a> {
         a.head == b.head && (a.plunge || b.plunge || join.line.turns_between(about) >= limit)
     }
 
-    /// Whether one of two heads lifts its blade beside the place where they meet, at a bend round which the blade would leave the
-    /// line: the head ends there as at a corner.
-    fn is_lifted_at_bend(&self, join: &Join, about: [f64; 2]) -> bool {
-        let turn = join.line.turns_between(about).min(std::f64::consts::FRAC_PI_2);
-        let leaves_line = turn.sin() * self.ground.profile.knife.width_mm > self.ground.tolerance();
-        leaves_line && join.strokes.iter().any(|stroke| join.is_parted(stroke, about))
-    }
-
     /// Judges the overlap of two strokes that follow each other along a line.
     fn judge_join(&self, join: &Join, worst: &mut Worst) {
         let knife = &self.ground.profile.knife;
@@ -130,7 +122,6 @@ impl<'a> Covers<'a> {
         let reach = due + END;
         let about = [at - reach, at + reach];
         if join.line.corner_near(at) > reach && !self.is_tight(join, about) {
-            let due = if self.is_lifted_at_bend(join, about) { due / 2.0 } else { due };
             let place = Place { point: join.line.place(at), ..b.place };
             worst.see(Rule::Overlap, due - join.of_heads(due), END, Some(place));
         }
@@ -170,18 +161,6 @@ impl Join<'_> {
         let round = self.line.closed.then(|| self.line.length());
         let [a, b] = [a, b].map(|stroke| self.together(stroke, round));
         a[1].min(b[1]) - b[0]
-    }
-
-    /// Whether the head of a stroke has another one that begins or ends between two stations.
-    fn is_parted(&self, stroke: &Cover, [from, to]: [f64; 2]) -> bool {
-        let is_there = |station: f64| {
-            let beyond = station - from;
-            let beyond = if self.line.closed { beyond.rem_euclid(self.line.length()) } else { beyond };
-            (0.0..=to - from).contains(&beyond)
-        };
-        let others =
-            self.covers.iter().filter(|other| other.head == stroke.head && other.place.row != stroke.place.row);
-        others.flat_map(|other| other.span).any(is_there)
     }
 
     /// What the head of a stroke cuts without a gap about it; on a closed line of a length round and round.
