@@ -13,9 +13,9 @@ const SPOT: f64 = 2.0;
 /// How far places of the edge are apart at which it is looked at, mm.
 const STEP: f64 = 1.0;
 
-/// Bare stretches of up to so much do not count, mm, by how many of their sides are hidden: where a way ends the head may be a
-/// little before or beyond, and amid what is hidden it could face some places without a way between them.
-const FEW: [f64; 3] = [0.0, SPOT, WAY];
+/// Bare stretches of up to so much do not count, mm, beside places that no head can face: where its way ends the head may be a
+/// little before or beyond.
+const FEW: f64 = SPOT;
 
 /// The jet from a row to the next.
 struct Way {
@@ -77,8 +77,8 @@ impl<'a> Coat<'a> {
             let n = runs.len();
             for (i, run) in runs.iter().enumerate() {
                 let sides = [runs[(i + n - 1) % n], runs[(i + 1) % n]];
-                let hidden = sides.iter().filter(|side| side.coated == Coated::Hidden).count();
-                if run.coated == Coated::Bare && run.length > FEW[if n > 1 { hidden } else { 0 }] {
+                let is_beside = n > 1 && sides.iter().any(|side| side.coated == Coated::Hidden);
+                if run.coated == Coated::Bare && run.length > if is_beside { FEW } else { 0.0 } {
                     bare += run.length;
                     first = first.or(Some(missing(run.at, run.block)));
                 }
