@@ -22,6 +22,7 @@ mod worst;
 pub use declared::Declared;
 pub use program::cutter_file::cutter_file;
 pub use reference::ground::Ground;
+pub use reference::inside::Inside;
 pub use reference::required::{Capped, Required, RequiredCut, required};
 pub use rules::{RULES, Rule, rule};
 pub use source::audit::source_audit;

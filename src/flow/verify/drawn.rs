@@ -1,4 +1,7 @@
-//! Whether what is cut is what is drawn: where parts have edges in common one cut stands for two of them, near to both.
+//! Whether what is cut is what is drawn: where parts have edges in common one cut stands for two of them, near to both. It may
+//! go through waste, as over the mouths of two notches that lie partly opposite each other, but not into a part.
+
+use std::cell::LazyCell;
 
 use super::ground::Ground;
 use super::lines::Lines;
@@ -6,7 +9,7 @@ use super::rules::Rule;
 use super::worst::{Place, Worst};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
-use crate::verify::Required;
+use crate::verify::{Inside, Required};
 
 /// Places of an edge that are looked at are no farther from each other, mm.
 const STEP: f64 = 0.5;
@@ -31,8 +34,10 @@ pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: 
         let mut near = boxes.near(Extent::between(place, place).grown(reach)).map(|i| drawn[i]);
         near.any(|[from, to]| polyline::distance_to_segment(place, from, to) <= reach)
     };
+    let inside = LazyCell::new(|| Inside::new(ground.marker, ground.profile.notch));
+    let is_right = |place: Point| is_drawn(place) || inside.pieces_at(place).is_empty();
     for cut in required.cuts.iter().filter(|cut| !cut.drawn) {
-        let (length, at) = longest_off(&cut.points, is_drawn);
+        let (length, at) = longest_off(&cut.points, is_right);
         worst.see(Rule::Stray, length, uncut, Some(of_none(at)));
     }
 }
@@ -69,12 +74,32 @@ fn longest_off(points: &[Point], is_on: impl Fn(Point) -> bool) -> (f64, Point) 
 mod tests {
     use super::*;
     use crate::ir::Marker;
+    use crate::ir::list::{Joint, Segment};
+    use crate::ir::marker::{Contour, Piece};
     use crate::machine::MachineProfile;
+    use crate::source::Span;
     use crate::verify::RequiredCut;
 
-    /// What is said of a cut for two parts, one of which has its edge 0.2 mm aside.
+    const EDGE: Segment = Segment {
+        from: Point::new(0.0, 0.0),
+        to: Point::new(0.0, 0.0),
+        span: Span { start: 0, end: 0, block: 1 },
+        joint: Joint { lift: false, full_advance: false, no_overcut: false },
+        percent: 100,
+    };
+
+    /// What is said of a cut for two parts, one of which has its edge 0.2 mm aside and ends 10 mm before the other.
     fn broken(cut: &[(f64, f64)]) -> Vec<&'static str> {
         let points = |list: &[(f64, f64)]| list.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>();
+        let parts = [[(0.0, 0.0), (100.0, -20.0)], [(0.0, 0.2), (90.0, 20.0)]];
+        let mut marker = Marker::default();
+        for [(left, edge), (right, far)] in parts {
+            let corners = points(&[(left, edge), (right, edge), (right, far), (left, far), (left, edge)]);
+            let edges = corners.windows(2).map(|ends| Segment { from: ends[0], to: ends[1], ..EDGE });
+            let range = marker.list.append(edges).expect("it has a length");
+            let contours = vec![Contour { range, closed: true }];
+            marker.pieces.push(Piece { contours, ..Piece::default() });
+        }
         let cuts = vec![RequiredCut {
             points: points(cut),
             closed: false,
@@ -83,9 +108,9 @@ mod tests {
             corners: Vec::new(),
             drawn: false,
         }];
-        let edges = vec![points(&[(0.0, 0.0), (100.0, 0.0)]), points(&[(100.0, 0.2), (0.0, 0.2)])];
+        let edges = vec![points(&[(0.0, 0.0), (100.0, 0.0)]), points(&[(90.0, 0.2), (0.0, 0.2)])];
         let required = Required { cuts, edges, common: 0.3 };
-        let (marker, profile) = (Marker::default(), MachineProfile::default());
+        let profile = MachineProfile::default();
         let mut worst = Worst::new();
         judge(&required, &Lines::new(&required), &Ground { marker: &marker, profile: &profile }, &mut worst);
         let seen = worst.findings();
@@ -93,11 +118,13 @@ mod tests {
     }
 
     #[test]
-    fn one_cut_stands_for_two_edges_all_along_and_for_nothing_else() {
+    fn one_cut_stands_for_two_edges_all_along_and_goes_into_no_part() {
         assert!(broken(&[(0.0, 0.0), (100.0, 0.0)]).is_empty());
         assert!(broken(&[(0.0, 0.0), (101.0, 0.1)]).is_empty());
         assert_eq!(broken(&[(0.0, 0.0), (96.0, 0.0)]), ["flow-verify/uncut"]);
-        assert_eq!(broken(&[(0.0, 0.0), (50.0, 0.0), (50.0, 9.0), (50.0, 0.0), (100.0, 0.0)]), ["flow-verify/stray"]);
+        let spike = |y: f64| [(0.0, 0.0), (95.0, 0.0), (95.0, y), (95.0, 0.0), (100.0, 0.0)];
+        assert!(broken(&spike(9.0)).is_empty(), "waste");
+        assert_eq!(broken(&spike(-9.0)), ["flow-verify/stray"]);
         assert_eq!(broken(&[(0.0, 3.0), (100.0, 3.0)]), ["flow-verify/stray", "flow-verify/uncut"]);
     }
 }

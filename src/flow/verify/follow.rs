@@ -29,8 +29,8 @@ pub(super) struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// Judges a stroke: finds its cut, and what of it is cut.
-    pub(super) fn judge(&mut self, stroke: &Stroke, worst: &mut Worst) {
+    /// Judges a stroke, of some number among those of its head: finds its cut, and what of it is cut.
+    pub(super) fn judge(&mut self, number: usize, stroke: &Stroke, worst: &mut Worst) {
         let samples = samples(&stroke.trace);
         let Some((found, line)) = self.best(stroke, &samples) else {
             worst.see(Rule::Stray, polyline::length(&stroke.trace), 0.0, Some(stroke.places[0]));
@@ -44,7 +44,7 @@ impl Follower<'_> {
         self.place(stroke, (trail, &found), worst);
         let place = stroke.places[0];
         worst.count(Rule::Block, usize::from(!names(stroke, of)), Some(place));
-        self.covers.add(line, Cover { span: found.span(), head: place.head, plunge: stroke.is_plunge(), place });
+        self.covers.add(line, Cover { ends: found.stations, number, plunge: stroke.is_plunge(), place });
     }
 
     /// The cut that a stroke was meant for, and what it does along it.

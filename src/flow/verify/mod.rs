@@ -11,6 +11,7 @@ mod follow;
 mod going;
 mod ground;
 mod heading;
+mod join;
 mod limits;
 mod lines;
 mod plan_file;
@@ -125,8 +126,8 @@ impl Judge<'_> {
                 return Err(Unread::Row(format!("head {} has {rows} rows, others have more or fewer", i + 1)));
             }
             mates.join(self.plan.heads[i].0, head.ys, worst);
-            for stroke in &head.strokes {
-                follower.judge(stroke, worst);
+            for (number, stroke) in head.strokes.iter().enumerate() {
+                follower.judge(number, stroke, worst);
             }
         }
         follower.covers.judge(worst);

@@ -21,7 +21,7 @@ const BANDS_AN_EDGE: f64 = 4.0;
 
 /// The parts, each by its box.
 #[derive(Debug)]
-pub(in crate::verify) struct Inside<'a> {
+pub struct Inside<'a> {
     boxes: Boxes,
     parts: Vec<Part<'a>>,
     /// The part to which each piece belongs.
@@ -46,7 +46,7 @@ struct Part<'a> {
 
 impl<'a> Inside<'a> {
     /// The index of a marker.
-    pub(in crate::verify) fn new(marker: &'a Marker, notches: Notches) -> Self {
+    pub fn new(marker: &'a Marker, notches: Notches) -> Self {
         let part = |i: usize| Part::new(i, marker, notches);
         let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(part).collect();
         let boxes = Boxes::new(parts.iter().map(|part| part.extent).collect());
@@ -68,7 +68,7 @@ impl<'a> Inside<'a> {
     }
 
     /// The parts whose cloth lies at a point: inside their outline, not inside a cut-out.
-    pub(in crate::verify) fn pieces_at(&self, point: Point) -> Vec<usize> {
+    pub fn pieces_at(&self, point: Point) -> Vec<usize> {
         let mut odd: Vec<usize> = Vec::new();
         for part in self.rings_at(point).map(|piece| self.part_of[piece]) {
             match odd.iter().position(|&other| other == part) {

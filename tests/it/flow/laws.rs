@@ -72,6 +72,14 @@ fn the_same_marker_gives_the_same_bytes_on_any_number_of_threads() {
     assert_eq!(bytes(1), bytes(4));
 }
 
+#[test]
+fn one_cut_goes_over_the_mouths_of_notches_that_lie_partly_opposite_each_other() {
+    let job = job(&[]);
+    let planned = planned("flow/notches-partly-opposite.cut", 20.0, &job);
+    assert!(!planned.marker.common.is_empty());
+    assert_eq!(broken(&planned, &job), [""; 0]);
+}
+
 /// How far cloth that wanders lies to +Y where it is when the conveyor is at a place, mm.
 fn wander(conveyor: f64) -> f64 {
     8.0 * (conveyor / 40.0).sin() + 0.02 * conveyor
