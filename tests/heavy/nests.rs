@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use cutc::machine::Job;
+use cutc::machine::{Job, Lines};
 use rayon::prelude::*;
 
 use crate::support::nests::{Dialect, Recipe, compiled};
@@ -13,6 +13,9 @@ const SEEDS: u64 = 144;
 /// Width of a blade and of its back, mm.
 const BLADES: [[f64; 2]; 4] = [[6.6, 6.35], [6.0, 4.0], [8.89, 6.35], [3.0, 1.5]];
 
+/// One of so many has edges cut once that are up to 1 mm apart.
+const WIDE: u64 = 5;
+
 /// What is wrong with the programs of a seed; the nest is then kept, so that it can be looked at.
 fn wrong(seed: u64) -> Option<String> {
     let recipe = Recipe::of(seed, 30, 20);
@@ -20,6 +23,10 @@ fn wrong(seed: u64) -> Option<String> {
     let blade = BLADES[(seed + seed / 36) as usize % BLADES.len()];
     let mut job = Job::default();
     (job.profile.knife.width_mm, job.profile.knife.back_mm) = (blade[0], Some(blade[1]));
+    let is_wide = seed % WIDE == 0;
+    if is_wide {
+        job.profile.common.lines = Lines::Within(1.0);
+    }
     let targets = if blade == BLADES[0] { &["csv", "gcode"][..] } else { &["csv"] };
     let wrong: Vec<String> = targets
         .iter()
@@ -38,7 +45,9 @@ fn wrong(seed: u64) -> Option<String> {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("nest-{seed}.{extension}"));
     std::fs::write(&path, &nest.text).expect("the folder of the build is writable");
     let [width, back] = blade;
-    let again = format!("cutc compile {} --set knife.width_mm={width} --set knife.back_mm={back}", path.display());
+    let wide = if is_wide { " --set common.lines=1" } else { "" };
+    let again =
+        format!("cutc compile {} --set knife.width_mm={width} --set knife.back_mm={back}{wide}", path.display());
     Some(format!("{recipe:?}\n{again}\n{}", wrong.join("\n")))
 }
 

@@ -92,6 +92,17 @@ fn a_strap_between_two_parts_keeps_both_of_its_edges_however_wide_common_lines_a
 }
 
 #[test]
+fn a_cut_goes_on_through_a_part_that_overlaps_the_next_no_deeper_than_edges_may_be_apart() {
+    // The first part ends on the upper edge of the last, which the second overlaps by 0.5 mm: the cut beside that crosses it so
+    // much lower.
+    let parts = rectangles(&[[1003, 1005, 2000, 2000], [0, 1000, 1000, 2000], [0, 0, 2000, 1005]], "");
+    let mut job = Job::default();
+    job.profile.common.lines = Lines::Within(1.0);
+    let Compiled { report, .. } = made(&parts, &job);
+    assert!(report.common.is_some());
+}
+
+#[test]
 fn each_outline_is_whole_where_that_is_asked_and_where_a_part_is_cut_alone() {
     let marker = marker(NEST, &Job::default());
     let whole = with_cuts(&marker, &without());

@@ -41,7 +41,9 @@ const STEPS_LEAST: f64 = 50.0;
 /// The path of a run; otherwise the point from which no arc stays inside the tolerance band.
 pub(super) fn path(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Point> {
     let knife = &job.profile.knife;
-    let TipLine { points, chords, heel } = TipLine::new(run, knife.width_mm);
+    let Interpolation { circular, step, chord_tolerance, heading_tolerance } = *interpolation;
+    let line = TipLine::new(run, knife.width_mm).without_bend_at_start([STEPS_LEAST * step, OFF_SHARE * tolerance]);
+    let TipLine { points, chords, heel } = line;
     let TipArcs { arcs, start, from } = tip_arcs(run, points, &chords, tolerance, interpolation, job)?;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
@@ -50,7 +52,6 @@ pub(super) fn path(run: &Run, tolerance: f64, interpolation: &Interpolation, job
     let radius = run.edge.lead(knife.ends());
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
     let c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
-    let Interpolation { circular, step, chord_tolerance, heading_tolerance } = *interpolation;
     let permitted = if circular { TURN_SHARE } else { LINE_SHARE } * heading_tolerance;
     let joining = Joining {
         length_min: STEPS_MIN * step,

@@ -25,6 +25,23 @@ impl TipLine {
         }
     }
 
+    /// The same without bends so near to its start that no piece can be told before them: there the blade, plunged as a chord
+    /// of what is behind it, would turn on the spot. They are no farther than `reach` mm from the start, and `off` mm from a way
+    /// without them.
+    pub(super) fn without_bend_at_start(mut self, [reach, off]: [f64; 2]) -> Self {
+        let is_straightened = |points: &[Point]| match *points {
+            [start, bend, next, ..] => {
+                (bend - start).norm() < reach && polyline::distance_to_segment(bend, start, next) <= off
+            }
+            _ => false,
+        };
+        while self.heel.is_some() && is_straightened(&self.points) {
+            self.points.remove(1);
+            self.chords.remove(0);
+        }
+        self
+    }
+
     /// Once around, and on past the start by the front overlap.
     fn of_ring(run: &Run) -> Self {
         let n = run.points.len();
@@ -70,5 +87,23 @@ impl TipLine {
             chords.push(chord_of(last - 1));
         }
         Self { points, chords, heel: Some(extended[0]) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bend_just_before_the_tip_is_straightened_and_others_stay() {
+        let line = |first: f64, bent: f64| {
+            let points = [(0.0, 0.0), (first, 0.0), (4.0, bent), (9.0, bent)].map(|(x, y)| Point::new(x, y));
+            let line = TipLine { points: points.to_vec(), chords: vec![0, 1, 2], heel: Some(Point::new(-6.6, 0.0)) };
+            let TipLine { points, chords, .. } = line.without_bend_at_start([0.005, 0.001]);
+            (points.len(), chords)
+        };
+        assert_eq!(line(0.0014, 0.1), (3, vec![1, 2]));
+        assert_eq!(line(0.5, 0.1), (4, vec![0, 1, 2]));
+        assert_eq!(line(0.004, 9.0), (4, vec![0, 1, 2]));
     }
 }

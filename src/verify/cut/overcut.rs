@@ -123,8 +123,11 @@ impl<'a> Overcut<'a> {
         }
         let least = if cut.is_plunge_cut() { self.least(stroke).map(|least| least + SHIFT) } else { [0.0; 2] };
         // What is as deep as the band one way is in it the other.
-        let bands =
-            deepest.map(|(depth, i)| if depth > self.band { self.band } else { self.band_at(cut.points[i], stroke) });
+        let bands = deepest.map(|(depth, i)| match depth > self.band {
+            true if Self::is_across(i, stroke) => self.shift,
+            true => self.band,
+            false => self.band_at(cut.points[i], stroke),
+        });
         let [own, other] = [0, 1].map(|k| least[k].max(bands[k]));
         let bounds = [own.max(self.reflex), other].map(|bound| bound + self.tolerance);
         let worsts = [&mut overcuts.part, &mut overcuts.neighbour];
@@ -178,9 +181,9 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// Whether a place lies in a part.
-    pub(in crate::verify) fn is_in_part(&self, place: Point) -> bool {
-        !self.inside.pieces_at(place).is_empty()
+    /// Whether a straight way leads into a part, however narrow that is.
+    pub(in crate::verify) fn leads_into_part(&self, way: [Point; 2]) -> bool {
+        self.inside.is_crossed(way)
     }
 
     /// How deep a place lies in any part that is as far from its own cut, mm.
@@ -204,6 +207,12 @@ impl<'a> Overcut<'a> {
             }
         }
         depths
+    }
+
+    /// Whether a place lies no farther past the end of its line than this goes on to be through the cut of another part, which
+    /// is moved as far as the profile lets edges of two parts be apart.
+    fn is_across(i: usize, &Ends { cut, trial, line, lines }: &Ends) -> bool {
+        trial.beyond(cut, i) <= lines.reference.across(line.place(trial.feet[i].station))
     }
 
     /// How deep a place may lie in a part and still be at its edge, mm: the band, or less in a strip.

@@ -3,13 +3,9 @@
 use super::body::Cut;
 use super::stroke::Judge;
 use super::trial::Trial;
-use crate::geom::{Point, Vector};
 use crate::ir::declaration::Kind;
 use crate::ir::finding::Sighting;
 use crate::verify::worst::Worst;
-
-/// Distance of two places at which it is seen whether a part lies ahead, mm.
-const STEP: f64 = 0.1;
 
 impl Judge<'_> {
     /// How much an overlap is shorter than the profile asks for, where waste lies ahead and no code forbids it, and nothing
@@ -58,16 +54,10 @@ impl Judge<'_> {
             let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
             let may = is_told
                 || is_curved && self.tracer.declared.is_none()
-                || self.leads_into_part(end, along, asked[i] + knife.clearance_mm);
+                || self.overcut.leads_into_part([end, end + along * (asked[i] + knife.clearance_mm)]);
             if !may {
                 overlap.see(missing, || seen(place));
             }
         }
-    }
-
-    /// Whether a part lies on a straight way.
-    fn leads_into_part(&self, from: Point, along: Vector, reach: f64) -> bool {
-        let steps = (reach / STEP).ceil() as usize;
-        (1..=steps).any(|i| self.overcut.is_in_part(from + along * (reach * i as f64 / steps as f64)))
     }
 }

@@ -8,7 +8,7 @@ use super::{notches, parts};
 use crate::geom::boxes::Boxes;
 use crate::geom::shape::Shape;
 use crate::geom::slots::Slots;
-use crate::geom::{Extent, Point, polyline};
+use crate::geom::{Extent, Point, cross, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::{Contour, Piece};
@@ -18,6 +18,9 @@ use crate::machine::{NotchStyle, Notches};
 const EDGES_A_BAND: usize = 8;
 /// Bands that an edge reaches into on average, at the most.
 const BANDS_AN_EDGE: f64 = 4.0;
+
+/// A way through a part that is no longer is none, mm: rounding.
+const NONE: f64 = 1e-6;
 
 /// The parts, each by its box.
 #[derive(Debug)]
@@ -86,6 +89,19 @@ impl<'a> Inside<'a> {
         near.map(|part| self.parts[part].distance(point, reach)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether a straight way leads through a part, however narrow that is.
+    pub(in crate::verify) fn is_crossed(&self, [from, to]: [Point; 2]) -> bool {
+        let mut shares: Vec<f64> = vec![0.0, 1.0];
+        for part in self.boxes.near(Extent::between(from, to)) {
+            self.parts[part].crossings([from, to], &mut shares);
+        }
+        shares.sort_by(f64::total_cmp);
+        let middle = |ends: &[f64]| from + (to - from) * f64::midpoint(ends[0], ends[1]);
+        let way = (to - from).norm();
+        let mut stretches = shares.windows(2).filter(|ends| (ends[1] - ends[0]) * way > NONE);
+        stretches.any(|ends| !self.pieces_at(middle(ends)).is_empty())
+    }
+
     /// The pieces in whose own rings a point lies.
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let near = self.boxes.at(point).map(|part| &self.parts[part]);
@@ -150,6 +166,22 @@ impl<'a> Part<'a> {
         let place = (edge - self.firsts[ring]) as usize;
         let [from, to] = self.rings[ring][place..place + 2] else { unreachable!("an edge has two ends") };
         [from, to]
+    }
+
+    /// Adds where a straight way crosses its edges, in shares of the way.
+    fn crossings(&self, [from, to]: [Point; 2], shares: &mut Vec<f64>) {
+        let along = to - from;
+        let bands = self.band(from.y.min(to.y))..=self.band(from.y.max(to.y));
+        for [a, b] in bands.flat_map(|band| self.edges.of(band)).map(|&edge| self.ends(edge)) {
+            let edge = b - a;
+            let across = cross(along, edge);
+            let share = cross(a - from, edge) / across;
+            // Beside an edge that it runs along it lies in the part or not, whole.
+            if across != 0.0 && (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&(cross(a - from, along) / across))
+            {
+                shares.push(share);
+            }
+        }
     }
 
     /// How far a point is from its edges in the bands within `reach`, mm.
