@@ -144,10 +144,16 @@ const DEFAULT_WIDTH_MM: f64 = 6.6;
 const DEFAULT_BACK_MM: f64 = 6.35;
 
 impl Knife {
+    /// How far the blade may go before the start and past the end of a cut, in waste or in the part, mm.
+    pub fn most_overlaps(&self) -> [f64; 2] {
+        let heel = self.heel_overlap_mm.max(self.corner_heel_overlap_mm).max(self.reflex_heel_overlap_mm);
+        let front = self.front_overlap_mm.max(self.corner_front_overlap_mm).max(self.reflex_front_overlap_mm);
+        [heel, front]
+    }
+
     /// How far the blade may go beyond both ends of a cut together, mm.
     pub fn overlaps(&self) -> f64 {
-        let heel = self.heel_overlap_mm.max(self.corner_heel_overlap_mm);
-        heel + self.front_overlap_mm.max(self.corner_front_overlap_mm)
+        self.most_overlaps().iter().sum()
     }
 
     /// How far the blade may reach beyond a line that it cuts, whichever way it stands at its end, mm.

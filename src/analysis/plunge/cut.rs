@@ -5,11 +5,15 @@ use crate::analysis::cloth::Surroundings;
 use crate::geom::region::{Ray, Room};
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::toolpath::{Overcut, Run};
+use crate::machine::Spare;
 
 /// A shorter overcut is none, mm: rounding.
 const OVERCUT_EPSILON: f64 = 1e-6;
 /// Distance of two places for the blade that are weighed, mm.
 const STEP: f64 = 0.1;
+/// How much deeper than the least deep of them places for a blade may lie in the parts that `knife.spare` names, and be as good
+/// for these, mm.
+const ALIKE: f64 = 0.1;
 
 /// Where the blade stands when one plunge without motion cuts all of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -123,11 +127,12 @@ impl Surplus<'_> {
             let [first, then] = self.around.knife.spare.weigh([own, other]);
             [first, then, (way(i) - preferred[0]).abs()]
         };
-        let least = (0..=count).map(|i| (harm(i), i)).min_by(|(a, i), (b, j)| {
-            let by_harm = a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
-            by_harm.unwrap_or_else(|| i.cmp(j))
-        });
-        let i = least.map_or(0, |(_, i)| i);
+        let all: Vec<[f64; 3]> = (0..=count).map(harm).collect();
+        let least = all.iter().map(|harm| harm[0]).fold(f64::INFINITY, f64::min);
+        let slack = if self.around.knife.spare == Spare::Both { 0.0 } else { ALIKE };
+        let alike = all.iter().enumerate().filter(|(_, harm)| harm[0] <= least + slack);
+        let best = alike.min_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]).then(a[2].total_cmp(&b[2])));
+        let i = best.map_or(0, |(i, _)| i);
         ([way(i), self.length - way(i)], at(i))
     }
 }

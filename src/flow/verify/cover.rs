@@ -1,36 +1,11 @@
 //! What of each cut is cut, and how often.
 
+use super::chain::{Chained, Cover, chained};
 use super::ground::Ground;
-use super::join::{Chained, Join, chained};
+use super::join::Join;
 use super::lines::Lines;
 use super::rules::Rule;
 use super::worst::{Place, Worst};
-
-/// What a stroke cuts of a line.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cover {
-    /// From where to where, mm along the line; round a closed one it goes on.
-    pub(super) ends: [f64; 2],
-    /// Which stroke of its head it is, from 0.
-    pub(super) number: usize,
-    /// Whether the blade only plunges.
-    pub(super) plunge: bool,
-    /// Where it starts in the program.
-    pub(super) place: Place,
-}
-
-impl Cover {
-    /// The least and the greatest place along the line, mm.
-    pub(super) fn span(&self) -> [f64; 2] {
-        let [a, b] = self.ends;
-        [a.min(b), a.max(b)]
-    }
-
-    /// The same as it is counted elsewhere along a closed line.
-    pub(super) fn moved(self, by: f64) -> Self {
-        Self { ends: self.ends.map(|station| station + by), ..self }
-    }
-}
 
 /// What is cut of every line.
 pub(super) struct Covers<'a> {
@@ -118,4 +93,73 @@ impl<'a> Covers<'a> {
 /// How many times round a line something may lie beside where it is counted.
 fn turns(closed: bool) -> impl Iterator<Item = f64> {
     (if closed { -2..=2 } else { 0..=0 }).map(f64::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Point, Rotation};
+    use crate::ir::Marker;
+    use crate::machine::MachineProfile;
+    use crate::verify::{Capped, Required, RequiredCut};
+
+    /// A stroke: its head, its number, from where to where, and whether the blade only plunges.
+    type Stroke = (usize, usize, [f64; 2], bool);
+
+    /// Length of the edge of a part that has 18 sides, mm.
+    const ROUND: f64 = 18.0 * 40.0;
+
+    /// The rules that strokes break along that, which bends by 20 degrees each 40 mm, where strokes overlap by 4 mm.
+    fn broken(strokes: &[Stroke]) -> Vec<&'static str> {
+        let mut points = vec![Point::origin()];
+        for side in 0..18 {
+            let along = Rotation(f64::from(side) * 20_f64.to_radians()).unit();
+            points.push(points[points.len() - 1] + along * 40.0);
+        }
+        let caps = vec![Capped { to: ROUND, speeds: [300.0; 2] }];
+        let cut = RequiredCut { points, closed: true, blocks: vec![1], caps, corners: Vec::new(), drawn: true };
+        let lines = Lines::new(&Required { cuts: vec![cut], edges: Vec::new(), common: 0.0 });
+        let mut profile = MachineProfile::default();
+        (profile.flow.overlap_mm, profile.knife.width_mm) = (2.0, 6.6);
+        let marker = Marker::default();
+        let ground = Ground { marker: &marker, profile: &profile };
+        let mut covers = Covers::new(&lines, &ground);
+        for &(head, number, ends, plunge) in strokes {
+            let place = Place { head, row: 0, time: 0.0, point: Point::origin() };
+            covers.add(0, Cover { ends, number, plunge, place });
+        }
+        let mut worst = Worst::new();
+        covers.judge(&mut worst);
+        worst.findings().iter().filter(|seen| !seen.finding.holds()).map(|seen| seen.finding.rule).collect()
+    }
+
+    #[test]
+    fn a_head_that_comes_round_overlaps_its_own_start() {
+        let round = |from: f64, to: f64| broken(&[(1, 0, [from, to], false)]);
+        assert_eq!(round(10.0, ROUND + 14.0), [""; 0]);
+        assert_eq!(round(10.0, ROUND + 12.0), ["flow-verify/overlap"]);
+        // It plunges before a bend, lifts there, and goes on from there.
+        let lifted = |to: f64| broken(&[(1, 0, [-6.6, 0.0], true), (1, 1, [0.0, to], false)]);
+        assert_eq!(lifted(ROUND + 2.0), [""; 0]);
+        assert_eq!(lifted(ROUND - 3.5), ["flow-verify/overlap"]);
+    }
+
+    #[test]
+    fn a_blade_that_is_lifted_amid_a_smooth_line_overlaps_what_it_has_cut() {
+        let lifted = |to: f64, from: f64| broken(&[(1, 0, [10.0, to], false), (1, 1, [from, ROUND + 14.0], false)]);
+        assert_eq!(lifted(302.0, 298.0), [""; 0]);
+        assert_eq!(lifted(300.0, 300.0), ["flow-verify/overlap"]);
+    }
+
+    #[test]
+    fn heads_overlap_by_all_that_each_cuts_without_leaving_the_line() {
+        let first = (1, 0, [-2.0, 362.0], false);
+        let last = |number: usize, from: f64| (2, number, [from, ROUND + 2.0], false);
+        assert_eq!(broken(&[first, last(0, 358.0)]), [""; 0]);
+        assert_eq!(broken(&[first, last(0, 360.0)]), ["flow-verify/overlap"]);
+        let plunge = (2, 0, [353.4, 360.0], true);
+        assert_eq!(broken(&[first, plunge, last(1, 360.0)]), [""; 0]);
+        // It cuts something else in between.
+        assert_eq!(broken(&[first, plunge, last(2, 360.0)]), ["flow-verify/overlap"]);
+    }
 }

@@ -1,6 +1,7 @@
 //! Which cut a stroke follows, from where to where: told from its way over the cloth alone.
 
-use super::cover::{Cover, Covers};
+use super::chain::Cover;
+use super::cover::Covers;
 use super::going::Going;
 use super::ground::Ground;
 use super::heading::Blade;
@@ -103,16 +104,9 @@ fn blade<'a>(stroke: &'a Stroke, found: &Followed, Trail { samples, line, .. }: 
 /// How far a stroke may go beyond the line that it cuts, mm.
 fn farthest(stroke: &Stroke, ground: &Ground) -> f64 {
     let knife = &ground.profile.knife;
-    let overlaps = [
-        knife.heel_overlap_mm,
-        knife.corner_heel_overlap_mm,
-        knife.reflex_heel_overlap_mm,
-        knife.front_overlap_mm,
-        knife.corner_front_overlap_mm,
-        knife.reflex_front_overlap_mm,
-    ];
+    let [heel, front] = knife.most_overlaps();
     let surplus = if stroke.is_plunge() { knife.width_mm } else { 0.0 };
-    overlaps.into_iter().fold(0.0, f64::max) + surplus + OVERCUT
+    heel.max(front) + surplus + OVERCUT
 }
 
 /// Whether all rows of a stroke name a block of a line.

@@ -5,6 +5,7 @@
 //! finds it anew; it maps every row back to the cloth for itself, and finds for itself which cut a stroke follows.
 //! Never repairs anything.
 
+mod chain;
 mod cover;
 mod drawn;
 mod follow;

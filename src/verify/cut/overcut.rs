@@ -175,9 +175,10 @@ impl<'a> Overcut<'a> {
     ) {
         let Ends { cut, trial, line, .. } = *stroke;
         let kind = if cut.is_plunge_cut() { Kind::Surplus } else { Kind::Overcut };
-        let most = declared.most(kind, line, trial.reach).max(if cut.is_plunge_cut() { 0.0 } else { self.reflex });
-        for ((depth, i), band) in deepest.into_iter().zip(bands) {
-            undeclared.see((depth - most.max(band) - self.tolerance).max(0.0), || seen(i));
+        let most = declared.most(kind, line, trial.reach);
+        // Its own part a blade enters as the profile has it for reflex corners, without a word.
+        for (((depth, i), band), unsaid) in deepest.into_iter().zip(bands).zip([self.reflex, 0.0]) {
+            undeclared.see((depth - most.max(unsaid).max(band) - self.tolerance).max(0.0), || seen(i));
         }
     }
 

@@ -107,8 +107,7 @@ impl<'a> Judge<'a> {
     ) -> Self {
         let place = rounding.place();
         let knife = &profile.knife;
-        let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
-        let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
+        let [heel, front] = knife.most_overlaps();
         let overlaps = front + heel;
         let tolerance = reference.tolerance;
         let tracer = Tracer {

@@ -29,15 +29,13 @@ impl Worsts {
     /// Nothing seen yet; the tip may leave its line by `tolerance` mm, and rows are rounded.
     pub(in crate::verify) fn new(profile: &MachineProfile, tolerance: f64, rounding: Rounding) -> Self {
         let (knife, verify, place) = (&profile.knife, &profile.verify, rounding.place());
-        let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
-        let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
         // A part of a long or winding run overlaps with the one before and, on a closed contour, with the one behind.
         let joints = if knife.max_down_mm.is_some() || profile.c.range_deg.is_some() { 2.0 } else { 1.0 };
         let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * place / profile.time.period());
         Self {
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + place)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
-            once: Worst::new("verify/once", "mm", Some(joints * (front + heel) + 2.0 * tolerance)),
+            once: Worst::new("verify/once", "mm", Some(joints * knife.overlaps() + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),

@@ -50,8 +50,7 @@ fn led_on(line: &Line, knife: &Knife) -> (Vec<Point>, f64) {
     if line.ring {
         return (path, 0.0);
     }
-    let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
-    let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
+    let [heel, front] = knife.most_overlaps();
     let n = path.len();
     if let Some(along) = polyline::direction(path[n - 2], path[n - 1]).filter(|_| front > 0.0) {
         path.push(path[n - 1] + along * front);
