@@ -119,6 +119,7 @@ impl Work<'_> {
         Parting {
             back: back.max(WAVE * line.toolpath.tolerance),
             overlap: profile.flow.overlap_mm,
+            blade: profile.knife.width_mm,
             corner: profile.corner.angle(),
             unit: self.scene.unit,
         }

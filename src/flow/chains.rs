@@ -5,6 +5,7 @@
 //! caller allows parts nothing: a head with some travel along the feed makes it by itself.
 
 use super::bound;
+use super::join::Join;
 use crate::geom::{Point, corner};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
@@ -27,6 +28,8 @@ pub(super) struct Parting {
     pub(super) back: f64,
     /// How far a chain goes on along the line beyond an end at which another one goes on, mm.
     pub(super) overlap: f64,
+    /// Width of the blade, mm.
+    pub(super) blade: f64,
     /// A turn that is more is a corner, rad.
     pub(super) corner: f64,
     /// What the points are rounded to, mm; 0 = nothing.
@@ -63,7 +66,28 @@ impl Line {
         } else {
             along(&self.run.points, parting.back)
         };
-        ends.windows(2).map(|ends| self.chain([ends[0], ends[1]], parting)).collect()
+        let joins: Vec<f64> = (0..ends.len()).map(|i| self.join(&ends, i, parting)).collect();
+        let chain = |(ends, joins): (&[usize], &[f64])| self.chain([ends[0], ends[1]], [joins[0], joins[1]], parting);
+        ends.windows(2).zip(joins.windows(2)).map(chain).collect()
+    }
+
+    /// How far behind the end of a chain, along the line, the next one takes over from it, mm.
+    fn join(&self, ends: &[usize], i: usize, parting: Parting) -> f64 {
+        let vertex = ends[i];
+        let x = |end: usize| self.point(end).x;
+        // Blades are plunged where chains begin: at the greatest x.
+        let is_top = [i.checked_sub(1), Some(i + 1)]
+            .into_iter()
+            .flatten()
+            .filter_map(|i| ends.get(i))
+            .all(|&end| x(end) <= x(vertex));
+        if !is_top || !self.goes_on(vertex) || self.is_corner(vertex, parting) {
+            return 0.0;
+        }
+        let before = if vertex == 0 { self.segments() - 1 } else { vertex - 1 };
+        let about = [before, vertex, vertex + 1].map(|vertex| self.point(vertex));
+        let Parting { overlap, blade, .. } = parting;
+        Join { about, overlap, blade, tolerance: self.toolpath.tolerance }.place()
     }
 
     fn is_closed(&self) -> bool {
@@ -99,18 +123,25 @@ impl Line {
         corner::is_corner(self.point(vertex), &before, &behind, parting.corner, parting.unit)
     }
 
-    /// The chain between two vertices, turned round where x rises.
-    fn chain(&self, [from, to]: [usize; 2], parting: Parting) -> Chain {
+    /// The chain between two vertices, so far behind which it takes over and is taken over from, mm; turned round where x rises.
+    fn chain(&self, [from, to]: [usize; 2], joins: [f64; 2], parting: Parting) -> Chain {
         let n = self.segments();
         let mut run = Run { shape: Shape::Open, points: vec![self.point(from)], ..self.empty() };
         run.joints.push(self.run.joints[from % n]);
         for segment in from..to {
             self.push(&mut run, segment, self.point(segment + 1));
         }
+        let mut farthest = 0.0_f64;
         for is_end in [true, false] {
-            let vertex = if is_end { to } else { from };
+            let (vertex, join) = if is_end { (to, joins[1]) } else { (from, -joins[0]) };
             if self.goes_on(vertex) && !self.is_corner(vertex, parting) {
-                self.lead_on(&mut run, vertex, is_end, parting);
+                let lead = parting.overlap + join;
+                if lead < 0.0 {
+                    shorten(&mut run, is_end, -lead);
+                } else {
+                    self.lead_on(&mut run, (vertex, is_end), Parting { overlap: lead, ..parting });
+                }
+                farthest = farthest.max(lead);
             }
         }
         if run.points[0].x < run.points[run.points.len() - 1].x {
@@ -124,7 +155,7 @@ impl Line {
         let mut least = f64::INFINITY;
         let falls = run.points.iter().all(|point| {
             least = least.min(point.x);
-            point.x <= least + parting.overlap
+            point.x <= least + farthest
         });
         let steps = vec![Step::Run(run)];
         Chain { cut: self.cut, toolpath: Toolpath { steps, ..self.toolpath.clone() }, falls }
@@ -146,7 +177,7 @@ impl Line {
 
     /// Leads a stretch on along the line beyond its end, or before its start, up to the next corner at the farthest; no other
     /// overlap goes there.
-    fn lead_on(&self, run: &mut Run, vertex: usize, is_end: bool, parting: Parting) {
+    fn lead_on(&self, run: &mut Run, (vertex, is_end): (usize, bool), parting: Parting) {
         let n = self.segments();
         let (mut rest, mut at) = (parting.overlap, vertex);
         let mut added = Vec::new();
@@ -178,6 +209,15 @@ impl Line {
             run.joints[0].full_advance = true;
         }
     }
+}
+
+/// Takes a way off an end of a run, or off its start, mm: less than its segment there.
+fn shorten(run: &mut Run, is_end: bool, way: f64) {
+    let last = run.points.len() - 1;
+    let (end, next) = if is_end { (last, last - 1) } else { (0, 1) };
+    let along = (run.points[next] - run.points[end]).normalize();
+    run.points[end] += along * way;
+    run.joints[end] = Joint { no_overcut: is_end, full_advance: !is_end, lift: false };
 }
 
 /// A joint of a run that is turned round: what held at the plunge holds at the lift.

@@ -16,6 +16,7 @@ mod attempt;
 mod bound;
 mod chains;
 mod heads;
+mod join;
 mod link;
 mod moving;
 mod pace;
