@@ -92,6 +92,22 @@ fn a_strap_between_two_parts_keeps_both_of_its_edges_however_wide_common_lines_a
 }
 
 #[test]
+fn the_waste_of_a_notch_is_cut_off_from_the_part_that_it_faces_however_wide_common_lines_are() {
+    // A V 1.8 mm wide, no wider than two edges may be apart for a gap between them to be one of rounding.
+    let notched = "N1*M15*X0Y0*M14*X2000Y0*X2000Y1000*X1009Y1000*X1000Y950*X991Y1000*X0Y1000*X0Y0*M15*";
+    let plain = "N2*M15*X0Y1000*M14*X2000Y1000*X2000Y2000*X0Y2000*X0Y1000*M15*";
+    for parts in [[notched, plain], [plain, notched]] {
+        let source = Source::new("v.cut", format!("H1*G71*{}M0*", parts.concat()).into_bytes()).expect("it is short");
+        let cut_m = [0.2, 0.5, 1.0].map(|distance| {
+            let mut job = Job::default();
+            job.profile.common.lines = Lines::Within(distance);
+            made(&source, &job).report.cut_m
+        });
+        assert!(cut_m.iter().all(|length| (length - cut_m[0]).abs() < 1e-4), "{cut_m:?}");
+    }
+}
+
+#[test]
 fn a_cut_goes_on_through_a_part_that_overlaps_the_next_no_deeper_than_edges_may_be_apart() {
     // The first part ends on the upper edge of the last, which the second overlaps by 0.5 mm: the cut beside that crosses it so
     // much lower.

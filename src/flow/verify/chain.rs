@@ -29,6 +29,12 @@ impl Cover {
     pub(super) fn moved(self, by: f64) -> Self {
         Self { ends: self.ends.map(|station| station + by), ..self }
     }
+
+    /// Whether it goes the other way along the line than another one.
+    fn is_against(&self, other: &Self) -> bool {
+        let way = |cover: &Self| if cover.plunge { 0.0 } else { cover.ends[1] - cover.ends[0] };
+        way(self) * way(other) < 0.0
+    }
 }
 
 /// A stroke in its chain: those that a head makes behind each other without leaving a line.
@@ -54,7 +60,7 @@ impl Chained {
     }
 
     /// Whether both are of one chain.
-    fn is_of(&self, other: &Self) -> bool {
+    pub(super) fn is_of(&self, other: &Self) -> bool {
         (self.cover.place.head, self.first) == (other.cover.place.head, other.first)
     }
 
@@ -64,8 +70,8 @@ impl Chained {
     }
 }
 
-/// Finds the chains of the strokes along a line, which has a length when it is closed: each stroke of one begins no more than
-/// `uncut` mm from what the one before has cut.
+/// Finds the chains of the strokes along a line, which has a length when it is closed; they come head by head, in the order of
+/// their numbers. Each stroke of a chain begins no more than `uncut` mm from what the one before has cut, and goes the same way.
 pub(super) fn chained(covers: &[Cover], round: Option<f64>, uncut: f64) -> Vec<Chained> {
     let mut strokes: Vec<Chained> = Vec::new();
     for &cover in covers {
@@ -81,7 +87,7 @@ pub(super) fn chained(covers: &[Cover], round: Option<f64>, uncut: f64) -> Vec<C
         let turn = round.map_or(0.0, |length| ((before.cover.ends[1] - cover.ends[0]) / length).round() * length);
         let next = alone.moved(turn);
         let ([low, high], [from, to]) = (before.span(), next.span());
-        let goes_on = from <= high + uncut && to >= low - uncut;
+        let goes_on = from <= high + uncut && to >= low - uncut && !cover.is_against(&before.cover);
         strokes.push(if goes_on { Chained { first: before.first, ..next } } else { alone });
     }
     for one in strokes.chunk_by_mut(Chained::is_of) {

@@ -56,6 +56,9 @@ impl<'a> Covers<'a> {
             return;
         }
         let mut strokes = chained(&self.of[line], of.closed.then_some(length), uncut);
+        for pair in strokes.windows(2).filter(|pair| pair[0].is_of(&pair[1])) {
+            Join::within(of, [pair[0], pair[1]]).judge_overlap(self.ground, worst);
+        }
         if of.closed {
             for stroke in &mut strokes {
                 *stroke = stroke.moved(-(stroke.span()[0] / length).floor() * length);
@@ -78,7 +81,11 @@ impl<'a> Covers<'a> {
             let overlap = reached.min(to) - from;
             worst.see(Rule::Uncut, -overlap, uncut, Some(stroke.cover.place));
             if let Some(before) = last.filter(|_| overlap > -uncut) {
-                Join { line: of, strokes: [before, stroke], overlap }.judge(self.ground, worst);
+                let join = Join { line: of, strokes: [before, stroke], overlap };
+                join.judge_twice(self.ground, worst);
+                if !before.is_beside(&stroke) {
+                    join.judge_overlap(self.ground, worst);
+                }
             }
             if last.is_none_or(|last| to > last.span()[1]) {
                 last = Some(stroke);
@@ -149,6 +156,19 @@ mod tests {
         let lifted = |to: f64, from: f64| broken(&[(1, 0, [10.0, to], false), (1, 1, [from, ROUND + 14.0], false)]);
         assert_eq!(lifted(302.0, 298.0), [""; 0]);
         assert_eq!(lifted(300.0, 300.0), ["flow-verify/overlap"]);
+    }
+
+    #[test]
+    fn what_another_head_cuts_there_hides_no_lift_amid_a_smooth_line() {
+        let lifted = |from: f64| [(1, 0, [10.0, 300.0], false), (1, 1, [from, ROUND + 14.0], false)];
+        let other = (2, 0, [298.0, 302.0], false);
+        assert_eq!(broken(&[lifted(300.0), [other; 2]].concat()[..3]), ["flow-verify/overlap"]);
+        // Nor does a plunge, where the line is straight.
+        let plunge = (1, 1, [300.0, 306.6], true);
+        let plunged = [(1, 0, [10.0, 300.0], false), plunge, (1, 2, [306.6, ROUND + 14.0], false)];
+        assert_eq!(broken(&plunged), ["flow-verify/overlap"]);
+        // Two strokes that come from both sides are no chain.
+        assert_eq!(broken(&[(1, 0, [-2.0, 362.0], false), (1, 1, [2.0, -358.0], false)]), ["flow-verify/overlap"]);
     }
 
     #[test]

@@ -17,6 +17,9 @@ const STEP: f64 = 0.5;
 /// once.
 const ACROSS: f64 = 4.0;
 
+/// Widest mouth of two notches that lie partly opposite each other, over which a cut goes, mm.
+const MOUTH: f64 = 20.0;
+
 /// Judges cuts against edges.
 pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: &mut Worst) {
     let near = required.common + ground.tolerance();
@@ -35,8 +38,9 @@ pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: 
         near.any(|[from, to]| polyline::distance_to_segment(place, from, to) <= reach)
     };
     let inside = LazyCell::new(|| Inside::new(ground.marker, ground.profile.notch));
-    let is_right = |place: Point| is_drawn(place) || inside.pieces_at(place).is_empty();
     for cut in required.cuts.iter().filter(|cut| !cut.drawn) {
+        let (length, _) = longest_off(&cut.points, is_drawn);
+        let is_right = |place: Point| is_drawn(place) || length <= MOUTH && !inside.is_in_ring(place);
         let (length, at) = longest_off(&cut.points, is_right);
         worst.see(Rule::Stray, length, uncut, Some(of_none(at)));
     }
@@ -124,6 +128,7 @@ mod tests {
         assert_eq!(broken(&[(0.0, 0.0), (96.0, 0.0)]), ["flow-verify/uncut"]);
         let spike = |y: f64| [(0.0, 0.0), (95.0, 0.0), (95.0, y), (95.0, 0.0), (100.0, 0.0)];
         assert!(broken(&spike(9.0)).is_empty(), "waste");
+        assert_eq!(broken(&spike(19.0)), ["flow-verify/stray"]);
         assert_eq!(broken(&spike(-9.0)), ["flow-verify/stray"]);
         assert_eq!(broken(&[(0.0, 3.0), (100.0, 3.0)]), ["flow-verify/stray", "flow-verify/uncut"]);
     }

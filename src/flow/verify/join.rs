@@ -21,35 +21,51 @@ pub(super) struct Join<'a> {
     pub(super) overlap: f64,
 }
 
-impl Join<'_> {
-    /// Judges how far both go on.
-    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+impl<'a> Join<'a> {
+    /// Between two strokes behind each other in their chain.
+    pub(super) fn within(line: &'a Line, strokes: [Chained; 2]) -> Self {
+        let [a, b] = strokes.map(|stroke| stroke.span());
+        Self { line, strokes, overlap: a[1].min(b[1]) - a[0].max(b[0]) }
+    }
+
+    /// Judges that no more is cut twice than what overlaps need.
+    pub(super) fn judge_twice(&self, ground: &Ground, worst: &mut Worst) {
         let knife = &ground.profile.knife;
         let [a, b] = self.strokes.map(|stroke| stroke.cover);
-        let due = 2.0 * ground.profile.flow.overlap_mm;
         let rejoined = knife.corner_heel_overlap_mm + knife.corner_front_overlap_mm;
         let blade = if a.plunge || b.plunge { knife.width_mm } else { 0.0 };
-        worst.see(Rule::Twice, self.overlap, due.max(rejoined).max(blade) + 2.0 * END, Some(b.place));
-        let at = f64::midpoint(a.span()[1].min(b.span()[1]), b.span()[0]);
-        let reach = due + END;
+        worst.see(Rule::Twice, self.overlap, due(ground).max(rejoined).max(blade) + 2.0 * END, Some(b.place));
+    }
+
+    /// Judges how far both go on; at a corner each goes straight on.
+    pub(super) fn judge_overlap(&self, ground: &Ground, worst: &mut Worst) {
+        let [a, b] = self.strokes.map(|stroke| stroke.span());
+        let (at, reach) = (f64::midpoint(a[1].min(b[1]), a[0].max(b[0])), due(ground) + END);
         if self.line.corner_near(at) > reach && !self.is_tight([at - reach, at + reach], ground) {
-            let place = Place { point: self.line.place(at), ..b.place };
-            worst.see(Rule::Overlap, due - self.of_all(), END, Some(place));
+            let place = Place { point: self.line.place(at), ..self.strokes[1].cover.place };
+            worst.see(Rule::Overlap, due(ground) - self.of_chains(), END, Some(place));
         }
     }
 
-    /// Whether a head goes round a bend there that is too tight for its blade: it lifts it, or plunges chord by chord, and the
-    /// blade is longer than each.
+    /// Whether a head goes round a bend there that is too tight for its blade: it lifts it, or plunges before or behind it, and
+    /// the blade is longer than each chord of a curve.
     fn is_tight(&self, about: [f64; 2], ground: &Ground) -> bool {
-        let [a, b] = &self.strokes;
-        let limit = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
-        a.is_beside(b) && (a.cover.plunge || b.cover.plunge || self.line.turns_between(about) >= limit)
+        let [a, b] = self.strokes.map(|stroke| stroke.cover);
+        let corner = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
+        // A plunged blade stands off a bend of more than that.
+        let bend = ground.tolerance() / ground.profile.knife.width_mm;
+        let limit = if a.plunge || b.plunge { corner.min(bend) } else { corner };
+        a.place.head == b.place.head && self.line.turns_between(about) >= limit
     }
 
-    /// How much is cut twice there, mm: by strokes of one head behind each other these two alone, else all that goes with
-    /// either.
-    fn of_all(&self) -> f64 {
+    /// How much both cut there, mm: of one chain the two strokes, else all of either chain.
+    fn of_chains(&self) -> f64 {
         let [a, b] = &self.strokes;
-        if a.is_beside(b) { self.overlap } else { a.whole[1].min(b.whole[1]) - b.whole[0] }
+        if a.is_beside(b) { self.overlap } else { a.whole[1].min(b.whole[1]) - a.whole[0].max(b.whole[0]) }
     }
+}
+
+/// How much two chains must overlap, mm.
+fn due(ground: &Ground) -> f64 {
+    2.0 * ground.profile.flow.overlap_mm
 }

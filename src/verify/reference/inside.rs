@@ -48,7 +48,7 @@ struct Part<'a> {
 }
 
 impl<'a> Inside<'a> {
-    /// The index of a marker.
+    /// The index of a marker, whose notches are cut in a style: the cloth of one that is a slit, or none, stays with its part.
     pub fn new(marker: &'a Marker, notches: Notches) -> Self {
         let part = |i: usize| Part::new(i, marker, notches);
         let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(part).collect();
@@ -71,7 +71,7 @@ impl<'a> Inside<'a> {
     }
 
     /// The parts whose cloth lies at a point: inside their outline, not inside a cut-out.
-    pub fn pieces_at(&self, point: Point) -> Vec<usize> {
+    pub(in crate::verify) fn pieces_at(&self, point: Point) -> Vec<usize> {
         let mut odd: Vec<usize> = Vec::new();
         for part in self.rings_at(point).map(|piece| self.part_of[piece]) {
             match odd.iter().position(|&other| other == part) {
@@ -81,6 +81,11 @@ impl<'a> Inside<'a> {
         }
         odd.sort_unstable();
         odd
+    }
+
+    /// Whether a point lies in a piece by itself, be that a part or a cut-out of another one.
+    pub fn is_in_ring(&self, point: Point) -> bool {
+        self.rings_at(point).next().is_some()
     }
 
     /// How far a point is from all lines that bound a part, mm: surely where that is less than `reach`.

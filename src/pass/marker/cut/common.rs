@@ -78,7 +78,6 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
         return Vec::new();
     }
     let common: Vec<Shared> = stretches(rings, own, &facing[ring], asked);
-    // What is within the band at the ends of two mouths that face each other is no base.
     let least = 2.0 * asked.near.distance;
     let is_wanted = |mouth: &Mouth| {
         if is_shallow(mouth, own) {
@@ -91,19 +90,23 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
         };
         let parts = common.iter().flat_map(|shared| &shared.parts).map(first_lap);
         let beside = parts.filter(|part| is_over(mouth, part.own, own));
-        let (mut covered, mut base) = (0.0, 0.0);
+        let (mut covered, mut base, mut faces) = (0.0, 0.0, false);
         for part in beside {
             let clip = |station: f64| ((station - part.own[0]) / part.length()).clamp(0.0, 1.0);
             let there = part.part([clip(from), clip(to)]);
             let theirs = [there.theirs[0].min(there.theirs[1]), there.theirs[0].max(there.theirs[1])];
             let other = &rings[part.other];
             covered += there.length();
-            if !other.mouths().iter().any(|mouth| is_over(mouth, theirs, other)) {
+            let is_by = |[low, high]: [f64; 2]| other.mouths().iter().any(|mouth| is_over(mouth, [low, high], other));
+            if !is_by(theirs) {
                 base += there.length();
             }
+            faces |= is_by([theirs[0] - least, theirs[1] + least]);
         }
-        // Where the other's edge is not, what stands out of it may lie, or a third part.
-        base > least && covered >= to - from - least
+        // What is within the band at the ends of two mouths that face each other is no base. Where the other's edge is not, what
+        // stands out of it may lie, or a third part.
+        let slack = if faces { least } else { least.min((to - from) / 2.0) };
+        base > slack && covered >= to - from - slack
     };
     own.mouths().iter().map(is_wanted).collect()
 }

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::facing::{Facing, Segments, without};
 use super::ring::{Mouth, Ring, crossing};
-use super::stretch::{Asked, Shared};
+use super::stretch::{Asked, BREAK, Shared};
 use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::list::Segment;
 
@@ -301,6 +301,12 @@ impl<'a> Leads<'a> {
 
     /// Whether what is cut of one edge and what is cut of the next cross each other where the one ends and the other begins.
     pub(super) fn meet(&self, ring: usize, [before, behind]: [&Shared; 2]) -> bool {
+        let way = (behind.theirs[0] - before.theirs[1]).rem_euclid(self.rings[behind.other].length());
+        let way = way.min(self.rings[behind.other].length() - way);
+        if before.other == behind.other && way > BREAK * self.asked.near.distance {
+            // A notch of the other stands there: what is cut round that leaves its waste hanging on this part.
+            return false;
+        }
         let at = self.rings[ring].place(before.own[1]);
         let about = Extent::between(at, at).grown(ABOUT * self.asked.near.distance);
         // What meets elsewhere only leaves a strip between the two that is open here.
