@@ -8,7 +8,7 @@ use super::off_table;
 use super::product::{BLOCK, Medium};
 use super::rounded::significant;
 use super::told::{Explained, told};
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
@@ -23,6 +23,8 @@ const FORMAT: [&str; 2] = ["verify/format", "spray-verify/format"];
 /// The rule on the table, and the least that is said of it while it holds, mm.
 const TABLE: &str = "verify/table";
 const EDGE_SHOWN: f64 = 0.01;
+/// What is said of outlines that cross themselves or others: which side of them is the part is in doubt there.
+const CROSSING: [&Code; 2] = [&code::MARKER_SELF_CROSSING, &code::MARKER_OVERLAPPING];
 /// Rules that a run may break which is parted where the blade has no room for that.
 const OF_PARTS: &[&str] =
     &["verify/on-path", "verify/stray", "verify/once", "verify/complete", "verify/heading", "verify/body"];
@@ -158,6 +160,7 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
 
 /// A diagnostic for each rule that does not hold.
 pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    let crossing = diagnostics.iter().map(|known| known.code).find(|code| CROSSING.contains(code));
     for finding in verdict.broken() {
         let (worst, limit) = figures(finding);
         let unit = finding.unit;
@@ -184,16 +187,27 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
                 format!("the limit is the profile's `{key}`; where that is its default this is a fault of `cutc`")
             }
             (None, _) if finding.rule == TABLE => off_table::advice(marker, job),
-            (None, _) => {
-                "this is a fault of `cutc`, whatever the file: please report it, with the file and the profile"
-                    .to_owned()
-            }
+            (None, _) => fault(crossing),
         };
         let at = finding.place.map(|place| place.point.into());
         let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
         diagnostics.push(diagnostic.hint(rule).hint(hint));
     }
     over_the_edge(verdict, diagnostics);
+}
+
+/// Whose fault it is that a rule does not hold which no key of the profile limits; outlines may be known to cross.
+fn fault(crossing: Option<&Code>) -> String {
+    match crossing {
+        Some(Code { name, .. }) => {
+            format!(
+                "mend the outlines of which `{name}` tells; what is still said is a fault of `cutc`: please report it"
+            )
+        }
+        None => {
+            "this is a fault of `cutc`, whatever the file: please report it, with the file and the profile".to_owned()
+        }
+    }
 }
 
 /// One line on a blade that leaves the table by less than is refused, unless the marker itself is known to.
@@ -293,6 +307,24 @@ mod tests {
         check(4e-12, Some(1e-9), ("0", Some("0.000000001")));
         check(4e-12, Some(0.0), ("0.000000000004", Some("0")));
         check(3.0, None, ("3", None));
+    }
+
+    #[test]
+    fn a_refusal_tells_of_outlines_that_cross_before_it_blames_the_compiler() {
+        let said = |known: &[&'static Code]| {
+            let finding =
+                Finding { rule: "verify/overlap", worst: 0.8, limit: Some(0.05), unit: "mm missing", place: None };
+            let verdict = Verdict { findings: vec![finding], unread: None, uncut: Vec::new(), untimed: Vec::new() };
+            let mut diagnostics = Diagnostics::default();
+            known.iter().for_each(|code| diagnostics.push(Diagnostic::new(code, "")));
+            report(&verdict, &Marker::default(), &Job::default(), &mut diagnostics);
+            let last = diagnostics.iter().last().expect("a refusal");
+            last.hints.join(" ")
+        };
+        assert!(
+            said(&[&code::MARKER_SELF_CROSSING]).contains("mend the outlines of which `marker/self-crossing` tells")
+        );
+        assert!(said(&[]).contains("this is a fault of `cutc`, whatever the file"));
     }
 
     #[test]
