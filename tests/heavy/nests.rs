@@ -23,7 +23,7 @@ fn wrong(seed: u64) -> Option<String> {
     let blade = BLADES[(seed + seed / 36) as usize % BLADES.len()];
     let mut job = Job::default();
     (job.profile.knife.width_mm, job.profile.knife.back_mm) = (blade[0], Some(blade[1]));
-    let is_wide = seed % WIDE == 0;
+    let is_wide = seed.is_multiple_of(WIDE);
     if is_wide {
         job.profile.common.lines = Lines::Within(1.0);
     }
