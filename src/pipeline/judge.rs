@@ -316,7 +316,9 @@ mod tests {
                 Finding { rule: "verify/overlap", worst: 0.8, limit: Some(0.05), unit: "mm missing", place: None };
             let verdict = Verdict { findings: vec![finding], unread: None, uncut: Vec::new(), untimed: Vec::new() };
             let mut diagnostics = Diagnostics::default();
-            known.iter().for_each(|code| diagnostics.push(Diagnostic::new(code, "")));
+            for code in known {
+                diagnostics.push(Diagnostic::new(code, ""));
+            }
             report(&verdict, &Marker::default(), &Job::default(), &mut diagnostics);
             let last = diagnostics.iter().last().expect("a refusal");
             last.hints.join(" ")
