@@ -91,18 +91,44 @@ fn a_strap_between_two_parts_keeps_both_of_its_edges_however_wide_common_lines_a
     }
 }
 
+/// A part with a V 1.8 mm wide, no wider than two edges may be apart for a gap between them to be one of rounding; and one
+/// beside it, without.
+const NOTCHED: &str = "N1*M15*X0Y0*M14*X2000Y0*X2000Y1000*X1009Y1000*X1000Y950*X991Y1000*X0Y1000*X0Y0*M15*";
+const PLAIN: &str = "N2*M15*X0Y1000*M14*X2000Y1000*X2000Y2000*X0Y2000*X0Y1000*M15*";
+
+/// Two parts in this order.
+fn two(parts: [&str; 2]) -> Source {
+    Source::new("v.cut", format!("H1*G71*{}M0*", parts.concat()).into_bytes()).expect("it is short")
+}
+
+/// A job in which edges so far apart are cut once, mm.
+fn within(distance: f64) -> Job {
+    let mut job = Job::default();
+    job.profile.common.lines = Lines::Within(distance);
+    job
+}
+
+#[test]
+fn waste_of_a_notch_that_is_left_on_the_part_that_it_faces_is_refused() {
+    let (job, mut found) = (within(1.0), Diagnostics::default());
+    let input = pipeline::read(&two([NOTCHED, PLAIN]), None, &job, &mut found).expect("it is read");
+    let mut marker = with_cuts(&input.marker, &job);
+    // The first part is cut as it is drawn, round its notch, and not straight over that.
+    let drawn = marker.pieces[0].contours[0].range;
+    let outline = marker.cuts.iter().position(|cut| cut.piece == 0 && cut.kind == CutKind::Outline);
+    marker.cuts[outline.expect("it has one")].range = drawn;
+    marker.cuts.retain(|cut| cut.piece != 0 || cut.kind == CutKind::Outline);
+    let program = setpoints(&marker, &job);
+    let ground = Ground::new(&marker, &job.profile);
+    let declared = declared(&marker, &job);
+    let verdict = verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared), &ground, &job);
+    assert!(breaks(&verdict, "verify/complete"), "{:#?}", verdict.broken().collect::<Vec<_>>());
+}
+
 #[test]
 fn the_waste_of_a_notch_is_cut_off_from_the_part_that_it_faces_however_wide_common_lines_are() {
-    // A V 1.8 mm wide, no wider than two edges may be apart for a gap between them to be one of rounding.
-    let notched = "N1*M15*X0Y0*M14*X2000Y0*X2000Y1000*X1009Y1000*X1000Y950*X991Y1000*X0Y1000*X0Y0*M15*";
-    let plain = "N2*M15*X0Y1000*M14*X2000Y1000*X2000Y2000*X0Y2000*X0Y1000*M15*";
-    for parts in [[notched, plain], [plain, notched]] {
-        let source = Source::new("v.cut", format!("H1*G71*{}M0*", parts.concat()).into_bytes()).expect("it is short");
-        let cut_m = [0.2, 0.5, 1.0].map(|distance| {
-            let mut job = Job::default();
-            job.profile.common.lines = Lines::Within(distance);
-            made(&source, &job).report.cut_m
-        });
+    for parts in [[NOTCHED, PLAIN], [PLAIN, NOTCHED]] {
+        let cut_m = [0.2, 0.5, 1.0].map(|distance| made(&two(parts), &within(distance)).report.cut_m);
         assert!(cut_m.iter().all(|length| (length - cut_m[0]).abs() < 1e-4), "{cut_m:?}");
     }
 }

@@ -51,6 +51,22 @@ struct Stand {
     /// Its stations along the edge, mm.
     over: [f64; 2],
     cut: u32,
+    /// Where the cut is at the end of that, mm along it.
+    reached: f64,
+}
+
+/// A straight piece of a cut beside an edge.
+struct Beside {
+    /// From where to where beside the edge, mm along that.
+    over: [f64; 2],
+    /// The cut, by its place among those of the marker.
+    cut: u32,
+    /// How far off it is at the most, mm.
+    off: f64,
+    /// Where the cut is there, mm along it.
+    at: [f64; 2],
+    /// Length of the cut when it is closed, mm.
+    round: Option<f64>,
 }
 
 impl Common {
@@ -147,22 +163,18 @@ impl Common {
             let chord = stations.partition_point(|&passed| passed <= station).clamp(1, edge.len()) - 1;
             sighting(polyline::place(&points, &stations, station), edge[chord].block)
         };
-        let mut stands: Vec<Stand> = Vec::new();
         let reach = BREAK * distance;
-        let mut shift = (0.0, 0.0);
+        let mut found = Stands { reach, ..Stands::default() };
         for (chord, &start) in edge.iter().zip(&stations) {
-            for (over, cut, apart) in beside(chord, reference, grid, distance) {
-                let over = over.map(|way| way + start);
-                if apart > shift.0 {
-                    shift = (apart, over[0]);
-                }
-                let meets = |known: &&mut Stand| {
-                    known.cut == cut && over[0] <= known.over[1] + reach && over[1] >= known.over[0] - reach
-                };
-                match stands.iter_mut().find(meets) {
-                    Some(known) => known.over = [known.over[0].min(over[0]), known.over[1].max(over[1])],
-                    None => stands.push(Stand { over, cut }),
-                }
+            for one in beside(chord, reference, grid, distance) {
+                found.add(Beside { over: one.over.map(|way| way + start), ..one });
+            }
+        }
+        let Stands { all: stands, covered, left, shift, .. } = found;
+        for gap in left {
+            let (length, at) = longest_without(gap, &covered);
+            if length > distance / 2.0 {
+                self.uncut.push((length, seen(at)));
             }
         }
         if shift.0 > self.shift.map_or(0.0, |known| known.0) {
@@ -178,7 +190,7 @@ impl Common {
         while length - at > reach {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
-            if let Some(Stand { over, cut }) = next {
+            if let Some(Stand { over, cut, .. }) = next {
                 chain.push((*cut, seen(at)));
                 at = over[1];
                 continue;
@@ -248,8 +260,71 @@ fn leads(lines: &[Line]) -> Vec<Vec<Point>> {
     found
 }
 
-/// The cuts beside a chord of an edge: from where to where, of which cut of the marker, and how far off at the most, mm.
-fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> Vec<([f64; 2], u32, f64)> {
+/// The cuts beside an edge, as they are found along it.
+#[derive(Default)]
+struct Stands {
+    all: Vec<Stand>,
+    /// What all their pieces lie beside, mm along the edge.
+    covered: Vec<[f64; 2]>,
+    /// Over what a cut does not go straight on, mm along the edge.
+    left: Vec<[f64; 2]>,
+    /// How far off one is at the most, and where, mm.
+    shift: (f64, f64),
+    /// How far one cut may be broken, mm.
+    reach: f64,
+}
+
+impl Stands {
+    /// Adds the next piece of a cut.
+    fn add(&mut self, Beside { over, cut, off, at, round }: Beside) {
+        if off > self.shift.0 {
+            self.shift = (off, over[0]);
+        }
+        self.covered.push(over);
+        let reach = self.reach;
+        let meets = |known: &&mut Stand| {
+            known.cut == cut && over[0] <= known.over[1] + reach && over[1] >= known.over[0] - reach
+        };
+        let Some(known) = self.all.iter_mut().find(meets) else {
+            return self.all.push(Stand { over, cut, reached: at[1] });
+        };
+        // Round a notch it goes farther than about a corner: then what lies in that hangs on this part.
+        let gap = over[0] - known.over[1];
+        if gap > SAME && along(known.reached, at[0], round) > reach + gap {
+            self.left.push([known.over[1], over[0]]);
+        }
+        if over[1] > known.over[1] {
+            known.reached = at[1];
+        }
+        known.over = [known.over[0].min(over[0]), known.over[1].max(over[1])];
+    }
+}
+
+/// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.
+fn along(from: f64, to: f64, round: Option<f64>) -> f64 {
+    let way = (to - from).abs();
+    round.map_or(way, |length| {
+        let way = way.rem_euclid(length);
+        way.min(length - way)
+    })
+}
+
+/// The longest part of a stretch that no others cover, mm, and where it begins.
+fn longest_without([from, to]: [f64; 2], covered: &[[f64; 2]]) -> (f64, f64) {
+    let mut ends: Vec<[f64; 2]> = covered.iter().copied().filter(|over| over[1] > from && over[0] < to).collect();
+    ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut longest, mut reached) = ((0.0, from), from);
+    for [start, end] in ends.into_iter().chain([[to; 2]]) {
+        if start - reached > longest.0 {
+            longest = (start - reached, reached);
+        }
+        reached = reached.max(end);
+    }
+    longest
+}
+
+/// The cuts beside a chord of an edge.
+fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> Vec<Beside> {
     let [from, to] = chord.ends;
     let Some(along) = polyline::direction(from, to) else { return Vec::new() };
     let length = (to - from).norm();
@@ -258,9 +333,8 @@ fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> V
     let mut found = Vec::new();
     for part in 0..parts as usize {
         let start = from + along * (span * part as f64);
-        for (over, cut, off) in beside_part(start, along, span, reference, grid, distance) {
-            found.push((over.map(|way| way + span * part as f64), cut, off));
-        }
+        let of_part = beside_part(start, along, span, reference, grid, distance).into_iter();
+        found.extend(of_part.map(|one| Beside { over: one.over.map(|way| way + span * part as f64), ..one }));
     }
     found
 }
@@ -273,7 +347,7 @@ fn beside_part(
     reference: &Reference,
     grid: &Grid,
     distance: f64,
-) -> Vec<([f64; 2], u32, f64)> {
+) -> Vec<Beside> {
     let middle = from + along * (length / 2.0);
     let mut found = Vec::new();
     for run in grid.near(middle, length / 2.0 + distance) {
@@ -281,7 +355,8 @@ fn beside_part(
         if line.cut.is_edge {
             continue;
         }
-        for ends in run.chords().map(|i| [line.point(i), line.point(i + 1)]) {
+        for i in run.chords() {
+            let ends = [line.point(i), line.point(i + 1)];
             let Some(direction) = polyline::direction(ends[0], ends[1]) else { continue };
             if direction.dot(&along).abs() < ALONG {
                 continue;
@@ -296,10 +371,13 @@ fn beside_part(
                 continue;
             }
             if high > low {
-                found.push(([low, high], line.cut.index, off(low).abs().max(off(high).abs()).min(distance)));
+                let (from, way) = (line.cut.offset + line.station(i), line.station(i + 1) - line.station(i));
+                let at = [low, high].map(|place| from + way * ((place - a.0) / (b.0 - a.0)));
+                let off = off(low).abs().max(off(high).abs()).min(distance);
+                found.push(Beside { over: [low, high], cut: line.cut.index, off, at, round: line.cut.round });
             }
         }
     }
-    found.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.1.cmp(&b.1)));
+    found.sort_by(|a, b| a.over[0].total_cmp(&b.over[0]).then(a.cut.cmp(&b.cut)));
     found
 }
