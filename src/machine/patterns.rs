@@ -13,6 +13,7 @@ use crate::units::MM_PER_INCH;
 pub(super) const KEYS: &[Key] = &[
     Key { name: "dxf.unit", takes: Takes::Word(words::<PatternUnit>), about: "Unit of pattern DXF. \"auto\" believes the text UNITS: METRIC (mm) or ENGLISH (inch); without one\nit is mm, with a warning." },
     Key { name: "dxf.quantity", takes: Takes::Word(words::<Quantity>), about: "How often a piece of a pattern DXF is cut: \"file\" = as the text QUANTITY says, 1,1 = once as it is\ndrawn and once mirrored; \"one\" = once as it is drawn." },
+    Key { name: "dxf.curves", takes: Takes::Word(words::<Curves>), about: "Curves of a pattern DXF whose outlines have a few points of them: \"auto\" = as layers 84 to 87 draw\nthem, else as the CAD system lays them through the points; \"points\" = straight from point to point." },
     Key { name: "dxf.gap_mm", takes: Takes::Number(from(0.0, 1000.0)), about: "Room between the pieces of a pattern DXF, which lie in a row unless the file places them." },
     Key { name: "dxf.notch_mm", takes: Takes::Number(from(1.0, 15.0)), about: "Depth of the notches for which a pattern DXF gives none." },
 ];
@@ -25,6 +26,8 @@ pub struct Dxf {
     pub unit: PatternUnit,
     /// How often its pieces are cut.
     pub quantity: Quantity,
+    /// Which way its outlines go between their points.
+    pub curves: Curves,
     /// Room between pieces.
     pub gap_mm: f64,
     /// Depth of notches without one.
@@ -38,13 +41,15 @@ impl Dxf {
     /// Farthest that ends of lines lie apart that are joined, mm: what rounding to a hundredth of an inch parts. Files of
     /// garment CAD have no gap at all.
     pub const ENDS_MEET: f64 = 0.2;
+    /// Farthest that a curve through points leaves the chord between two of them, as a part of the chord: half a circle over it.
+    pub const CURVE_OFF: f64 = 0.5;
     /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
     pub const NOTCH_OFF: f64 = 1.0;
 }
 
 impl Default for Dxf {
     fn default() -> Self {
-        Self { unit: PatternUnit::Auto, quantity: Quantity::File, gap_mm: 20.0, notch_mm: 5.0 }
+        Self { unit: PatternUnit::Auto, quantity: Quantity::File, curves: Curves::Auto, gap_mm: 20.0, notch_mm: 5.0 }
     }
 }
 
@@ -81,6 +86,17 @@ pub enum Quantity {
     File,
     /// Once, as it is drawn.
     One,
+}
+
+/// Which way outlines go that have a few points of their curves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Curves {
+    /// Along the curves that the file draws, or that its CAD system lays.
+    #[default]
+    Auto,
+    /// Straight from point to point.
+    Points,
 }
 
 /// Which sizes of a set of patterns are cut.

@@ -22,8 +22,12 @@ pub(super) enum Does {
     Seam,
     /// Its lines are drawn, once.
     Sign,
-    /// Nothing: copies of other layers, points that say how others are graded.
-    Nothing,
+    /// Its points are corners of lines.
+    Turn,
+    /// Its points are points of curves.
+    Curve,
+    /// Its lines are the curves of another layer in small chords.
+    Fine,
 }
 
 /// What a notch looks like.
@@ -100,8 +104,8 @@ pub(super) const SEAMS: &str = "14";
 #[rustfmt::skip] // a table: one row a layer
 pub(super) const LAYERS: [Layer; 20] = [
     Layer { number: 1, name: "outline", about: "layer 1", does: Does::Outline },
-    Layer { number: 2, name: "turn point", about: "layer 2", does: Does::Nothing },
-    Layer { number: 3, name: "curve point", about: "layer 3", does: Does::Nothing },
+    Layer { number: 2, name: "turn point", about: "layer 2", does: Does::Turn },
+    Layer { number: 3, name: "curve point", about: "layer 3", does: Does::Curve },
     Layer { number: 4, name: "notch", about: "layer 4", does: Does::Notch(Form::Plain) },
     Layer { number: 5, name: "grade reference", about: "layer 5", does: Does::Sign },
     Layer { number: 6, name: "fold line", about: "layer 6", does: Does::Fold },
@@ -115,11 +119,15 @@ pub(super) const LAYERS: [Layer; 20] = [
     Layer { number: 81, name: "castle notch", about: "layer 81", does: Does::Notch(Form::Castle) },
     Layer { number: 82, name: "check notch", about: "layer 82", does: Does::Notch(Form::Check) },
     Layer { number: 83, name: "U notch", about: "layer 83", does: Does::Notch(Form::U) },
-    Layer { number: 84, name: "copy of an outline", about: "layer 84", does: Does::Nothing },
-    Layer { number: 85, name: "copy of an internal line", about: "layer 85", does: Does::Nothing },
-    Layer { number: 86, name: "copy of a cut-out", about: "layer 86", does: Does::Nothing },
-    Layer { number: 87, name: "copy of a seam line", about: "layer 87", does: Does::Nothing },
+    Layer { number: 84, name: "curve of an outline", about: "layer 84", does: Does::Fine },
+    Layer { number: 85, name: "curve of an internal line", about: "layer 85", does: Does::Fine },
+    Layer { number: 86, name: "curve of a cut-out", about: "layer 86", does: Does::Fine },
+    Layer { number: 87, name: "curve of a seam line", about: "layer 87", does: Does::Fine },
 ];
+
+/// The layers of outlines and of cut-outs.
+pub(super) const OUTLINE: &Layer = &LAYERS[0];
+pub(super) const CUT_OUT: &Layer = &LAYERS[8];
 
 /// What any other layer is.
 pub(super) const OTHER: Layer =
@@ -135,7 +143,28 @@ impl Layer {
     pub(super) fn is_cut(&self) -> bool {
         match self.does {
             Does::Outline | Does::Notch(_) | Does::Fold | Does::Inner | Does::Drill => true,
-            Does::Drawn | Does::Seam | Does::Sign | Does::Nothing => false,
+            Does::Drawn | Does::Seam | Does::Sign | Does::Turn | Does::Curve | Does::Fine => false,
+        }
+    }
+
+    /// Whether its lines may have curves between their vertices.
+    pub(super) fn is_curved(&self) -> bool {
+        self.fine().is_some()
+    }
+
+    /// Whether its lines are the curves of another layer.
+    pub(super) fn is_fine(&self) -> bool {
+        self.does == Does::Fine
+    }
+
+    /// The layer that mostly has its curves in small chords.
+    pub(super) fn fine(&self) -> Option<u16> {
+        match self.does {
+            Does::Outline => Some(84),
+            Does::Drawn => Some(85),
+            Does::Inner => Some(86),
+            Does::Seam => Some(87),
+            Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Turn | Does::Curve | Does::Fine => None,
         }
     }
 }

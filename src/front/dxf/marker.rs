@@ -2,7 +2,7 @@
 
 use super::chain::Chain;
 use super::lay::{Laid, Motion};
-use super::layer::{LAYERS, Layer, OTHER};
+use super::layer::{CUT_OUT, LAYERS, Layer, OTHER, OUTLINE};
 use super::set::Set;
 use crate::geom::polyline;
 use crate::ir::drawing::{Account, LineClass, Unread, Vertex};
@@ -13,9 +13,6 @@ use crate::source::Span;
 
 /// The drill that makes the holes.
 const DRILL: u8 = 1;
-/// The layers of outlines and of cut-outs.
-const OUTLINE: &Layer = &LAYERS[0];
-const CUT_OUT: &Layer = &LAYERS[8];
 
 /// What is cut of a set: inside a piece first, its outline last.
 pub(super) fn marker(set: &Set) -> Marker {

@@ -6,15 +6,16 @@
 //! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
 //!
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
-//! mm with [`curve`] and the [`mod@unit`]; [`text`] reads what texts say with [`markup`] and [`choice`] which blocks that
-//! lets be cut. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], with each
+//! mm with [`arc`] and the [`mod@unit`]; [`text`] reads what texts say with [`markup`] and [`choice`] which blocks that
+//! lets be cut. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], along their [`curves`], with each
 //! [`mod@notch`] by the table of [`layer`]s. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
 //! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
 //! not done as the file says.
 
+mod arc;
 mod chain;
 mod choice;
-mod curve;
+mod curves;
 mod entity;
 mod fold;
 mod group;

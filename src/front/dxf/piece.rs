@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::chain::{Chain, REACH, chains};
+use super::curves::{Curved, Curves, Drafting, Nodes, Origin};
 use super::fold::{Fold, Refusal};
-use super::layer::{Does, Form, Named};
+use super::layer::{Does, Form, Layer, Named, OUTLINE};
 use super::notch::{self, Mark, Notched};
 use super::outline::{Outline, outlines};
 use super::shape::{Dot, Line, Shapes};
@@ -40,11 +41,65 @@ pub(super) struct Piece {
 pub(super) struct Making<'o> {
     /// Depth of notches without one, mm.
     pub(super) notch_depth: f64,
+    pub(super) drafting: Drafting,
+    /// Where the pieces got their curves from.
+    pub(super) curved: CurvedPieces,
     pub(super) work: Budget,
     pub(super) tally: Tally,
     /// Lines of blocks that have no outline.
     pub(super) apart: Vec<(Named, Chain)>,
     pub(super) out: &'o mut Diagnostics,
+}
+
+/// How many pieces are cut along curves that their outlines do not have in the file, by where these are from.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CurvedPieces {
+    pub(super) fine: CurvedFrom,
+    pub(super) laid: CurvedFrom,
+}
+
+/// Pieces with curves from one origin.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CurvedFrom {
+    pub(super) pieces: usize,
+    /// How far the curves leave the chords, mm.
+    pub(super) off: f64,
+    pub(super) first: Span,
+}
+
+impl CurvedFrom {
+    /// Counts the lines of a piece as one.
+    fn add(&mut self, those: Self) {
+        if those.pieces > 0 {
+            self.first = if self.pieces == 0 { those.first } else { self.first };
+            self.pieces += 1;
+            self.off = self.off.max(those.off);
+        }
+    }
+}
+
+impl CurvedPieces {
+    fn see(&mut self, curved: &Curved) {
+        let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
+        let line = CurvedFrom { pieces: 1, off: curved.off, first };
+        match curved.origin {
+            Origin::Drawn => {}
+            Origin::Fine => self.fine.add(line),
+            Origin::Laid => self.laid.add(line),
+        }
+    }
+
+    fn add(&mut self, those: Self) {
+        self.fine.add(those.fine);
+        self.laid.add(those.laid);
+    }
+}
+
+/// How the lines of a block become those of a whole piece.
+#[derive(Debug, Clone, Copy)]
+struct Wholes<'a> {
+    fold: Option<Fold>,
+    curves: &'a Curves,
 }
 
 /// What lies in one outline.
@@ -64,6 +119,7 @@ impl Making<'_> {
         for line in &lines {
             self.see_stroke(line);
         }
+        let nodes = Nodes::of(&lines, &dots);
         let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
         let of_edges = |fold: Fold| fold.about_longest(lines.iter().flat_map(Line::edges_of_outline));
         let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).map(of_edges).collect();
@@ -87,18 +143,24 @@ impl Making<'_> {
         }
         let outlines = outlines(edges, &mut self.work);
         let whole = self.unfolded(&outlines, &folded, is_folded);
+        let fold = whole.iter().flatten().find_map(|(_, fold)| fold.as_ref());
+        let curves = Curves::of(nodes, &lines, fold);
         let contents = self.sorted(&outlines, Content { span, lines, dots, labels: texts });
         let is_alone = outlines.len() == 1;
         let mut pieces = Vec::new();
         for ((outline, whole), content) in outlines.into_iter().zip(whole).zip(contents) {
             let Some((plain, fold)) = whole else { continue };
             let span = if is_alone && span.block > 0 { span } else { outline.edge.vertices[0].span };
-            let mut piece = self.piece(plain, fold, Content { span, ..content });
+            let wholes = Wholes { fold, curves: &curves };
+            let before = std::mem::take(&mut self.curved);
+            let mut piece = self.piece(&plain, wholes, Content { span, ..content });
             for line in outline.large_inner() {
                 self.tally.add(Thing::LargeCutOut, line.vertices[0].span);
             }
-            let inner = outline.inner.iter().flat_map(|line| on_both_sides(fold, line));
+            let inner: Vec<Chain> = outline.inner.iter().flat_map(|line| self.wholes(wholes, OUTLINE, line)).collect();
             piece.inner.splice(0..0, inner);
+            let of_piece = std::mem::replace(&mut self.curved, before);
+            self.curved.add(of_piece);
             pieces.push(piece);
         }
         pieces
@@ -109,7 +171,15 @@ impl Making<'_> {
         let thing = match line.layer.does {
             Does::Notch(_) => Thing::StrokeOfNotch,
             Does::Drill => Thing::StrokeOfHole,
-            Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Seam | Does::Sign | Does::Nothing => return,
+            Does::Outline
+            | Does::Fold
+            | Does::Inner
+            | Does::Drawn
+            | Does::Seam
+            | Does::Sign
+            | Does::Turn
+            | Does::Curve
+            | Does::Fine => return,
         };
         self.tally.add(thing, line.vertices.first().map_or(Span::default(), |vertex| vertex.span));
     }
@@ -177,7 +247,10 @@ impl Making<'_> {
         outlines.iter().position(|outline| outline.holds(at, &mut self.work))
     }
 
-    fn piece(&mut self, plain: Chain, fold: Option<Fold>, content: Content) -> Piece {
+    fn piece(&mut self, coarse: &Chain, wholes: Wholes, content: Content) -> Piece {
+        let Wholes { fold, curves } = wholes;
+        let edge = curves.curved(coarse, OUTLINE, &mut self.drafting, &mut self.work);
+        self.curved.see(&edge);
         let mut marks: Vec<Mark> = Vec::new();
         let mut drills: Vec<(Point, Span)> = Vec::new();
         let mut holes = Holes::default();
@@ -202,9 +275,21 @@ impl Making<'_> {
                         }
                     }
                 }
-                Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Seam | Does::Sign | Does::Nothing => {}
+                Does::Outline
+                | Does::Fold
+                | Does::Inner
+                | Does::Drawn
+                | Does::Seam
+                | Does::Sign
+                | Does::Turn
+                | Does::Curve
+                | Does::Fine => {}
             }
         }
+        for mark in &mut marks {
+            mark.at = edge.lifted(mark.at, &mut self.work);
+        }
+        let plain = edge.line;
         let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
         for &(doubt, span) in &doubts {
             self.tally.add(Thing::Notch(doubt), span);
@@ -213,13 +298,20 @@ impl Making<'_> {
         let (mut inner, mut drawn) = (Vec::new(), Vec::new());
         for (layer, line) in content.lines {
             match layer.does {
-                Does::Inner => inner.extend(on_both_sides(fold, &line)),
+                Does::Inner => inner.extend(self.wholes(wholes, layer.row, &line)),
                 Does::Drawn | Does::Seam => {
-                    drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line)));
+                    let lines = on_both_sides(fold, &line).into_iter();
+                    let curved = |line: Chain| curves.curved(&line, layer.row, &mut self.drafting, &mut self.work).line;
+                    drawn.extend(lines.map(curved).map(|line| (layer, line)));
                 }
-                Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => {
-                    drawn.push((layer, line));
-                }
+                Does::Fine => drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line))),
+                Does::Outline
+                | Does::Notch(_)
+                | Does::Fold
+                | Does::Drill
+                | Does::Sign
+                | Does::Turn
+                | Does::Curve => drawn.push((layer, line)),
             }
         }
         let around = Outline::of(plain);
@@ -236,6 +328,17 @@ impl Making<'_> {
         let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };
         Piece { span: content.span, plain, outline, slits, left_out, drills, inner, drawn, labels: content.labels }
+    }
+
+    /// A line that is cut, on both sides of a fold, with its curves.
+    fn wholes(&mut self, Wholes { fold, curves }: Wholes, layer: &Layer, line: &Chain) -> Vec<Chain> {
+        let mut lines = Vec::new();
+        for line in on_both_sides(fold, line) {
+            let curved = curves.curved(&line, layer, &mut self.drafting, &mut self.work);
+            self.curved.see(&curved);
+            lines.push(curved.line);
+        }
+        lines
     }
 
     fn mark(&self, dot: &Dot, form: Form) -> Mark {
@@ -287,8 +390,8 @@ fn joined(lines: Vec<Line>) -> Vec<(Named, Chain)> {
     }
     let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
-            Does::Outline | Does::Inner | Does::Drawn | Does::Seam => chains(lines),
-            Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => lines,
+            Does::Outline | Does::Inner | Does::Drawn | Does::Seam | Does::Fine => chains(lines),
+            Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Turn | Does::Curve => lines,
         };
         lines.into_iter().map(move |line| (layer, line))
     };

@@ -2,17 +2,18 @@
 
 use super::chain::Chain;
 use super::choice::{Asked, Chosen};
+use super::curves::{Drafting, Size, lend};
 use super::entity::{Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Named, Names};
 use super::over;
-use super::piece::{Making, Piece};
+use super::piece::{CurvedPieces, Making, Piece};
 use super::placing::{Held, MOST_PIECES, Placing};
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
-use super::told::{say_hidden, say_on_paper, say_text, say_unread};
+use super::told::{say_curves, say_hidden, say_on_paper, say_text, say_unread};
 use super::unit::unit;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
@@ -77,16 +78,31 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let mut loose = reader.shapes(&entities);
     let bases: Vec<Point> = blocks.iter().map(|block| reader.base(&block.head)).collect();
     let placing = Placing::of(source, &blocks, bases, std::mem::take(&mut loose.inserts));
-    let drawn: Vec<Shapes> = (0..blocks.len()).map(|k| reader.block(&blocks[k], placing.is_piece(k))).collect();
+    let mut drawn: Vec<Shapes> = (0..blocks.len()).map(|k| reader.block(&blocks[k], placing.is_piece(k))).collect();
     let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
+    let size = |facts: &Facts| facts.size.first.map(|span| source.slice(span).to_ascii_uppercase());
+    let sample = file.sample_size.first.map(|span| source.slice(span).to_ascii_uppercase());
+    let sizes: Vec<Size> = own
+        .iter()
+        .map(|facts| Size {
+            piece: facts.name.first.map(|span| source.slice(span)),
+            is_sample: size(facts).is_some() && size(facts) == sample,
+        })
+        .collect();
+    lend(&mut drawn, &sizes);
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
     let own = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own));
     // What frames and legends say of sizes is of no piece.
     let is_cut = |k: usize| held[k].is_cut && placing.is_piece(k);
     let facts: Vec<Facts> = own.enumerate().map(|(k, own)| if is_cut(k) { own } else { Facts::default() }).collect();
     let chosen = Chosen::of(&asked, &facts, out);
+    let author = [file.author.first, file.author.other].into_iter().flatten();
+    let author: Vec<String> = author.map(|span| String::from_utf8_lossy(source.slice(span)).into_owned()).collect();
+    let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
     let mut making = Making {
         notch_depth: job.profile.dxf.notch_mm,
+        drafting: Drafting::of(&author.join(" "), job.profile.dxf.curves, sagitta),
+        curved: CurvedPieces::default(),
         work: Budget::of_a_marker(),
         tally: Tally::default(),
         apart: Vec::new(),
@@ -107,8 +123,9 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         set.add(making.pieces(shapes, block.head.span()), quantity);
     }
     set.lay(&placing, loose, &mut making);
-    let Making { work, tally, apart, .. } = making;
+    let Making { work, tally, apart, curved, drafting, .. } = making;
     set.apart = apart;
+    say_curves(&curved, &drafting, out);
     tally.report(out);
     say_unread(&set.unread, out);
     say_on_paper(on_paper, out);

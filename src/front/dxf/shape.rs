@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::curve::{Arc, bulged, height};
+use super::arc::{Arc, bulged, height};
 use super::entity::{Block, Entity, FLAGS, NAME, TEXT, number_at};
 use super::layer::{Does, Layer, Named, Names, layer};
 use super::text::{Facts, is_text};
@@ -223,7 +223,9 @@ impl<'a> Reader<'a, '_> {
                 | Does::Drawn
                 | Does::Seam
                 | Does::Sign
-                | Does::Nothing => Ok(0.0),
+                | Does::Turn
+                | Does::Curve
+                | Does::Fine => Ok(0.0),
             };
             let heading = entity.number(ANGLE)?.map(|degrees| Heading::new(rad(degrees)));
             let (depth, width, span) = (size(DEPTH)?, size(WIDTH)?, entity.span());

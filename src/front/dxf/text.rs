@@ -22,6 +22,10 @@ pub(super) struct Facts {
     pub(super) units: Said,
     /// How often a piece is cut: as it is drawn, and mirrored.
     pub(super) quantity: Said,
+    /// What a piece is called, whatever its size.
+    pub(super) name: Said,
+    /// The CAD system that wrote the file.
+    pub(super) author: Said,
     /// A text that says one of these and is in so many parts, or with such codes amid it, that it is not read.
     pub(super) unread: Option<Span>,
 }
@@ -68,6 +72,8 @@ impl Facts {
                     "SAMPLE SIZE" => &mut facts.sample_size,
                     "UNITS" | "UNIT" => &mut facts.units,
                     "QUANTITY" => &mut facts.quantity,
+                    "PIECE NAME" => &mut facts.name,
+                    "AUTHOR" | "PRODUCT" | "PRODUCT NAME" => &mut facts.author,
                     _ => continue,
                 };
                 if entity.is("MTEXT") && markup::has_codes(source.slice(value)) {
@@ -86,6 +92,8 @@ impl Facts {
             sample_size: self.sample_size.and_all(those.sample_size, source),
             units: self.units.and_all(those.units, source),
             quantity: self.quantity.and_all(those.quantity, source),
+            name: self.name.and_all(those.name, source),
+            author: self.author.and_all(those.author, source),
             unread: self.unread.or(those.unread),
         }
     }

@@ -2,9 +2,49 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::curves::Drafting;
+use super::piece::{CurvedFrom, CurvedPieces};
 use super::shape::Unread;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
+
+/// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
+pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut Diagnostics) {
+    if drafting.is_overfull() {
+        let message = "the curves through the curve points (layer 3) have more places than a set of patterns can need";
+        let finding = Diagnostic::new(&code::DXF_CURVES, message);
+        out.push(finding.hint("look for a damaged coordinate; `dxf.curves=points` lays no curves"));
+        return;
+    }
+    if let Some(span) = drafting.wild {
+        let message = "a curve through the curve points (layer 3) would leave its chords by more than half their length";
+        let finding = Diagnostic::new(&code::DXF_WILD_CURVE, message).at(span);
+        out.push(finding.hint("look at these points; `dxf.curves=points` lays no curves"));
+    }
+    let pieces = |from: &CurvedFrom| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
+    let off = |from: &CurvedFrom| format!("up to {:.1} mm from the chords of its points", from.off);
+    let CurvedPieces { fine, laid } = curved;
+    if fine.pieces > 0 {
+        let message = format!("{} cut along the curves of layers 84 to 87, {}", pieces(fine), off(fine));
+        let finding = Diagnostic::new(&code::DXF_CURVED, message).at(fine.first);
+        out.push(finding.hint("the file draws them so; `dxf.curves=points` cuts along the chords"));
+    }
+    if laid.pieces > 0 {
+        let (pieces, off) = (pieces(laid), off(laid));
+        let finding = match drafting.system {
+            Some(system) => {
+                let message = format!("{pieces} cut along curves through the curve points as {system} lays them, {off}");
+                Diagnostic::new(&code::DXF_CURVED, message)
+            }
+            None => {
+                let message = format!("{pieces} cut along curves through the curve points, {off}; the CAD system may lay others");
+                Diagnostic::new(&code::DXF_CURVE_GUESSED, message)
+            }
+        };
+        let hint = "let the CAD system export ASTM DXF with its curves on layer 84, or compare a neck and an armhole";
+        out.push(finding.at(laid.first).hint(hint));
+    }
+}
 
 /// What kinds of entities are not read, and on which layers.
 pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {

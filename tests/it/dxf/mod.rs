@@ -2,6 +2,7 @@
 //! patience with damage.
 
 mod audit;
+mod curves;
 mod damage;
 mod habits;
 mod sets;

@@ -3,11 +3,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::cuts::{Cuts, MEETS, Mark, Measure, Place, Round};
+use super::curves::{Bend, Bow, lent};
+use super::cuts::{Cuts, Mark, Place};
+use super::lines::{MEETS, Measure, Round};
+use super::lookup::Lookup;
+use super::places::CutPlaces;
 use super::tags::{Item, Sheet, sheets};
 use crate::geom::{Extent, Point, Vector, cross};
 use crate::machine::Job;
-use crate::machine::patterns::{Dxf, Quantity, Sizes};
+use crate::machine::patterns::{Curves, Dxf, Quantity, Sizes};
 use crate::units::MM_PER_INCH;
 
 /// Places of a curve that are looked at to find its box.
@@ -19,6 +23,11 @@ const UNITS: [(f64, f64); 7] =
 
 /// Below this an insertion neither turns nor scales: rounding of an angle in degrees, rad.
 const TURNS: f64 = 1e-5;
+
+/// Vertices of a block by which its place is found.
+const CORNERS: usize = 16;
+/// By how much a notch may take a bit off the edge of a piece, mm.
+const NOTCHED: f64 = 1.0;
 
 /// How a block is moved: where its X and its Y go, and its origin.
 type Move = [Vector; 3];
@@ -38,21 +47,30 @@ struct Sheets<'a> {
 }
 
 /// All that is cut, and how far places may be off because curves are chords, mm.
-pub(super) fn cloth(bytes: &[u8], job: &Job) -> (Cuts, f64) {
+pub(super) fn cloth(bytes: &[u8], read: &CutPlaces, job: &Job) -> (Cuts, f64) {
     let sheets = Sheets::of(bytes, job);
     let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
     let measure = Measure { unit: sheets.unit, sagitta, notch: job.profile.dxf.notch_mm };
+    let with_curves = job.profile.dxf.curves == Curves::Auto;
+    let lent = lent(&sheets.blocks, sheets.says("SAMPLE SIZE"), sheets.unit);
+    let cuts_of = |block: &Sheet, lent: &[Vec<Point>; 2]| Cuts::of(block, with_curves.then_some(lent), measure);
+    let are_cut = sheets.are_cut(job).into_iter().zip(&lent);
     let mut of_blocks: Vec<Cuts> = sheets
         .blocks
         .iter()
-        .zip(sheets.are_cut(job))
-        .map(|(block, is_cut)| if is_cut { Cuts::of(block, measure) } else { Cuts::default() })
+        .zip(are_cut)
+        .map(|(block, (is_cut, lent))| if is_cut { cuts_of(block, lent) } else { Cuts::default() })
         .collect();
     for (block, cuts) in sheets.blocks.iter().zip(&mut of_blocks).filter(|(_, cuts)| !cuts.places.is_empty()) {
         cuts.faults += usize::from(block.base.is_none()) + sheets.nested(block);
     }
-    of_blocks.push(Cuts::of(&sheets.loose, measure));
-    if let Some(all) = sheets.placed(&of_blocks) { (all, 0.0) } else { sheets.in_a_row(&of_blocks, job, sagitta) }
+    of_blocks.push(cuts_of(&sheets.loose, &Default::default()));
+    if let Some(all) = sheets.placed(&of_blocks) {
+        return (all, 0.0);
+    }
+    // How far laid curves reach is not known here: each piece must lie where its vertices are.
+    let row = Row { of_all: &of_blocks, read, has_bows: of_blocks.iter().any(|cuts| !cuts.bows.is_empty()), sagitta };
+    sheets.in_a_row(&row, job)
 }
 
 impl<'a> Sheets<'a> {
@@ -96,24 +114,29 @@ impl<'a> Sheets<'a> {
     }
 
     /// What blocks and, behind them, what stands in none cut, in a row.
-    fn in_a_row(&self, of_all: &[Cuts], job: &Job, sagitta: f64) -> (Cuts, f64) {
+    fn in_a_row(&self, row: &Row, job: &Job) -> (Cuts, f64) {
         let mut all = Cuts::default();
-        let mut x = 0.0;
-        let mut laid = 0;
+        let (mut x, mut laid, mut behind) = (0.0, 0, 0);
         let wanted = self.wanted(job).into_iter().chain([[1, 0]]);
-        for (cuts, count) in of_all.iter().zip(wanted).filter(|(cuts, _)| !cuts.places.is_empty()) {
+        for (cuts, count) in row.of_all.iter().zip(wanted).filter(|(cuts, _)| !cuts.places.is_empty()) {
             for (axes, count) in [AS_DRAWN, MIRRORED].into_iter().zip(count) {
                 let extent = cuts.extent(axes);
+                let [right, up, _] = axes;
                 for _ in 0..count {
-                    let [right, up, _] = axes;
-                    all.add_moved(cuts, [right, up, Vector::new(x, 0.0) - extent.min.coords]);
-                    x += extent.max.x - extent.min.x + job.profile.dxf.gap_mm;
+                    let mut width = extent.max.x - extent.min.x;
+                    let mut origin = Vector::new(x, 0.0) - extent.min.coords;
+                    if let Some((found, drawn)) = row.found(cuts, axes, &mut behind) {
+                        all.faults += usize::from(drawn.min.x < x - NOTCHED);
+                        (origin, width) = (found, drawn.max.x - x);
+                    }
+                    all.add_moved(cuts, [right, up, origin]);
+                    x += width + job.profile.dxf.gap_mm;
                     laid += 1;
                 }
             }
         }
         // Each piece before one in the row may be so much narrower than its curves, on both sides.
-        let off = if all.rounds.is_empty() { 0.0 } else { 2.0 * sagitta * f64::from(laid + 1) };
+        let off = if all.rounds.is_empty() { 0.0 } else { 2.0 * row.sagitta * f64::from(laid + 1) };
         (all, off)
     }
 
@@ -195,6 +218,48 @@ impl<'a> Sheets<'a> {
     }
 }
 
+/// Pieces that lie in a row.
+struct Row<'a> {
+    of_all: &'a [Cuts],
+    read: &'a CutPlaces,
+    /// Whether curves are laid, so that pieces are larger than their vertices tell.
+    has_bows: bool,
+    /// Farthest that chords lie off their curve, mm.
+    sagitta: f64,
+}
+
+impl Row<'_> {
+    /// Where the next contour that has vertices of a block lies, and the box around it; `None` when no curves are laid or there
+    /// is no such contour. `behind` counts those that are taken.
+    fn found(&self, cuts: &Cuts, [right, up, _]: Move, behind: &mut usize) -> Option<(Vector, Extent)> {
+        if !self.has_bows {
+            return None;
+        }
+        let turned = |at: Point| right * at.x + up * at.y;
+        let contours = &self.read.contours;
+        let numbers: BTreeSet<u32> = contours[*behind..].iter().flatten().map(|place| place.1).collect();
+        let &(corner, block) = cuts.corners.iter().find(|(_, block)| numbers.contains(block))?;
+        let has = |contour: &Vec<(Point, u32)>| contour.iter().any(|place| place.1 == block);
+        let taken = *behind + contours[*behind..].iter().position(has)?;
+        *behind = taken + 1;
+        let contour = &contours[taken];
+        let places = Lookup::of(contour.iter().map(|place| place.0), MEETS);
+        let sample = || cuts.corners.iter().step_by(cuts.corners.len().div_ceil(CORNERS));
+        let met = |origin: &Vector| {
+            let meets = |at: Point| {
+                let at = Point::from(turned(at) + origin);
+                places.near(at).map(|k| (contour[k].0 - at).norm()).fold(MEETS, f64::min)
+            };
+            sample().map(|(at, _)| meets(*at)).sum::<f64>()
+        };
+        // Places of a curve have the number of the vertex that they lead to, and so has its mirror image.
+        let of_corner = contour.iter().filter(|place| place.1 == block).map(|place| place.0.coords - turned(corner));
+        let origin = of_corner.min_by(|a, b| met(a).total_cmp(&met(b)))?;
+        let points: Vec<Point> = contour.iter().map(|place| place.0).collect();
+        Some((origin, Extent::of(&points)))
+    }
+}
+
 /// How often a text wants a block cut as it is drawn, and mirrored.
 fn quantity(text: &[u8], job: &Job) -> [u32; 2] {
     if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
@@ -241,6 +306,10 @@ impl Cuts {
         self.places.extend(cuts.places.iter().map(|place| Place { at: moved(place.at, to), ..*place }));
         self.spare.extend(cuts.spare.iter().map(|at| moved(*at, to)));
         self.rounds.extend(cuts.rounds.iter().map(|round| round.moved(to, scale)));
+        let both = |ends: [Point; 2]| ends.map(|at| moved(at, to));
+        self.bows.extend(cuts.bows.iter().map(|bow| Bow { ends: both(bow.ends) }));
+        self.bends.extend(cuts.bends.iter().map(|bend| Bend { at: moved(bend.at, to), ..*bend }));
+        self.chords.extend(cuts.chords.iter().map(|ends| both(*ends)));
         self.faults += cuts.faults;
         self.length += cuts.length * scale;
         self.slack += cuts.slack * scale;

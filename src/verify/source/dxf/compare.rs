@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 
 use super::cloth::cloth;
-use super::cuts::{Cuts, MEETS, Mark, Round};
+use super::curves::{Bow, ON};
+use super::cuts::{Cuts, Mark};
+use super::lines::{MEETS, Round};
 use super::lookup::Lookup;
+use super::places::CutPlaces;
 use crate::geom::boxes::Boxes;
-use crate::geom::{Point, polyline};
+use crate::geom::{Extent, Point, Vector, cross, left, polyline};
 use crate::ir::finding::Sighting;
-use crate::ir::marker::{Contour, Notch, NotchKind};
-use crate::ir::{Finding, Marker};
+use crate::ir::marker::{Notch, NotchKind};
+use crate::ir::Finding;
 use crate::machine::Job;
 use crate::machine::patterns::Dxf;
 use crate::verify::worst::{Worst, at};
@@ -21,46 +24,18 @@ const LENGTH_EPSILON: f64 = 1e-9;
 const NOTCH_OFF: f64 = Dxf::NOTCH_OFF;
 /// How far points of notches may be from each other that are one, along their edge, mm.
 const SAME_PLACE: f64 = 0.2;
+/// How much of the turn of its chords a line may have at a curve point.
+const SMOOTHER: f64 = 0.75;
 /// How much shorter than the edge a mouth may be that is cut into it, as a part.
 const MOUTH_SHORTER: f64 = 0.05;
 
-/// Where a marker cuts, as it was read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CutPlaces {
-    contours: Vec<Vec<(Point, u32)>>,
-    notches: Vec<Notch>,
-    holes: Vec<(Point, u32)>,
-    /// Notches that are told and not cut, by the blocks that they come from.
-    left_out: Vec<u32>,
-}
-
-impl CutPlaces {
-    /// Those of a marker before any pass, each with the block that it comes from.
-    pub fn of(marker: &Marker) -> Self {
-        let line = |(_, contour): (usize, &Contour)| {
-            let mut line: Vec<(Point, u32)> =
-                marker.list.vertices(contour.range).map(|(at, span)| (at, span.block)).collect();
-            // What leads to the first place of a closed one is told by its last.
-            if let (true, Some(last)) = (contour.closed, line.last().copied()) {
-                line[0] = last;
-            }
-            line
-        };
-        Self {
-            contours: marker.contours().map(line).collect(),
-            notches: marker.pieces.iter().flat_map(|piece| piece.notches.iter().copied()).collect(),
-            holes: marker.pieces.iter().flat_map(|piece| &piece.drills).map(|d| (d.at, d.span.block)).collect(),
-            left_out: marker.drawing.iter().flat_map(|account| &account.notches_left_out).map(|s| s.block).collect(),
-        }
-    }
-}
-
 /// Compares a marker as it was read with a scan of the bytes of a set of patterns.
 pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> {
-    let (cuts, off) = cloth(bytes, job);
+    let (cuts, off) = cloth(bytes, read, job);
     let mut marks = cuts.marks.clone();
     marks.sort_by_key(|mark| mark.block);
-    let lines = read.contours.iter().map(|contour| Line::of(contour, &marks)).collect();
+    let lines: Vec<Line> = read.contours.iter().map(|contour| Line::of(contour, &marks)).collect();
+    slide(&mut marks, &cuts.chords, &lines);
     let both = Both { cuts, marks, read, lines, reach: PLACE_EPSILON + off };
     vec![both.points(), both.holes(), both.length(), both.notches()]
 }
@@ -68,7 +43,7 @@ pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> 
 /// What the file asks for and what was read of it.
 struct Both<'a> {
     cuts: Cuts,
-    /// Sorted by their blocks.
+    /// Where notches should be, sorted by their blocks.
     marks: Vec<Mark>,
     read: &'a CutPlaces,
     lines: Vec<Line>,
@@ -111,6 +86,75 @@ impl Line {
     }
 }
 
+/// The edges of lines, their notches apart.
+struct Edges {
+    ends: Vec<[Point; 2]>,
+    boxes: Boxes,
+}
+
+impl Edges {
+    fn of(lines: &[Line]) -> Self {
+        let ends: Vec<[Point; 2]> =
+            lines.iter().flat_map(|line| line.drawn.windows(2)).map(|pair| [pair[0].0, pair[1].0]).collect();
+        let boxes = Boxes::new(ends.iter().map(|[a, b]| Extent::between(*a, *b)).collect());
+        Self { ends, boxes }
+    }
+
+    /// How far a place is from the nearest, mm; infinite beyond a reach.
+    fn distance(&self, at: Point, reach: f64) -> f64 {
+        let near = self.boxes.near(Extent::between(at, at).grown(reach));
+        near.map(|k| polyline::distance_to_segment(at, self.ends[k][0], self.ends[k][1])).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Where a straight line through a place meets them next, within a reach to both sides, mm.
+    fn met(&self, at: Point, along: Vector, reach: f64) -> Option<Point> {
+        let way = [at - along * reach, at + along * reach];
+        let meets = |k: usize| {
+            let [a, b] = self.ends[k];
+            let [from, to] = [a, b].map(|end| cross(along, end - at));
+            let place = a + (b - a) * (from / (from - to));
+            (from * to <= 0.0 && from != to && (place - at).norm() <= reach).then_some(place)
+        };
+        let places = self.boxes.near(Extent::between(way[0], way[1])).filter_map(meets);
+        places.min_by(|a, b| (a - at).norm().total_cmp(&(b - at).norm()))
+    }
+}
+
+/// Moves marks that lie beside a chord, in whose stead a curve is cut, straight up to the curve.
+fn slide(marks: &mut [Mark], chords: &[[Point; 2]], lines: &[Line]) {
+    if chords.is_empty() || marks.is_empty() {
+        return;
+    }
+    let edges = Edges::of(lines);
+    let boxes = Boxes::new(chords.iter().map(|[a, b]| Extent::between(*a, *b).grown(NOTCH_OFF)).collect());
+    for mark in marks {
+        if edges.distance(mark.at, NOTCH_OFF) <= NOTCH_OFF {
+            continue;
+        }
+        let distance = |k: &usize| polyline::distance_to_segment(mark.at, chords[*k][0], chords[*k][1]);
+        let nearest = boxes.at(mark.at).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(k) = nearest.filter(|k| distance(k) <= NOTCH_OFF) else { continue };
+        let [a, b] = chords[k];
+        let up = left(b - a) / (b - a).norm();
+        mark.at = edges.met(mark.at, up, Dxf::CURVE_OFF * (b - a).norm() + NOTCH_OFF).unwrap_or(mark.at);
+    }
+}
+
+impl Bow {
+    /// How far a curve may leave the edge, mm.
+    fn height(&self) -> f64 {
+        Dxf::CURVE_OFF * (self.ends[1] - self.ends[0]).norm()
+    }
+
+    fn extent(&self) -> Extent {
+        Extent::between(self.ends[0], self.ends[1]).grown(self.height())
+    }
+
+    fn may_reach(&self, at: Point, reach: f64) -> bool {
+        polyline::distance_to_segment(at, self.ends[0], self.ends[1]) <= self.height() + reach
+    }
+}
+
 /// Findings that are counted.
 struct Count {
     worst: Worst,
@@ -140,12 +184,16 @@ impl Both<'_> {
         let ends_of_marker = Lookup::of(drawn().map(|place| place.0), MEETS + reach);
         let mut notched: Vec<u32> = lines.iter().flat_map(|line| &line.notched).map(|place| place.1).collect();
         notched.sort_unstable();
-        let mouths: Vec<&Mark> = cuts.marks.iter().filter(|mark| notched.binary_search(&mark.block).is_ok()).collect();
+        let mouths: Vec<&Mark> = self.marks.iter().filter(|mark| notched.binary_search(&mark.block).is_ok()).collect();
         let half = |mark: &Mark| mark.width / 2.0 + NOTCH_OFF;
         let of_mouths =
             Lookup::of(mouths.iter().map(|mark| mark.at), mouths.iter().map(|m| half(m)).fold(1.0, f64::max));
         let is_in_a_mouth = |at: Point| of_mouths.near(at).any(|k| (at - mouths[k].at).norm() <= half(mouths[k]));
+        let edges = Edges::of(lines);
         for place in &cuts.places {
+            if place.is_passed && edges.distance(place.at, ON) <= ON + reach {
+                continue;
+            }
             let of_lines = if place.is_end { &ends_of_marker } else { &of_marker };
             if !of_lines.has(place.at) && !is_in_a_mouth(place.at) {
                 wrong.see(place.at, 0);
@@ -154,12 +202,35 @@ impl Both<'_> {
         let of_file = Lookup::of(cuts.places.iter().map(|place| place.at).chain(cuts.spare.iter().copied()), *reach);
         let rounds = Boxes::new(cuts.rounds.iter().map(|round| round.extent().grown(*reach)).collect());
         let is_on = |at: Point, round: &Round| ((at - round.centre).norm() - round.radius).abs() <= *reach;
+        let bows = Boxes::new(cuts.bows.iter().map(|bow| bow.extent().grown(*reach)).collect());
         for &(at, block) in drawn().filter(|place| notched.binary_search(&place.1).is_err()) {
-            if !of_file.has(at) && !rounds.at(at).any(|k| is_on(at, &cuts.rounds[k])) {
+            let is_on_round = || rounds.at(at).any(|k| is_on(at, &cuts.rounds[k]));
+            if !of_file.has(at) && !is_on_round() && !bows.at(at).any(|k| cuts.bows[k].may_reach(at, *reach)) {
                 wrong.see(at, block);
             }
         }
+        self.bends(&mut wrong);
         wrong.worst.finding()
+    }
+
+    /// Curve points at which lines turn as much as their chords do: nothing was laid through them.
+    fn bends(&self, wrong: &mut Count) {
+        let Self { cuts, lines, reach, .. } = self;
+        let bends = Lookup::of(cuts.bends.iter().map(|bend| bend.at), *reach);
+        for line in lines.iter().filter(|_| !cuts.bends.is_empty()) {
+            let mut drawn = line.drawn.clone();
+            drawn.dedup_by(|next, before| next.0 == before.0);
+            // A closed one comes round to its second place.
+            if drawn.len() > 2 && drawn[0].0 == drawn[drawn.len() - 1].0 {
+                drawn.push(drawn[1]);
+            }
+            for way in drawn.windows(3) {
+                let turn = polyline::turn_at(way[0].0, way[1].0, way[2].0).abs();
+                if bends.near(way[1].0).any(|k| turn > SMOOTHER * cuts.bends[k].turn) {
+                    wrong.see(way[1].0, way[1].1);
+                }
+            }
+        }
     }
 
     /// How many holes are missing or too many.

@@ -1,19 +1,12 @@
 //! What a block cuts, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
+use super::curves::{Bend, Bow, Course, Curves, twigs};
+use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, vertices};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
-use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
-use crate::geom::{Extent, Point, Vector, cross, left};
-use crate::machine::patterns::Dxf;
-
-/// How near to a fold line a place is on it, and how far lines that are one may miss each other, mm.
-pub(super) const MEETS: f64 = Dxf::ENDS_MEET;
-/// Radius beyond which a curve is straight, mm: on a circle so large the rounding of its centre moves every place.
-const STRAIGHT: f64 = 1e9;
-/// Angle below which an arc comes round, rad.
-const ROUND_EPSILON: f64 = 1e-8;
+use crate::geom::{Point, Vector, cross, left};
 
 /// What is cut, mm.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +22,13 @@ pub(super) struct Cuts {
     pub(super) slack: f64,
     pub(super) holes: Vec<Point>,
     pub(super) marks: Vec<Mark>,
+    /// Edges that a curve may leave, and vertices at which it goes on.
+    pub(super) bows: Vec<Bow>,
+    pub(super) bends: Vec<Bend>,
+    /// Coarse edges in whose stead curves are cut: notches beside them are on the curves.
+    pub(super) chords: Vec<[Point; 2]>,
+    /// Vertices of outlines by the groups of the file that they begin with.
+    pub(super) corners: Vec<(Point, u32)>,
     /// How much on layers that are cut cannot be understood: numbers that are damaged, planes beside the cloth.
     pub(super) faults: usize,
 }
@@ -39,16 +39,8 @@ pub(super) struct Place {
     pub(super) at: Point,
     /// Whether a line ends here that may be joined to another.
     pub(super) is_end: bool,
-}
-
-/// A circle that a curve is of.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Round {
-    pub(super) centre: Point,
-    pub(super) radius: f64,
-    /// Where the curve starts and how far it goes, rad.
-    pub(super) start: f64,
-    pub(super) sweep: f64,
+    /// Whether a curve may pass it within a hundredth of a millimetre.
+    pub(super) is_passed: bool,
 }
 
 /// A point that asks for a notch.
@@ -59,26 +51,6 @@ pub(super) struct Mark {
     pub(super) width: f64,
     /// Number of its group in the file.
     pub(super) block: u32,
-}
-
-/// A line of the file.
-#[derive(Debug, Default)]
-struct Path {
-    points: Vec<Point>,
-    /// Behind each point the curve that leads on from it, if any.
-    curves: Vec<Option<Round>>,
-    is_closed: bool,
-}
-
-/// How the numbers of a file are read.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Measure {
-    /// Length of a unit, mm.
-    pub(super) unit: f64,
-    /// Farthest that chords lie off their curve, mm.
-    pub(super) sagitta: f64,
-    /// Depth of notches without one, mm.
-    pub(super) notch: f64,
 }
 
 /// A fold line as it is drawn, and about what a half is mirrored.
@@ -157,7 +129,7 @@ impl Fold {
 
 impl Cuts {
     /// What a block cuts.
-    pub(super) fn of(sheet: &Sheet, measure: Measure) -> Self {
+    pub(super) fn of(sheet: &Sheet, lent: Option<&[Vec<Point>; 2]>, measure: Measure) -> Self {
         let paths = |layer: u32| paths(&sheet.items, layer, measure);
         let outlines = paths(1);
         let is_odd = |item: &&Item| item.is_of_cuts() && (!item.is_plain() || item.flag(1).is_none());
@@ -172,10 +144,15 @@ impl Cuts {
             (way.norm() > MEETS).then(|| Fold { drawn, length: way.norm(), about: drawn })
         });
         let fold = fold.filter(|fold| fold.halves(&outlines)).map(|fold| fold.of_half(&outlines));
-        cuts.add(&outlines, fold, measure.sagitta);
-        for paths in clusters(paths(11)) {
-            cuts.add(&paths, fold.filter(|fold| fold.halves(&paths)), measure.sagitta);
+        let curves = lent.map(|lent| Curves::of(sheet, lent, measure));
+        for (layer, usual) in [(1, 84), (11, 86)] {
+            for paths in clusters(paths(layer)) {
+                let fold = if layer == 1 { fold } else { fold.filter(|fold| fold.halves(&paths)) };
+                cuts.add_curved(paths, usual, curves.as_ref(), Halving { fold, sagitta: measure.sagitta });
+            }
         }
+        let of_outlines = vertices(&sheet.items, measure.unit).into_iter().filter(|vertex| vertex.layer == 1);
+        cuts.corners = of_outlines.map(|vertex| (vertex.at, vertex.block)).collect();
         let mut holes: Vec<[Option<Point>; 2]> = Vec::new();
         for item in &sheet.items {
             let Some(at) = item.pair([10, 20]).map(|[x, y]| Point::new(x * measure.unit, y * measure.unit)) else {
@@ -216,10 +193,41 @@ impl Cuts {
         }
     }
 
-    /// Adds lines that belong together, on both sides of a fold, without what lies on it.
-    fn add(&mut self, paths: &[Path], fold: Option<Fold>, sagitta: f64) {
-        let times = if fold.is_some() { 2.0 } else { 1.0 };
+    /// Adds lines that belong together with their curves, if curves are asked for.
+    fn add_curved(&mut self, mut paths: Vec<Path>, usual: u32, curves: Option<&Curves>, halving: Halving) {
+        let both = |at: Point| [Some(at), halving.fold.map(|fold| fold.across(at))].into_iter().flatten();
+        let both_ends = |[a, b]: [Point; 2]| both(a).zip(both(b)).map(|(a, b)| [a, b]).collect::<Vec<_>>();
+        let edges = |paths: &[Path]| -> Vec<[Point; 2]> {
+            paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k)).collect::<Vec<_>>()).collect()
+        };
+        match curves.map(|curves| curves.course(&paths, usual, |at| halving.fold.is_some_and(|fold| fold.off(at).abs() <= MEETS))) {
+            Some(Course::Fine(fine)) => {
+                self.chords.extend(edges(&paths).into_iter().flat_map(both_ends));
+                self.add(&fine, &[], halving);
+            }
+            Some(Course::Own { bows, bends, passed }) => {
+                for [a, b] in bows.iter().map(|bow| bow.ends) {
+                    // A curve over a chord is at most as long as half a circle.
+                    self.slack += halving.times() * (FRAC_PI_2 - 1.0) * (b - a).norm();
+                    self.bows.extend(both_ends([a, b]).into_iter().map(|ends| Bow { ends }));
+                    self.chords.extend(both_ends([a, b]));
+                }
+                self.bends.extend(bends.iter().flat_map(|bend| both(bend.at).map(|at| Bend { at, ..*bend })));
+                double(&mut paths);
+                self.add(&paths, &passed, halving);
+            }
+            None => {
+                double(&mut paths);
+                self.add(&paths, &[], halving);
+            }
+        }
+    }
+
+    /// Adds lines that belong together, on both sides of a fold, without what lies on it. A curve may pass some of their
+    /// vertices.
+    fn add(&mut self, paths: &[Path], passed: &[Point], Halving { fold, sagitta }: Halving) {
         for path in paths {
+            let times = path.times * if fold.is_some() { 2.0 } else { 1.0 };
             let count = path.points.len();
             let mut is_met = vec![count == 1; count];
             for (k, curve) in path.curves.iter().enumerate() {
@@ -244,10 +252,11 @@ impl Cuts {
                     self.spare.extend(is_end.then_some(at));
                     continue;
                 }
-                self.places.push(Place { at, is_end });
+                let is_passed = passed.contains(&at);
+                self.places.push(Place { at, is_end, is_passed });
                 let Some(fold) = fold else { continue };
                 if fold.off(at).abs() > MEETS {
-                    self.places.push(Place { at: fold.across(at), is_end });
+                    self.places.push(Place { at: fold.across(at), is_end, is_passed });
                 } else {
                     // Beside the fold a line goes over to its other half, which may take twice the distance more or less.
                     self.slack += 2.0 * fold.off(at).abs();
@@ -257,205 +266,28 @@ impl Cuts {
     }
 }
 
-impl Round {
-    /// A box around its curve.
-    pub(super) fn extent(&self) -> Extent {
-        let half = self.sweep.abs() / 2.0;
-        if half >= FRAC_PI_2 {
-            return Extent::of(&[self.centre]).grown(self.radius);
-        }
-        let height = self.radius * (1.0 - half.cos());
-        Extent::of(&[self.at(0.0), self.at(1.0)]).grown(height)
-    }
+/// On how many sides lines are, and how far chords may lie off their curves, mm.
+#[derive(Debug, Clone, Copy)]
+struct Halving {
+    fold: Option<Fold>,
+    sagitta: f64,
+}
 
+impl Halving {
+    fn times(&self) -> f64 {
+        if self.fold.is_some() { 2.0 } else { 1.0 }
+    }
+}
+
+/// Lines that stand off others are cut there and back.
+fn double(paths: &mut [Path]) {
+    let twigs = twigs(paths);
+    paths.iter_mut().zip(twigs).filter(|(_, is_twig)| *is_twig).for_each(|(path, _)| path.times = 2.0);
+}
+
+impl Round {
     fn across(&self, fold: Fold) -> Self {
         let start = fold.across(self.at(0.0)) - fold.across(self.centre);
         Self { centre: fold.across(self.centre), start: start.y.atan2(start.x), sweep: -self.sweep, ..*self }
     }
-
-    /// Its place after so much of it.
-    pub(super) fn at(&self, share: f64) -> Point {
-        let angle = self.start + share * self.sweep;
-        self.centre + Vector::new(angle.cos(), angle.sin()) * self.radius
-    }
-}
-
-/// The lines of a layer.
-fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
-    let mut paths: Vec<Path> = Vec::new();
-    let mut is_vertex = false;
-    let place = |item: &Item, codes| item.pair(codes).map(|[x, y]| Point::new(x * measure.unit, y * measure.unit));
-    let mut bulges: Vec<f64> = Vec::new();
-    for item in items {
-        let is_of_layer = item.layer() == Some(layer);
-        match &item.kind[..] {
-            b"VERTEX" if is_vertex => {
-                if let (Some(at), Some(path), false) =
-                    (place(item, [10, 20]), paths.last_mut(), item.flag(16) == Some(true))
-                {
-                    path.points.push(at);
-                    bulges.push(item.number(42).unwrap_or(0.0));
-                }
-                continue;
-            }
-            _ if is_vertex => {
-                paths.last_mut().into_iter().for_each(|path| path.bend(&bulges));
-                bulges.clear();
-                is_vertex = false;
-            }
-            _ => {}
-        }
-        if !is_of_layer {
-            continue;
-        }
-        match &item.kind[..] {
-            b"POLYLINE" => {
-                is_vertex = true;
-                paths.push(Path { is_closed: item.flag(1) == Some(true), ..Path::default() });
-            }
-            b"LWPOLYLINE" => {
-                let (mut path, mut of_path) =
-                    (Path { is_closed: item.flag(1) == Some(true), ..Path::default() }, Vec::new());
-                let mut x = 0.0;
-                for (code, value) in item.each([10, 20, 42]) {
-                    match code {
-                        10 => x = value,
-                        20 => {
-                            path.points.push(Point::new(x * measure.unit, value * measure.unit));
-                            of_path.push(0.0);
-                        }
-                        _ => of_path.last_mut().into_iter().for_each(|bulge| *bulge = value),
-                    }
-                }
-                path.bend(&of_path);
-                paths.push(path);
-            }
-            b"LINE" => {
-                let points: Vec<Point> = [place(item, [10, 20]), place(item, [11, 21])].into_iter().flatten().collect();
-                paths.push(Path { points, curves: vec![None], is_closed: false });
-            }
-            b"ARC" | b"CIRCLE" => paths.extend(round_path(item, place(item, [10, 20]), measure)),
-            _ => {}
-        }
-    }
-    distinct(paths)
-}
-
-/// Lines that have a length, each once; of an open and a closed one of the same places the closed one.
-fn distinct(mut paths: Vec<Path>) -> Vec<Path> {
-    paths.iter_mut().for_each(Path::tidy);
-    let is_dot = |path: &Path| path.curves.iter().flatten().any(|round| round.radius == 0.0);
-    paths.retain(|path| !path.curves.is_empty() && !is_dot(path));
-    let closed: BTreeSet<_> = paths.iter().filter(|path| path.is_closed).map(Path::key).collect();
-    let mut seen = BTreeSet::new();
-    paths.retain(|path| (path.is_closed || !closed.contains(&path.key())) && seen.insert(path.key()));
-    paths
-}
-
-/// An arc or a circle.
-fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -> Option<Path> {
-    let (centre, radius) = (centre?, item.number(40)?.abs() * measure.unit);
-    let whole = Round { centre, radius, start: 0.0, sweep: std::f64::consts::TAU };
-    let arc = if item.kind == b"CIRCLE" { None } else { Some(item.pair([50, 51])?) };
-    let arc = arc.map(|[start, end]| Round {
-        start: start.to_radians(),
-        sweep: (end - start).rem_euclid(360.0).to_radians(),
-        ..whole
-    });
-    let is_open = |round: &Round| round.sweep > ROUND_EPSILON;
-    let is_circle = !arc.as_ref().is_some_and(is_open);
-    let round = match arc {
-        Some(round) if is_circle => Round { sweep: whole.sweep, ..round },
-        Some(round) => round,
-        None => whole,
-    };
-    let points = if is_circle { vec![round.at(0.0)] } else { vec![round.at(0.0), round.at(1.0)] };
-    Some(Path { points, curves: vec![Some(round)], is_closed: is_circle })
-}
-
-impl Path {
-    /// The ends of an edge.
-    fn edge(&self, k: usize) -> [Point; 2] {
-        [self.points[k], self.points[(k + 1) % self.points.len()]]
-    }
-
-    /// Drops what has no length: equal places beside each other, and the way back of a line that goes out and back.
-    fn tidy(&mut self) {
-        if self.curves.iter().any(Option::is_some) {
-            return;
-        }
-        self.points.dedup();
-        let is_back = |points: &[Point]| points.len() > 2 && points.first() == points.last();
-        if self.is_closed && is_back(&self.points) || self.points.len() == 3 && is_back(&self.points) {
-            self.points.pop();
-        }
-        if !self.is_closed && self.points.len() > 3 && is_back(&self.points) {
-            self.points.pop();
-            self.is_closed = true;
-        }
-        self.is_closed &= self.points.len() > 2;
-        let edges = if self.is_closed { self.points.len() } else { self.points.len().saturating_sub(1) };
-        self.curves = vec![None; edges];
-    }
-
-    /// The same for lines with the same places in either order; what curves is its own.
-    fn key(&self) -> Vec<[u64; 2]> {
-        let way: Vec<[u64; 2]> = self.points.iter().map(|point| [point.x.to_bits(), point.y.to_bits()]).collect();
-        let curves = self.curves.iter().flatten();
-        let curves: Vec<[u64; 2]> = curves.map(|round| [round.radius.to_bits(), round.sweep.to_bits()]).collect();
-        let back: Vec<[u64; 2]> = way.iter().rev().copied().collect();
-        if curves.is_empty() { way.min(back) } else { [way, curves].concat() }
-    }
-
-    /// Finds the curves of bulges: by the height of the arc over its chord, which is half the chord times the bulge.
-    fn bend(&mut self, bulges: &[f64]) {
-        let count = self.points.len();
-        let edges = if self.is_closed { count } else { count.saturating_sub(1) };
-        for k in 0..edges {
-            let [from, to] = [self.points[k], self.points[(k + 1) % count]];
-            let chord = to - from;
-            let bulge = bulges.get(k).copied().unwrap_or(0.0);
-            let height = bulge * chord.norm() / 2.0;
-            // Signed: the centre is as far from the middle of the arc, which lies right of the chord for a bulge above 0.
-            let radius = (chord.norm_squared() / 4.0 + height * height) / (2.0 * height);
-            if !radius.is_finite() || radius.abs() > STRAIGHT {
-                self.curves.push(None);
-                continue;
-            }
-            let centre = from + chord / 2.0 + left(chord / chord.norm()) * (radius - height);
-            let spoke = from - centre;
-            let sweep = 4.0 * bulge.atan();
-            let round = Round { centre, radius: radius.abs(), start: spoke.y.atan2(spoke.x), sweep };
-            self.curves.push(Some(round));
-        }
-    }
-}
-
-/// Lines whose ends meet belong together.
-fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
-    let mut owner: Vec<usize> = (0..paths.len()).collect();
-    let ends = |k: usize| [paths[k].points[0], paths[k].points[paths[k].points.len() - 1]];
-    let all: Vec<(Point, usize)> =
-        (0..paths.len()).filter(|&k| !paths[k].is_closed).flat_map(|k| ends(k).map(|at| (at, k))).collect();
-    let of_ends = Lookup::of(all.iter().map(|end| end.0), MEETS);
-    for &(at, k) in &all {
-        for other in of_ends.near(at) {
-            let [a, b] = [root(&mut owner, k), root(&mut owner, all[other].1)];
-            owner[a] = b;
-        }
-    }
-    let roots: Vec<usize> = (0..paths.len()).map(|k| root(&mut owner, k)).collect();
-    let mut clusters: Vec<Vec<Path>> = paths.iter().map(|_| Vec::new()).collect();
-    paths.into_iter().zip(roots).for_each(|(path, root)| clusters[root].push(path));
-    clusters.retain(|paths| !paths.is_empty());
-    clusters
-}
-
-/// The one that stands for all that belong together.
-fn root(owner: &mut [usize], mut k: usize) -> usize {
-    while owner[k] != k {
-        owner[k] = owner[owner[k]];
-        k = owner[k];
-    }
-    k
 }

@@ -3,8 +3,12 @@
 
 mod cloth;
 mod compare;
+mod curves;
 mod cuts;
+mod lines;
 mod lookup;
+mod places;
 mod tags;
 
-pub use compare::{CutPlaces, pattern_audit};
+pub use compare::pattern_audit;
+pub use places::CutPlaces;

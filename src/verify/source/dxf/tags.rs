@@ -79,6 +79,23 @@ impl<'a> Item<'a> {
         std::str::from_utf8(self.text(8)).ok()?.parse().ok()
     }
 
+    /// Places of two codes, each with the number of its first group in the file.
+    pub(super) fn places(&self, [x, y]: [i32; 2]) -> Vec<([f64; 2], u32)> {
+        let mut places = Vec::new();
+        let mut before = None;
+        for (tag, place) in self.tags.iter().zip(self.number + 1..) {
+            let value = || number(tag.text);
+            if tag.code == x {
+                before = value().map(|value| (value, place));
+            } else if tag.code == y
+                && let (Some((first, place)), Some(second)) = (before.take(), value())
+            {
+                places.push(([first, second], place));
+            }
+        }
+        places
+    }
+
     /// Each value of some codes, in their order.
     pub(super) fn each(&self, codes: [i32; 3]) -> impl Iterator<Item = (i32, f64)> {
         let tags = self.tags.iter().filter(move |tag| codes.contains(&tag.code));

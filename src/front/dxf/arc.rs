@@ -1,4 +1,4 @@
-//! Curves: arcs become chords.
+//! Arcs become chords.
 
 use std::f64::consts::TAU;
 

@@ -1,0 +1,67 @@
+//! Sizes without turn and curve points: the same vertices of another size of the piece have them.
+
+use std::collections::BTreeMap;
+
+use super::nodes::ON;
+use crate::front::dxf::layer::{Does, Layer};
+use crate::front::dxf::shape::{Dot, Line, Shapes};
+use crate::geom::Point;
+use crate::source::Span;
+
+/// What a block is called, and whether it is of the size that the set was drawn in.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::front::dxf) struct Size<'a> {
+    pub(in crate::front::dxf) piece: Option<&'a [u8]>,
+    pub(in crate::front::dxf) is_sample: bool,
+}
+
+/// Gives blocks without turn and curve points those of another size of the same piece, whose lines have as many vertices: of
+/// the sample size if that has some, else of the first.
+pub(in crate::front::dxf) fn lend(blocks: &mut [Shapes], sizes: &[Size]) {
+    let mut lenders: BTreeMap<&[u8], usize> = BTreeMap::new();
+    for (k, size) in sizes.iter().enumerate().filter(|(k, _)| has_dots(&blocks[*k])) {
+        let Some(piece) = size.piece else { continue };
+        let known = lenders.entry(piece).or_insert(k);
+        if size.is_sample && !sizes[*known].is_sample {
+            *known = k;
+        }
+    }
+    for (k, size) in sizes.iter().enumerate() {
+        if let Some(&lender) = size.piece.and_then(|piece| lenders.get(piece)).filter(|_| !has_dots(&blocks[k])) {
+            let dots = lent(&blocks[lender], &blocks[k]);
+            blocks[k].dots.extend(dots);
+        }
+    }
+}
+
+fn says(dot: &Dot) -> bool {
+    matches!(dot.layer.does, Does::Turn | Does::Curve)
+}
+
+fn has_dots(block: &Shapes) -> bool {
+    block.dots.iter().any(says)
+}
+
+fn lines<'a>(block: &'a Shapes) -> impl Iterator<Item = &'a Line> {
+    block.lines.iter().filter(|line| line.layer.is_curved())
+}
+
+/// The points of one block at the vertices of another; none where their lines differ.
+fn lent(lender: &Shapes, block: &Shapes) -> Vec<Dot> {
+    let shape = |line: &Line| (line.layer.number, line.vertices.len(), line.is_closed);
+    if !lines(lender).map(shape).eq(lines(block).map(shape)) {
+        return Vec::new();
+    }
+    let vertices = |block| lines(block).flat_map(|line| &line.vertices).map(|vertex| vertex.at);
+    let mut kinds: BTreeMap<[i64; 2], Vec<(Point, &'static Layer)>> = BTreeMap::new();
+    let cell = |at: Point| [at.x, at.y].map(|value| (value / ON).round() as i64);
+    lender.dots.iter().filter(|dot| says(dot)).for_each(|dot| kinds.entry(cell(dot.at)).or_default().push((dot.at, dot.layer)));
+    let mut dots = Vec::new();
+    for (its, own) in vertices(lender).zip(vertices(block)) {
+        let [x, y] = cell(its);
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        let near = around.filter_map(|cell| kinds.get(&cell)).flatten().filter(|(at, _)| (at - its).norm() <= ON);
+        dots.extend(near.map(|&(_, layer)| Dot { layer, at: own, depth: 0.0, width: 0.0, heading: None, span: Span::default() }));
+    }
+    dots
+}

@@ -1,0 +1,229 @@
+//! Curves of a block, found anew: which fine lines (layers 84 to 87) stand for coarse ones, and which edges of others may bow
+//! because curve points (layer 3) stand on them. It follows no line and lays no curve.
+
+use std::collections::BTreeMap;
+
+use super::lines::{MEETS, Measure, Path, clusters, paths, vertices};
+use super::lookup::Lookup;
+use super::tags::{Item, Sheet};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline};
+
+/// How far from a fine line a vertex is still on it, and from a vertex the point that says its kind, mm.
+pub(super) const ON: f64 = 0.01;
+/// Layers of fine lines.
+const FINE: [u32; 4] = [84, 85, 86, 87];
+/// How high a curve must stand over its chords at least for it to be missed, mm.
+const HIGH: f64 = 0.2;
+
+/// What a block says of curves.
+pub(super) struct Curves {
+    /// Fine lines with their layers, each with those whose ends meet its own.
+    fine: Vec<(u32, Vec<Path>)>,
+    turns: Lookup,
+    curves: Lookup,
+    notches: Lookup,
+    has_curves: bool,
+}
+
+/// A coarse edge that a curve may leave, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bow {
+    pub(super) ends: [Point; 2],
+}
+
+/// A vertex at which a curve goes on, and by how much its chords turn there, rad.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bend {
+    pub(super) at: Point,
+    pub(super) turn: f64,
+}
+
+/// What becomes of coarse lines that belong together.
+pub(super) enum Course {
+    /// They are cut as they are; some edges may bow.
+    Own { bows: Vec<Bow>, bends: Vec<Bend>, passed: Vec<Point> },
+    /// Others are cut in their stead, and their spikes.
+    Fine(Vec<Path>),
+}
+
+/// Points of a layer, in mm.
+pub(super) fn points(items: &[Item], is_wanted: impl Fn(u32) -> bool, unit: f64) -> Vec<Point> {
+    let wanted = items.iter().filter(|item| item.kind == b"POINT" && item.layer().is_some_and(&is_wanted));
+    wanted.filter_map(|item| item.pair([10, 20])).map(|[x, y]| Point::new(x * unit, y * unit)).collect()
+}
+
+impl Curves {
+    /// Those of a block, with curve points and turn points that another size of its piece lends it.
+    pub(super) fn of(sheet: &Sheet, lent: &[Vec<Point>; 2], measure: Measure) -> Self {
+        let of_layer = |layer: u32, more: &[Point]| {
+            let mut all = points(&sheet.items, |of| of == layer, measure.unit);
+            all.extend_from_slice(more);
+            all
+        };
+        let [turns, curves] = [of_layer(2, &lent[0]), of_layer(3, &lent[1])];
+        let notches = points(&sheet.items, |of| matches!(of, 4 | 80..=83), measure.unit);
+        let fine = FINE.into_iter().flat_map(|layer| {
+            let all = clusters(paths(&sheet.items, layer, measure));
+            all.into_iter().map(move |paths| (layer, paths))
+        });
+        let [of_turns, of_curves, of_notches] =
+            [&turns, &curves, &notches].map(|points| Lookup::of(points.iter().copied(), ON));
+        Self {
+            fine: fine.collect(),
+            has_curves: !curves.is_empty(),
+            turns: of_turns,
+            curves: of_curves,
+            notches: of_notches,
+        }
+    }
+
+    /// What becomes of lines that belong together, whose fine lines are mostly on another layer.
+    pub(super) fn course(&self, coarse: &[Path], usual: u32, is_on_fold: impl Fn(Point) -> bool) -> Course {
+        let (bare, spikes): (Vec<Path>, Vec<Path>) = {
+            let (mut bare, mut spikes) = (Vec::new(), Vec::new());
+            for (path, is_twig) in coarse.iter().zip(twigs(coarse)) {
+                if is_twig {
+                    spikes.push(Path { times: 2.0, ..path.clone() });
+                } else {
+                    let (rest, taken) = path.without_spikes();
+                    bare.push(rest);
+                    spikes.extend(taken);
+                }
+            }
+            (bare, spikes)
+        };
+        let places: Vec<Point> = bare.iter().flat_map(|path| path.points.iter().copied()).collect();
+        let open: Vec<Point> = free_ends(&bare).into_iter().map(|end| end.1).filter(|at| !is_on_fold(*at)).collect();
+        let mut is_coarse_fine = false;
+        let order = self.fine.iter().filter(|(layer, _)| *layer == usual);
+        for (layer, fine) in order.chain(self.fine.iter().filter(|(layer, _)| *layer != usual)) {
+            let whole = closed(fine, &bare);
+            let count = held(&whole, &places);
+            let is_finer = corners(&whole) > corners(&bare) || whole.iter().any(|path| path.curves.iter().any(Option::is_some));
+            let ends = free_ends(fine);
+            let has_ends = open.iter().all(|at| ends.iter().any(|(_, end)| (end - at).norm() <= ON));
+            if count == places.len() && is_finer && has_ends {
+                return Course::Fine([whole, spikes].concat());
+            }
+            // A control polygon goes through a few vertices of a line that is fine itself.
+            is_coarse_fine |= *layer == usual && count > 0 && 2 * count <= places.len();
+        }
+        let (mut bows, mut bends, mut passed) = (Vec::new(), Vec::new(), Vec::new());
+        if self.has_curves && !is_coarse_fine {
+            for path in &bare {
+                self.see(path, &mut bows, &mut bends);
+                passed.extend(path.points.iter().filter(|at| self.curves.has(**at) && self.notches.has(**at)));
+            }
+        }
+        Course::Own { bows, bends, passed }
+    }
+
+    /// Whether a curve may go on at a vertex.
+    fn goes_on(&self, at: Point) -> bool {
+        self.curves.has(at) || self.notches.has(at) && !self.turns.has(at)
+    }
+
+    fn see(&self, path: &Path, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) {
+        let count = path.points.len();
+        for k in 0..path.curves.len() {
+            let ends = path.edge(k);
+            if path.curves[k].is_none() && ends.iter().any(|&end| self.goes_on(end)) {
+                bows.push(Bow { ends });
+            }
+            if k + 1 == count && !path.is_closed || k == 0 && !path.is_closed {
+                continue;
+            }
+            let [before, at, behind] = [path.points[(k + count - 1) % count], ends[0], ends[1]];
+            let turn = polyline::turn_at(before, at, behind).abs();
+            let is_smooth = self.curves.has(at) && !self.notches.has(at) && !path.doubled.contains(&at);
+            // A round curve that turns so much from chord to chord stands an eighth of that over each, in parts of its length.
+            if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
+                bends.push(Bend { at, turn });
+            }
+        }
+    }
+}
+
+/// How many vertices lines have that belong together, those where two of them meet once.
+fn corners(paths: &[Path]) -> usize {
+    let ends = 2 * paths.iter().filter(|path| !path.is_closed).count();
+    let joints = (ends - free_ends(paths).len()) / 2;
+    paths.iter().map(|path| path.points.len()).sum::<usize>() - joints
+}
+
+/// How many of some places lie on lines.
+fn held(paths: &[Path], places: &[Point]) -> usize {
+    let edges: Vec<[Point; 2]> =
+        paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k))).collect();
+    let boxes = Boxes::new(edges.iter().map(|[a, b]| Extent::between(*a, *b).grown(ON)).collect());
+    let is_on = |at: Point| boxes.at(at).any(|k| polyline::distance_to_segment(at, edges[k][0], edges[k][1]) <= ON);
+    places.iter().filter(|at| is_on(**at)).count()
+}
+
+/// The ends of open lines that no other end meets.
+fn free_ends(paths: &[Path]) -> Vec<(usize, Point)> {
+    let ends: Vec<(usize, Point)> = paths
+        .iter()
+        .enumerate()
+        .filter(|(_, path)| !path.is_closed)
+        .flat_map(|(k, path)| [path.points.first(), path.points.last()].into_iter().flatten().map(move |at| (k, *at)))
+        .collect();
+    let lookup = Lookup::of(ends.iter().map(|end| end.1), MEETS);
+    ends.iter().filter(|(_, at)| lookup.near(*at).count() < 2).copied().collect()
+}
+
+/// Which lines stand off others that belong to them: one of their ends is free, while not two of all are those of an open
+/// outline.
+pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
+    let mut is_twig = vec![false; paths.len()];
+    let ends: Vec<Point> = paths.iter().filter(|p| !p.is_closed).flat_map(|p| [p.points[0], p.points[p.points.len() - 1]]).collect();
+    let lookup = Lookup::of(ends.into_iter(), MEETS);
+    for (k, at) in free_ends(paths) {
+        let path = &paths[k];
+        let [first, last] = [path.points[0], path.points[path.points.len() - 1]];
+        let root = if at == first { last } else { first };
+        // Beside its own end two more meet there.
+        is_twig[k] = lookup.near(root).count() > 2;
+    }
+    is_twig
+}
+
+/// Fine lines, with the chord that closes them where the coarse ones are closed.
+fn closed(fine: &[Path], coarse: &[Path]) -> Vec<Path> {
+    let mut all = fine.to_vec();
+    if let ([(_, a), (_, b)], []) = (&free_ends(fine)[..], &free_ends(coarse)[..]) {
+        all.push(Path::straight([*a, *b]));
+    }
+    all
+}
+
+/// Turn points and curve points of each block that has none: by the places that they have among the vertices of another size
+/// of its piece, of the sample size if that has some.
+pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[Vec<Point>; 2]> {
+    let dots = |block: &Sheet, layer: u32| points(&block.items, |of| of == layer, unit);
+    let has_dots = |block: &Sheet| block.items.iter().any(|item| item.kind == b"POINT" && matches!(item.layer(), Some(2 | 3)));
+    let is_sample = |block: &Sheet| {
+        let [size, sample] = [block.says("SIZE"), sample].map(|text| text.map(<[u8]>::to_ascii_uppercase));
+        size.is_some() && size == sample
+    };
+    let mut lenders: BTreeMap<Vec<u8>, &Sheet> = BTreeMap::new();
+    for block in blocks.iter().filter(|block| has_dots(block)) {
+        let Some(name) = block.says("PIECE NAME") else { continue };
+        let known = lenders.entry(name.to_vec()).or_insert(block);
+        if is_sample(block) && !is_sample(known) {
+            *known = block;
+        }
+    }
+    let of_block = |block: &Sheet| {
+        let lender = block.says("PIECE NAME").and_then(|name| lenders.get(name)).filter(|_| !has_dots(block))?;
+        let [own, its] = [&block.items, &lender.items].map(|items| vertices(items, unit));
+        let is_alike = own.len() == its.len() && own.iter().zip(&its).all(|(a, b)| a.layer == b.layer);
+        let on = |layer: u32| -> Vec<Point> {
+            let dots = Lookup::of(dots(lender, layer).into_iter(), ON);
+            own.iter().zip(&its).filter(|(_, its)| dots.has(its.at)).map(|(own, _)| own.at).collect()
+        };
+        is_alike.then(|| [on(2), on(3)])
+    };
+    blocks.iter().map(|block| of_block(block).unwrap_or_default()).collect()
+}

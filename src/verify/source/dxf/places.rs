@@ -1,0 +1,36 @@
+//! Where a marker cuts, as it was read: places with the groups of the file that they come from.
+
+use crate::geom::Point;
+use crate::ir::Marker;
+use crate::ir::marker::{Contour, Notch};
+
+/// Where a marker cuts, as it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutPlaces {
+    pub(super) contours: Vec<Vec<(Point, u32)>>,
+    pub(super) notches: Vec<Notch>,
+    pub(super) holes: Vec<(Point, u32)>,
+    /// Notches that are told and not cut, by the blocks that they come from.
+    pub(super) left_out: Vec<u32>,
+}
+
+impl CutPlaces {
+    /// Those of a marker before any pass, each with the block that it comes from.
+    pub fn of(marker: &Marker) -> Self {
+        let line = |(_, contour): (usize, &Contour)| {
+            let mut line: Vec<(Point, u32)> =
+                marker.list.vertices(contour.range).map(|(at, span)| (at, span.block)).collect();
+            // What leads to the first place of a closed one is told by its last.
+            if let (true, Some(last)) = (contour.closed, line.last().copied()) {
+                line[0] = last;
+            }
+            line
+        };
+        Self {
+            contours: marker.contours().map(line).collect(),
+            notches: marker.pieces.iter().flat_map(|piece| piece.notches.iter().copied()).collect(),
+            holes: marker.pieces.iter().flat_map(|piece| &piece.drills).map(|d| (d.at, d.span.block)).collect(),
+            left_out: marker.drawing.iter().flat_map(|account| &account.notches_left_out).map(|s| s.block).collect(),
+        }
+    }
+}
