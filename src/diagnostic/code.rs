@@ -226,6 +226,18 @@ codes! {
     DXF_FAR_PLACE = error(Text, "dxf/far-place", "A place of a DXF file lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the number, and whether the file is really in inches.\n  cutc check pattern.dxf --set dxf.unit=mm");
     /// Curves without end.
     DXF_CURVES = error(Shape, "dxf/too-many-chords", "The curves of a DXF file have more chords than a set of patterns can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, or from a tolerance far below what a knife can follow.");
+    /// A unit that makes pieces of a size that no garment has.
+    DXF_UNIT_DOUBTED = warning(Spoils, Shape, "dxf/unit-doubted", "The unit of a DXF file is doubtful: in that of its header ($INSUNITS) the cuts would be longer than a kilometre, so it is taken for mm; or the largest of several pieces is smaller than 100 mm.", "Some libraries write metres into the header of every file, and some systems write METRIC over patterns in cm. Compare the extent that is printed with the pieces before you cut, and say the unit.\n  cutc compile pattern.dxf --set dxf.unit=mm");
+    /// A plain drawing.
+    DXF_PLAIN = error(Shape, "dxf/plain", "A DXF file is a plain drawing, not pattern DXF (AAMA, ASTM D6673): it has no blocks of pieces, and layers of its own or outlines that share edges.", "Pattern DXF says by layer numbers what is cut. A plain drawing does not say which of its lines are cuts, so reading it by these numbers would lose some and cut others. Let the CAD system export the pieces as AAMA or ASTM DXF, or the marker as a cutter file (ISO) or an HPGL plot.\n  cutc manual inputs");
+    /// An entity that nothing cuts is damaged.
+    DXF_DAMAGED = warning(Spares, Text, "dxf/damaged-drawing", "An entity of a DXF file on a layer that is not cut is damaged, and left out.", "Nothing that is cut depends on it. If its layer is to be sewn, export the file again.");
+    /// Sizes side by side.
+    DXF_SIZES_PLACED = warning(Spares, Shape, "dxf/sizes-placed", "INSERTs of a DXF file place pieces of several sizes beside each other, so all of them are cut.", "Sizes that lie over each other are a set of patterns, of which one is cut; beside each other they are a marker. To cut some of them name them.\n  cutc compile pattern.dxf --size M");
+    /// Insertions that are no places.
+    DXF_NO_PLACES = warning(Spares, Shape, "dxf/no-places", "INSERTs of a DXF file put most of its pieces on each other: they are no places, and the pieces lie in a row.", "Some CAD systems write an offset for each piece that has nothing to do with cloth. A row is good for a sample, not for a lay: let the CAD system make a marker.");
+    /// Outlines outside blocks.
+    DXF_AS_DRAWN = warning(Spares, Shape, "dxf/as-drawn", "Outlines of a DXF file stand in no block; they lie as they are drawn.", "A block is a piece that can be laid. Outlines outside blocks keep their places to each other, as in a marker: look at the picture (-t svg) whether they lie as the cloth is to be cut.");
     /// A curve that no CAD system draws.
     DXF_WILD_CURVE = error(Shape, "dxf/wild-curve", "A curve through the curve points (layer 3) of a DXF file would leave the line between two of them by more than half its length.", "Points of a curve lie in its course, at even distances. A point that stands elsewhere is damaged, or is no point of a curve. Correct it in the CAD system, or cut straight from point to point.\n  cutc compile pattern.dxf --set dxf.curves=points");
     /// Pieces are cut along curves that their outlines have but at a few points.

@@ -156,6 +156,8 @@ pub struct Account {
     pub aside: Aside,
     /// Where notches are asked for that were told and are not cut, once for every piece that lacks one.
     pub notches_left_out: Vec<Span>,
+    /// Pieces that cannot be cut and that the selection leaves out: where each begins.
+    pub pieces_left_out: Vec<Span>,
 }
 
 /// Lines of a drawing that were taken for the same thing.

@@ -36,6 +36,7 @@ pub(super) fn marker(mut sheet: Sheet, diagnostics: &mut Diagnostics) -> Marker 
         texts_outside,
         aside,
         notches_left_out: Vec::new(),
+        pieces_left_out: Vec::new(),
     };
     for (piece, number) in pieces.iter_mut().zip(1..) {
         piece.number = number;

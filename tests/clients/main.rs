@@ -6,6 +6,8 @@ mod dask;
 
 mod linuxcnc;
 
+mod patterns;
+
 #[cfg(unix)]
 #[path = "../it/support/page.rs"]
 #[expect(dead_code, reason = "commands are read off a page where all of them are run")]

@@ -43,8 +43,10 @@ fn same(text: &str) -> String {
 }
 
 impl<'a> Chosen<'a> {
-    /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which.
-    pub(super) fn of(Asked { source, job, file }: &Asked<'a>, blocks: &[Facts], out: &mut Diagnostics) -> Self {
+    /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which. Blocks that
+    /// insertions put beside each other are a marker: they are cut whatever their sizes.
+    pub(super) fn of(asked: &Asked<'a>, blocks: &[Facts], are_apart: bool, out: &mut Diagnostics) -> Self {
+        let Asked { source, job, file } = asked;
         let labels = &job.profile.labels;
         let text = |span: Span| size_of(source.slice(span), labels);
         let mut names: BTreeSet<String> = BTreeSet::new();
@@ -72,6 +74,12 @@ impl<'a> Chosen<'a> {
                     out.push(finding.hint(its_sizes(&known)));
                 }
                 Some(names.iter().map(|name| same(name)).collect())
+            }
+            (None, _) if are_apart && known.len() > 1 => {
+                let message = format!("INSERTs place pieces of {} sizes beside each other; all are cut", known.len());
+                let finding = Diagnostic::new(&code::DXF_SIZES_PLACED, message);
+                out.push(finding.hint(format!("`--size` cuts some of them; {}", its_sizes(&known))));
+                None
             }
             (None, Some(sample)) if other.is_none() && has(sample) => Some(vec![same(sample)]),
             (None, _) if known.len() < 2 => None,
@@ -137,6 +145,12 @@ fn quantity(text: &[u8]) -> Option<[u32; 2]> {
 }
 
 impl Asked<'_> {
+    /// What the file says of the CAD system that wrote it.
+    pub(super) fn author(&self) -> String {
+        let author = [self.file.author.first, self.file.author.other].into_iter().flatten();
+        author.map(|span| self.job.profile.labels.text(self.source.slice(span))).collect::<Vec<_>>().join(" ")
+    }
+
     /// How often a piece is cut of which texts say so; `None` where nobody wants to know, or nothing is said.
     pub(super) fn quantity(&self, said: Said, tally: &mut Tally) -> Option<[u32; 2]> {
         let job = self.job;

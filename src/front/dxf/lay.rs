@@ -106,6 +106,10 @@ pub(super) fn in_a_row<'p>(pieces: &'p [Piece], drawn: &[Drawn], gap: f64) -> Ve
         for (axes, count) in [Motion::DRAWN, Motion::MIRRORED].into_iter().zip(drawn.wanted()) {
             let extent = extent(pieces, axes);
             for _ in 0..count {
+                if extent.is_empty() {
+                    laid.extend(pieces.iter().map(|piece| Laid { piece, motion: Motion::STILL })); // it is not cut
+                    continue;
+                }
                 let offset = Vector::new(x, 0.0) - extent.min.coords;
                 let motion = Motion { x: axes[0], y: axes[1], offset };
                 laid.extend(pieces.iter().map(|piece| Laid { piece, motion }));

@@ -89,6 +89,11 @@ impl Names {
         Named { row, place }
     }
 
+    /// What all of them are called.
+    pub(super) fn all(&self) -> &[String] {
+        &self.names
+    }
+
     /// What a layer is called.
     pub(super) fn of(&self, layer: Named) -> &str {
         self.names.get(usize::from(layer.place)).map_or("", String::as_str)
@@ -145,6 +150,11 @@ impl Layer {
             Does::Outline | Does::Notch(_) | Does::Fold | Does::Inner | Does::Drill => true,
             Does::Drawn | Does::Seam | Does::Sign | Does::Turn | Does::Curve | Does::Fine => false,
         }
+    }
+
+    /// Whether what is cut would be another shape when something on it is damaged.
+    pub(super) fn shapes_cuts(&self) -> bool {
+        self.is_cut() || matches!(self.does, Does::Turn | Does::Curve | Does::Fine)
     }
 
     /// Whether its lines may have curves between their vertices.

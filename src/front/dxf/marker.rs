@@ -31,6 +31,10 @@ pub(super) fn marker(set: &Set) -> Marker {
 fn piece(laid: &Laid, number: u32, list: &mut SegmentList, account: &mut Account) -> Piece {
     let Laid { piece, motion } = *laid;
     let mut made = Piece { number, span: piece.span, ..Piece::default() };
+    if piece.is_at_fault() {
+        account.pieces_left_out.push(piece.span);
+        return made;
+    }
     made.drills.extend(piece.drills.iter().map(|&(at, span)| Drill { at: motion.place(at), tool: DRILL, span }));
     account.notches_left_out.extend(&piece.left_out);
     made.notches.extend(piece.slits.iter().map(|slit| moved_notch(slit, motion)));
@@ -101,7 +105,7 @@ pub(super) fn drawing(set: &Set) -> Drawing {
         drawing.lift();
     };
     let [cut_out, outline] = [CUT_OUT, OUTLINE].map(|layer| layer.number.to_string());
-    for Laid { piece, motion } in set.laid() {
+    for Laid { piece, motion } in set.laid().into_iter().filter(|laid| !laid.piece.is_at_fault()) {
         piece.inner.iter().for_each(|line| draw(&cut_out, line, motion));
         draw(&outline, &piece.plain, motion);
         piece.drawn.iter().for_each(|(layer, line)| draw(set.names.of(*layer), line, motion));

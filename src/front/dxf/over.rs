@@ -42,14 +42,29 @@ impl<'p> Cloth<'p> {
     }
 }
 
-/// Those a place of which, well inside, lies in the cloth of another, as far as there is work left to find out. Pieces whose
-/// edges overlap are told by the pass that looks for that in every marker.
-pub(super) fn on_others(laid: &[Laid], work: &mut Budget) -> Vec<Span> {
-    let all: Vec<Cloth> = laid.iter().map_while(|laid| Cloth::of(laid, work)).collect();
+/// Pieces that lie on each other.
+#[derive(Debug, Default)]
+pub(super) struct OnOthers {
+    /// Those a place of which, well inside, lies in the cloth of another.
+    pub(super) spans: Vec<Span>,
+    /// How many of all lie on another or have another on them.
+    pub(super) count: usize,
+}
+
+/// The pieces that lie on others, as far as there is work left to find out. Pieces whose edges overlap are told by the pass
+/// that looks for that in every marker.
+pub(super) fn on_others(laid: &[Laid], work: &mut Budget) -> OnOthers {
+    let cut = laid.iter().filter(|laid| !laid.piece.is_at_fault());
+    let all: Vec<Cloth> = cut.map_while(|laid| Cloth::of(laid, work)).collect();
     let boxes = Boxes::new(all.iter().map(|cloth| cloth.extent).collect());
-    let is_on_another = |(i, cloth): &(usize, &Cloth)| {
-        let Some(middle) = cloth.middle else { return false };
-        boxes.at(middle).any(|k| k != *i && all[k].has(middle, work))
-    };
-    all.iter().enumerate().filter(is_on_another).map(|(_, cloth)| cloth.laid.piece.span).collect()
+    let mut is_met = vec![false; all.len()];
+    let mut spans = Vec::new();
+    for (i, cloth) in all.iter().enumerate() {
+        let Some(middle) = cloth.middle else { continue };
+        if let Some(k) = boxes.at(middle).find(|&k| k != i && all[k].has(middle, work)) {
+            (is_met[i], is_met[k]) = (true, true);
+            spans.push(cloth.laid.piece.span);
+        }
+    }
+    OnOthers { spans, count: is_met.iter().filter(|is_met| **is_met).count() }
 }

@@ -3,14 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::chain::{Chain, REACH, chains};
-use super::curves::{Curved, Curves, Drafting, Nodes, Origin};
+use super::curves::{CurvedPieces, Curves, Drafting, Nodes};
 use super::fold::{Fold, Refusal};
 use super::layer::{Does, Form, Layer, Named, OUTLINE};
 use super::notch::{self, Mark, Notched};
 use super::outline::{Outline, outlines};
 use super::shape::{Dot, Line, Shapes};
+use super::spur::chains_with_spurs;
 use super::tally::{Tally, Thing};
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::geom::budget::Budget;
 use crate::geom::{Heading, Point, bits};
 use crate::ir::drawing::Vertex;
@@ -34,6 +35,31 @@ pub(super) struct Piece {
     /// Lines that are only drawn.
     pub(super) drawn: Vec<(Named, Chain)>,
     pub(super) labels: Vec<Label>,
+    /// Why it cannot be cut; mostly nothing.
+    pub(super) faults: Vec<Diagnostic>,
+}
+
+impl Piece {
+    /// A piece that cannot be cut.
+    pub(super) fn at_fault(span: Span, labels: Vec<Label>, said: &Diagnostics) -> Self {
+        let none = || Chain { vertices: Vec::new(), is_closed: false };
+        Self {
+            span,
+            plain: none(),
+            outline: none(),
+            slits: Vec::new(),
+            left_out: Vec::new(),
+            drills: Vec::new(),
+            inner: Vec::new(),
+            drawn: Vec::new(),
+            labels,
+            faults: said.iter().filter(|finding| finding.code.severity == Severity::Error).cloned().collect(),
+        }
+    }
+
+    pub(super) fn is_at_fault(&self) -> bool {
+        !self.faults.is_empty()
+    }
 }
 
 /// What is looked at and found while pieces are made.
@@ -49,50 +75,6 @@ pub(super) struct Making<'o> {
     /// Lines of blocks that have no outline.
     pub(super) apart: Vec<(Named, Chain)>,
     pub(super) out: &'o mut Diagnostics,
-}
-
-/// How many pieces are cut along curves that their outlines do not have in the file, by where these are from.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct CurvedPieces {
-    pub(super) fine: CurvedFrom,
-    pub(super) laid: CurvedFrom,
-}
-
-/// Pieces with curves from one origin.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct CurvedFrom {
-    pub(super) pieces: usize,
-    /// How far the curves leave the chords, mm.
-    pub(super) off: f64,
-    pub(super) first: Span,
-}
-
-impl CurvedFrom {
-    /// Counts the lines of a piece as one.
-    fn add(&mut self, those: Self) {
-        if those.pieces > 0 {
-            self.first = if self.pieces == 0 { those.first } else { self.first };
-            self.pieces += 1;
-            self.off = self.off.max(those.off);
-        }
-    }
-}
-
-impl CurvedPieces {
-    fn see(&mut self, curved: &Curved) {
-        let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
-        let line = CurvedFrom { pieces: 1, off: curved.off, first };
-        match curved.origin {
-            Origin::Drawn => {}
-            Origin::Fine => self.fine.add(line),
-            Origin::Laid => self.laid.add(line),
-        }
-    }
-
-    fn add(&mut self, those: Self) {
-        self.fine.add(those.fine);
-        self.laid.add(those.laid);
-    }
 }
 
 /// How the lines of a block become those of a whole piece.
@@ -113,8 +95,17 @@ struct Content {
 }
 
 impl Making<'_> {
+    /// The pieces of a block that begins at `span`, with what is to be said of them.
+    pub(super) fn pieces_apart(&mut self, shapes: Shapes, span: Span) -> (Vec<Piece>, Diagnostics) {
+        let mut said = Diagnostics::default();
+        std::mem::swap(self.out, &mut said);
+        let pieces = self.pieces(shapes, span);
+        std::mem::swap(self.out, &mut said);
+        (pieces, said)
+    }
+
     /// The pieces of a block that begins at `span`; most have one.
-    pub(super) fn pieces(&mut self, shapes: Shapes, span: Span) -> Vec<Piece> {
+    fn pieces(&mut self, shapes: Shapes, span: Span) -> Vec<Piece> {
         let Shapes { lines, dots, texts, .. } = shapes;
         for line in &lines {
             self.see_stroke(line);
@@ -327,7 +318,8 @@ impl Making<'_> {
         }
         let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };
-        Piece { span: content.span, plain, outline, slits, left_out, drills, inner, drawn, labels: content.labels }
+        let (labels, faults) = (content.labels, Vec::new());
+        Piece { span: content.span, plain, outline, slits, left_out, drills, inner, drawn, labels, faults }
     }
 
     /// A line that is cut, on both sides of a fold, with its curves.
@@ -390,7 +382,8 @@ fn joined(lines: Vec<Line>) -> Vec<(Named, Chain)> {
     }
     let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
-            Does::Outline | Does::Inner | Does::Drawn | Does::Seam | Does::Fine => chains(lines),
+            Does::Outline => chains_with_spurs(lines),
+            Does::Inner | Does::Drawn | Does::Seam | Does::Fine => chains(lines),
             Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Turn | Does::Curve => lines,
         };
         lines.into_iter().map(move |line| (layer, line))

@@ -5,10 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::entity::{Block, NAME};
 use super::lay::{AXIS_EPSILON, Drawn, Motion};
 use super::layer::Names;
-use super::shape::{Insert, Shapes, Unread};
+use super::piece::Making;
+use super::shape::{Inserted, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
-use crate::geom::Point;
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point};
 use crate::source::{Source, Span};
 
 /// Most pieces that are laid.
@@ -43,12 +45,12 @@ pub(super) struct Placing<'a> {
     /// What the attributes of its insertions say of each.
     attributes: Vec<Facts>,
     /// Those that stand in no block.
-    inserts: Vec<Insert<'a>>,
+    inserts: Vec<Inserted<'a>>,
 }
 
 impl<'a> Placing<'a> {
     /// For blocks with their base points.
-    pub(super) fn of(source: &Source, blocks: &[Block], bases: Vec<Point>, inserts: Vec<Insert<'a>>) -> Self {
+    pub(super) fn of(source: &Source, blocks: &[Block], bases: Vec<Point>, inserts: Vec<Inserted<'a>>) -> Self {
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
             names.entry(block.head.bytes(NAME).to_ascii_uppercase()).or_insert(k);
@@ -58,16 +60,20 @@ impl<'a> Placing<'a> {
         let blocks = bases.into_iter().zip(blocks).map(|(base, block)| (base, block.head.span())).collect();
         let mut placing = Self { names, blocks, is_piece, attributes, inserts };
         for i in 0..placing.inserts.len() {
-            if let Some(k) = placing.block(&placing.inserts[i]) {
+            let (name, facts) = match &placing.inserts[i] {
+                Ok(insert) => (insert.name, insert.facts),
+                Err((name, _)) => (*name, Facts::default()),
+            };
+            if let Some(k) = placing.block(name) {
                 placing.is_piece[k] = true;
-                placing.attributes[k] = placing.attributes[k].and(placing.inserts[i].facts, source);
+                placing.attributes[k] = placing.attributes[k].and(facts, source);
             }
         }
         placing
     }
 
-    fn block(&self, insert: &Insert) -> Option<usize> {
-        self.names.get(&insert.name.to_ascii_uppercase()).copied()
+    fn block(&self, name: &[u8]) -> Option<usize> {
+        self.names.get(&name.to_ascii_uppercase()).copied()
     }
 
     /// What is said of a block: by the attributes of its insertions, else by its own texts.
@@ -77,20 +83,48 @@ impl<'a> Placing<'a> {
 
     /// Tells blocks that insertions in a block put there, though they have something to cut; what else of them may be sewn is
     /// not read.
-    pub(super) fn nested(&self, inserts: &[Insert], held: &[Held], tally: &mut Tally) -> Vec<Unread> {
+    pub(super) fn nested(&self, inserts: &[Inserted], held: &[Held], tally: &mut Tally) -> Vec<Unread> {
         let mut unread = Vec::new();
         for insert in inserts {
-            match self.block(insert).map(|k| &held[k]) {
-                None => tally.add(Thing::NoBlock, insert.span),
-                Some(held) if held.is_cut => tally.add(Thing::Nested, insert.span),
+            let (name, span) = match insert {
+                Ok(insert) => (insert.name, insert.span),
+                Err((name, fault)) => (*name, fault.span.unwrap_or_default()),
+            };
+            match self.block(name).map(|k| &held[k]) {
+                None => tally.add(Thing::NoBlock, span),
+                Some(held) if held.is_cut => tally.add(Thing::Nested, span),
                 Some(held) => unread.extend(held.drawn.iter().map(|pen| Unread {
                     pen: pen.clone(),
                     kind: "INSERT".to_owned(),
-                    span: insert.span,
+                    span,
                 })),
             }
         }
         unread
+    }
+
+    /// Whether insertions put blocks beside each other, so that not one has its middle in the box of another; `boxes` are those
+    /// of their outlines as the blocks draw them. Then they are a marker, of whatever sizes.
+    pub(super) fn parts(&self, boxes: &[Extent]) -> bool {
+        let mut laid = Vec::new();
+        let mut is_placing = false;
+        for insert in self.inserts.iter().flatten() {
+            let Some(k) = self.block(insert.name).filter(|&k| !boxes[k].is_empty()) else { continue };
+            let motion = Motion::of_insert(insert, self.blocks[k].0);
+            is_placing |= !motion.is_still();
+            let Extent { min, max } = boxes[k];
+            let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+            laid.push(Extent::of(&corners.map(|corner| motion.place(corner))));
+            if laid.len() > MOST_PIECES {
+                return false;
+            }
+        }
+        let boxes = Boxes::new(laid);
+        let is_alone = |(k, own): (usize, &Extent)| {
+            let middle = own.min + (own.max - own.min) / 2.0;
+            boxes.at(middle).all(|other| other == k)
+        };
+        is_placing && boxes.all().iter().enumerate().all(is_alone)
     }
 
     /// Whether a block is a piece. CAD systems have blocks without a name of their own, which begin with `*`: for dimensions,
@@ -100,20 +134,27 @@ impl<'a> Placing<'a> {
     }
 
     /// Where the insertions put the pieces that blocks draw; `None` when all of them put them nowhere, at the origin.
-    pub(super) fn placed(&self, drawn: &[Drawn], tally: &mut Tally) -> Option<Vec<(usize, Motion)>> {
+    pub(super) fn placed(&self, drawn: &[Drawn], making: &mut Making) -> Option<Vec<(usize, Motion)>> {
         let mut is_placing = false;
-        let mut counts = vec![0; self.blocks.len()];
         let mut placed = Vec::new();
         for insert in &self.inserts {
-            let Some(k) = self.block(insert) else {
-                tally.add(Thing::NoBlock, insert.span);
+            let insert = match insert {
+                Ok(insert) => insert,
+                Err((name, fault)) => {
+                    if self.block(name).is_some_and(|k| !drawn[k].pieces.is_empty()) {
+                        making.out.push(fault.clone());
+                    }
+                    continue;
+                }
+            };
+            let Some(k) = self.block(insert.name) else {
+                making.tally.add(Thing::NoBlock, insert.span);
                 continue;
             };
-            counts[k] += 1;
             let (pieces, base) = (drawn[k].pieces.clone(), self.blocks[k].0);
             let is_scaled = |scale: &f64| (scale.abs() - 1.0).abs() > AXIS_EPSILON;
             if !pieces.is_empty() && insert.scale.iter().any(is_scaled) {
-                tally.add(Thing::Scaled, insert.span);
+                making.tally.add(Thing::Scaled, insert.span);
             }
             let motion = Motion::of_insert(insert, base);
             is_placing |= !pieces.is_empty() && !motion.is_still();
@@ -121,9 +162,13 @@ impl<'a> Placing<'a> {
             let pieces = pieces.take(MOST_PIECES + 1 - placed.len().min(MOST_PIECES + 1));
             placed.extend(pieces.map(|piece| (piece, motion)));
         }
-        if !is_placing {
-            return None;
-        }
+        is_placing.then_some(placed)
+    }
+
+    /// Tells blocks that are placed more or less often than their quantities say.
+    pub(super) fn count(&self, drawn: &[Drawn], tally: &mut Tally) {
+        let mut counts = vec![0; self.blocks.len()];
+        self.inserts.iter().flatten().filter_map(|insert| self.block(insert.name)).for_each(|k| counts[k] += 1);
         for ((drawn, &count), &(_, span)) in drawn.iter().zip(&counts).zip(&self.blocks) {
             if drawn.pieces.is_empty() {
                 continue;
@@ -134,6 +179,5 @@ impl<'a> Placing<'a> {
                 tally.add(Thing::Placed, span);
             }
         }
-        Some(placed)
     }
 }

@@ -1,23 +1,25 @@
 //! The set of patterns: a file becomes the pieces that are cut of it, on the cloth.
 
+use std::collections::BTreeMap;
+
 use super::chain::Chain;
 use super::choice::{Asked, Chosen};
-use super::curves::{Drafting, Size, lend};
-use super::entity::{Sections, sections};
+use super::curves::{CurvedPieces, Drafting, Size, lend};
+use super::entity::{Block, Entity, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
-use super::layer::{Named, Names};
+use super::layer::{Does, Named, Names};
 use super::over;
-use super::piece::{CurvedPieces, Making, Piece};
+use super::piece::{Making, Piece};
 use super::placing::{Held, MOST_PIECES, Placing};
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
-use super::told::{say_curves, say_hidden, say_on_paper, say_text, say_unread};
-use super::unit::unit;
+use super::told::{plain, say_at_fault, say_curves, say_hidden, say_on_paper, say_text, say_unread};
+use super::unit::{Lengths, doubt, unit};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
 use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;
 use crate::machine::Job;
 use crate::machine::patterns::Dxf;
@@ -31,6 +33,10 @@ pub(super) struct Set {
     drawn: Vec<Drawn>,
     /// Where each lies when the file says so: its place among the pieces, and how it is moved.
     placed: Option<Vec<(usize, Motion)>>,
+    /// How many of them stand in no block: the last ones.
+    loose: usize,
+    /// Whether neither texts nor blocks say that it is a set of patterns.
+    is_plain: bool,
     /// Room between those that lie in a row, mm.
     gap: f64,
     /// Its sizes, as they are told.
@@ -55,53 +61,93 @@ impl Set {
     }
 }
 
+/// The parts of a file that is read.
+struct Parts<'a> {
+    source: &'a Source,
+    job: &'a Job,
+    sections: &'a Sections<'a>,
+}
+
+impl<'a> Parts<'a> {
+    /// Reads their entities in a unit, mm.
+    fn reader<'o>(&self, unit: f64, out: &'o mut Diagnostics) -> Reader<'a, 'o> {
+        Reader {
+            source: self.source,
+            labels: &self.job.profile.labels,
+            unit,
+            sagitta: self.job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
+            chords: 0,
+            on_paper: None,
+            names: Names::default(),
+            hidden_layers: &self.sections.hidden,
+            hidden: None,
+            out,
+        }
+    }
+
+    /// How long what is cut is in the unit of the file.
+    fn lengths(&self) -> Lengths {
+        let mut unsaid = Diagnostics::default();
+        let mut reader = self.reader(1.0, &mut unsaid);
+        let blocks = self.sections.blocks.iter().map(|block| &block.entities);
+        let mut lengths = Lengths::default();
+        for entities in blocks.chain([&self.sections.entities]) {
+            let shapes = reader.shapes(entities);
+            for line in shapes.lines.iter().filter(|line| matches!(line.layer.does, Does::Outline | Does::Inner)) {
+                let again = if line.is_closed { line.vertices.first() } else { None };
+                let points: Vec<Point> = line.vertices.iter().chain(again).map(|vertex| vertex.at).collect();
+                let length = polyline::length(&points);
+                lengths = Lengths { all: lengths.all + length, longest: lengths.longest.max(length) };
+            }
+        }
+        lengths
+    }
+
+    fn facts<'e>(&self, entities: impl IntoIterator<Item = &'e Entity<'e>>) -> Facts {
+        Facts::of(entities, self.source, &self.job.profile.labels)
+    }
+}
+
+/// The box around the outlines that a block draws.
+fn extent_of(shapes: &Shapes) -> Extent {
+    let outlines = shapes.lines.iter().filter(|line| line.layer.does == Does::Outline);
+    Extent::of(&outlines.flat_map(|line| &line.vertices).map(|vertex| vertex.at).collect::<Vec<Point>>())
+}
+
 /// Reads a file. With an error among the diagnostics what is read is worth nothing.
 pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let groups = groups(source, out);
-    let Sections { blocks, entities, unit: of_header, hidden } = sections(source, &groups, out);
-    let own: Vec<Facts> = blocks.iter().map(|block| Facts::of(&block.entities, source)).collect();
-    let file = own.iter().fold(Facts::of(&entities, source), |facts, of_block| facts.and(*of_block, source));
+    let sections = sections(source, &groups, out);
+    let Sections { blocks, entities, unit: of_header, .. } = &sections;
+    let parts = Parts { source, job, sections: &sections };
+    let own: Vec<Facts> = blocks.iter().map(|block| parts.facts(&block.entities)).collect();
+    let file = own.iter().fold(parts.facts(entities), |facts, of_block| facts.and(*of_block, source));
     say_text(file.unread, out);
     let asked = Asked { source, job, file };
-    let unit = unit(&asked, of_header, out);
-    let mut reader = Reader {
-        source,
-        unit,
-        sagitta: job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
-        chords: 0,
-        on_paper: None,
-        names: Names::default(),
-        hidden_layers: &hidden,
-        hidden: None,
-        out,
-    };
-    let mut loose = reader.shapes(&entities);
-    let bases: Vec<Point> = blocks.iter().map(|block| reader.base(&block.head)).collect();
-    let placing = Placing::of(source, &blocks, bases, std::mem::take(&mut loose.inserts));
-    let mut drawn: Vec<Shapes> = (0..blocks.len()).map(|k| reader.block(&blocks[k], placing.is_piece(k))).collect();
-    let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
-    let size = |facts: &Facts| facts.size.first.map(|span| source.slice(span).to_ascii_uppercase());
-    let sample = file.sample_size.first.map(|span| source.slice(span).to_ascii_uppercase());
-    let sizes: Vec<Size> = own
-        .iter()
-        .map(|facts| Size {
-            piece: facts.name.first.map(|span| source.slice(span)),
-            is_sample: size(facts).is_some() && size(facts) == sample,
+    let unit = unit(&asked, *of_header, || parts.lengths(), out);
+    let mut reader = parts.reader(unit, out);
+    let mut loose = reader.shapes(entities);
+    let (mut drawn, mut said): (Vec<Shapes>, Vec<Diagnostics>) = blocks.iter().map(|block| reader.block(block)).unzip();
+    let mut base = |(block, said): (&Block, &mut Diagnostics)| {
+        reader.base(&block.head).unwrap_or_else(|fault| {
+            said.push(fault);
+            Point::origin()
         })
-        .collect();
-    lend(&mut drawn, &sizes);
+    };
+    let bases: Vec<Point> = blocks.iter().zip(&mut said).map(&mut base).collect();
+    let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
+    let placing = Placing::of(source, blocks, bases, std::mem::take(&mut loose.inserts));
+    lend(&mut drawn, &sizes_of(&own, &asked));
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
     let own = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own));
     // What frames and legends say of sizes is of no piece.
     let is_cut = |k: usize| held[k].is_cut && placing.is_piece(k);
     let facts: Vec<Facts> = own.enumerate().map(|(k, own)| if is_cut(k) { own } else { Facts::default() }).collect();
-    let chosen = Chosen::of(&asked, &facts, out);
-    let author = [file.author.first, file.author.other].into_iter().flatten();
-    let author: Vec<String> = author.map(|span| String::from_utf8_lossy(source.slice(span)).into_owned()).collect();
-    let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
+    let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
+    let chosen = Chosen::of(&asked, &facts, placing.parts(&boxes), out);
     let mut making = Making {
         notch_depth: job.profile.dxf.notch_mm,
-        drafting: Drafting::of(&author.join(" "), job.profile.dxf.curves, sagitta),
+        drafting: Drafting::of(&asked.author(), job.profile.dxf.curves, job.profile.tolerance(0.0) * Dxf::CHORDS_OFF),
         curved: CurvedPieces::default(),
         work: Budget::of_a_marker(),
         tally: Tally::default(),
@@ -109,9 +155,10 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         out,
     };
     let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), names, ..Set::default() };
-    for ((k, mut shapes), (block, facts)) in drawn.into_iter().enumerate().zip(blocks.iter().zip(&facts)) {
+    for (k, (mut shapes, said)) in drawn.into_iter().zip(said).enumerate() {
+        let (span, facts) = (blocks[k].head.span(), &facts[k]);
         if held[k].is_cut && !placing.is_piece(k) {
-            making.tally.add(Thing::Unnamed, block.head.span());
+            making.tally.add(Thing::Unnamed, span);
         }
         if !chosen.has(facts) || !placing.is_piece(k) {
             set.add(Vec::new(), None);
@@ -120,8 +167,9 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         set.unread.append(&mut shapes.unread);
         set.unread.extend(placing.nested(&shapes.inserts, &held, &mut making.tally));
         let quantity = asked.quantity(facts.quantity, &mut making.tally);
-        set.add(making.pieces(shapes, block.head.span()), quantity);
+        set.add(making.pieces_of_block(shapes, span, said), quantity);
     }
+    set.is_plain = !file.says_anything() && set.pieces.is_empty();
     set.lay(&placing, loose, &mut making);
     let Making { work, tally, apart, curved, drafting, .. } = making;
     set.apart = apart;
@@ -130,8 +178,36 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     say_unread(&set.unread, out);
     say_on_paper(on_paper, out);
     say_hidden(hidden, out);
-    set.say(work.is_spent(), out);
+    set.say(work.is_spent(), &asked, out);
     set
+}
+
+/// Which blocks are of one piece, and which are of the sample size.
+fn sizes_of<'a>(own: &[Facts], Asked { source, file, .. }: &Asked<'a>) -> Vec<Size<'a>> {
+    let name = |span: Option<Span>| span.map(|span| source.slice(span).to_ascii_uppercase());
+    let sample = name(file.sample_size.first);
+    let size = |facts: &Facts| Size {
+        piece: facts.name.first.map(|span| source.slice(span)),
+        is_sample: sample.is_some() && name(facts.size.first) == sample,
+    };
+    own.iter().map(size).collect()
+}
+
+impl Making<'_> {
+    /// The pieces of a block, of which something was said when it was read. With an error it is a piece that cannot be cut.
+    fn pieces_of_block(&mut self, shapes: Shapes, span: Span, read: Diagnostics) -> Vec<Piece> {
+        let labels = shapes.texts.clone();
+        if read.has_errors() {
+            return vec![Piece::at_fault(span, labels, &read)];
+        }
+        self.out.extend(read);
+        let (pieces, made) = self.pieces_apart(shapes, span);
+        if made.has_errors() {
+            return vec![Piece::at_fault(span, labels, &made)];
+        }
+        self.out.extend(made);
+        pieces
+    }
 }
 
 impl Set {
@@ -144,21 +220,39 @@ impl Set {
 
     /// Puts the pieces where insertions have them, those of what stands in no block where they are drawn.
     fn lay(&mut self, placing: &Placing, mut loose: Shapes, making: &mut Making) {
-        self.placed = placing.placed(&self.drawn, &mut making.tally);
+        self.placed = placing.placed(&self.drawn, making);
         self.texts.clone_from(&loose.texts);
         self.unread.append(&mut loose.unread);
         if !loose.lines.is_empty() || !loose.dots.is_empty() {
-            self.add(making.pieces(loose, Span::default()), None);
+            // By the convention turn and curve points are points.
+            let is_other = loose.lines.iter().any(|line| matches!(line.layer.does, Does::Turn | Does::Curve));
+            let (pieces, said) = making.pieces_apart(loose, Span::default());
+            if self.is_plain && (is_other || said.has_errors()) {
+                making.out.push(plain(&self.names));
+            } else {
+                making.out.extend(said);
+            }
+            self.loose = pieces.len();
+            self.add(pieces, None);
             // Beside blocks that the file places they lie where they are drawn.
             let pieces = self.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
             self.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
         }
-        if self.placed.is_some() && self.count() <= MOST_PIECES && !making.out.has_errors() {
-            let on_others = over::on_others(&self.laid(), &mut making.work);
-            for span in on_others {
-                making.tally.add(Thing::OnAnother, span);
-            }
+        if self.placed.is_none() {
+            return;
         }
+        if self.count() <= MOST_PIECES && !making.out.has_errors() {
+            let on_others = over::on_others(&self.laid(), &mut making.work);
+            if 2 * on_others.count > self.count() {
+                let message = format!("INSERTs put {} of {} pieces on each other: they are no places", on_others.count, self.count());
+                let finding = Diagnostic::new(&code::DXF_NO_PLACES, message);
+                making.out.push(finding.hint("the pieces lie in a row; for a lay make a marker of them in the CAD system"));
+                self.placed = None;
+                return;
+            }
+            on_others.spans.into_iter().for_each(|span| making.tally.add(Thing::OnAnother, span));
+        }
+        placing.count(&self.drawn, &mut making.tally);
     }
 
     /// How many pieces lie on the cloth.
@@ -171,24 +265,61 @@ impl Set {
 
     /// Says so when there is nothing to cut.
     pub(super) fn see_cuts(&self, out: &mut Diagnostics) {
-        if self.count() == 0 && !out.has_errors() {
-            let message = format!("the file holds no outline on layer 1{}", self.sizes);
-            let hint = "pattern DXF (AAMA, ASTM D6673) has the outlines of its pieces on layer 1: export it so";
-            out.push(Diagnostic::new(&code::DXF_NOTHING_TO_CUT, message).hint(hint));
+        if self.count() > 0 || out.has_errors() {
+            return;
         }
+        if self.is_plain && !self.names.all().is_empty() {
+            out.push(plain(&self.names));
+            return;
+        }
+        let message = format!("the file holds no outline on layer 1{}", self.sizes);
+        let hint = "pattern DXF (AAMA, ASTM D6673) has the outlines of its pieces on layer 1: export it so";
+        out.push(Diagnostic::new(&code::DXF_NOTHING_TO_CUT, message).hint(hint));
     }
 
     /// What is to be said of the set as a whole.
-    fn say(&self, is_spent: bool, out: &mut Diagnostics) {
+    fn say(&self, is_spent: bool, asked: &Asked, out: &mut Diagnostics) {
         let count = self.count();
         if is_spent || count > MOST_PIECES {
             let message = "the file has more pieces, notches or outlines than can be told apart";
             out.push(Diagnostic::new(&code::DXF_TOO_MANY, message).hint("look at the quantities, and split the file"));
-        } else if self.placed.is_none() && count > 1 && !out.has_errors() {
+            return;
+        }
+        self.say_faults(asked, out);
+        if out.has_errors() {
+            return;
+        }
+        if self.placed.is_none() && count > 1 && count > self.loose {
             let message =
                 format!("patterns are no marker: {count} pieces{} lie in a row, {} mm apart", self.sizes, self.gap);
             let finding = Diagnostic::new(&code::DXF_SAMPLE, message);
             out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
+        }
+        if self.loose > 1 || self.loose == 1 && self.placed.is_some() {
+            let (outlines, they) = if self.loose == 1 { ("outline stands", "it lies as it is") } else { ("outlines stand", "they lie as they are") };
+            let message = format!("{} {outlines} in no block; {they} drawn", self.loose);
+            let finding = Diagnostic::new(&code::DXF_AS_DRAWN, message);
+            out.push(finding.hint("see in the picture (-t svg) how they lie on the cloth"));
+        }
+        let side = |piece: &Piece| {
+            let (width, height) = Extent::of(&piece.plain.points()).size();
+            width.max(height)
+        };
+        if self.pieces.len() > 1 {
+            doubt(self.pieces.iter().filter(|piece| !piece.is_at_fault()).map(side).fold(f64::NEG_INFINITY, f64::max), asked, out);
+        }
+    }
+
+    /// Says why pieces cannot be cut, with their numbers, unless they are left out.
+    fn say_faults(&self, asked: &Asked, out: &mut Diagnostics) {
+        let mut numbers: BTreeMap<u32, (&Piece, Vec<u32>)> = BTreeMap::new();
+        for (laid, number) in self.laid().into_iter().zip(1..) {
+            if laid.piece.is_at_fault() && asked.job.selection.has(number) {
+                numbers.entry(laid.piece.span.start).or_insert((laid.piece, Vec::new())).1.push(number);
+            }
+        }
+        for (piece, numbers) in numbers.values() {
+            say_at_fault(piece, numbers, asked, out);
         }
     }
 }

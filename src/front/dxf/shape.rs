@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Label;
+use crate::machine::labels::Labels;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
@@ -100,6 +101,9 @@ pub(super) struct Insert<'a> {
     pub(super) span: Span,
 }
 
+/// An insertion, or one that puts its block nowhere: its name and why.
+pub(super) type Inserted<'a> = Result<Insert<'a>, (&'a [u8], Diagnostic)>;
+
 /// An entity of a kind that is not read, on a layer that is not cut.
 #[derive(Debug, Clone)]
 pub(super) struct Unread {
@@ -115,9 +119,9 @@ pub(super) struct Shapes<'a> {
     pub(super) lines: Vec<Line>,
     pub(super) dots: Vec<Dot>,
     pub(super) texts: Vec<Label>,
-    pub(super) inserts: Vec<Insert<'a>>,
+    pub(super) inserts: Vec<Inserted<'a>>,
     pub(super) unread: Vec<Unread>,
-    /// Whether something that is cut could not be read, which was not said.
+    /// Whether something that is cut could not be read.
     pub(super) is_faulty: bool,
 }
 
@@ -133,6 +137,8 @@ impl Shapes<'_> {
 #[derive(Debug)]
 pub(super) struct Reader<'a, 'o> {
     pub(super) source: &'a Source,
+    /// How its texts are encoded.
+    pub(super) labels: &'a Labels,
     /// Length of a unit, mm.
     pub(super) unit: f64,
     /// Farthest that chords lie off their curve, mm.
@@ -169,32 +175,43 @@ impl<'a> Reader<'a, '_> {
             }
             let read = if entity.is("POLYLINE") {
                 if !rest.first().is_some_and(|behind| behind.is("SEQEND")) {
-                    self.out.push(open_polyline(entity));
+                    self.say(entity, open_polyline(entity));
                 }
                 self.polyline(entity, &behind[..count], &mut shapes)
             } else if entity.is("INSERT") {
-                self.insert(entity, behind).map(|insert| shapes.inserts.push(insert))
+                // Only one of a block that is cut matters: that is known once all blocks are read.
+                shapes.inserts.push(self.insert(entity, behind).map_err(|fault| (entity.bytes(NAME), fault)));
+                Ok(())
             } else {
                 self.entity(entity, &mut shapes)
             };
             if let Err(fault) = read {
-                self.out.push(fault);
+                self.say(entity, fault);
             }
         }
         shapes
     }
 
-    /// Reads a block. What is at fault in one that is no piece does not matter, unless a piece inserts it.
-    pub(super) fn block(&mut self, block: &Block<'a>, is_piece: bool) -> Shapes<'a> {
-        if is_piece {
-            return self.shapes(&block.entities);
+    /// Says what is at fault in an entity: of one that nothing cuts it refuses nothing.
+    fn say(&mut self, entity: &Entity, fault: Diagnostic) {
+        if layer(entity.layer()).shapes_cuts() {
+            self.out.push(fault);
+            return;
         }
-        let mut unsaid = Diagnostics::default();
-        std::mem::swap(self.out, &mut unsaid);
+        let Diagnostic { message, span, .. } = fault;
+        let message = format!("{message}; it is drawn on layer {}, which is not cut, and left out", entity.layer_name());
+        let finding = Diagnostic::new(&code::DXF_DAMAGED, message).at(span.unwrap_or(entity.span()));
+        self.out.push(finding.hint("what is cut is whole; export the file again if the drawing is to be sewn"));
+    }
+
+    /// Reads a block, with what is to be said of it: nothing of that matters unless it is a piece that is cut.
+    pub(super) fn block(&mut self, block: &Block<'a>) -> (Shapes<'a>, Diagnostics) {
+        let mut said = Diagnostics::default();
+        std::mem::swap(self.out, &mut said);
         let mut shapes = self.shapes(&block.entities);
-        std::mem::swap(self.out, &mut unsaid);
-        shapes.is_faulty = unsaid.has_errors();
-        shapes
+        std::mem::swap(self.out, &mut said);
+        shapes.is_faulty = said.has_errors();
+        (shapes, said)
     }
 
     fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
@@ -253,7 +270,7 @@ impl<'a> Reader<'a, '_> {
             at: self.place(entity, [X, Y])?,
             scale: [scale(SCALE_X)?, scale(SCALE_Y)?],
             turn: rad(entity.number(ANGLE)?.unwrap_or(0.0)),
-            facts: Facts::of(attributes, self.source),
+            facts: Facts::of(attributes, self.source, self.labels),
             span: entity.span(),
         })
     }
@@ -395,15 +412,12 @@ impl<'a> Reader<'a, '_> {
         self.on_table([entity.coordinate(x)?, entity.coordinate(y)?], entity.value(x).unwrap_or(entity.span()))
     }
 
-    /// The base point of a block; the origin where the file names none, and beside an error.
-    pub(super) fn base(&mut self, block: &Entity) -> Point {
+    /// The base point of a block; the origin where the file names none.
+    pub(super) fn base(&self, block: &Entity) -> Result<Point, Diagnostic> {
         if BASE.iter().all(|&code| block.value(code).is_none()) {
-            return Point::origin();
+            return Ok(Point::origin());
         }
-        self.place(block, BASE).unwrap_or_else(|fault| {
-            self.out.push(fault);
-            Point::origin()
-        })
+        self.place(block, BASE)
     }
 
     /// A depth or a width, mm, whatever its sign; nothing where the file says nothing.

@@ -3,13 +3,15 @@
 use std::ops::Range;
 
 use super::entity::{Entity, NAME, TEXT};
+use super::key::{Key, key};
 use super::markup;
+use crate::machine::labels::Labels;
 use crate::source::{Source, Span};
 
 /// Code of all parts but the last of a text of more than 250 bytes.
 const PART: i32 = 3;
 /// What a text says facts by.
-const FACTS: [&str; 3] = ["SIZE", "UNIT", "QUANTITY"];
+const FACTS: [&str; 4] = ["SIZE", "UNIT", "QUANTITY", "QTY"];
 
 /// What the texts of a block, or of the file, say.
 #[derive(Debug, Clone, Copy, Default)]
@@ -62,19 +64,18 @@ pub(super) fn is_text(entity: &Entity) -> bool {
 
 impl Facts {
     /// What texts say.
-    pub(super) fn of<'a>(entities: impl IntoIterator<Item = &'a Entity<'a>>, source: &Source) -> Self {
+    pub(super) fn of<'a>(entities: impl IntoIterator<Item = &'a Entity<'a>>, source: &Source, labels: &Labels) -> Self {
         let mut facts = Self::default();
         for entity in entities.into_iter().filter(|entity| is_text(entity)) {
             facts.unread = facts.unread.or(long(entity, source));
-            for (key, value) in said(entity, source) {
-                let fact = match key.as_str() {
-                    "SIZE" => &mut facts.size,
-                    "SAMPLE SIZE" => &mut facts.sample_size,
-                    "UNITS" | "UNIT" => &mut facts.units,
-                    "QUANTITY" => &mut facts.quantity,
-                    "PIECE NAME" => &mut facts.name,
-                    "AUTHOR" | "PRODUCT" | "PRODUCT NAME" => &mut facts.author,
-                    _ => continue,
+            for (key, value) in said(entity, source, labels) {
+                let fact = match key {
+                    Key::Size => &mut facts.size,
+                    Key::SampleSize => &mut facts.sample_size,
+                    Key::Units => &mut facts.units,
+                    Key::Quantity => &mut facts.quantity,
+                    Key::PieceName => &mut facts.name,
+                    Key::Author => &mut facts.author,
                 };
                 if entity.is("MTEXT") && markup::has_codes(source.slice(value)) {
                     facts.unread = facts.unread.or(Some(value));
@@ -83,6 +84,12 @@ impl Facts {
             }
         }
         facts
+    }
+
+    /// Whether they say anything that the convention has.
+    pub(super) fn says_anything(&self) -> bool {
+        let all = [self.size, self.sample_size, self.units, self.quantity, self.name];
+        all.iter().any(|said| said.first.is_some())
     }
 
     /// What is said in two places, the first before the second.
@@ -117,9 +124,8 @@ fn long(entity: &Entity, source: &Source) -> Option<Span> {
     entity.value(PART).filter(|_| is_long && parts().any(|part| says(source.slice(part.value))))
 }
 
-/// What the lines of a text say: keys in capitals with one blank between their words, and where their values are; of an
-/// attribute without a colon its tag is the key.
-fn said(entity: &Entity, source: &Source) -> Vec<(String, Span)> {
+/// What the lines of a text say, and where their values are; of an attribute without a colon its tag is the key.
+fn said(entity: &Entity, source: &Source, labels: &Labels) -> Vec<(Key, Span)> {
     let Some(span) = entity.value(TEXT) else { return Vec::new() };
     let part = |range: Range<usize>| {
         let [start, end] = [range.start, range.end].map(|at| span.start + at as u32);
@@ -131,18 +137,13 @@ fn said(entity: &Entity, source: &Source) -> Vec<(String, Span)> {
         let text = source.slice(line);
         let Some(colon) = memchr::memchr(b':', text) else {
             let tag = entity.bytes(NAME);
-            return (!entity.is("TEXT") && !tag.is_empty()).then(|| (key(tag), line));
+            return (!entity.is("TEXT") && !tag.is_empty()).then_some((tag, line));
         };
         let value = &text[colon + 1..];
         let blanks =
             if entity.is("MTEXT") { markup::codes_before(value) } else { value.len() - value.trim_ascii_start().len() };
-        Some((key(&text[..colon]), Span { start: line.start + (colon + 1 + blanks) as u32, ..line }))
+        Some((&text[..colon], Span { start: line.start + (colon + 1 + blanks) as u32, ..line }))
     };
-    lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).collect()
-}
-
-/// A key however it is written.
-fn key(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes).to_uppercase();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let known = |(name, value)| Some((key(&labels.text(name))?, value));
+    lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).filter_map(known).collect()
 }

@@ -2,11 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::curves::Drafting;
-use super::piece::{CurvedFrom, CurvedPieces};
+use super::choice::Asked;
+use super::curves::{CurvedFrom, CurvedPieces, Drafting};
+use super::layer::Names;
+use super::piece::Piece;
 use super::shape::Unread;
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, PieceName, code};
 use crate::source::Span;
+
+/// Layers that a message names.
+const LAYERS_SHOWN: usize = 12;
 
 /// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
 pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut Diagnostics) {
@@ -44,6 +49,29 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
         let hint = "let the CAD system export ASTM DXF with its curves on layer 84, or compare a neck and an armhole";
         out.push(finding.at(laid.first).hint(hint));
     }
+}
+
+/// Why a piece of these numbers cannot be cut, and how to leave it out.
+pub(super) fn say_at_fault(piece: &Piece, numbers: &[u32], Asked { source, job, .. }: &Asked, out: &mut Diagnostics) {
+    let first = numbers.first().copied().unwrap_or_default();
+    let label = piece.labels.first().map(|label| job.profile.labels.text(source.slice(label.span)));
+    let name = PieceName { number: first, copy: 0, label };
+    let numbers: Vec<String> = numbers.iter().map(u32::to_string).collect();
+    let hint = format!("all other pieces can be cut without it: `--skip {}`", numbers.join(","));
+    for fault in &piece.faults {
+        out.push(Diagnostic { piece: Some(Box::new(name.clone())), ..fault.clone() }.hint(hint.clone()));
+    }
+}
+
+/// The finding that a file is a plain drawing on these layers.
+pub(super) fn plain(names: &Names) -> Diagnostic {
+    let names = names.all();
+    let dots = if names.len() > LAYERS_SHOWN { ", ..." } else { "" };
+    let word = if names.len() == 1 { "layer" } else { "layers" };
+    let shown = names[..names.len().min(LAYERS_SHOWN)].join(", ");
+    let message = format!("the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM): its lines are on {word} {shown}{dots}");
+    let hint = "let the CAD system export the pieces as AAMA or ASTM DXF, or the marker as a cut file (ISO) or an HPGL plot";
+    Diagnostic::new(&code::DXF_PLAIN, message).hint(hint)
 }
 
 /// What kinds of entities are not read, and on which layers.

@@ -14,16 +14,43 @@ const NO_UNIT: i64 = 0;
 /// What to do where nobody knows which it is.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm` or `--set dxf.unit=inch`";
 
-/// Length of the unit that the texts name, else the header, mm.
-pub(super) fn unit(Asked { source, job, file }: &Asked, of_header: Option<Span>, out: &mut Diagnostics) -> f64 {
+/// Cuts of a file, mm, beyond which its unit is doubted, and of one line: no cloth is so long, nor is the outline of a part.
+const LONGEST: f64 = 1e6;
+const LONGEST_LINE: f64 = 3e4;
+/// Largest side of the largest of several pieces, mm, below which the unit is doubted: no garment is so small.
+const SMALLEST: f64 = 100.0;
+
+/// Lengths of what is cut in a file, in its own unit: of all, and of the longest line.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Lengths {
+    pub(super) all: f64,
+    pub(super) longest: f64,
+}
+
+/// Length of the unit that the texts name, else the header, mm. A unit of the header in which the cuts, which `lengths` finds,
+/// would be longer than any is that of a library that writes one whatever the drawing has: that is in mm.
+pub(super) fn unit(
+    Asked { source, job, file }: &Asked,
+    of_header: Option<Span>,
+    lengths: impl FnOnce() -> Lengths,
+    out: &mut Diagnostics,
+) -> f64 {
     if let Some(mm) = job.profile.dxf.unit.mm() {
         return mm;
     }
     let Some(first) = file.units.first else {
         if let Some(span) = of_header.filter(|span| syntax::whole(source.slice(*span)) != Some(NO_UNIT)) {
             let known = syntax::whole(source.slice(span)).and_then(|number| UNITS.iter().find(|unit| unit.0 == number));
-            if let Some((_, mm)) = known {
-                return *mm;
+            if let Some(&(_, mm)) = known {
+                let lengths = if mm > MM_PER_INCH { lengths() } else { Lengths::default() };
+                if mm * lengths.all <= LONGEST || mm * lengths.longest <= LONGEST_LINE {
+                    return mm;
+                }
+                let long = mm * lengths.all / 1e6;
+                let message = format!("the unit of the header ($INSUNITS) would make {long:.1} km of cuts; it is taken for mm");
+                let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message).at(span);
+                out.push(finding.hint("compare the extent that is printed with the pieces; inches are `--set dxf.unit=inch`"));
+                return 1.0;
             }
             let message = format!("`{}` ($INSUNITS) is no unit of patterns", source.slice(span).escape_ascii());
             out.push(Diagnostic::new(&code::DXF_UNIT, message).at(span).hint(SAY_WHICH));
@@ -58,10 +85,19 @@ pub(super) fn unit(Asked { source, job, file }: &Asked, of_header: Option<Span>,
     }
 }
 
+/// Doubts the unit where the largest of several pieces, whose largest side is so long, mm, is smaller than garments are.
+pub(super) fn doubt(largest: f64, Asked { job, .. }: &Asked, out: &mut Diagnostics) {
+    if job.profile.dxf.unit.mm().is_none() && (0.0..SMALLEST).contains(&largest) {
+        let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");
+        let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message);
+        out.push(finding.hint("patterns in cm or inches are read as mm where the file says METRIC; `--set dxf.unit=mm` says that it is mm"));
+    }
+}
+
 /// Length of a unit that a text names, mm.
 fn unit_of(text: &[u8]) -> Option<f64> {
     match text.to_ascii_uppercase().as_slice() {
-        b"METRIC" | b"MM" | b"MILLIMETERS" | b"MILLIMETRES" => Some(1.0),
+        b"METRIC" | b"METRISCH" | b"METRICO" | b"METRIQUE" | b"MM" | b"MILLIMETERS" | b"MILLIMETRES" => Some(1.0),
         b"ENGLISH" | b"INCH" | b"INCHES" | b"IN" | b"IMPERIAL" => Some(MM_PER_INCH),
         _ => None,
     }

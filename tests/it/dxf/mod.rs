@@ -5,6 +5,7 @@ mod audit;
 mod curves;
 mod damage;
 mod habits;
+mod programs;
 mod sets;
 mod writer;
 

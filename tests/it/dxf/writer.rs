@@ -31,6 +31,11 @@ impl Writer {
         self
     }
 
+    /// What is written so far.
+    pub(super) fn text_so_far(&self) -> &str {
+        &self.text
+    }
+
     /// A file up to its first block.
     pub(super) fn begin() -> Self {
         let mut file = Self::default();

@@ -6,28 +6,34 @@
 //! system from turn point to turn point, straight where no curve point stands between, as its [`nodes`] say; else as it is.
 //! Never leaves a vertex, but for a point that [`gerber`] adds for the sake of a notch, within a hundredth of a millimetre.
 
+mod count;
+mod curved;
 mod fine;
 mod gerber;
 mod hermite;
 mod lend;
 mod nodes;
 mod rule;
+mod run;
 mod spikes;
 mod spline;
 
+pub(super) use count::{CurvedFrom, CurvedPieces};
+pub(super) use curved::{Curved, Origin};
 use fine::Fine;
 pub(super) use lend::{Size, lend};
 pub(super) use nodes::Nodes;
-use nodes::{Node, ON};
+use nodes::Node;
 use rule::{Rule, rule_of};
+use run::{Run, is_curve, lay};
 
 use super::chain::Chain;
 use super::fold::Fold;
 use super::layer::{Layer, Named};
 use crate::geom::budget::Budget;
-use crate::geom::{Point, polyline};
+use crate::geom::Point;
 use crate::ir::drawing::Vertex;
-use crate::machine::patterns::{Curves as Asked, Dxf};
+use crate::machine::patterns::Curves as Asked;
 use crate::source::Span;
 
 /// Places of a curve between two vertices.
@@ -73,74 +79,6 @@ impl Drafting {
         let spans = self.rule.spans(knots, self.sagitta, MOST_PLACES.saturating_sub(self.places));
         self.places += spans.as_ref().map_or(MOST_PLACES + 1, |spans| spans.iter().map(Vec::len).sum());
         spans.filter(|spans| spans.iter().flatten().all(|at| at.x.is_finite() && at.y.is_finite()))
-    }
-}
-
-/// Where a line got its curves from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// It has none, or is fine itself.
-    Drawn,
-    /// A line on layers 84 to 87.
-    Fine,
-    /// The rule of a CAD system.
-    Laid,
-}
-
-/// A line with its curves.
-#[derive(Debug)]
-pub(super) struct Curved {
-    pub(super) line: Chain,
-    pub(super) origin: Origin,
-    /// How far the curves leave the chords of the coarse line, mm.
-    pub(super) off: f64,
-    /// The coarse line, and what became of each of its edges; empty where they are as they were.
-    coarse: Vec<Point>,
-    legs: Vec<Vec<Point>>,
-}
-
-impl Curved {
-    fn drawn(line: &Chain) -> Self {
-        Self { line: line.clone(), origin: Origin::Drawn, off: 0.0, coarse: Vec::new(), legs: Vec::new() }
-    }
-
-    fn of(coarse: &spikes::Smoothed, mut legs: Vec<Leg>, origin: Origin) -> Self {
-        let base = &coarse.line;
-        let round: Vec<Point> = base.points();
-        let way = |k: usize| {
-            let head = legs[k].first().filter(|first| (first.at - round[k]).norm() <= ON).is_none().then_some(round[k]);
-            let next = round[k + 1];
-            head.into_iter().chain(legs[k].iter().map(|vertex| vertex.at)).chain([next]).collect()
-        };
-        let ways: Vec<Vec<Point>> = (0..round.len() - 1).map(way).collect();
-        let off_edge = |(way, edge): (&Vec<Point>, &[Point])| {
-            way.iter().map(|&at| polyline::distance_to_segment(at, edge[0], edge[1])).fold(0.0, f64::max)
-        };
-        let off = ways.iter().zip(round.windows(2)).map(off_edge).fold(0.0, f64::max);
-        coarse.put_back(&mut legs);
-        let line = Chain { vertices: legs.concat(), is_closed: base.is_closed };
-        Self { line, origin, off, coarse: round, legs: ways }
-    }
-
-    /// Where a place beside a chord of the coarse line is on the curve: straight up from the chord. Places that lie beside
-    /// neither chord nor curve stay, and so do those beside the curve.
-    pub(super) fn lifted(&self, at: Point, work: &mut Budget) -> Point {
-        let vertices: usize = self.legs.iter().map(Vec::len).sum();
-        let near = |way: &Vec<Point>| polyline::distance(at, way) <= Dxf::NOTCH_OFF;
-        if !work.spend(vertices) || self.legs.iter().any(near) {
-            return at;
-        }
-        let distance = |k: usize| polyline::distance_to_segment(at, self.coarse[k], self.coarse[k + 1]);
-        let nearest = (0..self.legs.len()).map(|k| (distance(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, k)) = nearest.filter(|(distance, _)| *distance <= Dxf::NOTCH_OFF) else { return at };
-        let [a, b] = [self.coarse[k], self.coarse[k + 1]];
-        let along = (b - a) / (b - a).norm();
-        let ahead = |place: Point| (place - a).dot(&along) - (at - a).dot(&along);
-        let crossing = self.legs[k].windows(2).find(|pair| ahead(pair[0]) <= 0.0 && ahead(pair[1]) > 0.0);
-        crossing.map_or(at, |pair| {
-            let [before, behind] = [ahead(pair[0]), ahead(pair[1])];
-            pair[0] + (pair[1] - pair[0]) * (before / (before - behind))
-        })
     }
 }
 
@@ -220,71 +158,4 @@ impl Curves {
         }
         is_curved.then_some(legs)
     }
-}
-
-/// Whether a vertex is a curve point.
-fn is_curve(node: Node) -> bool {
-    matches!(node, Node::Smooth | Node::Notched)
-}
-
-/// A run of vertices through which one curve goes.
-struct Run<'a> {
-    line: &'a Chain,
-    nodes: &'a [Node],
-    /// Its vertices in the line, in order.
-    places: &'a [usize],
-}
-
-/// Lays a curve through a run, and gives some of its edges what lies on it; whether that could be done.
-fn lay(run: &Run, edges: std::ops::Range<usize>, drafting: &mut Drafting, legs: &mut [Leg]) -> bool {
-    let Run { line, nodes, places } = run;
-    let at = |i: usize| line.vertices[places[i]].at;
-    let mut knots: Vec<usize> = (0..places.len()).collect();
-    if drafting.rule.may_pass_notches() {
-        for i in 1..places.len() - 1 {
-            if nodes[places[i]] != Node::Notched || knots.len() <= 2 {
-                continue;
-            }
-            let others: Vec<usize> = knots.iter().copied().filter(|&k| k != i).collect();
-            let points: Vec<Point> = others.iter().map(|&k| at(k)).collect();
-            let is_beside = drafting.spans(&points).is_some_and(|spans| {
-                let way: Vec<Point> = points.iter().zip(spans).flat_map(|(&at, span)| [vec![at], span].concat()).collect();
-                polyline::distance(at(i), &way) <= ON
-            });
-            if is_beside {
-                knots = others;
-            }
-        }
-    }
-    let points: Vec<Point> = knots.iter().map(|&k| at(k)).collect();
-    let Some(spans) = drafting.spans(&points) else { return false };
-    for (pair, span) in knots.windows(2).zip(spans) {
-        let inner: Vec<usize> = (pair[0] + 1..pair[1]).collect();
-        // Vertices that the curve passes part its stretch where it comes nearest.
-        let nearest = |i: usize| {
-            let distance = |k: &usize| (span[*k] - at(i)).norm();
-            (0..span.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
-        };
-        let mut cuts: Vec<usize> = inner.iter().map(|&i| nearest(i)).collect();
-        cuts.sort_unstable();
-        let bounds: Vec<usize> = std::iter::once(0).chain(cuts).chain([span.len()]).collect();
-        for (edge, part) in (pair[0]..pair[1]).zip(bounds.windows(2)) {
-            if !edges.contains(&edge) {
-                continue;
-            }
-            let chord = [at(edge), at(edge + 1)];
-            let part = &span[part[0]..part[1]];
-            let most = Dxf::CURVE_OFF * (chord[1] - chord[0]).norm() + ON;
-            if part.iter().any(|&place| polyline::distance_to_segment(place, chord[0], chord[1]) > most) {
-                drafting.wild.get_or_insert(line.vertices[places[edge]].span);
-            }
-            let next = line.vertices[places[edge + 1]].span;
-            let leg = &mut legs[places[edge]];
-            if edge > pair[0] {
-                leg.clear();
-            }
-            leg.extend(part.iter().map(|&at| Vertex { at, span: next }));
-        }
-    }
-    true
 }

@@ -5,10 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::{Bend, Bow, lent};
 use super::cuts::{Cuts, Mark, Place};
-use super::lines::{MEETS, Measure, Round};
+use super::lines::{MEETS, Measure, Round, paths};
 use super::lookup::Lookup;
 use super::places::CutPlaces;
 use super::tags::{Item, Sheet, sheets};
+use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross};
 use crate::machine::Job;
 use crate::machine::patterns::{Curves, Dxf, Quantity, Sizes};
@@ -20,6 +21,10 @@ const SAMPLES: usize = 720;
 /// Numbers of units in the header, and their lengths, mm: inch, foot, mm, cm, m, yard, dm.
 const UNITS: [(f64, f64); 7] =
     [(1.0, MM_PER_INCH), (2.0, 304.8), (4.0, 1.0), (5.0, 10.0), (6.0, 1000.0), (10.0, 914.4), (14.0, 100.0)];
+
+/// Cuts longer than those of any cloth, and a line longer than the outline of any part, mm.
+const MOST_CUT: f64 = 1e6;
+const LONGEST: f64 = 3e4;
 
 /// Below this an insertion neither turns nor scales: rounding of an angle in degrees, rad.
 const TURNS: f64 = 1e-5;
@@ -46,36 +51,41 @@ struct Sheets<'a> {
     unit: f64,
 }
 
-/// All that is cut, and how far places may be off because curves are chords, mm.
-pub(super) fn cloth(bytes: &[u8], read: &CutPlaces, job: &Job) -> (Cuts, f64) {
+/// All that is cut, and how far places may be off because curves are chords, mm: where insertions put it, or where the pieces
+/// would lie on each other there, also in a row.
+pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f64)> {
     let sheets = Sheets::of(bytes, job);
     let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
     let measure = Measure { unit: sheets.unit, sagitta, notch: job.profile.dxf.notch_mm };
     let with_curves = job.profile.dxf.curves == Curves::Auto;
     let lent = lent(&sheets.blocks, sheets.says("SAMPLE SIZE"), sheets.unit);
     let cuts_of = |block: &Sheet, lent: &[Vec<Point>; 2]| Cuts::of(block, with_curves.then_some(lent), measure);
-    let are_cut = sheets.are_cut(job).into_iter().zip(&lent);
+    let all = || sheets.blocks.iter().zip(&lent).map(|(block, lent)| cuts_of(block, lent)).collect::<Vec<Cuts>>();
+    let are_apart = job.patterns.sizes.is_none() && sheets.has_places() && sheets.met(&all()) == Some((0, true));
+    let are_cut = sheets.are_cut(job, are_apart).into_iter().zip(&lent);
+    // Somebody must have asked for pieces to be left out.
+    let may_leave_out = !job.selection.is_all();
+    let is_left_out = |block: &Sheet| may_leave_out && read.blocks_left_out.contains(&block.number);
     let mut of_blocks: Vec<Cuts> = sheets
         .blocks
         .iter()
         .zip(are_cut)
-        .map(|(block, (is_cut, lent))| if is_cut { cuts_of(block, lent) } else { Cuts::default() })
+        .map(|(block, (is_cut, lent))| if is_cut && !is_left_out(block) { cuts_of(block, lent) } else { Cuts::default() })
         .collect();
     for (block, cuts) in sheets.blocks.iter().zip(&mut of_blocks).filter(|(_, cuts)| !cuts.places.is_empty()) {
         cuts.faults += usize::from(block.base.is_none()) + sheets.nested(block);
     }
     of_blocks.push(cuts_of(&sheets.loose, &Default::default()));
-    if let Some(all) = sheets.placed(&of_blocks) {
-        return (all, 0.0);
-    }
     // How far laid curves reach is not known here: each piece must lie where its vertices are.
     let row = Row { of_all: &of_blocks, read, has_bows: of_blocks.iter().any(|cuts| !cuts.bows.is_empty()), sagitta };
-    sheets.in_a_row(&row, job)
+    let Some(placed) = sheets.placed(&of_blocks) else { return vec![sheets.in_a_row(&row, job)] };
+    let piled = sheets.met(&of_blocks).filter(|(met, _)| *met > 0);
+    std::iter::once((placed, 0.0)).chain(piled.map(|_| sheets.in_a_row(&row, job))).collect()
 }
 
 impl<'a> Sheets<'a> {
-    fn of(bytes: &'a [u8], job: &Job) -> Self {
-        let (blocks, loose, of_header) = sheets(bytes);
+    fn of(bytes: &'a [u8], job: &'a Job) -> Self {
+        let (blocks, loose, of_header) = sheets(bytes, &job.profile.labels);
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
             names.entry(block.name.clone()).or_insert(k);
@@ -83,7 +93,7 @@ impl<'a> Sheets<'a> {
         let mut sheets = Self { blocks, loose, names, unit: 1.0 };
         sheets.unit = job.profile.dxf.unit.mm().unwrap_or_else(|| {
             let is_inch = |text: &[u8]| text.first().is_some_and(|first| b"EIei".contains(first));
-            let unit = sheets.says("UNITS").or_else(|| sheets.says("UNIT"));
+            let unit = sheets.says("UNITS");
             match (unit, of_header) {
                 (Some(unit), _) => {
                     if is_inch(unit) {
@@ -92,11 +102,54 @@ impl<'a> Sheets<'a> {
                         1.0
                     }
                 }
-                (None, Some(number)) => UNITS.iter().find(|unit| unit.0 == number).map_or(1.0, |unit| unit.1),
+                (None, Some(number)) => {
+                    let unit = UNITS.iter().find(|unit| unit.0 == number).map_or(1.0, |unit| unit.1);
+                    if sheets.is_too_long_in(unit) { 1.0 } else { unit }
+                }
                 (None, None) => 1.0,
             }
         });
         sheets
+    }
+
+    /// Whether the cuts would be longer in a unit, mm, than any cloth, and one line longer than the outline of any part.
+    fn is_too_long_in(&self, unit: f64) -> bool {
+        if unit <= MM_PER_INCH {
+            return false;
+        }
+        let measure = Measure { unit: 1.0, sagitta: 1.0, notch: 0.0 };
+        let (mut all, mut longest) = (0.0, 0.0);
+        for sheet in self.blocks.iter().chain([&self.loose]) {
+            for path in [1, 11].into_iter().flat_map(|layer| paths(&sheet.items, layer, measure)) {
+                let length: f64 = (0..path.curves.len()).map(|k| path.length(k)).sum();
+                (all, longest) = (all + length, f64::max(longest, length));
+            }
+        }
+        all * unit > MOST_CUT && longest * unit > LONGEST
+    }
+
+    /// Whether insertions stand outside blocks.
+    fn has_places(&self) -> bool {
+        self.loose.items.iter().any(|item| item.kind == b"INSERT")
+    }
+
+    /// How many of the boxes around what blocks cut have their middle in another, where insertions put them, and whether
+    /// these put any anywhere; `None` without such boxes.
+    fn met(&self, of_all: &[Cuts]) -> Option<(usize, bool)> {
+        let mut laid = Vec::new();
+        let mut is_still = true;
+        for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT") {
+            let Some(k) = self.block(item).filter(|&k| !of_all[k].places.is_empty()) else { continue };
+            let Some(to) = self.to(item, k) else { continue };
+            is_still &= to[..2].iter().zip(&AS_DRAWN).all(|(a, b)| (a - b).norm() < TURNS) && to[2].norm() <= MEETS;
+            let mut cuts = Cuts::default();
+            cuts.add_moved(&of_all[k], to);
+            laid.push(cuts.extent(AS_DRAWN));
+        }
+        let boxes = Boxes::new(laid);
+        let is_met = |(k, own): (usize, &Extent)| boxes.at(own.min + (own.max - own.min) / 2.0).any(|other| other != k);
+        let met = boxes.all().iter().enumerate().filter(|own| is_met(*own)).count();
+        (!boxes.all().is_empty()).then_some((met, !is_still))
     }
 
     fn says(&self, key: &str) -> Option<&[u8]> {
@@ -164,7 +217,7 @@ impl<'a> Sheets<'a> {
     }
 
     /// Whether each block is of a size that is cut.
-    fn are_cut(&self, job: &Job) -> Vec<bool> {
+    fn are_cut(&self, job: &Job, are_apart: bool) -> Vec<bool> {
         let name = |bytes: &[u8]| {
             let text = job.profile.labels.text(bytes);
             // Bytes that are no text are their own name.
@@ -183,7 +236,7 @@ impl<'a> Sheets<'a> {
         let is_wanted = |size: &String| match &job.patterns.sizes {
             Some(Sizes::All) => true,
             Some(Sizes::Named(names)) => names.iter().any(|name| name.trim().to_uppercase() == *size),
-            None => all.len() < 2 || sample.as_ref().is_none_or(|sample| sample == size),
+            None => are_apart || all.len() < 2 || sample.as_ref().is_none_or(|sample| sample == size),
         };
         let is_cut = |(k, size): (usize, &Option<String>)| is_piece(k) && size.as_ref().is_none_or(is_wanted);
         sizes.iter().enumerate().map(is_cut).collect()

@@ -1,7 +1,7 @@
 //! Curves of a block, found anew: which fine lines (layers 84 to 87) stand for coarse ones, and which edges of others may bow
 //! because curve points (layer 3) stand on them. It follows no line and lays no curve.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::lines::{MEETS, Measure, Path, clusters, paths, vertices};
 use super::lookup::Lookup;
@@ -173,20 +173,36 @@ fn free_ends(paths: &[Path]) -> Vec<(usize, Point)> {
     ends.iter().filter(|(_, at)| lookup.near(*at).count() < 2).copied().collect()
 }
 
-/// Which lines stand off others that belong to them: one of their ends is free, while not two of all are those of an open
-/// outline.
+/// Which lines stand off others that belong to them: those that are left over where a ring remains once lines with a free end
+/// are taken away, again and again.
 pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
     let mut is_twig = vec![false; paths.len()];
-    let ends: Vec<Point> = paths.iter().filter(|p| !p.is_closed).flat_map(|p| [p.points[0], p.points[p.points.len() - 1]]).collect();
-    let lookup = Lookup::of(ends.into_iter(), MEETS);
-    for (k, at) in free_ends(paths) {
-        let path = &paths[k];
-        let [first, last] = [path.points[0], path.points[path.points.len() - 1]];
-        let root = if at == first { last } else { first };
-        // Beside its own end two more meet there.
-        is_twig[k] = lookup.near(root).count() > 2;
+    let mut left: Vec<usize> = (0..paths.len()).collect();
+    loop {
+        let rest: Vec<Path> = left.iter().map(|&k| paths[k].clone()).collect();
+        let free: BTreeSet<usize> = free_ends(&rest).into_iter().map(|end| left[end.0]).collect();
+        if free.is_empty() {
+            break;
+        }
+        free.iter().for_each(|&k| is_twig[k] = true);
+        left.retain(|k| !free.contains(k));
     }
-    is_twig
+    if left.is_empty() { vec![false; paths.len()] } else { is_twig }
+}
+
+/// Which groups of lines stand on edges of others: single open lines, one end of which is on an edge and the other is not.
+pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
+    let is_open = |paths: &Vec<Path>| twigs(paths).iter().all(|is_twig| !is_twig) && !free_ends(paths).is_empty();
+    let edges: Vec<[Point; 2]> = clusters
+        .iter()
+        .filter(|paths| !is_open(paths))
+        .flatten()
+        .flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k)).collect::<Vec<_>>())
+        .collect();
+    let boxes = Boxes::new(edges.iter().map(|[a, b]| Extent::between(*a, *b).grown(MEETS)).collect());
+    let is_on = |at: Point| boxes.at(at).any(|k| polyline::distance_to_segment(at, edges[k][0], edges[k][1]) <= MEETS);
+    let stands = |paths: &Vec<Path>| is_open(paths) && free_ends(paths).iter().filter(|end| is_on(end.1)).count() == 1;
+    clusters.iter().map(stands).collect()
 }
 
 /// Fine lines, with the chord that closes them where the coarse ones are closed.

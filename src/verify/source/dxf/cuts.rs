@@ -1,12 +1,15 @@
 //! What a block cuts, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
-use super::curves::{Bend, Bow, Course, Curves, twigs};
+use super::curves::{Bend, Bow, Course, Curves, standing, twigs};
 use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, vertices};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::geom::{Point, Vector, cross, left};
+
+/// The layer that mostly has the curves of outlines.
+const FINE_OUTLINE: u32 = 84;
 
 /// What is cut, mm.
 #[derive(Debug, Clone, Default)]
@@ -145,8 +148,13 @@ impl Cuts {
         });
         let fold = fold.filter(|fold| fold.halves(&outlines)).map(|fold| fold.of_half(&outlines));
         let curves = lent.map(|lent| Curves::of(sheet, lent, measure));
-        for (layer, usual) in [(1, 84), (11, 86)] {
-            for paths in clusters(paths(layer)) {
+        for (layer, usual) in [(1, FINE_OUTLINE), (11, 86)] {
+            let clusters = clusters(paths(layer));
+            let are_spurs = if layer == 1 { standing(&clusters) } else { vec![false; clusters.len()] };
+            for (mut paths, is_spur) in clusters.into_iter().zip(are_spurs) {
+                if is_spur {
+                    paths.iter_mut().for_each(|path| path.times = 2.0);
+                }
                 let fold = if layer == 1 { fold } else { fold.filter(|fold| fold.halves(&paths)) };
                 cuts.add_curved(paths, usual, curves.as_ref(), Halving { fold, sagitta: measure.sagitta });
             }
@@ -213,11 +221,11 @@ impl Cuts {
                     self.chords.extend(both_ends([a, b]));
                 }
                 self.bends.extend(bends.iter().flat_map(|bend| both(bend.at).map(|at| Bend { at, ..*bend })));
-                double(&mut paths);
+                double(&mut paths, usual);
                 self.add(&paths, &passed, halving);
             }
             None => {
-                double(&mut paths);
+                double(&mut paths, usual);
                 self.add(&paths, &[], halving);
             }
         }
@@ -279,8 +287,11 @@ impl Halving {
     }
 }
 
-/// Lines that stand off others are cut there and back.
-fn double(paths: &mut [Path]) {
+/// Lines that stand off an outline are cut there and back.
+fn double(paths: &mut [Path], usual: u32) {
+    if usual != FINE_OUTLINE {
+        return;
+    }
     let twigs = twigs(paths);
     paths.iter_mut().zip(twigs).filter(|(_, is_twig)| *is_twig).for_each(|(path, _)| path.times = 2.0);
 }

@@ -225,6 +225,12 @@ impl Path {
         Self { curves: vec![None; points.len() - 1], points, ..Self::default() }
     }
 
+    /// How long an edge is, mm.
+    pub(super) fn length(&self, k: usize) -> f64 {
+        let [from, to] = self.edge(k);
+        self.curves[k].map_or((to - from).norm(), |round| round.radius * round.sweep.abs())
+    }
+
     /// The ends of an edge.
     pub(super) fn edge(&self, k: usize) -> [Point; 2] {
         [self.points[k], self.points[(k + 1) % self.points.len()]]

@@ -12,6 +12,8 @@ pub struct CutPlaces {
     pub(super) holes: Vec<(Point, u32)>,
     /// Notches that are told and not cut, by the blocks that they come from.
     pub(super) left_out: Vec<u32>,
+    /// Blocks whose pieces cannot be cut and are left out.
+    pub(super) blocks_left_out: Vec<u32>,
 }
 
 impl CutPlaces {
@@ -30,6 +32,12 @@ impl CutPlaces {
             contours: marker.contours().map(line).collect(),
             notches: marker.pieces.iter().flat_map(|piece| piece.notches.iter().copied()).collect(),
             holes: marker.pieces.iter().flat_map(|piece| &piece.drills).map(|d| (d.at, d.span.block)).collect(),
+            blocks_left_out: marker
+                .drawing
+                .iter()
+                .flat_map(|account| &account.pieces_left_out)
+                .map(|span| span.block)
+                .collect(),
             left_out: marker.drawing.iter().flat_map(|account| &account.notches_left_out).map(|s| s.block).collect(),
         }
     }

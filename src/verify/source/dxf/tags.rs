@@ -1,5 +1,7 @@
 //! A second, small reading of the lines of a DXF file: what stands in which block.
 
+use crate::machine::labels::Labels;
+
 /// A code and its value.
 #[derive(Debug, Clone, Copy)]
 struct Tag<'a> {
@@ -15,12 +17,26 @@ pub(super) struct Item<'a> {
     /// Number of the group that it begins with.
     pub(super) number: u32,
     tags: Vec<Tag<'a>>,
+    /// How its texts are encoded.
+    labels: &'a Labels,
 }
+
+/// Other words of some keys, as CAD systems of other countries write them.
+#[rustfmt::skip] // a table: a row a key
+const ALSO: [(&str, &[&str]); 5] = [
+    ("SIZE", &["SIZE NAME", "GROESSE", "GRÖSSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "号型", "尺码"]),
+    ("SAMPLE SIZE", &["BASE SIZE", "BASISGROESSE", "BASISGRÖSSE", "GRUNDGROESSE", "GRUNDGRÖSSE", "TAGLIA BASE", "TAILLE DE BASE", "TALLA BASE", "TAMANHO BASE", "基码", "样板尺码"]),
+    ("UNITS", &["UNIT", "EINHEIT", "EINHEITEN", "UNIDAD", "UNIDADE", "UNIDADES", "UNITA", "UNITE", "UNITES", "UNITÀ", "UNITÉ", "UNITÉS", "单位"]),
+    ("QUANTITY", &["QTY", "QTY.", "ANZAHL", "CANT.", "CANTIDAD", "MENGE", "QTÉ", "QUANTIDADE", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "数量"]),
+    ("PIECE NAME", &["NOM DE PIECE", "NOM DE PIÈCE", "NOMBRE DE PIEZA", "NOME DA PEÇA", "NOME PEZZO", "TEIL", "TEILENAME", "裁片名称"]),
+];
 
 /// A block, or what stands in none.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sheet<'a> {
     pub(super) name: Vec<u8>,
+    /// Number of the group that it begins with.
+    pub(super) number: u32,
     /// Place of the block that an insertion puts somewhere, in units of the file; `None` when it is damaged.
     pub(super) base: Option<[f64; 2]>,
     pub(super) items: Vec<Item<'a>>,
@@ -111,9 +127,11 @@ impl<'a> Item<'a> {
         if !self.is_text() {
             return None;
         }
+        let also = ALSO.iter().find(|(word, _)| *word == key).map_or(&[][..], |(_, also)| also);
         let is_key = |name: &[u8]| {
-            let name = String::from_utf8_lossy(name).to_uppercase();
-            name.split_whitespace().eq(key.split_whitespace())
+            let name = self.labels.text(name).to_uppercase();
+            let is = |word: &str| name.split_whitespace().eq(word.split_whitespace());
+            is(key) || also.iter().any(|word| is(word))
         };
         let text = self.text(1);
         if self.kind == b"MTEXT" {
@@ -176,14 +194,14 @@ impl Sheet<'_> {
 }
 
 /// The blocks of a file, what stands in none, and the number of the unit that its header has.
-pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>, Option<f64>) {
+pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &'a Labels) -> (Vec<Sheet<'a>>, Sheet<'a>, Option<f64>) {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
     let mut items: Vec<Item> = Vec::new();
     for (pair, number) in lines.chunks_exact(2).zip(1..) {
         let Some(code) = std::str::from_utf8(pair[0]).ok().and_then(|code| code.parse().ok()) else { break };
         match items.last_mut() {
-            _ if code == 0 => items.push(Item { kind: pair[1].to_ascii_uppercase(), number, tags: Vec::new() }),
+            _ if code == 0 => items.push(Item { kind: pair[1].to_ascii_uppercase(), number, tags: Vec::new(), labels }),
             Some(item) => item.tags.push(Tag { code, text: pair[1] }),
             None => {}
         }
@@ -212,7 +230,7 @@ pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>, Option<f64>) {
             b"BLOCK" if section == b"BLOCKS" => {
                 is_in_block = true;
                 let base = if item.has(10) || item.has(20) { item.pair([10, 20]) } else { Some([0.0; 2]) };
-                blocks.push(Sheet { name: item.text(2).to_ascii_uppercase(), base, items: Vec::new() });
+                blocks.push(Sheet { name: item.text(2).to_ascii_uppercase(), number: item.number, base, items: Vec::new() });
             }
             b"ENDBLK" => is_in_block = false,
             _ if is_in_block => blocks.last_mut().into_iter().for_each(|block| block.items.push(item.clone())),

@@ -1,0 +1,79 @@
+//! Lines with their curves, and where places beside their chords are on them.
+
+use super::Leg;
+use super::nodes::ON;
+use super::spikes::Smoothed;
+use crate::front::dxf::chain::Chain;
+use crate::geom::budget::Budget;
+use crate::geom::{Point, polyline};
+use crate::machine::patterns::Dxf;
+
+/// Where a line got its curves from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::front::dxf) enum Origin {
+    /// It has none, or is fine itself.
+    Drawn,
+    /// A line on layers 84 to 87.
+    Fine,
+    /// The rule of a CAD system.
+    Laid,
+}
+
+/// A line with its curves.
+#[derive(Debug)]
+pub(in crate::front::dxf) struct Curved {
+    pub(in crate::front::dxf) line: Chain,
+    pub(in crate::front::dxf) origin: Origin,
+    /// How far the curves leave the chords of the coarse line, mm.
+    pub(in crate::front::dxf) off: f64,
+    /// The coarse line, and what became of each of its edges; empty where they are as they were.
+    coarse: Vec<Point>,
+    legs: Vec<Vec<Point>>,
+}
+
+impl Curved {
+    /// A line as it is drawn.
+    pub(super) fn drawn(line: &Chain) -> Self {
+        Self { line: line.clone(), origin: Origin::Drawn, off: 0.0, coarse: Vec::new(), legs: Vec::new() }
+    }
+
+    /// A line that has curves now, from each vertex of the coarse one on, without spikes.
+    pub(super) fn of(coarse: &Smoothed, mut legs: Vec<Leg>, origin: Origin) -> Self {
+        let base = &coarse.line;
+        let round: Vec<Point> = base.points();
+        let way = |k: usize| {
+            let head = legs[k].first().filter(|first| (first.at - round[k]).norm() <= ON).is_none().then_some(round[k]);
+            let next = round[k + 1];
+            head.into_iter().chain(legs[k].iter().map(|vertex| vertex.at)).chain([next]).collect()
+        };
+        let ways: Vec<Vec<Point>> = (0..round.len() - 1).map(way).collect();
+        let off_edge = |(way, edge): (&Vec<Point>, &[Point])| {
+            way.iter().map(|&at| polyline::distance_to_segment(at, edge[0], edge[1])).fold(0.0, f64::max)
+        };
+        let off = ways.iter().zip(round.windows(2)).map(off_edge).fold(0.0, f64::max);
+        coarse.put_back(&mut legs);
+        let line = Chain { vertices: legs.concat(), is_closed: base.is_closed };
+        Self { line, origin, off, coarse: round, legs: ways }
+    }
+
+    /// Where a place beside a chord of the coarse line is on the curve: straight up from the chord. Places that lie beside
+    /// neither chord nor curve stay, and so do those beside the curve.
+    pub(in crate::front::dxf) fn lifted(&self, at: Point, work: &mut Budget) -> Point {
+        let vertices: usize = self.legs.iter().map(Vec::len).sum();
+        let near = |way: &Vec<Point>| polyline::distance(at, way) <= Dxf::NOTCH_OFF;
+        if !work.spend(vertices) || self.legs.iter().any(near) {
+            return at;
+        }
+        let distance = |k: usize| polyline::distance_to_segment(at, self.coarse[k], self.coarse[k + 1]);
+        let nearest = (0..self.legs.len()).map(|k| (distance(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, k)) = nearest.filter(|(distance, _)| *distance <= Dxf::NOTCH_OFF) else { return at };
+        let [a, b] = [self.coarse[k], self.coarse[k + 1]];
+        let along = (b - a) / (b - a).norm();
+        let ahead = |place: Point| (place - a).dot(&along) - (at - a).dot(&along);
+        let crossing = self.legs[k].windows(2).find(|pair| ahead(pair[0]) <= 0.0 && ahead(pair[1]) > 0.0);
+        crossing.map_or(at, |pair| {
+            let [before, behind] = [ahead(pair[0]), ahead(pair[1])];
+            pair[0] + (pair[1] - pair[0]) * (before / (before - behind))
+        })
+    }
+}
