@@ -87,7 +87,10 @@ fn ours(name: &str, folder: &Path) -> (Counts, bool) {
     let number = |value: &serde_json::Value| value.as_u64().unwrap_or_default();
     let of_class = |class: &str| {
         let lines = info["lines"].as_array().into_iter().flatten();
-        lines.filter(|line| line["class"] == class && line["cut"] == true).map(|line| number(&line["count"])).sum::<u64>()
+        lines
+            .filter(|line| line["class"] == class && line["cut"] == true)
+            .map(|line| number(&line["count"]))
+            .sum::<u64>()
     };
     let notches = info["notches"].as_object().into_iter().flatten().map(|(_, count)| number(count)).sum();
     let counts = [
@@ -116,7 +119,8 @@ fn ezdxf_counts_the_same_in_patterns_of_its_own_and_in_the_fixtures() {
         std::fs::copy(file.path(), folder.path().join(file.file_name())).expect("a copy");
     }
     let files = std::fs::read_dir(folder.path()).expect("a folder");
-    let mut names: Vec<String> = files.map(|file| file.expect("readable").file_name().to_string_lossy().into()).collect();
+    let mut names: Vec<String> =
+        files.map(|file| file.expect("readable").file_name().to_string_lossy().into()).collect();
     names.sort();
     std::fs::write(folder.path().join("names.json"), serde_json::to_vec(&names).expect("JSON")).expect("writable");
     let ran = python(READ, folder.path());

@@ -296,13 +296,9 @@ impl Making<'_> {
                     drawn.extend(lines.map(curved).map(|line| (layer, line)));
                 }
                 Does::Fine => drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line))),
-                Does::Outline
-                | Does::Notch(_)
-                | Does::Fold
-                | Does::Drill
-                | Does::Sign
-                | Does::Turn
-                | Does::Curve => drawn.push((layer, line)),
+                Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Turn | Does::Curve => {
+                    drawn.push((layer, line))
+                }
             }
         }
         let around = Outline::of(plain);

@@ -17,7 +17,7 @@ use super::tally::{Tally, Thing};
 use super::text::Facts;
 use super::told::{plain, say_at_fault, say_curves, say_hidden, say_on_paper, say_text, say_unread};
 use super::unit::{Lengths, doubt, unit};
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;
@@ -137,7 +137,13 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let bases: Vec<Point> = blocks.iter().zip(&mut said).map(&mut base).collect();
     let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
     let placing = Placing::of(source, blocks, bases, std::mem::take(&mut loose.inserts));
-    lend(&mut drawn, &sizes_of(&own, &asked));
+    let lenders = lend(&mut drawn, &sizes_of(&own, &asked));
+    let error = |said: &Diagnostics| said.iter().find(|finding| finding.code.severity == Severity::Error).cloned();
+    let errors: Vec<Option<Diagnostic>> = said.iter().map(error).collect();
+    // Points that are damaged where they are drawn are so where they are borrowed.
+    for (said, lender) in said.iter_mut().zip(lenders) {
+        lender.and_then(|lender| errors[lender].clone()).into_iter().for_each(|error| said.push(error));
+    }
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
     let own = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own));
     // What frames and legends say of sizes is of no piece.
@@ -244,9 +250,13 @@ impl Set {
         if self.count() <= MOST_PIECES && !making.out.has_errors() {
             let on_others = over::on_others(&self.laid(), &mut making.work);
             if 2 * on_others.count > self.count() {
-                let message = format!("INSERTs put {} of {} pieces on each other: they are no places", on_others.count, self.count());
+                let count = self.count();
+                let message =
+                    format!("INSERTs put {} of {count} pieces on each other: they are no places", on_others.count);
                 let finding = Diagnostic::new(&code::DXF_NO_PLACES, message);
-                making.out.push(finding.hint("the pieces lie in a row; for a lay make a marker of them in the CAD system"));
+                making
+                    .out
+                    .push(finding.hint("the pieces lie in a row; for a lay make a marker of them in the CAD system"));
                 self.placed = None;
                 return;
             }
@@ -296,7 +306,11 @@ impl Set {
             out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
         }
         if self.loose > 1 || self.loose == 1 && self.placed.is_some() {
-            let (outlines, they) = if self.loose == 1 { ("outline stands", "it lies as it is") } else { ("outlines stand", "they lie as they are") };
+            let (outlines, they) = if self.loose == 1 {
+                ("outline stands", "it lies as it is")
+            } else {
+                ("outlines stand", "they lie as they are")
+            };
             let message = format!("{} {outlines} in no block; {they} drawn", self.loose);
             let finding = Diagnostic::new(&code::DXF_AS_DRAWN, message);
             out.push(finding.hint("see in the picture (-t svg) how they lie on the cloth"));
@@ -306,7 +320,11 @@ impl Set {
             width.max(height)
         };
         if self.pieces.len() > 1 {
-            doubt(self.pieces.iter().filter(|piece| !piece.is_at_fault()).map(side).fold(f64::NEG_INFINITY, f64::max), asked, out);
+            doubt(
+                self.pieces.iter().filter(|piece| !piece.is_at_fault()).map(side).fold(f64::NEG_INFINITY, f64::max),
+                asked,
+                out,
+            );
         }
     }
 
@@ -318,8 +336,14 @@ impl Set {
                 numbers.entry(laid.piece.span.start).or_insert((laid.piece, Vec::new())).1.push(number);
             }
         }
+        let hint = if self.pieces.iter().all(Piece::is_at_fault) {
+            None
+        } else {
+            let all: Vec<String> = numbers.values().flat_map(|(_, numbers)| numbers).map(u32::to_string).collect();
+            Some(format!("all other pieces can be cut without it: `--skip {}`", all.join(",")))
+        };
         for (piece, numbers) in numbers.values() {
-            say_at_fault(piece, numbers, asked, out);
+            say_at_fault(piece, numbers[0], hint.as_deref(), asked, out);
         }
     }
 }

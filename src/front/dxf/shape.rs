@@ -199,7 +199,7 @@ impl<'a> Reader<'a, '_> {
             return;
         }
         let Diagnostic { message, span, .. } = fault;
-        let message = format!("{message}; it is drawn on layer {}, which is not cut, and left out", entity.layer_name());
+        let message = format!("{message}; left out, as layer {} is not cut", entity.layer_name());
         let finding = Diagnostic::new(&code::DXF_DAMAGED, message).at(span.unwrap_or(entity.span()));
         self.out.push(finding.hint("what is cut is whole; export the file again if the drawing is to be sewn"));
     }

@@ -50,7 +50,8 @@ impl Nodes {
             let at = place(lines, end);
             let [x, y] = cell(at);
             let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
-            let near = around.filter_map(|cell| cells.get(&cell)).flatten().find(|&&node| (places[node] - at).norm() <= REACH);
+            let near =
+                around.filter_map(|cell| cells.get(&cell)).flatten().find(|&&node| (places[node] - at).norm() <= REACH);
             let node = near.copied().unwrap_or_else(|| {
                 places.push(at);
                 nodes.ends.push(Vec::new());
@@ -67,7 +68,9 @@ impl Nodes {
     fn paths(&self, lines: &[Chain]) -> Vec<(End, Vec<usize>)> {
         let mut counts: Vec<usize> = self.ends.iter().map(Vec::len).collect();
         let mut paths = Vec::new();
-        for tip in (0..2 * lines.len()).filter(|tip| self.of_end.get(tip).is_some_and(|&node| self.ends[node].len() == 1)) {
+        for tip in
+            (0..2 * lines.len()).filter(|tip| self.of_end.get(tip).is_some_and(|&node| self.ends[node].len() == 1))
+        {
             let mut path = vec![tip / 2];
             let mut at = tip ^ 1;
             while let Some(&node) = self.of_end.get(&at) {
@@ -76,7 +79,8 @@ impl Nodes {
                     paths.push((tip, path));
                     break;
                 }
-                let Some(&next) = self.ends[node].iter().find(|&&next| next != at).filter(|_| counts[node] == PASSING) else {
+                let Some(&next) = self.ends[node].iter().find(|&&next| next != at).filter(|_| counts[node] == PASSING)
+                else {
                     break;
                 };
                 if path.contains(&(next / 2)) {
@@ -115,12 +119,20 @@ fn from_root(lines: &[Chain], tip: End, path: &[usize]) -> Vec<Vertex> {
 fn attached(chains: Vec<Chain>, spurs: Vec<Vec<Vertex>>) -> Vec<Chain> {
     let (mut rings, open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.is_closed);
     if spurs.is_empty() && open.is_empty() || rings.is_empty() {
-        return rings.into_iter().chain(open).chain(spurs.into_iter().filter_map(|spur| Chain::of(spur, false))).collect();
+        return rings
+            .into_iter()
+            .chain(open)
+            .chain(spurs.into_iter().filter_map(|spur| Chain::of(spur, false)))
+            .collect();
     }
-    let edges: Vec<(usize, usize, [Point; 2])> = rings.iter().enumerate().flat_map(|(ring, chain)| {
-        let points = chain.points();
-        (0..points.len() - 1).map(move |k| (ring, k, [points[k], points[k + 1]])).collect::<Vec<_>>()
-    }).collect();
+    let edges: Vec<(usize, usize, [Point; 2])> = rings
+        .iter()
+        .enumerate()
+        .flat_map(|(ring, chain)| {
+            let points = chain.points();
+            (0..points.len() - 1).map(move |k| (ring, k, [points[k], points[k + 1]])).collect::<Vec<_>>()
+        })
+        .collect();
     let boxes = Boxes::new(edges.iter().map(|(_, _, [a, b])| Extent::between(*a, *b).grown(REACH)).collect());
     let standing = |at: Point| {
         let distance = |k: &usize| polyline::distance_to_segment(at, edges[*k].2[0], edges[*k].2[1]);
@@ -140,7 +152,8 @@ fn attached(chains: Vec<Chain>, spurs: Vec<Vec<Vertex>>) -> Vec<Chain> {
         }
     }
     // From the last edge to the first, and along each from its end, so that places stay what they are.
-    let station = |(edge, line): &(usize, Vec<Vertex>)| (*edge, polyline::foot(line[0].at, edges[*edge].2[0], edges[*edge].2[1]));
+    let station =
+        |(edge, line): &(usize, Vec<Vertex>)| (*edge, polyline::foot(line[0].at, edges[*edge].2[0], edges[*edge].2[1]));
     whiskers.sort_by(|a, b| {
         let [(a, at_a), (b, at_b)] = [station(a), station(b)];
         b.cmp(&a).then(at_b.total_cmp(&at_a))

@@ -10,8 +10,8 @@ use super::shape::Unread;
 use crate::diagnostic::{Diagnostic, Diagnostics, PieceName, code};
 use crate::source::Span;
 
-/// Layers that a message names.
-const LAYERS_SHOWN: usize = 12;
+/// Letters of the names of layers in a message.
+const LAYERS_SHOWN: usize = 50;
 
 /// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
 pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut Diagnostics) {
@@ -22,56 +22,65 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
         return;
     }
     if let Some(span) = drafting.wild {
-        let message = "a curve through the curve points (layer 3) would leave its chords by more than half their length";
+        let message = "a curve through curve points (layer 3) would leave a chord by half its length";
         let finding = Diagnostic::new(&code::DXF_WILD_CURVE, message).at(span);
         out.push(finding.hint("look at these points; `dxf.curves=points` lays no curves"));
     }
-    let pieces = |from: &CurvedFrom| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
-    let off = |from: &CurvedFrom| format!("up to {:.1} mm from the chords of its points", from.off);
+    let pieces =
+        |from: &CurvedFrom| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
+    let off = |from: &CurvedFrom| format!("up to {:.1} mm off the chords", from.off);
     let CurvedPieces { fine, laid } = curved;
     if fine.pieces > 0 {
-        let message = format!("{} cut along the curves of layers 84 to 87, {}", pieces(fine), off(fine));
+        let message = format!("{} cut along the curves of layer 84, {}", pieces(fine), off(fine));
         let finding = Diagnostic::new(&code::DXF_CURVED, message).at(fine.first);
         out.push(finding.hint("the file draws them so; `dxf.curves=points` cuts along the chords"));
     }
     if laid.pieces > 0 {
         let (pieces, off) = (pieces(laid), off(laid));
-        let finding = match drafting.system {
-            Some(system) => {
-                let message = format!("{pieces} cut along curves through the curve points as {system} lays them, {off}");
-                Diagnostic::new(&code::DXF_CURVED, message)
-            }
-            None => {
-                let message = format!("{pieces} cut along curves through the curve points, {off}; the CAD system may lay others");
-                Diagnostic::new(&code::DXF_CURVE_GUESSED, message)
-            }
+        let (code, message, hint) = match drafting.system {
+            Some(system) => (
+                &code::DXF_CURVED,
+                format!("{pieces} cut along curves as {system} lays them, {off}"),
+                "its curve points (layer 3) tell them; `dxf.curves=points` cuts along the chords",
+            ),
+            None => (
+                &code::DXF_CURVE_GUESSED,
+                format!("{pieces} cut along guessed curves, {off}"),
+                "no AUTHOR is known: compare a neck and an armhole, or export ASTM DXF with layer 84",
+            ),
         };
-        let hint = "let the CAD system export ASTM DXF with its curves on layer 84, or compare a neck and an armhole";
-        out.push(finding.at(laid.first).hint(hint));
+        out.push(Diagnostic::new(code, message).at(laid.first).hint(hint));
     }
 }
 
-/// Why a piece of these numbers cannot be cut, and how to leave it out.
-pub(super) fn say_at_fault(piece: &Piece, numbers: &[u32], Asked { source, job, .. }: &Asked, out: &mut Diagnostics) {
-    let first = numbers.first().copied().unwrap_or_default();
-    let label = piece.labels.first().map(|label| job.profile.labels.text(source.slice(label.span)));
-    let name = PieceName { number: first, copy: 0, label };
-    let numbers: Vec<String> = numbers.iter().map(u32::to_string).collect();
-    let hint = format!("all other pieces can be cut without it: `--skip {}`", numbers.join(","));
+/// Why a piece of this number cannot be cut, and what may be done without it.
+pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked: &Asked, out: &mut Diagnostics) {
+    let text = |span: Span| asked.job.profile.labels.text(asked.source.slice(span));
+    let label = piece.labels.first().map(|label| text(label.span));
+    let name = PieceName { number, copy: 0, label };
     for fault in &piece.faults {
-        out.push(Diagnostic { piece: Some(Box::new(name.clone())), ..fault.clone() }.hint(hint.clone()));
+        let finding = Diagnostic { piece: Some(Box::new(name.clone())), ..fault.clone() };
+        out.push(hint.iter().fold(finding, |finding, hint| finding.hint(*hint)));
     }
 }
 
 /// The finding that a file is a plain drawing on these layers.
 pub(super) fn plain(names: &Names) -> Diagnostic {
     let names = names.all();
-    let dots = if names.len() > LAYERS_SHOWN { ", ..." } else { "" };
-    let word = if names.len() == 1 { "layer" } else { "layers" };
-    let shown = names[..names.len().min(LAYERS_SHOWN)].join(", ");
-    let message = format!("the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM): its lines are on {word} {shown}{dots}");
-    let hint = "let the CAD system export the pieces as AAMA or ASTM DXF, or the marker as a cut file (ISO) or an HPGL plot";
-    Diagnostic::new(&code::DXF_PLAIN, message).hint(hint)
+    let mut shown = String::new();
+    for name in names {
+        let comma = if shown.is_empty() { "" } else { ", " };
+        if shown.len() + name.len() > LAYERS_SHOWN {
+            shown.push_str(comma);
+            shown.push_str("...");
+            break;
+        }
+        shown.push_str(comma);
+        shown.push_str(name);
+    }
+    let message = "the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM)";
+    let finding = Diagnostic::new(&code::DXF_PLAIN, message).hint(format!("its lines are on layer {shown}"));
+    finding.hint("let the CAD system export AAMA or ASTM DXF, a cut file (ISO) or an HPGL plot")
 }
 
 /// What kinds of entities are not read, and on which layers.

@@ -47,9 +47,12 @@ pub(super) fn unit(
                     return mm;
                 }
                 let long = mm * lengths.all / 1e6;
-                let message = format!("the unit of the header ($INSUNITS) would make {long:.1} km of cuts; it is taken for mm");
+                let message = format!("the header's unit ($INSUNITS) would make {long:.1} km of cuts; taken for mm");
                 let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message).at(span);
-                out.push(finding.hint("compare the extent that is printed with the pieces; inches are `--set dxf.unit=inch`"));
+                out.push(
+                    finding
+                        .hint("compare the extent that is printed with the pieces; inches are `--set dxf.unit=inch`"),
+                );
                 return 1.0;
             }
             let message = format!("`{}` ($INSUNITS) is no unit of patterns", source.slice(span).escape_ascii());
@@ -90,7 +93,7 @@ pub(super) fn doubt(largest: f64, Asked { job, .. }: &Asked, out: &mut Diagnosti
     if job.profile.dxf.unit.mm().is_none() && (0.0..SMALLEST).contains(&largest) {
         let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");
         let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message);
-        out.push(finding.hint("patterns in cm or inches are read as mm where the file says METRIC; `--set dxf.unit=mm` says that it is mm"));
+        out.push(finding.hint("METRIC may stand over cm or inches; `--set dxf.unit=mm` says that it is mm"));
     }
 }
 

@@ -102,7 +102,9 @@ fn an_outline_of_turn_and_curve_points_is_cut_along_layer_84() {
             continue; // no side has a curve
         }
         let fine = rotated(&outline.fine, random.usize(..outline.fine.len()), random.bool());
-        for (drawn, of_fine) in Drawn::ALL.into_iter().zip([Drawn::Closed, Drawn::Parts, Drawn::Lines, Drawn::FirstIsLast, Drawn::Closed]) {
+        for (drawn, of_fine) in
+            Drawn::ALL.into_iter().zip([Drawn::Closed, Drawn::Parts, Drawn::Lines, Drawn::FirstIsLast, Drawn::Closed])
+        {
             let mut file = Writer::begin();
             file.block("A");
             outline.write(&mut file, 1, drawn);
@@ -126,7 +128,8 @@ fn a_control_polygon_on_layer_84_leaves_an_outline_that_is_fine_itself() {
     let mut file = Writer::begin();
     file.block("A").outline(1, &outline.fine, Drawn::Closed);
     // Handles beside the curve, and more of them than the outline has vertices.
-    let polygon: Vec<Place> = outline.fine.iter().flat_map(|&[x, y]| [[1.02 * x, 1.02 * y], [1.03 * x, 1.03 * y]]).collect();
+    let polygon: Vec<Place> =
+        outline.fine.iter().flat_map(|&[x, y]| [[1.02 * x, 1.02 * y], [1.03 * x, 1.03 * y]]).collect();
     file.outline(84, &[&outline.fine[..1], &polygon[..]].concat(), Drawn::Closed);
     outline.fine.iter().for_each(|place| _ = file.point(3, *place, [0.0; 2]));
     file.end_block();
@@ -293,7 +296,13 @@ fn halves(random: &mut Rng, is_smooth: bool, with_fine: bool) -> [Writer; 2] {
         file.block("A").outline(1, &places, Drawn::Closed);
         for (k, place) in places.iter().enumerate() {
             let is_on_fold = k == 0 || *place == half[count];
-            let layers: &[u32] = if !is_on_fold { &[3] } else if is_smooth { &[2, 3] } else { &[2] };
+            let layers: &[u32] = if !is_on_fold {
+                &[3]
+            } else if is_smooth {
+                &[2, 3]
+            } else {
+                &[2]
+            };
             layers.iter().for_each(|&layer| _ = file.point(layer, *place, [0.0; 2]));
         }
         if with_fine {
@@ -355,7 +364,10 @@ fn notches_that_are_drawn_on_the_chords_are_cut_into_the_curve() {
             let source = source(file.end(&["UNITS: METRIC", "AUTHOR: CLO"]));
             let (marker, found) = as_read(&source, &Job::default());
             let is_curved = fine.len() > outline.vertices.len();
-            assert!(found.iter().all(|code| *code == "dxf/curves") && found.len() == usize::from(is_curved), "{seed} {found:?}");
+            assert!(
+                found.iter().all(|code| *code == "dxf/curves") && found.len() == usize::from(is_curved),
+                "{seed} {found:?}"
+            );
             assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "seed {seed}");
             let cut = points(&marker);
             for notch in &marker.pieces[0].notches {
@@ -372,7 +384,11 @@ fn other_sizes_borrow_the_points_of_the_sample_size() {
     let outline = flower(&mut random, 5);
     let grown = |places: &[Place]| places.iter().map(|place| place.map(|value| 1.1 * value)).collect::<Vec<Place>>();
     let mut file = Writer::begin();
-    file.block("A-L").outline(1, &grown(&outline.vertices), Drawn::Closed).text("SIZE: L").text("PIECE NAME: A").end_block();
+    file.block("A-L")
+        .outline(1, &grown(&outline.vertices), Drawn::Closed)
+        .text("SIZE: L")
+        .text("PIECE NAME: A")
+        .end_block();
     file.block("A-M");
     outline.write(&mut file, 1, Drawn::Closed);
     file.text("SIZE: M").text("PIECE NAME: A").end_block();

@@ -138,9 +138,14 @@ fn places_that_put_pieces_on_each_other_are_none() {
         let plain = unsized_texts(sizes(count, &["UNITS: METRIC"], |_| [0.0; 2]));
         let (marker, found) = read(&piled, &Job::default());
         let (row, of_row) = read(&plain, &Job::default());
-        assert_eq!((found, of_row), (vec!["dxf/no-places", "dxf/cutting-sample"], vec!["dxf/cutting-sample"]), "{seed}");
+        assert_eq!(
+            (found, of_row),
+            (vec!["dxf/no-places", "dxf/cutting-sample"], vec!["dxf/cutting-sample"]),
+            "{seed}"
+        );
         assert_eq!(contours(&marker), contours(&row), "seed {seed}");
-        let apart = unsized_texts(sizes(count, &["UNITS: METRIC"], |k| [400.0 * k as f64 + offsets[k][0], offsets[k][1]]));
+        let apart =
+            unsized_texts(sizes(count, &["UNITS: METRIC"], |k| [400.0 * k as f64 + offsets[k][0], offsets[k][1]]));
         let (marker, found) = read(&apart, &Job::default());
         assert!(found.is_empty(), "seed {seed}: {found:?}");
         let first = Extent::of(&contours(&marker)[0]).min;
@@ -215,7 +220,11 @@ fn damage_on_layers_that_are_not_cut_changes_nothing() {
             file.end_block();
             read(&file.end(&texts), &Job::default())
         });
-        assert!(whole.1.is_empty() && damaged.1.iter().all(|code| *code == "dxf/damaged-drawing"), "{seed}: {:?}", damaged.1);
+        assert!(
+            whole.1.is_empty() && damaged.1.iter().all(|code| *code == "dxf/damaged-drawing"),
+            "{seed}: {:?}",
+            damaged.1
+        );
         assert!(!damaged.1.is_empty(), "seed {seed}");
         assert_eq!(contours(&damaged.0), contours(&whole.0), "seed {seed}");
     }

@@ -59,9 +59,9 @@ impl Fine {
         stations
     }
 
-    /// How many vertices of a line lie on it.
-    pub(super) fn holds(&self, line: &Chain, work: &mut Budget) -> usize {
-        line.vertices.iter().filter(|vertex| !self.stations_of(vertex.at, work).is_empty()).count()
+    /// Whether a place lies on it.
+    pub(super) fn holds(&self, at: Point, work: &mut Budget) -> bool {
+        !self.stations_of(at, work).is_empty()
     }
 
     /// What it has from each vertex of a coarse line to the next one, if it goes through all of them in their order, once
@@ -83,7 +83,8 @@ impl Fine {
         if self.chain.is_closed || !is_forward && !meets([ends[1], ends[0]]) {
             return None;
         }
-        let start = Start { station: if is_forward { 0.0 } else { self.stations[self.stations.len() - 2] }, is_forward };
+        let start =
+            Start { station: if is_forward { 0.0 } else { self.stations[self.stations.len() - 2] }, is_forward };
         let ways = self.ways(coarse, start, work)?;
         Some(self.parted(start, &ways))
     }
@@ -100,8 +101,7 @@ impl Fine {
         };
         for vertex in &coarse.vertices[1..] {
             let stations = self.stations_of(vertex.at, work).into_iter();
-            let (step, next) =
-                stations.map(|next| (ahead(at, next), next)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let (step, next) = stations.map(|next| (ahead(at, next), next)).min_by(|a, b| a.0.total_cmp(&b.0))?;
             (at, way) = (next, way + step);
             if way > length {
                 return None;
@@ -116,7 +116,8 @@ impl Fine {
     fn parted(&self, start: Start, ways: &[f64]) -> Vec<Leg> {
         let length = self.length();
         let way = |k: usize| {
-            let way = if start.is_forward { self.stations[k] - start.station } else { start.station - self.stations[k] };
+            let way =
+                if start.is_forward { self.stations[k] - start.station } else { start.station - self.stations[k] };
             (way + ON).rem_euclid(length) - ON
         };
         let mut order: Vec<(f64, usize)> = (0..self.chain.vertices.len()).map(|k| (way(k), k)).collect();

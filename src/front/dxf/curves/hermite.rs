@@ -16,7 +16,8 @@ fn chords(bend: f64, sagitta: f64) -> usize {
 pub(super) fn bowed([from, to]: [Point; 2], [out, into]: [Vector; 2], sagitta: f64) -> Stretch {
     let third = (to - from).norm() / 3.0;
     let [a, b] = [from + out * third, to - into * third];
-    let bend = 6.0 * f64::max((from.coords - a.coords * 2.0 + b.coords).norm(), (a.coords - b.coords * 2.0 + to.coords).norm());
+    let bend = 6.0
+        * f64::max((from.coords - a.coords * 2.0 + b.coords).norm(), (a.coords - b.coords * 2.0 + to.coords).norm());
     let count = chords(bend, sagitta);
     let place = |k: usize| {
         let t = k as f64 / count as f64;

@@ -16,8 +16,8 @@ pub(in crate::front::dxf) struct Size<'a> {
 }
 
 /// Gives blocks without turn and curve points those of another size of the same piece, whose lines have as many vertices: of
-/// the sample size if that has some, else of the first.
-pub(in crate::front::dxf) fn lend(blocks: &mut [Shapes], sizes: &[Size]) {
+/// the sample size if that has some, else of the first. Says from which block each has some.
+pub(in crate::front::dxf) fn lend(blocks: &mut [Shapes], sizes: &[Size]) -> Vec<Option<usize>> {
     let mut lenders: BTreeMap<&[u8], usize> = BTreeMap::new();
     for (k, size) in sizes.iter().enumerate().filter(|(k, _)| has_dots(&blocks[*k])) {
         let Some(piece) = size.piece else { continue };
@@ -26,12 +26,16 @@ pub(in crate::front::dxf) fn lend(blocks: &mut [Shapes], sizes: &[Size]) {
             *known = k;
         }
     }
-    for (k, size) in sizes.iter().enumerate() {
-        if let Some(&lender) = size.piece.and_then(|piece| lenders.get(piece)).filter(|_| !has_dots(&blocks[k])) {
+    let lender =
+        |k: usize| sizes[k].piece.and_then(|piece| lenders.get(piece)).filter(|_| !has_dots(&blocks[k])).copied();
+    let of_blocks: Vec<Option<usize>> = (0..blocks.len()).map(lender).collect();
+    for (k, lender) in of_blocks.iter().enumerate() {
+        if let Some(lender) = *lender {
             let dots = lent(&blocks[lender], &blocks[k]);
             blocks[k].dots.extend(dots);
         }
     }
+    of_blocks
 }
 
 fn says(dot: &Dot) -> bool {
@@ -55,13 +59,24 @@ fn lent(lender: &Shapes, block: &Shapes) -> Vec<Dot> {
     let vertices = |block| lines(block).flat_map(|line| &line.vertices).map(|vertex| vertex.at);
     let mut kinds: BTreeMap<[i64; 2], Vec<(Point, &'static Layer)>> = BTreeMap::new();
     let cell = |at: Point| [at.x, at.y].map(|value| (value / ON).round() as i64);
-    lender.dots.iter().filter(|dot| says(dot)).for_each(|dot| kinds.entry(cell(dot.at)).or_default().push((dot.at, dot.layer)));
+    lender
+        .dots
+        .iter()
+        .filter(|dot| says(dot))
+        .for_each(|dot| kinds.entry(cell(dot.at)).or_default().push((dot.at, dot.layer)));
     let mut dots = Vec::new();
     for (its, own) in vertices(lender).zip(vertices(block)) {
         let [x, y] = cell(its);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
         let near = around.filter_map(|cell| kinds.get(&cell)).flatten().filter(|(at, _)| (at - its).norm() <= ON);
-        dots.extend(near.map(|&(_, layer)| Dot { layer, at: own, depth: 0.0, width: 0.0, heading: None, span: Span::default() }));
+        dots.extend(near.map(|&(_, layer)| Dot {
+            layer,
+            at: own,
+            depth: 0.0,
+            width: 0.0,
+            heading: None,
+            span: Span::default(),
+        }));
     }
     dots
 }

@@ -22,16 +22,16 @@ pub(super) use count::{CurvedFrom, CurvedPieces};
 pub(super) use curved::{Curved, Origin};
 use fine::Fine;
 pub(super) use lend::{Size, lend};
-pub(super) use nodes::Nodes;
 use nodes::Node;
+pub(super) use nodes::Nodes;
 use rule::{Rule, rule_of};
 use run::{Run, is_curve, lay};
 
 use super::chain::Chain;
 use super::fold::Fold;
 use super::layer::{Layer, Named};
-use crate::geom::budget::Budget;
 use crate::geom::Point;
+use crate::geom::budget::Budget;
 use crate::ir::drawing::Vertex;
 use crate::machine::patterns::Curves as Asked;
 use crate::source::Span;
@@ -116,12 +116,10 @@ impl Curves {
         if let Some(legs) = own.iter().chain(&others).find_map(|fine| fine.legs(&coarse.line, work)) {
             return Curved::of(&coarse, legs, Origin::Fine);
         }
-        // A fine line that a few vertices are on is the control polygon of a line that is fine itself.
-        let count = coarse.line.vertices.len();
-        let is_fine_itself = own.iter().any(|fine| {
-            let held = fine.holds(&coarse.line, work);
-            held > 0 && 2 * held <= count
-        });
+        // Fine lines that a few vertices are on are the control polygon of a line that is fine itself.
+        let vertices = &coarse.line.vertices;
+        let held = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.holds(vertex.at, work))).count();
+        let is_fine_itself = held > 0 && 2 * held <= vertices.len();
         match self.laid(&coarse.line, drafting).filter(|_| !is_fine_itself) {
             Some(legs) => Curved::of(&coarse, legs, Origin::Laid),
             None => Curved::drawn(line),
@@ -145,7 +143,9 @@ impl Curves {
             // Round and round: what is far along the line no longer bends a part of it.
             let thrice: Vec<usize> = (0..3 * count).map(|k| k % count).collect();
             let is_ring = count >= LEAST_RING && nodes.iter().any(|node| is_curve(*node));
-            return is_ring.then(|| lay(&Run { line, nodes: &nodes, places: &thrice }, count..2 * count, drafting, &mut legs))?.then_some(legs);
+            return is_ring
+                .then(|| lay(&Run { line, nodes: &nodes, places: &thrice }, count..2 * count, drafting, &mut legs))?
+                .then_some(legs);
         };
         let ends = corners.iter().copied().skip(1).chain(line.is_closed.then_some(first + count));
         for (start, end) in corners.iter().copied().zip(ends) {

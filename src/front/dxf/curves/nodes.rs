@@ -71,7 +71,14 @@ impl Nodes {
                 Does::Turn => Signs { is_turn: true, ..Signs::default() },
                 Does::Curve => Signs { is_curve: true, ..Signs::default() },
                 Does::Notch(_) => Signs { is_notch: true, ..Signs::default() },
-                Does::Outline | Does::Fold | Does::Inner | Does::Drill | Does::Drawn | Does::Seam | Does::Sign | Does::Fine => {
+                Does::Outline
+                | Does::Fold
+                | Does::Inner
+                | Does::Drill
+                | Does::Drawn
+                | Does::Seam
+                | Does::Sign
+                | Does::Fine => {
                     continue;
                 }
             };

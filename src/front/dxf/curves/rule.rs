@@ -39,7 +39,8 @@ const UNKNOWN: Rule = Rule::Spline(Ends::Natural);
 pub(super) fn rule_of(author: &str) -> (Rule, Option<&'static str>) {
     let author = author.to_uppercase();
     let is_there = |word: &str| author.split(|letter: char| !letter.is_alphanumeric()).any(|found| found == word);
-    let known = ROWS.iter().find(|row| is_there(row.word) || row.word.len() > "CLO3D".len() && author.contains(row.word));
+    let known =
+        ROWS.iter().find(|row| is_there(row.word) || row.word.len() > "CLO3D".len() && author.contains(row.word));
     known.map_or((UNKNOWN, None), |row| (row.rule, Some(row.name)))
 }
 

@@ -33,7 +33,8 @@ pub(super) fn lay(run: &Run, edges: std::ops::Range<usize>, drafting: &mut Draft
             let others: Vec<usize> = knots.iter().copied().filter(|&k| k != i).collect();
             let points: Vec<Point> = others.iter().map(|&k| at(k)).collect();
             let is_beside = drafting.spans(&points).is_some_and(|spans| {
-                let way: Vec<Point> = points.iter().zip(spans).flat_map(|(&at, span)| [vec![at], span].concat()).collect();
+                let way: Vec<Point> =
+                    points.iter().zip(spans).flat_map(|(&at, span)| [vec![at], span].concat()).collect();
                 polyline::distance(at(i), &way) <= ON
             });
             if is_beside {

@@ -70,7 +70,11 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
         .blocks
         .iter()
         .zip(are_cut)
-        .map(|(block, (is_cut, lent))| if is_cut && !is_left_out(block) { cuts_of(block, lent) } else { Cuts::default() })
+        .map(
+            |(block, (is_cut, lent))| {
+                if is_cut && !is_left_out(block) { cuts_of(block, lent) } else { Cuts::default() }
+            },
+        )
         .collect();
     for (block, cuts) in sheets.blocks.iter().zip(&mut of_blocks).filter(|(_, cuts)| !cuts.places.is_empty()) {
         cuts.faults += usize::from(block.base.is_none()) + sheets.nested(block);
@@ -78,9 +82,14 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
     of_blocks.push(cuts_of(&sheets.loose, &Default::default()));
     // How far laid curves reach is not known here: each piece must lie where its vertices are.
     let row = Row { of_all: &of_blocks, read, has_bows: of_blocks.iter().any(|cuts| !cuts.bows.is_empty()), sagitta };
-    let Some(placed) = sheets.placed(&of_blocks) else { return vec![sheets.in_a_row(&row, job)] };
-    let piled = sheets.met(&of_blocks).filter(|(met, _)| *met > 0);
-    std::iter::once((placed, 0.0)).chain(piled.map(|_| sheets.in_a_row(&row, job))).collect()
+    let placed = sheets.placed(&of_blocks).map(|placed| (placed, 0.0));
+    let is_in_a_row = placed.is_none() || sheets.met(&of_blocks).is_some_and(|(met, _)| met > 0);
+    let mut cloths: Vec<(Cuts, f64)> =
+        placed.into_iter().chain(is_in_a_row.then(|| sheets.in_a_row(&row, job))).collect();
+    if !may_leave_out {
+        cloths.iter_mut().for_each(|(cuts, _)| cuts.faults += read.blocks_left_out.len());
+    }
+    cloths
 }
 
 impl<'a> Sheets<'a> {

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::lines::{MEETS, Measure, Path, clusters, paths, vertices};
+use super::lines::{MEETS, Measure, Path, Stroke, clusters, paths, strokes};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
 use crate::geom::boxes::Boxes;
@@ -95,20 +95,23 @@ impl Curves {
         };
         let places: Vec<Point> = bare.iter().flat_map(|path| path.points.iter().copied()).collect();
         let open: Vec<Point> = free_ends(&bare).into_iter().map(|end| end.1).filter(|at| !is_on_fold(*at)).collect();
-        let mut is_coarse_fine = false;
         let order = self.fine.iter().filter(|(layer, _)| *layer == usual);
-        for (layer, fine) in order.chain(self.fine.iter().filter(|(layer, _)| *layer != usual)) {
+        for (_, fine) in order.chain(self.fine.iter().filter(|(layer, _)| *layer != usual)) {
             let whole = closed(fine, &bare);
             let count = held(&whole, &places);
-            let is_finer = corners(&whole) > corners(&bare) || whole.iter().any(|path| path.curves.iter().any(Option::is_some));
+            let is_finer =
+                corners(&whole) > corners(&bare) || whole.iter().any(|path| path.curves.iter().any(Option::is_some));
             let ends = free_ends(fine);
             let has_ends = open.iter().all(|at| ends.iter().any(|(_, end)| (end - at).norm() <= ON));
             if count == places.len() && is_finer && has_ends {
                 return Course::Fine([whole, spikes].concat());
             }
-            // A control polygon goes through a few vertices of a line that is fine itself.
-            is_coarse_fine |= *layer == usual && count > 0 && 2 * count <= places.len();
         }
+        // A control polygon goes through a few vertices of a line that is fine itself.
+        let own: Vec<Path> =
+            self.fine.iter().filter(|(layer, _)| *layer == usual).flat_map(|(_, fine)| closed(fine, &bare)).collect();
+        let count = held(&own, &places);
+        let is_coarse_fine = count > 0 && 2 * count <= places.len();
         let (mut bows, mut bends, mut passed) = (Vec::new(), Vec::new(), Vec::new());
         if self.has_curves && !is_coarse_fine {
             for path in &bare {
@@ -154,8 +157,7 @@ fn corners(paths: &[Path]) -> usize {
 
 /// How many of some places lie on lines.
 fn held(paths: &[Path], places: &[Point]) -> usize {
-    let edges: Vec<[Point; 2]> =
-        paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k))).collect();
+    let edges: Vec<[Point; 2]> = paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k))).collect();
     let boxes = Boxes::new(edges.iter().map(|[a, b]| Extent::between(*a, *b).grown(ON)).collect());
     let is_on = |at: Point| boxes.at(at).any(|k| polyline::distance_to_segment(at, edges[k][0], edges[k][1]) <= ON);
     places.iter().filter(|at| is_on(**at)).count()
@@ -218,7 +220,8 @@ fn closed(fine: &[Path], coarse: &[Path]) -> Vec<Path> {
 /// of its piece, of the sample size if that has some.
 pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[Vec<Point>; 2]> {
     let dots = |block: &Sheet, layer: u32| points(&block.items, |of| of == layer, unit);
-    let has_dots = |block: &Sheet| block.items.iter().any(|item| item.kind == b"POINT" && matches!(item.layer(), Some(2 | 3)));
+    let has_dots =
+        |block: &Sheet| block.items.iter().any(|item| item.kind == b"POINT" && matches!(item.layer(), Some(2 | 3)));
     let is_sample = |block: &Sheet| {
         let [size, sample] = [block.says("SIZE"), sample].map(|text| text.map(<[u8]>::to_ascii_uppercase));
         size.is_some() && size == sample
@@ -233,11 +236,15 @@ pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[V
     }
     let of_block = |block: &Sheet| {
         let lender = block.says("PIECE NAME").and_then(|name| lenders.get(name)).filter(|_| !has_dots(block))?;
-        let [own, its] = [&block.items, &lender.items].map(|items| vertices(items, unit));
-        let is_alike = own.len() == its.len() && own.iter().zip(&its).all(|(a, b)| a.layer == b.layer);
+        let [own, its] = [&block.items, &lender.items].map(|items| strokes(items, unit));
+        let shape = |stroke: &Stroke| (stroke.layer, stroke.is_closed, stroke.vertices.len());
+        let is_alike = own.iter().map(shape).eq(its.iter().map(shape));
+        let vertices =
+            |strokes: &[Stroke]| strokes.iter().flat_map(|stroke| stroke.vertices.clone()).collect::<Vec<_>>();
+        let (own, its) = (vertices(&own), vertices(&its));
         let on = |layer: u32| -> Vec<Point> {
             let dots = Lookup::of(dots(lender, layer).into_iter(), ON);
-            own.iter().zip(&its).filter(|(_, its)| dots.has(its.at)).map(|(own, _)| own.at).collect()
+            own.iter().zip(&its).filter(|(_, its)| dots.has(its.0)).map(|(own, _)| own.0).collect()
         };
         is_alike.then(|| [on(2), on(3)])
     };

@@ -1,7 +1,7 @@
 //! What a block cuts, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
 use super::curves::{Bend, Bow, Course, Curves, standing, twigs};
-use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, vertices};
+use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, strokes};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
 use std::f64::consts::FRAC_PI_2;
@@ -159,8 +159,8 @@ impl Cuts {
                 cuts.add_curved(paths, usual, curves.as_ref(), Halving { fold, sagitta: measure.sagitta });
             }
         }
-        let of_outlines = vertices(&sheet.items, measure.unit).into_iter().filter(|vertex| vertex.layer == 1);
-        cuts.corners = of_outlines.map(|vertex| (vertex.at, vertex.block)).collect();
+        let outlines = strokes(&sheet.items, measure.unit).into_iter().filter(|stroke| stroke.layer == 1);
+        cuts.corners = outlines.flat_map(|stroke| stroke.vertices).collect();
         let mut holes: Vec<[Option<Point>; 2]> = Vec::new();
         for item in &sheet.items {
             let Some(at) = item.pair([10, 20]).map(|[x, y]| Point::new(x * measure.unit, y * measure.unit)) else {
@@ -208,7 +208,9 @@ impl Cuts {
         let edges = |paths: &[Path]| -> Vec<[Point; 2]> {
             paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k)).collect::<Vec<_>>()).collect()
         };
-        match curves.map(|curves| curves.course(&paths, usual, |at| halving.fold.is_some_and(|fold| fold.off(at).abs() <= MEETS))) {
+        match curves.map(|curves| {
+            curves.course(&paths, usual, |at| halving.fold.is_some_and(|fold| fold.off(at).abs() <= MEETS))
+        }) {
             Some(Course::Fine(fine)) => {
                 self.chords.extend(edges(&paths).into_iter().flat_map(both_ends));
                 self.add(&fine, &[], halving);

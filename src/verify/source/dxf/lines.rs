@@ -55,29 +55,44 @@ pub(super) struct Measure {
     pub(super) notch: f64,
 }
 
-/// A vertex of a line as it stands in the file.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Vertex {
+/// A line that may have curves, as it stands in the file.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Stroke {
     pub(super) layer: u32,
-    pub(super) at: Point,
-    /// Number of the group that it begins with.
-    pub(super) block: u32,
+    pub(super) is_closed: bool,
+    /// Its vertices with the numbers of the groups that they begin with.
+    pub(super) vertices: Vec<(Point, u32)>,
 }
 
-/// The vertices of all lines that may have curves, in the order of the file.
-pub(super) fn vertices(items: &[Item], unit: f64) -> Vec<Vertex> {
-    let mut vertices = Vec::new();
+/// The lines that may have curves, in the order of the file.
+pub(super) fn strokes(items: &[Item], unit: f64) -> Vec<Stroke> {
+    let mut strokes: Vec<Stroke> = Vec::new();
+    let mut is_open = false;
+    let place = |[x, y]: [f64; 2]| Point::new(x * unit, y * unit);
     for item in items {
+        if item.kind == b"VERTEX" {
+            let stroke = strokes.last_mut().filter(|_| is_open && item.flag(16) != Some(true));
+            let vertex = item.pair([10, 20]).map(|at| (place(at), item.number));
+            stroke.into_iter().for_each(|stroke| stroke.vertices.extend(vertex));
+            continue;
+        }
+        is_open = false;
         let Some(layer) = item.layer().filter(|layer| matches!(layer, 1 | 8 | 11 | 14)) else { continue };
+        let is_closed = item.flag(1) == Some(true);
         let places = match &item.kind[..] {
-            b"VERTEX" => item.pair([10, 20]).map(|at| (at, item.number)).into_iter().collect(),
+            b"POLYLINE" => Vec::new(),
             b"LINE" => [item.places([10, 20]), item.places([11, 21])].concat(),
             b"LWPOLYLINE" => item.places([10, 20]),
-            _ => Vec::new(),
+            _ => continue,
         };
-        vertices.extend(places.into_iter().map(|([x, y], block)| Vertex { layer, at: Point::new(x * unit, y * unit), block }));
+        is_open = item.kind == b"POLYLINE";
+        strokes.push(Stroke {
+            layer,
+            is_closed,
+            vertices: places.into_iter().map(|(at, number)| (place(at), number)).collect(),
+        });
     }
-    vertices
+    strokes
 }
 
 impl Round {

@@ -230,7 +230,12 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &'a Labels) -> (Vec<Sheet<'a>>
             b"BLOCK" if section == b"BLOCKS" => {
                 is_in_block = true;
                 let base = if item.has(10) || item.has(20) { item.pair([10, 20]) } else { Some([0.0; 2]) };
-                blocks.push(Sheet { name: item.text(2).to_ascii_uppercase(), number: item.number, base, items: Vec::new() });
+                blocks.push(Sheet {
+                    name: item.text(2).to_ascii_uppercase(),
+                    number: item.number,
+                    base,
+                    items: Vec::new(),
+                });
             }
             b"ENDBLK" => is_in_block = false,
             _ if is_in_block => blocks.last_mut().into_iter().for_each(|block| block.items.push(item.clone())),
