@@ -42,6 +42,7 @@ impl Dxf {
     /// garment CAD have no gap at all.
     pub const ENDS_MEET: f64 = 0.2;
     /// Farthest that a curve through points leaves the chord between two of them, as a part of the chord: half a circle over it.
+    /// Curves that go on from chord to chord at even speed stay well within that.
     pub const CURVE_OFF: f64 = 0.5;
     /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
     pub const NOTCH_OFF: f64 = 1.0;

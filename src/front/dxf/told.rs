@@ -21,11 +21,6 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
         out.push(finding.hint("look for a damaged coordinate; `dxf.curves=points` lays no curves"));
         return;
     }
-    if let Some(span) = drafting.wild {
-        let message = "a curve through curve points (layer 3) would leave a chord by half its length";
-        let finding = Diagnostic::new(&code::DXF_WILD_CURVE, message).at(span);
-        out.push(finding.hint("look at these points; `dxf.curves=points` lays no curves"));
-    }
     let pieces =
         |from: &CurvedFrom| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
     let off = |from: &CurvedFrom| format!("up to {:.1} mm off the chords", from.off);

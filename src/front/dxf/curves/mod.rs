@@ -34,7 +34,6 @@ use crate::geom::Point;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::Vertex;
 use crate::machine::patterns::Curves as Asked;
-use crate::source::Span;
 
 /// Places of a curve between two vertices.
 type Stretch = Vec<Point>;
@@ -58,15 +57,13 @@ pub(super) struct Drafting {
     /// Farthest that chords lie off, mm.
     sagitta: f64,
     places: usize,
-    /// Where a curve would begin that leaves its chords by more than half a circle over them: no CAD system draws that.
-    pub(super) wild: Option<Span>,
 }
 
 impl Drafting {
     /// For a file by an author, whose chords lie so far off their curves at the most, mm.
     pub(super) fn of(author: &str, asked: Asked, sagitta: f64) -> Self {
         let (rule, system) = rule_of(author);
-        Self { is_on: asked == Asked::Auto, rule, system, sagitta: sagitta.min(CHORDS_OFF), places: 0, wild: None }
+        Self { is_on: asked == Asked::Auto, rule, system, sagitta: sagitta.min(CHORDS_OFF), places: 0 }
     }
 
     /// Whether curves have more places than a file can need: then some lines have none.

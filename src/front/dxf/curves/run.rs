@@ -5,7 +5,6 @@ use super::{Drafting, Leg};
 use crate::front::dxf::chain::Chain;
 use crate::geom::{Point, polyline};
 use crate::ir::drawing::Vertex;
-use crate::machine::patterns::Dxf;
 
 /// Whether a vertex is a curve point.
 pub(super) fn is_curve(node: Node) -> bool {
@@ -58,12 +57,7 @@ pub(super) fn lay(run: &Run, edges: std::ops::Range<usize>, drafting: &mut Draft
             if !edges.contains(&edge) {
                 continue;
             }
-            let chord = [at(edge), at(edge + 1)];
             let part = &span[part[0]..part[1]];
-            let most = Dxf::CURVE_OFF * (chord[1] - chord[0]).norm() + ON;
-            if part.iter().any(|&place| polyline::distance_to_segment(place, chord[0], chord[1]) > most) {
-                drafting.wild.get_or_insert(line.vertices[places[edge]].span);
-            }
             let next = line.vertices[places[edge + 1]].span;
             let leg = &mut legs[places[edge]];
             if edge > pair[0] {

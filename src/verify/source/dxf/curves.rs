@@ -238,7 +238,8 @@ pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[V
         let lender = block.says("PIECE NAME").and_then(|name| lenders.get(name)).filter(|_| !has_dots(block))?;
         let [own, its] = [&block.items, &lender.items].map(|items| strokes(items, unit));
         let shape = |stroke: &Stroke| (stroke.layer, stroke.is_closed, stroke.vertices.len());
-        let is_alike = own.iter().map(shape).eq(its.iter().map(shape));
+        let has_arcs = own.iter().chain(&its).any(|stroke| stroke.has_arcs);
+        let is_alike = !has_arcs && own.iter().map(shape).eq(its.iter().map(shape));
         let vertices =
             |strokes: &[Stroke]| strokes.iter().flat_map(|stroke| stroke.vertices.clone()).collect::<Vec<_>>();
         let (own, its) = (vertices(&own), vertices(&its));

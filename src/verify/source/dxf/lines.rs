@@ -60,8 +60,15 @@ pub(super) struct Measure {
 pub(super) struct Stroke {
     pub(super) layer: u32,
     pub(super) is_closed: bool,
+    /// Whether an edge of it is an arc: then it has vertices that the file does not tell.
+    pub(super) has_arcs: bool,
     /// Its vertices with the numbers of the groups that they begin with.
     pub(super) vertices: Vec<(Point, u32)>,
+}
+
+/// Whether an arc leads on from a vertex.
+fn bulges(item: &Item) -> bool {
+    item.each([42; 3]).any(|(_, bulge)| bulge != 0.0)
 }
 
 /// The lines that may have curves, in the order of the file.
@@ -73,7 +80,10 @@ pub(super) fn strokes(items: &[Item], unit: f64) -> Vec<Stroke> {
         if item.kind == b"VERTEX" {
             let stroke = strokes.last_mut().filter(|_| is_open && item.flag(16) != Some(true));
             let vertex = item.pair([10, 20]).map(|at| (place(at), item.number));
-            stroke.into_iter().for_each(|stroke| stroke.vertices.extend(vertex));
+            if let Some(stroke) = stroke {
+                stroke.vertices.extend(vertex);
+                stroke.has_arcs |= bulges(item);
+            }
             continue;
         }
         is_open = false;
@@ -86,11 +96,8 @@ pub(super) fn strokes(items: &[Item], unit: f64) -> Vec<Stroke> {
             _ => continue,
         };
         is_open = item.kind == b"POLYLINE";
-        strokes.push(Stroke {
-            layer,
-            is_closed,
-            vertices: places.into_iter().map(|(at, number)| (place(at), number)).collect(),
-        });
+        let vertices = places.into_iter().map(|(at, number)| (place(at), number)).collect();
+        strokes.push(Stroke { layer, is_closed, has_arcs: bulges(item), vertices });
     }
     strokes
 }
