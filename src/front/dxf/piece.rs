@@ -242,41 +242,7 @@ impl Making<'_> {
         let Wholes { fold, curves } = wholes;
         let edge = curves.curved(coarse, OUTLINE, &mut self.drafting, &mut self.work);
         self.curved.see(&edge);
-        let mut marks: Vec<Mark> = Vec::new();
-        let mut drills: Vec<(Point, Span)> = Vec::new();
-        let mut holes = Holes::default();
-        for dot in &content.dots {
-            let mirrored = fold.filter(|fold| !fold.is_middle(dot.at));
-            match dot.layer.does {
-                Does::Notch(form) => {
-                    let mark = self.mark(dot, form);
-                    marks.push(mark);
-                    marks.extend(mirrored.map(|fold| Mark {
-                        at: fold.mirror(mark.at),
-                        along: mark.along.map(|along| fold.mirror_way(along)),
-                        ..mark
-                    }));
-                }
-                Does::Drill => {
-                    // A hole may be drawn twice, as a circle and as its middle.
-                    if holes.is_new(dot.at) {
-                        for at in [Some(dot.at), mirrored.map(|fold| fold.mirror(dot.at))].into_iter().flatten() {
-                            holes.add(at);
-                            drills.push((at, dot.span));
-                        }
-                    }
-                }
-                Does::Outline
-                | Does::Fold
-                | Does::Inner
-                | Does::Drawn
-                | Does::Seam
-                | Does::Sign
-                | Does::Turn
-                | Does::Curve
-                | Does::Fine => {}
-            }
-        }
+        let (mut marks, drills) = self.points(&content.dots, fold);
         for mark in &mut marks {
             mark.at = edge.lifted(mark.at, &mut self.work);
         }
@@ -308,14 +274,59 @@ impl Making<'_> {
                 self.tally.add(Thing::Outside, span);
             }
         }
-        let seams = drawn.iter().filter(|(layer, line): &&(Named, Chain)| layer.does == Does::Seam && line.is_closed);
-        for (_, seam) in seams.filter(|(_, seam)| around.is_in(seam)) {
-            self.tally.add(Thing::SeamOutside, seam.vertices[0].span);
-        }
+        self.see_seams(&around, &drawn);
         let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };
         let (labels, faults) = (content.labels, Vec::new());
         Piece { span: content.span, plain, outline, slits, left_out, drills, inner, drawn, labels, faults }
+    }
+
+    /// The notches and holes that points ask for, on both sides of a fold.
+    fn points(&self, dots: &[Dot], fold: Option<Fold>) -> (Vec<Mark>, Vec<(Point, Span)>) {
+        let mut marks: Vec<Mark> = Vec::new();
+        let mut drills: Vec<(Point, Span)> = Vec::new();
+        let mut holes = Holes::default();
+        for dot in dots {
+            let mirrored = fold.filter(|fold| !fold.is_middle(dot.at));
+            match dot.layer.does {
+                Does::Notch(form) => {
+                    let mark = self.mark(dot, form);
+                    marks.push(mark);
+                    marks.extend(mirrored.map(|fold| Mark {
+                        at: fold.mirror(mark.at),
+                        along: mark.along.map(|along| fold.mirror_way(along)),
+                        ..mark
+                    }));
+                }
+                Does::Drill => {
+                    // A hole may be drawn twice, as a circle and as its middle.
+                    if holes.is_new(dot.at) {
+                        for at in [Some(dot.at), mirrored.map(|fold| fold.mirror(dot.at))].into_iter().flatten() {
+                            holes.add(at);
+                            drills.push((at, dot.span));
+                        }
+                    }
+                }
+                Does::Outline
+                | Does::Fold
+                | Does::Inner
+                | Does::Drawn
+                | Does::Seam
+                | Does::Sign
+                | Does::Turn
+                | Does::Curve
+                | Does::Fine => {}
+            }
+        }
+        (marks, drills)
+    }
+
+    /// Tells seam lines that go round their outline.
+    fn see_seams(&mut self, around: &Outline, drawn: &[(Named, Chain)]) {
+        let seams = drawn.iter().filter(|(layer, line): &&(Named, Chain)| layer.does == Does::Seam && line.is_closed);
+        for (_, seam) in seams.filter(|(_, seam)| around.is_in(seam)) {
+            self.tally.add(Thing::SeamOutside, seam.vertices[0].span);
+        }
     }
 
     /// A line that is cut, on both sides of a fold, with its curves.

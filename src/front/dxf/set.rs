@@ -128,22 +128,10 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let mut reader = parts.reader(unit, out);
     let mut loose = reader.shapes(entities);
     let (mut drawn, mut said): (Vec<Shapes>, Vec<Diagnostics>) = blocks.iter().map(|block| reader.block(block)).unzip();
-    let mut base = |(block, said): (&Block, &mut Diagnostics)| {
-        reader.base(&block.head).unwrap_or_else(|fault| {
-            said.push(fault);
-            Point::origin()
-        })
-    };
-    let bases: Vec<Point> = blocks.iter().zip(&mut said).map(&mut base).collect();
+    let bases = bases(&reader, blocks, &mut said);
     let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
     let placing = Placing::of(source, blocks, bases, std::mem::take(&mut loose.inserts));
-    let lenders = lend(&mut drawn, &sizes_of(&own, &asked));
-    let error = |said: &Diagnostics| said.iter().find(|finding| finding.code.severity == Severity::Error).cloned();
-    let errors: Vec<Option<Diagnostic>> = said.iter().map(error).collect();
-    // Points that are damaged where they are drawn are so where they are borrowed.
-    for (said, lender) in said.iter_mut().zip(lenders) {
-        lender.and_then(|lender| errors[lender].clone()).into_iter().for_each(|error| said.push(error));
-    }
+    borrow(&mut drawn, &mut said, &sizes_of(&own, &asked));
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
     let own = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own));
     // What frames and legends say of sizes is of no piece.
@@ -186,6 +174,28 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     say_hidden(hidden, out);
     set.say(work.is_spent(), &asked, out);
     set
+}
+
+/// The base points of blocks; what is at fault in one is said of its block.
+fn bases(reader: &Reader, blocks: &[Block], said: &mut [Diagnostics]) -> Vec<Point> {
+    let base = |(block, said): (&Block, &mut Diagnostics)| {
+        reader.base(&block.head).unwrap_or_else(|fault| {
+            said.push(fault);
+            Point::origin()
+        })
+    };
+    blocks.iter().zip(said).map(base).collect()
+}
+
+/// Lends turn and curve points to blocks without any. Points that are damaged where they are drawn are so where they are
+/// borrowed.
+fn borrow(drawn: &mut [Shapes], said: &mut [Diagnostics], sizes: &[Size]) {
+    let lenders = lend(drawn, sizes);
+    let error = |said: &Diagnostics| said.iter().find(|finding| finding.code.severity == Severity::Error).cloned();
+    let errors: Vec<Option<Diagnostic>> = said.iter().map(error).collect();
+    for (said, lender) in said.iter_mut().zip(lenders) {
+        lender.and_then(|lender| errors[lender].clone()).into_iter().for_each(|error| said.push(error));
+    }
 }
 
 /// Which blocks are of one piece, and which are of the sample size.

@@ -62,6 +62,7 @@ pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked
 /// The finding that a file is a plain drawing on these layers.
 pub(super) fn plain(names: &Names) -> Diagnostic {
     let names = names.all();
+    let word = if names.len() == 1 { "layer" } else { "layers" };
     let mut shown = String::new();
     for name in names {
         let comma = if shown.is_empty() { "" } else { ", " };
@@ -74,7 +75,7 @@ pub(super) fn plain(names: &Names) -> Diagnostic {
         shown.push_str(name);
     }
     let message = "the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM)";
-    let finding = Diagnostic::new(&code::DXF_PLAIN, message).hint(format!("its lines are on layer {shown}"));
+    let finding = Diagnostic::new(&code::DXF_PLAIN, message).hint(format!("its lines are on {word} {shown}"));
     finding.hint("let the CAD system export AAMA or ASTM DXF, a cut file (ISO) or an HPGL plot")
 }
 

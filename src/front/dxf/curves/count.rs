@@ -1,6 +1,6 @@
 //! Counts of pieces whose curves their outlines do not have in the file.
 
-use super::{Curved, Origin};
+use super::curved::{Curved, Origin};
 use crate::source::Span;
 
 /// How many pieces are cut along curves that their outlines do not have in the file, by where these are from.

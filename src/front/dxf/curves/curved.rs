@@ -1,6 +1,6 @@
 //! Lines with their curves, and where places beside their chords are on them.
 
-use super::Leg;
+use super::leg::Leg;
 use super::nodes::ON;
 use super::spikes::Smoothed;
 use crate::front::dxf::chain::Chain;

@@ -1,7 +1,7 @@
 //! Fine lines: layers 84 to 87 have the curves of layers 1, 8, 11 and 14 in small chords. Which belongs to which decides the
 //! geometry, since CAD systems pair the layers otherwise.
 
-use super::Leg;
+use super::leg::Leg;
 use super::nodes::ON;
 use crate::front::dxf::chain::Chain;
 use crate::geom::boxes::Boxes;

@@ -1,7 +1,7 @@
 //! The curves of Gerber `AccuMark`: halves of chords are lifted by the tangents at their ends until they are flat.
 
-use super::Stretch;
 use super::hermite::bowed;
+use super::leg::Stretch;
 use crate::geom::{Point, Vector, polyline};
 
 /// Height at which a chord is divided, mm: the curve tolerance of 0.006 in that these files name.

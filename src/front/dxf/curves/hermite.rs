@@ -1,6 +1,6 @@
 //! Cubics between two places, as chords.
 
-use super::Stretch;
+use super::leg::Stretch;
 use crate::geom::{Point, Vector};
 
 /// Chords of one cubic at the most: more come from damaged places.

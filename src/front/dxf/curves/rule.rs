@@ -1,7 +1,8 @@
 //! Rules: which curve a CAD system lays through the curve points of its patterns.
 
+use super::leg::Stretch;
 use super::spline::Ends;
-use super::{Stretch, gerber, spline};
+use super::{gerber, spline};
 use crate::geom::Point;
 
 /// A curve through points.

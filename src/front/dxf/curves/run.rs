@@ -1,7 +1,8 @@
 //! Runs: the vertices through which one curve goes.
 
+use super::drafting::Drafting;
+use super::leg::Leg;
 use super::nodes::{Node, ON};
-use super::{Drafting, Leg};
 use crate::front::dxf::chain::Chain;
 use crate::geom::{Point, polyline};
 use crate::ir::drawing::Vertex;

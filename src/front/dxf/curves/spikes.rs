@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Leg;
+use super::leg::Leg;
 use crate::front::dxf::chain::Chain;
 use crate::geom::bits;
 use crate::ir::drawing::Vertex;

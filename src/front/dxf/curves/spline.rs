@@ -1,7 +1,7 @@
 //! Cubic splines over the lengths of their chords.
 
-use super::Stretch;
 use super::hermite::sprung;
+use super::leg::Stretch;
 use crate::geom::{Point, Vector};
 
 /// How a spline ends.
