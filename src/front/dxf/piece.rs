@@ -263,7 +263,7 @@ impl Making<'_> {
                 }
                 Does::Fine => drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line))),
                 Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Turn | Does::Curve => {
-                    drawn.push((layer, line))
+                    drawn.push((layer, line));
                 }
             }
         }

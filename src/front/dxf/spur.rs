@@ -16,7 +16,9 @@ pub(super) fn chains_with_spurs(lines: Vec<Chain>) -> Vec<Chain> {
     let nodes = Nodes::of(&lines);
     let (mut is_spur, mut spurs) = (vec![false; lines.len()], Vec::new());
     for (tip, path) in nodes.paths(&lines) {
-        path.iter().for_each(|&line| is_spur[line] = true);
+        for &line in &path {
+            is_spur[line] = true;
+        }
         spurs.push(from_root(&lines, tip, &path));
     }
     let mut left = is_spur.iter();
@@ -160,13 +162,13 @@ fn attached(chains: Vec<Chain>, spurs: Vec<Vec<Vertex>>) -> Vec<Chain> {
     });
     for (edge, line) in whiskers {
         let (ring, k, ends) = edges[edge];
-        put(&mut rings[ring], k, ends, line);
+        put(&mut rings[ring], k, ends, &line);
     }
     rings.into_iter().chain(left).collect()
 }
 
 /// Lets an outline go along a spur that stands on its edge behind vertex `k`, and back.
-fn put(ring: &mut Chain, k: usize, ends: [Point; 2], spur: Vec<Vertex>) {
+fn put(ring: &mut Chain, k: usize, ends: [Point; 2], spur: &[Vertex]) {
     let root = spur[0];
     let count = ring.vertices.len();
     let near = |at: Point| (at - root.at).norm() <= REACH;

@@ -291,7 +291,7 @@ fn halves(random: &mut Rng, is_smooth: bool, with_fine: bool) -> [Writer; 2] {
     let mirrored = |places: &[Place]| places.iter().rev().map(|&[x, y]| [x, -y]).collect::<Vec<Place>>();
     let whole = |half: &[Place]| [half, &mirrored(&half[1..half.len() - 1])].concat();
     let (half, fine) = (arc(count), arc(12 * count));
-    let files = [half.clone(), whole(&half)].map(|places| {
+    [half.clone(), whole(&half)].map(|places| {
         let mut file = Writer::begin();
         file.block("A").outline(1, &places, Drawn::Closed);
         for (k, place) in places.iter().enumerate() {
@@ -303,7 +303,9 @@ fn halves(random: &mut Rng, is_smooth: bool, with_fine: bool) -> [Writer; 2] {
             } else {
                 &[2]
             };
-            layers.iter().for_each(|&layer| _ = file.point(layer, *place, [0.0; 2]));
+            for &layer in layers {
+                file.point(layer, *place, [0.0; 2]);
+            }
         }
         if with_fine {
             file.outline(84, &if places.len() == half.len() { fine.clone() } else { whole(&fine) }, Drawn::Closed);
@@ -312,8 +314,7 @@ fn halves(random: &mut Rng, is_smooth: bool, with_fine: bool) -> [Writer; 2] {
             file.line(6, [half[0], half[count]]);
         }
         file
-    });
-    files
+    })
 }
 
 #[test]
@@ -358,7 +359,7 @@ fn notches_that_are_drawn_on_the_chords_are_cut_into_the_curve() {
                 }
                 marks += 1;
                 let width = if random.bool() { 4.0 } else { 0.0 };
-                file.point(4, [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0], [5.0, width]);
+                file.point(4, [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])], [5.0, width]);
             }
             file.end_block();
             let source = source(file.end(&["UNITS: METRIC", "AUTHOR: CLO"]));
@@ -422,7 +423,7 @@ fn a_reader_that_takes_chords_or_loses_a_notch_is_caught() {
         for k in 0..outline.vertices.len() {
             let [a, b] = outline.chord(k);
             if (b[0] - a[0]).hypot(b[1] - a[1]) >= 60.0 {
-                file.point(4, [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0], [5.0, 0.0]);
+                file.point(4, [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])], [5.0, 0.0]);
             }
         }
         file.end_block();

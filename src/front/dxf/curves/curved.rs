@@ -42,7 +42,8 @@ impl Curved {
         let base = &coarse.line;
         let round: Vec<Point> = base.points();
         let way = |k: usize| {
-            let head = legs[k].first().filter(|first| (first.at - round[k]).norm() <= ON).is_none().then_some(round[k]);
+            let is_apart = legs[k].first().is_none_or(|first| (first.at - round[k]).norm() > ON);
+            let head = is_apart.then_some(round[k]);
             let next = round[k + 1];
             head.into_iter().chain(legs[k].iter().map(|vertex| vertex.at)).chain([next]).collect()
         };

@@ -26,27 +26,39 @@ pub(super) enum Node {
     Passing,
 }
 
-/// What points say of a place.
-#[derive(Debug, Clone, Copy, Default)]
-struct Signs {
-    is_turn: bool,
-    is_curve: bool,
-    is_notch: bool,
+/// What is said of a place.
+#[derive(Debug, Clone, Copy)]
+enum Sign {
+    Turn,
+    Curve,
+    Notch,
     /// Lines were joined there that the file draws one by one.
-    is_joint: bool,
+    Joint,
     /// A line has the place twice.
-    is_doubled: bool,
+    Doubled,
 }
 
+/// All that is said of a place.
+#[derive(Debug, Clone, Copy, Default)]
+struct Signs([bool; 5]);
+
 impl Signs {
+    fn has(self, sign: Sign) -> bool {
+        self.0[sign as usize]
+    }
+
+    fn with(mut self, sign: Sign) -> Self {
+        self.0[sign as usize] = true;
+        self
+    }
+
+    fn without(mut self, sign: Sign) -> Self {
+        self.0[sign as usize] = false;
+        self
+    }
+
     fn and(self, other: Self) -> Self {
-        Self {
-            is_turn: self.is_turn || other.is_turn,
-            is_curve: self.is_curve || other.is_curve,
-            is_notch: self.is_notch || other.is_notch,
-            is_joint: self.is_joint || other.is_joint,
-            is_doubled: self.is_doubled || other.is_doubled,
-        }
+        Self(std::array::from_fn(|k| self.0[k] || other.0[k]))
     }
 }
 
@@ -67,10 +79,10 @@ impl Nodes {
     pub(in crate::front::dxf) fn of(lines: &[Line], dots: &[Dot]) -> Self {
         let mut nodes = Self::default();
         for dot in dots {
-            let signs = match dot.layer.does {
-                Does::Turn => Signs { is_turn: true, ..Signs::default() },
-                Does::Curve => Signs { is_curve: true, ..Signs::default() },
-                Does::Notch(_) => Signs { is_notch: true, ..Signs::default() },
+            let sign = match dot.layer.does {
+                Does::Turn => Sign::Turn,
+                Does::Curve => Sign::Curve,
+                Does::Notch(_) => Sign::Notch,
                 Does::Outline
                 | Does::Fold
                 | Does::Inner
@@ -82,18 +94,18 @@ impl Nodes {
                     continue;
                 }
             };
-            nodes.has_curves |= signs.is_curve;
-            nodes.add(dot.at, signs);
+            nodes.has_curves |= matches!(sign, Sign::Curve);
+            nodes.add(dot.at, Signs::default().with(sign));
         }
         if !nodes.has_curves {
             return Self::default();
         }
         for line in lines.iter().filter(|line| line.layer.is_curved()) {
             let doubled = line.vertices.windows(2).filter(|pair| pair[0].at == pair[1].at);
-            doubled.for_each(|pair| nodes.add(pair[0].at, Signs { is_doubled: true, ..Signs::default() }));
+            doubled.for_each(|pair| nodes.add(pair[0].at, Signs::default().with(Sign::Doubled)));
             let ends = Chain::of(line.vertices.clone(), line.is_closed).filter(|chain| !chain.is_closed);
             for end in ends.iter().flat_map(|chain| [chain.vertices.first(), chain.vertices.last()]).flatten() {
-                nodes.add(end.at, Signs { is_joint: true, ..Signs::default() });
+                nodes.add(end.at, Signs::default().with(Sign::Joint));
             }
         }
         nodes
@@ -114,7 +126,7 @@ impl Nodes {
         let mut nodes = Self { has_curves: self.has_curves, ..Self::default() };
         for (at, signs) in self.cells.into_values().flatten() {
             let is_middle = fold.is_middle(at);
-            nodes.add(at, Signs { is_joint: signs.is_joint && !is_middle, ..signs });
+            nodes.add(at, if is_middle { signs.without(Sign::Joint) } else { signs });
             if !is_middle {
                 nodes.add(fold.mirror(at), signs);
             }
@@ -128,10 +140,10 @@ impl Nodes {
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
         let near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
         let near = near.filter(|(place, _)| (place - at).norm() <= ON);
-        let Signs { is_turn, is_curve, is_notch, is_joint, is_doubled } =
-            near.fold(Signs::default(), |signs, (_, more)| signs.and(*more));
+        let signs = near.fold(Signs::default(), |signs, (_, more)| signs.and(*more));
+        let [is_turn, is_curve, is_notch] = [Sign::Turn, Sign::Curve, Sign::Notch].map(|sign| signs.has(sign));
         // A place that turns and curves is smooth, even where two lines meet.
-        let is_parted = is_doubled || is_joint && !(is_turn && is_curve);
+        let is_parted = signs.has(Sign::Doubled) || signs.has(Sign::Joint) && !(is_turn && is_curve);
         match (is_parted, is_curve, is_notch) {
             (false, true, false) => Node::Smooth,
             (false, true, true) => Node::Notched,

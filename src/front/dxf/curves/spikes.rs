@@ -26,7 +26,9 @@ pub(super) fn without(line: &Chain) -> Smoothed {
     let is_tip = |k: usize| vertices[(k + count - 1) % count].at == vertices[(k + 1) % count].at;
     if line.is_closed && (0..count).any(is_tip) {
         let mut times: BTreeMap<[u64; 2], usize> = BTreeMap::new();
-        vertices.iter().for_each(|vertex| *times.entry(bits(vertex.at)).or_default() += 1);
+        for vertex in &vertices {
+            *times.entry(bits(vertex.at)).or_default() += 1;
+        }
         let start = (0..count).find(|&k| !is_tip(k) && times.get(&bits(vertices[k].at)) == Some(&1));
         vertices.rotate_left(start.unwrap_or(0));
     }

@@ -87,7 +87,9 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
     let mut cloths: Vec<(Cuts, f64)> =
         placed.into_iter().chain(is_in_a_row.then(|| sheets.in_a_row(&row, job))).collect();
     if !may_leave_out {
-        cloths.iter_mut().for_each(|(cuts, _)| cuts.faults += read.blocks_left_out.len());
+        for (cuts, _) in &mut cloths {
+            cuts.faults += read.blocks_left_out.len();
+        }
     }
     cloths
 }

@@ -21,9 +21,9 @@ pub(super) struct Curves {
     /// Fine lines with their layers, each with those whose ends meet its own.
     fine: Vec<(u32, Vec<Path>)>,
     turns: Lookup,
-    curves: Lookup,
+    smooth: Lookup,
     notches: Lookup,
-    has_curves: bool,
+    may_bow: bool,
 }
 
 /// A coarse edge that a curve may leave, mm.
@@ -71,9 +71,9 @@ impl Curves {
             [&turns, &curves, &notches].map(|points| Lookup::of(points.iter().copied(), ON));
         Self {
             fine: fine.collect(),
-            has_curves: !curves.is_empty(),
+            may_bow: !curves.is_empty(),
             turns: of_turns,
-            curves: of_curves,
+            smooth: of_curves,
             notches: of_notches,
         }
     }
@@ -113,10 +113,10 @@ impl Curves {
         let count = held(&own, &places);
         let is_coarse_fine = count > 0 && 2 * count <= places.len();
         let (mut bows, mut bends, mut passed) = (Vec::new(), Vec::new(), Vec::new());
-        if self.has_curves && !is_coarse_fine {
+        if self.may_bow && !is_coarse_fine {
             for path in &bare {
                 self.see(path, &mut bows, &mut bends);
-                passed.extend(path.points.iter().filter(|at| self.curves.has(**at) && self.notches.has(**at)));
+                passed.extend(path.points.iter().filter(|at| self.smooth.has(**at) && self.notches.has(**at)));
             }
         }
         Course::Own { bows, bends, passed }
@@ -124,7 +124,7 @@ impl Curves {
 
     /// Whether a curve may go on at a vertex.
     fn goes_on(&self, at: Point) -> bool {
-        self.curves.has(at) || self.notches.has(at) && !self.turns.has(at)
+        self.smooth.has(at) || self.notches.has(at) && !self.turns.has(at)
     }
 
     fn see(&self, path: &Path, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) {
@@ -134,12 +134,12 @@ impl Curves {
             if path.curves[k].is_none() && ends.iter().any(|&end| self.goes_on(end)) {
                 bows.push(Bow { ends });
             }
-            if k + 1 == count && !path.is_closed || k == 0 && !path.is_closed {
+            if !path.is_closed && (k == 0 || k + 1 == count) {
                 continue;
             }
             let [before, at, behind] = [path.points[(k + count - 1) % count], ends[0], ends[1]];
             let turn = polyline::turn_at(before, at, behind).abs();
-            let is_smooth = self.curves.has(at) && !self.notches.has(at) && !path.doubled.contains(&at);
+            let is_smooth = self.smooth.has(at) && !self.notches.has(at) && !path.doubled.contains(&at);
             // A round curve that turns so much from chord to chord stands an eighth of that over each, in parts of its length.
             if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
                 bends.push(Bend { at, turn });
@@ -186,7 +186,9 @@ pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
         if free.is_empty() {
             break;
         }
-        free.iter().for_each(|&k| is_twig[k] = true);
+        for &k in &free {
+            is_twig[k] = true;
+        }
         left.retain(|k| !free.contains(k));
     }
     if left.is_empty() { vec![false; paths.len()] } else { is_twig }

@@ -153,7 +153,9 @@ impl Cuts {
             let are_spurs = if layer == 1 { standing(&clusters) } else { vec![false; clusters.len()] };
             for (mut paths, is_spur) in clusters.into_iter().zip(are_spurs) {
                 if is_spur {
-                    paths.iter_mut().for_each(|path| path.times = 2.0);
+                    for path in &mut paths {
+                        path.times = 2.0;
+                    }
                 }
                 let fold = if layer == 1 { fold } else { fold.filter(|fold| fold.halves(&paths)) };
                 cuts.add_curved(paths, usual, curves.as_ref(), Halving { fold, sagitta: measure.sagitta });
