@@ -245,7 +245,8 @@ impl Set {
             let (pieces, said) = making.pieces_apart(loose, Span::default());
             if self.is_plain && (is_other || said.has_errors()) {
                 making.out.push(plain(&self.names));
-            } else {
+            }
+            if !(self.is_plain && is_other) {
                 making.out.extend(said);
             }
             self.loose = pieces.len();

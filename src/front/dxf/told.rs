@@ -26,7 +26,7 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
     let off = |from: &CurvedFrom| format!("up to {:.1} mm off the chords", from.off);
     let CurvedPieces { fine, laid } = curved;
     if fine.pieces > 0 {
-        let message = format!("{} cut along the curves of layer 84, {}", pieces(fine), off(fine));
+        let message = format!("cut along the curves of layer 84: {}, {}", pieces(fine), off(fine));
         let finding = Diagnostic::new(&code::DXF_CURVED, message).at(fine.first);
         out.push(finding.hint("the file draws them so; `dxf.curves=points` cuts along the chords"));
     }
@@ -35,12 +35,12 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
         let (code, message, hint) = match drafting.system {
             Some(system) => (
                 &code::DXF_CURVED,
-                format!("{pieces} cut along curves as {system} lays them, {off}"),
+                format!("cut along curves as {system} lays them: {pieces}, {off}"),
                 "its curve points (layer 3) tell them; `dxf.curves=points` cuts along the chords",
             ),
             None => (
                 &code::DXF_CURVE_GUESSED,
-                format!("{pieces} cut along guessed curves, {off}"),
+                format!("cut along guessed curves: {pieces}, {off}"),
                 "no AUTHOR is known: compare a neck and an armhole, or export ASTM DXF with layer 84",
             ),
         };

@@ -139,20 +139,21 @@ impl<'a> Sheets<'a> {
         all * unit > MOST_CUT && longest * unit > LONGEST
     }
 
-    /// Whether insertions stand outside blocks.
+    /// Whether an insertion outside blocks moves its block.
     fn has_places(&self) -> bool {
-        self.loose.items.iter().any(|item| item.kind == b"INSERT")
+        let mut inserts = self.loose.items.iter().filter(|item| item.kind == b"INSERT");
+        inserts.any(|item| self.block(item).and_then(|k| self.to(item, k)).is_some_and(|to| !is_still(to)))
     }
 
     /// How many of the boxes around what blocks cut have their middle in another, where insertions put them, and whether
     /// these put any anywhere; `None` without such boxes.
     fn met(&self, of_all: &[Cuts]) -> Option<(usize, bool)> {
         let mut laid = Vec::new();
-        let mut is_still = true;
+        let mut is_all_still = true;
         for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT") {
             let Some(k) = self.block(item).filter(|&k| !of_all[k].places.is_empty()) else { continue };
             let Some(to) = self.to(item, k) else { continue };
-            is_still &= to[..2].iter().zip(&AS_DRAWN).all(|(a, b)| (a - b).norm() < TURNS) && to[2].norm() <= MEETS;
+            is_all_still &= is_still(to);
             let mut cuts = Cuts::default();
             cuts.add_moved(&of_all[k], to);
             laid.push(cuts.extent(AS_DRAWN));
@@ -160,7 +161,7 @@ impl<'a> Sheets<'a> {
         let boxes = Boxes::new(laid);
         let is_met = |(k, own): (usize, &Extent)| boxes.at(own.min + (own.max - own.min) / 2.0).any(|other| other != k);
         let met = boxes.all().iter().enumerate().filter(|own| is_met(*own)).count();
-        (!boxes.all().is_empty()).then_some((met, !is_still))
+        (!boxes.all().is_empty()).then_some((met, !is_all_still))
     }
 
     fn says(&self, key: &str) -> Option<&[u8]> {
@@ -257,17 +258,17 @@ impl<'a> Sheets<'a> {
     /// anywhere.
     fn placed(&self, of_all: &[Cuts]) -> Option<Cuts> {
         let mut all = Cuts::default();
-        let mut is_still = true;
+        let mut is_all_still = true;
         for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT") {
             let Some(k) = self.block(item).filter(|&k| !of_all[k].places.is_empty()) else { continue };
             let to = self.to(item, k);
             all.faults += usize::from(!item.is_plain() || to.is_none());
             let to = to.unwrap_or(AS_DRAWN);
-            is_still &= to[..2].iter().zip(&AS_DRAWN).all(|(a, b)| (a - b).norm() < TURNS) && to[2].norm() <= MEETS;
+            is_all_still &= is_still(to);
             all.add_moved(&of_all[k], to);
         }
         all.add_moved(&of_all[of_all.len() - 1], AS_DRAWN);
-        (!is_still || all.faults > 0).then_some(all)
+        (!is_all_still || all.faults > 0).then_some(all)
     }
 
     /// How an insertion moves a block; `None` when a number of it is damaged.
@@ -336,6 +337,12 @@ fn quantity(text: &[u8], job: &Job) -> [u32; 2] {
         Some(&[right, left]) if right > 0 || left > 0 => [right, left],
         _ => [1, 0],
     }
+}
+
+/// Whether a move leaves a block where it is drawn.
+fn is_still([right, up, origin]: Move) -> bool {
+    let is_axis = |found: Vector, drawn: Vector| (found - drawn).norm() < TURNS;
+    is_axis(right, AS_DRAWN[0]) && is_axis(up, AS_DRAWN[1]) && origin.norm() <= MEETS
 }
 
 fn moved(at: Point, [right, up, origin]: Move) -> Point {
