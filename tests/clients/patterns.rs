@@ -57,6 +57,7 @@ for name in json.load(open("names.json")):
             elif kind == "INSERT":
                 is_plain &= layout is doc.modelspace() and not entity.attribs
             elif layer in ("1", "11") and kind in ("POLYLINE", "LWPOLYLINE"):
+                is_plain &= layout is not doc.modelspace()
                 points = entity.points() if kind == "POLYLINE" else entity.get_points("xy")
                 key = (id(layout), tuple(tuple(point) for point in points))
                 is_plain &= bool(entity.is_closed) and key not in seen and len(key[1]) > 2
