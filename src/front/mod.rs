@@ -9,6 +9,7 @@ mod csv;
 mod dialect;
 mod dxf;
 mod foreign;
+mod formats;
 mod hpgl;
 mod iso;
 pub mod sewn;
@@ -42,12 +43,11 @@ pub fn detect(
     // `max_by_key` gives the last of equals and the likelier dialects come first, hence the reversal.
     let best = DIALECTS.iter().rev().max_by_key(|dialect| ((dialect.sniff)(source.bytes()), named(dialect)));
     let found = best.filter(|dialect| (dialect.sniff)(source.bytes()) != Likeness::No);
-    if found.is_none() {
+    if found.is_none() && !foreign::refuse_by_name(source, diagnostics) {
         let known: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
         let message = format!("the content is none of the dialects that cutc reads: {}", known.join(", "));
         let finding = Diagnostic::new(&code::SOURCE_UNKNOWN, message);
-        diagnostics
-            .push(finding.hint(foreign::hint(source, "if it is one of them all the same, name it with `--from`")));
+        diagnostics.push(finding.hint("if it is one of them all the same, name it with `--from`"));
     }
     found
 }

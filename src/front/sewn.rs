@@ -35,12 +35,6 @@ pub fn is_dst(bytes: &[u8]) -> bool {
     bytes.len() >= DST_HEADER_BYTES && bytes.starts_with(DST)
 }
 
-/// Whether a name is one of a stitch file; of those of Melco machines nothing else tells.
-pub(super) fn is_stitch_file(name: &str) -> bool {
-    let extension = name.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
-    matches!(extension.as_deref(), Some("dst" | "exp"))
-}
-
 /// Whether the first line of a text is this one, in capital letters or small ones and whatever blanks are between, or begins
 /// with it.
 fn begins_with(bytes: &[u8], header: &[u8]) -> bool {
@@ -75,8 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn stitch_files_are_known_by_their_names_and_headers() {
-        assert!(is_stitch_file("a/seat.EXP") && is_stitch_file("x.dst") && !is_stitch_file("exp"));
+    fn stitch_files_are_known_by_their_headers() {
         assert!(is_dst(&[b"LA:".as_slice(), &[b' '; 509]].concat()) && !is_dst(b"LA:"));
     }
 }

@@ -105,6 +105,15 @@ impl Drawing {
         !self.goes_on
     }
 
+    /// Whether the stroke that goes on has come back to its start.
+    pub fn is_closed(&self) -> bool {
+        let stroke = self.strokes.last().filter(|_| self.goes_on);
+        stroke.is_some_and(|stroke| {
+            stroke.end - stroke.first > 1
+                && self.vertices[stroke.first as usize].at == self.vertices[stroke.end as usize - 1].at
+        })
+    }
+
     /// Starts a stroke.
     pub fn begin(&mut self, at: Point, span: Span, pen: u16) {
         let first = self.vertices.len() as u32;

@@ -4,6 +4,9 @@
 //! of bytes; the lowest bit of the whole is the sign. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.) Plots
 //! that an editor saved again as UTF-8 have two bytes where a last digit was: those are put together.
 
+use super::instruction::{Instruction, instruction};
+use super::syntax;
+
 /// What stands in the body of PE.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Item {
@@ -28,6 +31,8 @@ pub(super) enum Ending {
     Done,
     /// With the file, between two numbers.
     Open,
+    /// Without a semicolon: the next instruction begins.
+    Next,
     /// Amid a number, or with a byte that cannot stand there.
     Damaged,
 }
@@ -103,6 +108,7 @@ impl<'a> Body<'a> {
     }
 
     fn number(&mut self) -> Option<Item> {
+        let start = self.at;
         let Mode { bits, digit, last } = self.mode;
         let (mut value, mut shift) = (0_u64, 0);
         while let Some(byte) = self.byte() {
@@ -123,8 +129,21 @@ impl<'a> Body<'a> {
                 return Some(Item::Number(if value & 1 == 0 { magnitude } else { -magnitude }));
             }
         }
-        self.ending = Ending::Damaged;
+        if self.is_instruction(start) {
+            (self.at, self.ending) = (start, Ending::Next);
+        } else {
+            self.ending = Ending::Damaged;
+        }
         None
+    }
+
+    /// Whether an instruction that is known begins at a byte, and ends as instructions do: `AutoCAD`'s driver writes no
+    /// semicolon behind its last encoded polyline.
+    fn is_instruction(&self, at: usize) -> bool {
+        let Ok((rest, found)) = syntax::mnemonic(&self.bytes[at..]) else { return false };
+        let numbers = rest.iter().position(|byte| !b"+-., 0123456789".contains(byte)).unwrap_or(rest.len());
+        let goes_on = rest.get(numbers).is_none_or(|byte| byte.is_ascii_alphabetic() || b";\r\n\x03".contains(byte));
+        goes_on && instruction(found) != Instruction::Unknown
     }
 
     /// The next byte as it was before an editor made text of it.
@@ -181,6 +200,19 @@ mod tests {
         let n = Item::Number;
         assert_eq!(ending, Ending::Open);
         assert_eq!(found, [Item::Up, Item::Absolute, n(0), n(0), n(0), Item::Pen, n(1), Item::Fraction, n(-1)]);
+    }
+
+    #[test]
+    fn an_instruction_ends_a_body_that_has_no_semicolon() {
+        for (bytes, at) in [(b"?\xc0PUSP0;PG;".as_slice(), 2), (b"?\xc0PU400,400;", 2), (b"7?_PU", 3), (b"?\xc0PU;", 2)]
+        {
+            let mut body = Body::new(bytes, 0, false);
+            while body.next().is_some() {}
+            assert_eq!((body.ending, body.at), (Ending::Next, at), "{}", bytes.escape_ascii());
+        }
+        for damaged in [b"?\xc0QQ0;".as_slice(), b"?\xc0PU<?;", b"?\xc0P;"] {
+            assert_eq!(items(damaged, false).1, Ending::Damaged, "{}", damaged.escape_ascii());
+        }
     }
 
     #[test]

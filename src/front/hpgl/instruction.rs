@@ -3,8 +3,10 @@
 /// What an instruction does, as far as lines matter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Instruction {
-    /// IN, BP: as switched on.
+    /// IN: as switched on.
     Initialize,
+    /// BP: the same, with a title among its values.
+    Begin,
     /// DF: modes as switched on; pen, place, corners and turn stay.
     Default,
     /// PA, PR: places from here on are absolute or relative.
@@ -45,10 +47,18 @@ pub(super) enum Instruction {
     PageSize,
     /// PG, AF, AH: the page goes out.
     Page,
-    /// LB, DT, CO.
+    /// LB, DT.
     Label,
     Terminator,
+    /// BL keeps a text, PB writes it.
+    Buffer,
+    PrintBuffer,
+    /// WD: a text for the plotter's display.
+    Display,
+    /// CO, MG: a text that is not drawn.
     Comment,
+    /// SM: a character that is drawn at each place.
+    Symbol,
     /// DI, DR: direction of labels.
     Direction,
     /// Something that draws and is left out: what it is.
@@ -66,12 +76,16 @@ pub(super) enum Instruction {
 pub(super) enum Tail {
     /// Numbers, or nothing.
     Numbers,
-    /// A text up to the terminator.
+    /// A text up to the terminator of labels.
     Text,
-    /// A byte.
+    /// A byte that becomes that terminator.
     Terminator,
+    /// A byte.
+    Character,
     /// A text in quotes.
-    Comment,
+    Quoted,
+    /// Numbers, and texts in quotes among them.
+    Values,
     /// Numbers in digits of base 64 or 32.
     Encoded,
 }
@@ -80,9 +94,11 @@ impl Instruction {
     /// What stands behind its mnemonic.
     pub(super) fn tail(self) -> Tail {
         match self {
-            Self::Label => Tail::Text,
+            Self::Label | Self::Buffer | Self::Display => Tail::Text,
             Self::Terminator => Tail::Terminator,
-            Self::Comment => Tail::Comment,
+            Self::Symbol => Tail::Character,
+            Self::Comment => Tail::Quoted,
+            Self::Begin => Tail::Values,
             Self::Encoded => Tail::Encoded,
             Self::Initialize
             | Self::Default
@@ -109,6 +125,7 @@ impl Instruction {
             | Self::Rotate
             | Self::PageSize
             | Self::Page
+            | Self::PrintBuffer
             | Self::Direction
             | Self::LeftOut(_)
             | Self::Letters(_)
@@ -127,7 +144,8 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"PR" => Instruction::Relative,
         b"SP" => Instruction::Pen,
         b"PE" => Instruction::Encoded,
-        b"IN" | b"BP" => Instruction::Initialize,
+        b"IN" => Instruction::Initialize,
+        b"BP" => Instruction::Begin,
         b"DF" => Instruction::Default,
         b"AA" => Instruction::ArcAbsolute,
         b"AR" => Instruction::ArcRelative,
@@ -149,7 +167,10 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"PG" | b"AF" | b"AH" => Instruction::Page,
         b"LB" => Instruction::Label,
         b"DT" => Instruction::Terminator,
-        b"CO" => Instruction::Comment,
+        b"BL" => Instruction::Buffer,
+        b"PB" => Instruction::PrintBuffer,
+        b"WD" => Instruction::Display,
+        b"CO" | b"MG" => Instruction::Comment,
         b"DI" | b"DR" => Instruction::Direction,
         b"UC" => Instruction::Letters("a drawn character"),
         b"CP" => Instruction::Letters("a move by characters"),
@@ -158,14 +179,14 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"WG" => Instruction::LeftOut("a filled wedge"),
         b"FP" => Instruction::LeftOut("a filled polygon"),
         b"CS" | b"SS" => Instruction::LeftOut("a character set"),
-        b"SM" => Instruction::LeftOut("a symbol at each point"),
+        b"SM" => Instruction::Symbol,
         b"IW" => Instruction::LeftOut("a window that clips lines"),
         b"AC" | b"AD" | b"AP" | b"AS" | b"CA" | b"CF" | b"CM" | b"CR" | b"CT" | b"CV" | b"DC" | b"DP" | b"DV"
         | b"EC" | b"ES" | b"FI" | b"FN" | b"FR" | b"FS" | b"GC" | b"GM" | b"IM" | b"LA" | b"LM" | b"LO" | b"LT"
-        | b"MC" | b"MG" | b"MT" | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO"
-        | b"OP" | b"OS" | b"OT" | b"OW" | b"PB" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"RP" | b"SA"
-        | b"SB" | b"SD" | b"SI" | b"SL" | b"SR" | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN"
-        | b"VS" | b"WD" | b"WU" | b"XT" | b"YT" => Instruction::Housekeeping,
+        | b"MC" | b"MT" | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO" | b"OP"
+        | b"OS" | b"OT" | b"OW" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"RP" | b"SA" | b"SB" | b"SD"
+        | b"SI" | b"SL" | b"SR" | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN" | b"VS" | b"WU"
+        | b"XT" | b"YT" => Instruction::Housekeeping,
         _ => Instruction::Unknown,
     }
 }

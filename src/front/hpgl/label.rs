@@ -1,4 +1,4 @@
-//! Texts: what stands between LB and its terminator, quoted comments, and the terminator that DT gives.
+//! Texts: those of labels, up to the terminator that DT gives, and those in quotes.
 
 /// The terminator of a label unless DT gives another: ETX.
 const ETX: u8 = 3;
@@ -46,15 +46,24 @@ impl Terminator {
     }
 }
 
-/// Where the file goes on behind the quoted text of CO; one without its second quote ends with its line or at a
-/// semicolon.
-pub(super) fn comment(bytes: &[u8], at: usize) -> usize {
+/// Where the file goes on behind the quoted text of CO or MG: a quote within it stands twice. One without its second quote,
+/// or without any, ends with its line or at a semicolon.
+pub(super) fn quoted(bytes: &[u8], at: usize) -> usize {
     let line =
         |from: usize| bytes[from..].iter().position(|byte| b";\r\n".contains(byte)).map_or(bytes.len(), |n| from + n);
+    let at = at + bytes[at..].iter().take_while(|byte| **byte == b' ').count();
     match bytes.get(at) {
         Some(b'"') => {
-            let window = &bytes[at + 1..bytes.len().min(at + 1 + LONGEST)];
-            memchr::memchr(b'"', window).map_or_else(|| line(at), |length| at + length + 2)
+            let end = bytes.len().min(at + 1 + LONGEST);
+            let mut next = at + 1;
+            while let Some(length) = memchr::memchr(b'"', &bytes[next.min(end)..end]) {
+                next += length + 1;
+                if bytes.get(next) != Some(&b'"') {
+                    return next;
+                }
+                next += 1;
+            }
+            line(at)
         }
         _ => line(at),
     }
@@ -85,9 +94,11 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_ends_at_its_quote() {
-        assert_eq!(comment(b"CO\"a;b\";PU", 2), 7);
-        assert_eq!(comment(b"CO\"a;PU", 2), 4);
-        assert_eq!(comment(b"CO;PU", 2), 2);
+    fn a_quoted_text_ends_at_its_quote() {
+        assert_eq!(quoted(b"CO\"a;b\";PU", 2), 7);
+        assert_eq!(quoted(b"MG\"a\"\";b\";PU", 2), 9);
+        assert_eq!(quoted(b"CO\"\";PU", 2), 4);
+        assert_eq!(quoted(b"CO\"a;PU", 2), 4);
+        assert_eq!(quoted(b"CO;PU", 2), 2);
     }
 }

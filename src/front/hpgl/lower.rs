@@ -34,6 +34,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         sagitta: measure.sagitta / measure.unit,
         labels: Vec::new(),
         heading: None,
+        buffer: None,
         page_out: None,
         unsized_at: None,
         doubts: Vec::new(),
@@ -57,6 +58,8 @@ struct Lowering<'a> {
     labels: Vec<Label>,
     /// Direction of labels, when it is not along +X.
     heading: Option<Heading>,
+    /// The text that BL has left for PB.
+    buffer: Option<Span>,
     /// How much was drawn when a page went out, and where that stands.
     page_out: Option<(usize, Span)>,
     /// What left the scale to the device, as long as nothing was drawn in it: the corners may follow.
@@ -81,7 +84,10 @@ impl Lowering<'_> {
         while let Some((statement, span)) = self.reader.next() {
             let drawn = self.plotter.drawing.vertices.len();
             match statement {
-                Statement::Instruction(Instruction::Unknown, mnemonic) => self.tally.unknown(mnemonic, span),
+                Statement::Instruction(Instruction::Unknown, mnemonic) => {
+                    self.tally.unknown(mnemonic, span);
+                    self.lose_unknown(mnemonic, span);
+                }
                 Statement::Instruction(Instruction::LeftOut(what), mnemonic) => {
                     self.tally.left_out(mnemonic, what, span);
                 }
@@ -89,12 +95,19 @@ impl Lowering<'_> {
                     self.tally.left_out(mnemonic, what, span);
                     self.plotter.drift();
                 }
+                Statement::Instruction(instruction @ Instruction::Symbol, mnemonic) => {
+                    self.tally.left_out(mnemonic, "a symbol at each point", span);
+                    self.reader.pass_over(instruction.tail());
+                }
                 Statement::Instruction(instruction, _) => {
                     self.tally.sound();
                     self.obey(instruction, span);
                 }
                 Statement::Reset => self.reset(),
-                Statement::Junk => self.tally.junk(span),
+                Statement::Junk => {
+                    self.tally.junk(span);
+                    self.lose_junk(span);
+                }
             }
             self.last_drew = self.plotter.drawing.vertices.len() > drawn;
             if self.tally.is_hopeless() {
@@ -128,6 +141,7 @@ impl Lowering<'_> {
         }
         self.plotter.lift();
         self.tally.adrift(self.plotter.adrift);
+        self.tally.lost(self.plotter.lost);
         let Drawing { strokes, pens, .. } = &self.plotter.drawing;
         let pens = || strokes.iter().filter(|stroke| !pens[usize::from(stroke.pen)].draws);
         if let Some(first) = pens().next() {
@@ -141,22 +155,28 @@ impl Lowering<'_> {
 
     fn reset(&mut self) {
         self.plotter.reset();
-        (self.heading, self.unsized_at) = (None, None);
+        (self.heading, self.unsized_at, self.buffer) = (None, None, None);
     }
 
     fn obey(&mut self, instruction: Instruction, span: Span) {
         match instruction {
             Instruction::Down => {
+                self.plotter.mend_pen();
                 self.plotter.lower();
                 self.moves();
             }
             Instruction::Up => {
+                self.plotter.mend_pen();
                 self.plotter.lift();
                 self.moves();
             }
             Instruction::Absolute | Instruction::Relative => {
                 self.plotter.set_relative(instruction == Instruction::Relative);
+                let known = self.reader.at();
                 self.moves();
+                if self.reader.at() > known {
+                    self.plotter.trust_pen();
+                }
             }
             Instruction::Pen => self.pen(),
             Instruction::Encoded => self.encoded(),
@@ -182,9 +202,20 @@ impl Lowering<'_> {
             Instruction::Page => self.page(span),
             Instruction::Label => self.label(span),
             Instruction::Terminator => self.reader.define_terminator(),
-            Instruction::Comment => self.reader.comment(),
+            Instruction::Buffer => self.buffer = Some(self.text(span)).filter(|text| text.start < text.end),
+            Instruction::PrintBuffer => {
+                if let Some(text) = self.buffer {
+                    self.write(text);
+                }
+            }
+            Instruction::Display => _ = self.text(span),
+            Instruction::Comment => self.reader.quoted(),
             Instruction::Direction => self.direction(),
             Instruction::Initialize => self.reset(),
+            Instruction::Begin => {
+                self.reader.pass_over(instruction.tail());
+                self.reset();
+            }
             Instruction::Default => {
                 self.plotter.set_default();
                 (self.heading, self.unsized_at) = (None, None);
@@ -197,7 +228,11 @@ impl Lowering<'_> {
                 let values = self.values::<2>();
                 self.plotter.reframe(|frame| frame.set_page(&values));
             }
-            Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Letters(_) | Instruction::Unknown => {}
+            Instruction::Housekeeping
+            | Instruction::Symbol
+            | Instruction::LeftOut(_)
+            | Instruction::Letters(_)
+            | Instruction::Unknown => {}
         }
     }
 
@@ -249,7 +284,10 @@ impl Lowering<'_> {
             match self.reader.pair() {
                 Next::Some(pair) => return Some(pair),
                 Next::End => return None,
-                Next::Odd(span) => self.tally.odd(span),
+                Next::Odd(span) => {
+                    self.tally.odd(span);
+                    self.plotter.lose(span);
+                }
                 Next::Overflow(span) => self.tally.overflow(span),
             }
         }
@@ -368,7 +406,9 @@ impl Lowering<'_> {
         }
         self.reader.behind(&body);
         if let Some((_, start)) = first {
-            self.tally.odd(self.reader.within(start, body.at));
+            let span = self.reader.within(start, body.at);
+            self.tally.odd(span);
+            self.plotter.lose(span);
         }
         self.end_encoded(&body);
     }
@@ -387,7 +427,7 @@ impl Lowering<'_> {
                     Diagnostic::new(&code::HPGL_PE_OPEN, "an encoded polyline (PE) has no semicolon at its end");
                 self.out.push(finding.at(span).hint("the file may be cut short; compare its size with the original"));
             }
-            Ending::Done | Ending::More => {}
+            Ending::Done | Ending::More | Ending::Next => {}
         }
         if body.repaired {
             self.tally.repaired(span);
@@ -397,7 +437,7 @@ impl Lowering<'_> {
     /// AA, AR: centre, sweep in degrees, and a chord angle that the tolerance replaces.
     fn arc(&mut self, is_relative: bool, span: Span) {
         let values = self.values::<4>();
-        let [x, y, degrees, ..] = values[..] else { return };
+        let [x, y, degrees, ..] = values[..] else { return self.incomplete(span) };
         let pair = [x, y];
         let centre = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let (from, stretch) = (self.plotter.at(), self.plotter.frame.stretch());
@@ -407,7 +447,7 @@ impl Lowering<'_> {
     /// AT, RT: a middle and an end.
     fn arc_through(&mut self, is_relative: bool, span: Span) {
         let values = self.values::<5>();
-        let [x1, y1, x2, y2, ..] = values[..] else { return };
+        let [x1, y1, x2, y2, ..] = values[..] else { return self.incomplete(span) };
         let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let (middle, to) = (place([x1, y1]), place([x2, y2]));
         let (from, stretch) = (self.plotter.at(), self.plotter.frame.stretch());
@@ -428,7 +468,7 @@ impl Lowering<'_> {
 
     /// CI: radius, around the place of the pen.
     fn circle(&mut self, span: Span) {
-        let Some(radius) = self.values::<2>().first().copied() else { return };
+        let Some(radius) = self.values::<2>().first().copied() else { return self.incomplete(span) };
         let centre = self.plotter.at();
         let [across, _] = self.plotter.relative([radius, 0.0]);
         let start = [across, centre[1]];
@@ -442,7 +482,7 @@ impl Lowering<'_> {
         while let Some((first, start)) = self.pair() {
             let (Some((second, _)), Some((third, end))) = (self.pair(), self.pair()) else {
                 self.tally.odd(start);
-                return;
+                return self.incomplete(start);
             };
             let span = start.to(end);
             let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
@@ -458,7 +498,7 @@ impl Lowering<'_> {
     /// EA, ER: the opposite corner.
     fn rectangle(&mut self, is_relative: bool, span: Span) {
         let values = self.values::<2>();
-        let [x, y] = values[..] else { return };
+        let [x, y] = values[..] else { return self.incomplete(span) };
         let pair = [x, y];
         let from = self.plotter.at();
         let to = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
@@ -471,7 +511,7 @@ impl Lowering<'_> {
     /// circle without radii.
     fn wedge(&mut self, span: Span) {
         let values = self.values::<4>();
-        let [radius, start, degrees, ..] = values[..] else { return };
+        let [radius, start, degrees, ..] = values[..] else { return self.incomplete(span) };
         let centre = self.plotter.at();
         let (sin, cos) = rad(start).sin_cos();
         let from = self.plotter.relative([radius * cos, radius * sin]);
@@ -487,14 +527,56 @@ impl Lowering<'_> {
 
     /// LB.
     fn label(&mut self, span: Span) {
+        let text = self.text(span);
+        if text.start < text.end {
+            self.write(text);
+        }
+    }
+
+    /// The text of LB, BL and WD.
+    fn text(&mut self, span: Span) -> Span {
         let (text, is_open) = self.reader.text();
         if is_open {
             self.tally.open_label(span);
         }
-        if text.start < text.end {
-            let (at, heading) = (Some(self.plotter.place()), self.heading);
-            self.labels.push(Label { at, heading, span: text, mirrored: None });
-            self.plotter.drift();
+        text
+    }
+
+    /// Writes a text where the pen is.
+    fn write(&mut self, text: Span) {
+        let (at, heading) = (Some(self.plotter.place()), self.heading);
+        self.labels.push(Label { at, heading, span: text, mirrored: None });
+        self.plotter.drift();
+    }
+
+    /// Bytes that begin no instruction: a letter of one may be lost.
+    fn lose_junk(&mut self, span: Span) {
+        let (is_torn, numbers) = (self.reader.is_torn_pen(span), self.reader.numbers_within(span));
+        if numbers > 1 {
+            // Places: an outline may be among them.
+            self.plotter.lost.add(span);
+        } else if self.plotter.is_drawing() || is_torn || numbers > 0 || self.reader.follows_number(span) {
+            self.plotter.lose(span);
         }
+        if is_torn {
+            self.plotter.tear(span);
+        }
+    }
+
+    /// An instruction that is not known may be another one with a wrong letter.
+    fn lose_unknown(&mut self, mnemonic: [u8; 2], span: Span) {
+        let is_like_pen = mnemonic[0] == b'P' || matches!(mnemonic[1], b'U' | b'D');
+        let has_numbers = self.reader.pair_follows();
+        if has_numbers || is_like_pen && self.plotter.is_drawing() {
+            self.plotter.lose(span);
+        }
+        if is_like_pen {
+            self.plotter.tear(span);
+        }
+    }
+
+    /// An instruction that draws and lacks numbers.
+    fn incomplete(&mut self, span: Span) {
+        self.plotter.lost.add(span);
     }
 }

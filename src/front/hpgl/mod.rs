@@ -6,11 +6,12 @@
 //! cut.
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the
-//! table of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`]
+//! table of what they mean; [`decimal_comma`] tells files whose numbers are none; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`]
 //! doubts the size; [`tally`] counts what was not obeyed.
 
 mod count;
 mod curve;
+mod decimal_comma;
 mod encoded;
 mod escape;
 mod instruction;
@@ -61,7 +62,12 @@ fn sniff(bytes: &[u8]) -> Likeness {
         let Statement::Instruction(instruction, _) = statement else { continue };
         moves |= matches!(
             instruction,
-            Instruction::Down | Instruction::Up | Instruction::Absolute | Instruction::Relative | Instruction::Encoded
+            Instruction::Down
+                | Instruction::Up
+                | Instruction::Absolute
+                | Instruction::Relative
+                | Instruction::Encoded
+                | Instruction::Label
         );
         reader.pass_over(instruction.tail());
         known += usize::from(instruction != Instruction::Unknown);
@@ -102,6 +108,14 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     if foreign::refuse(source, DIALECT.name, out) {
+        return Drawing::default();
+    }
+    if decimal_comma::has(source.bytes()) {
+        let message = "the numbers of this plot have commas for decimal points";
+        let finding = Diagnostic::new(&code::HPGL_DECIMAL_COMMA, message);
+        out.push(
+            finding.hint("let the program write points: set the language of the computer to English for the export"),
+        );
         return Drawing::default();
     }
     let unit = &job.profile.hpgl.unit;

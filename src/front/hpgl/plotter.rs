@@ -29,8 +29,11 @@ pub(super) struct Plotter {
     /// Moves that it may still make, drawing or not.
     moves_left: usize,
     standing: Standing,
-    /// Lines that were drawn from such a place.
+    /// Whether a letter that lowers or lifts the pen may be lost: where it was.
+    torn: Option<Span>,
+    /// Lines that were drawn from a place that hangs on letters, and from one that hangs on what could not be read.
     pub(super) adrift: Count,
+    pub(super) lost: Count,
     pen: u16,
     /// The same among the pens of the drawing, once it draws.
     drawing_pen: Option<u16>,
@@ -61,6 +64,8 @@ enum Standing {
     Known,
     /// A text was written since the last absolute place: it depends on the letters.
     Lettered,
+    /// Something that stood there could not be read.
+    Lost(Span),
 }
 
 /// Why a move is refused.
@@ -94,7 +99,9 @@ impl Plotter {
             farthest: (FARTHEST / unit).min(VALUE_MAX),
             moves_left: bytes + MOST_CURVED,
             standing: Standing::Known,
+            torn: None,
             adrift: Count::default(),
+            lost: Count::default(),
             pen: FIRST_PEN,
             drawing_pen: None,
             is_down: false,
@@ -112,7 +119,7 @@ impl Plotter {
         self.frame.reset();
         (self.is_relative, self.gathering, self.awaits_part) = (false, None, false);
         self.polygon.clear();
-        (self.at, self.standing) = ([0.0, 0.0], Standing::Known);
+        (self.at, self.standing, self.torn) = ([0.0, 0.0], Standing::Known, None);
         self.take_pen(FIRST_PEN);
     }
 
@@ -136,6 +143,32 @@ impl Plotter {
     /// The pen moves by letters, whose size is not known.
     pub(super) fn drift(&mut self) {
         self.standing = Standing::Lettered;
+    }
+
+    /// What stands in the file there cannot be read, and may have led the pen somewhere. Amid a line that is a place less.
+    pub(super) fn lose(&mut self, span: Span) {
+        if self.is_down && !self.drawing.is_closed() {
+            self.lost.add(span);
+        } else {
+            self.standing = Standing::Lost(span);
+        }
+    }
+
+    /// What stands there may have lowered or lifted the pen.
+    pub(super) fn tear(&mut self, span: Span) {
+        self.torn = Some(span);
+    }
+
+    /// A move whose instruction says nothing of whether the pen is down.
+    pub(super) fn trust_pen(&mut self) {
+        if let Some(span) = self.torn.take() {
+            self.lost.add(span);
+        }
+    }
+
+    /// PU, PD: whether the pen is down is known again.
+    pub(super) fn mend_pen(&mut self) {
+        self.torn = None;
     }
 
     /// An absolute move ends that.
@@ -174,6 +207,11 @@ impl Plotter {
     /// PD.
     pub(super) fn lower(&mut self) {
         self.is_down = true;
+    }
+
+    /// Whether the pen is down.
+    pub(super) fn is_drawing(&self) -> bool {
+        self.is_down
     }
 
     /// SP.
@@ -220,8 +258,10 @@ impl Plotter {
     /// A move that draws.
     pub(super) fn draw(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         self.check(to)?;
-        if self.standing == Standing::Lettered {
-            self.adrift.add(span);
+        match self.standing {
+            Standing::Known => {}
+            Standing::Lettered => self.adrift.add(span),
+            Standing::Lost(span) => self.lost.add(span),
         }
         if self.gathering.is_some() {
             self.polygon.push(Corner { at: to, span, is_edge: true });

@@ -92,7 +92,11 @@ impl<'a> Reader<'a> {
             if !passed_over {
                 if matches!(
                     statement,
-                    Statement::Reset | Statement::Instruction(Instruction::Initialize | Instruction::Default, _)
+                    Statement::Reset
+                        | Statement::Instruction(
+                            Instruction::Initialize | Instruction::Begin | Instruction::Default,
+                            _
+                        )
                 ) {
                     self.terminator = Terminator::new();
                 }
@@ -198,9 +202,55 @@ impl<'a> Reader<'a> {
         self.at = self.terminator.define(self.bytes, self.at);
     }
 
-    /// CO.
-    pub(super) fn comment(&mut self) {
-        self.at = label::comment(self.bytes, self.at);
+    /// CO, MG.
+    pub(super) fn quoted(&mut self) {
+        self.at = label::quoted(self.bytes, self.at);
+    }
+
+    /// SM: a character, unless the instruction ends.
+    fn character(&mut self) {
+        self.at += usize::from(self.bytes.get(self.at).is_some_and(|byte| *byte != b';'));
+    }
+
+    /// BP: numbers and quoted texts.
+    fn texts_among_values(&mut self) {
+        loop {
+            while let Ok((rest, _)) = syntax::parameter(&self.bytes[self.at..]) {
+                self.at = self.bytes.len() - rest.len();
+            }
+            let blanks = syntax::separators(&self.bytes[self.at..]);
+            if self.bytes.get(self.at + blanks) != Some(&b'"') {
+                return;
+            }
+            self.at += blanks;
+            self.quoted();
+        }
+    }
+
+    /// The next byte.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Whether a number stands next.
+    pub(super) fn pair_follows(&self) -> bool {
+        syntax::parameter(&self.bytes[self.at..]).is_ok()
+    }
+
+    /// How many numbers stand among some bytes.
+    pub(super) fn numbers_within(&self, span: Span) -> usize {
+        let bytes = &self.bytes[span.start as usize..span.end as usize];
+        bytes.chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit()).filter(|run| run[0].is_ascii_digit()).count()
+    }
+
+    /// Whether some bytes follow a number without anything between.
+    pub(super) fn follows_number(&self, span: Span) -> bool {
+        span.start > 0 && self.bytes[span.start as usize - 1].is_ascii_digit()
+    }
+
+    /// Whether some bytes are what is left of PU or PD when a letter is lost.
+    pub(super) fn is_torn_pen(&self, span: Span) -> bool {
+        matches!(self.bytes[span.start as usize].to_ascii_uppercase(), b'P' | b'U' | b'D')
     }
 
     /// Passes over what stands behind a mnemonic; a fault in it.
@@ -208,7 +258,9 @@ impl<'a> Reader<'a> {
         match tail {
             Tail::Text => _ = self.text(),
             Tail::Terminator => self.define_terminator(),
-            Tail::Comment => self.comment(),
+            Tail::Quoted => self.quoted(),
+            Tail::Character => self.character(),
+            Tail::Values => self.texts_among_values(),
             Tail::Numbers => loop {
                 match self.value() {
                     Next::Some(_) => {}
@@ -224,7 +276,7 @@ impl<'a> Reader<'a> {
                 return match body.ending {
                     encoded::Ending::Damaged => Some(Flaw::Damaged(end)),
                     encoded::Ending::Open => Some(Flaw::Open(end)),
-                    encoded::Ending::More | encoded::Ending::Done => None,
+                    encoded::Ending::More | encoded::Ending::Done | encoded::Ending::Next => None,
                 };
             }
         }
@@ -243,7 +295,7 @@ impl<'a> Reader<'a> {
             encoded::Ending::Damaged => {
                 memchr::memchr(b';', &self.bytes[body.at..]).map_or(self.bytes.len(), |length| body.at + length)
             }
-            encoded::Ending::More | encoded::Ending::Done | encoded::Ending::Open => body.at,
+            encoded::Ending::More | encoded::Ending::Done | encoded::Ending::Open | encoded::Ending::Next => body.at,
         };
     }
 
@@ -273,7 +325,9 @@ mod tests {
                     match instruction {
                         Instruction::Label => word = format!("{word}[{:?}]", reader.text().0),
                         Instruction::Terminator => reader.define_terminator(),
-                        Instruction::Comment => reader.comment(),
+                        Instruction::Comment | Instruction::Begin | Instruction::Symbol => {
+                            _ = reader.pass_over(instruction.tail());
+                        }
                         _ => {
                             while let Next::Some(value) = reader.value() {
                                 word = format!("{word} {value}");
@@ -298,6 +352,7 @@ mod tests {
         check(b"\xef\xbb\xbf\x1bE\x1b%0BIN;CO\"PU1,2\";DT#,1;PU;", "reset|IN|CO|DT|PU");
         check(b"@PJL ENTER LANGUAGE=HPGL2\nIN;", "IN");
         check(b"P;PU3;", "!|PU 3");
+        check(b"MG\"SPORT\";BP1,\"PRESS\",5,1;SMP;PU3;SM;PU4", "MG|BP|SM|PU 3|SM|PU 4");
         check(
             b"DT#;LBa#IN;LBb#\x03PU;",
             "DT|LB[Span { start: 6, end: 7, block: 2 }]|IN|LB[Span { start: 13, end: 15, block: 4 }]|PU",

@@ -71,8 +71,12 @@ fn plain_number(i: &[u8]) -> Option<(&[u8], f64)> {
 
 /// `<parameter>`: a number behind commas, blanks or nothing. Its sign separates it, too.
 pub(super) fn parameter(i: &[u8]) -> Out<'_, f64> {
-    let blanks = i.iter().position(|&byte| !is_separator(byte)).unwrap_or(i.len());
-    number(&i[blanks..])
+    number(&i[separators(i)..])
+}
+
+/// How many bytes separate what stands before them from what stands behind.
+pub(super) fn separators(i: &[u8]) -> usize {
+    i.iter().position(|&byte| !is_separator(byte)).unwrap_or(i.len())
 }
 
 fn is_separator(byte: u8) -> bool {

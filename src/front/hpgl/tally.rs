@@ -31,6 +31,8 @@ pub(super) struct Tally {
     too_many: Count,
     /// Lines that start where only the plotter knows.
     adrift: Count,
+    /// Lines that hang on what could not be read.
+    lost: Count,
     /// Encoded polylines that an editor made UTF-8 of.
     repaired: Count,
     open_labels: Count,
@@ -81,6 +83,11 @@ impl Tally {
     /// Lines that were drawn from a place that only the plotter knows.
     pub(super) fn adrift(&mut self, lines: Count) {
         self.adrift = lines;
+    }
+
+    /// Lines that hang on something that could not be read.
+    pub(super) fn lost(&mut self, lines: Count) {
+        self.lost = lines;
     }
 
     /// An encoded polyline whose bytes were put together again.
@@ -141,6 +148,16 @@ impl Tally {
             let message = "the curves of the plot have more chords than a plot can need; no more is read from here on";
             let finding = self.too_many.diagnostic(&code::HPGL_CURVES, message.to_owned());
             found.push(finding.hint("a radius may be damaged, or the tolerance of the profile be far too fine"));
+        }
+        if self.lost.count > 0 {
+            let message = format!(
+                "a line hangs on what cannot be read here: a character is lost; this happens {}",
+                self.lost.times()
+            );
+            let finding = self.lost.diagnostic(&code::HPGL_LOST, message);
+            found.push(
+                finding.hint("transfer the file again; without what stood here the outline would be another one"),
+            );
         }
         if self.adrift.count > 0 {
             let message = format!(

@@ -6,11 +6,12 @@ use crate::front::Word;
 #[rustfmt::skip] // a table: a row a line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`PU`, `PD`, `PA`, `PR`, `SP`", about: "moves; without `SP` pen 1 draws" },
-    Word { words: "`PE`", about: "moves in 7 and 8 bits, with fractions; bytes that were saved as UTF-8 are repaired, lost ones refused" },
+    Word { words: "`PE`", about: "moves in 7 and 8 bits, with fractions; the next instruction may stand for its semicolon; bytes that were saved as UTF-8 are repaired, lost ones refused" },
     Word { words: "`AA`, `AR`, `AT`, `RT`, `CI`, `BZ`, `BR`", about: "curves, as chords within a quarter of the tolerance" },
     Word { words: "`EA`, `ER`, `EW`, `PM`, `EP`", about: "edges of rectangles, wedges, polygons" },
     Word { words: "`SC`, `IP`, `IR`, `PS`, `RO`", about: "obeyed; without `IP`, or with numbers missing, the size depends on the plotter, and is doubted" },
-    Word { words: "`LB`, `DT`, `CO`, `DI`, `DR`", about: "labels with any terminator, comments, directions; what is drawn from the end of a text gives a warning" },
+    Word { words: "`LB`, `BL`, `PB`, `DT`, `DI`, `DR`", about: "labels with any terminator, kept and written ones too; what is drawn from the end of a text gives a warning" },
+    Word { words: "`WD`, `MG`, `CO`", about: "texts for the display, messages, comments: passed over, whatever words they hold" },
     Word { words: "`IN`, `BP`, `ESC E`", about: "as switched on: pen 1, up, at the origin; scale, corners and turn end; ETX ends labels" },
     Word { words: "`DF`", about: "the same of modes, scale and terminator; pen, place, corners and turn stay" },
     Word { words: "other escape sequences, lines of `@PJL`", about: "passed over" },

@@ -59,8 +59,9 @@ struct Count {
     records: u32,
     colors: u32,
     at: [i64; 2],
-    /// Greatest reach to +X, -X, +Y, -Y.
+    /// Greatest reach to +X, -X, +Y, -Y: of all records, and of stitches alone.
     reach: [i64; 4],
+    sewn: [i64; 4],
 }
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
@@ -87,7 +88,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         match last & KIND {
             _ if record == ERASED => refuse(record, place, out),
             0x03 => {
-                count.stitches += 1;
+                count.stitch();
                 moves.stitch(way, number, out);
             }
             0x83 => moves.jump(way, number),
@@ -141,11 +142,19 @@ impl Count {
     fn add(&mut self, [x, y]: [i64; 2]) {
         self.records += 1;
         self.at = [self.at[0] + x, self.at[1] + y];
-        let [x, y] = self.at;
-        let reach = [x, -x, y, -y];
-        for (most, now) in self.reach.iter_mut().zip(reach) {
-            *most = (*most).max(now);
-        }
+        extend(&mut self.reach, self.at);
+    }
+
+    /// The record that was added is a stitch.
+    fn stitch(&mut self) {
+        self.stitches += 1;
+        extend(&mut self.sewn, self.at);
+    }
+}
+
+fn extend(reach: &mut [i64; 4], [x, y]: [i64; 2]) {
+    for (most, now) in reach.iter_mut().zip([x, -x, y, -y]) {
+        *most = (*most).max(now);
     }
 }
 
@@ -160,10 +169,14 @@ fn field(header: &[u8], name: &[u8]) -> Option<i64> {
 /// Warns where the header says something else than the records do.
 fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
     let mut wrong = Vec::new();
-    let [right, left, up, down] = count.reach;
-    // Some systems have Y count downwards in the header.
-    let sides: [(&[u8], [i64; 2]); 4] =
-        [(b"+X:", [right; 2]), (b"-X:", [left; 2]), (b"+Y:", [up, down]), (b"-Y:", [down, up])];
+    // Some systems have Y count downwards in the header, and some count the reach of stitches, not of jumps.
+    let ([right, left, up, down], sewn) = (count.reach, count.sewn);
+    let sides: [(&[u8], [i64; 4]); 4] = [
+        (b"+X:", [right, right, sewn[0], sewn[0]]),
+        (b"-X:", [left, left, sewn[1], sewn[1]]),
+        (b"+Y:", [up, down, sewn[2], sewn[3]]),
+        (b"-Y:", [down, up, sewn[3], sewn[2]]),
+    ];
     for (name, reach) in sides {
         if let Some(told) = field(header, name).filter(|told| !reach.contains(told)) {
             wrong.push(format!("{} {told} instead of {}", String::from_utf8_lossy(name), reach[0]));

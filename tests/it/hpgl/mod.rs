@@ -4,8 +4,10 @@
 mod audit;
 mod classes;
 mod curves;
+mod lost;
 mod notches;
 mod patience;
+mod words;
 
 use std::fmt::Write as _;
 
@@ -42,6 +44,12 @@ fn as_read(source: &Source, job: &Job) -> Marker {
 }
 
 /// A closed rectangle, in units of the file.
+/// The places of every contour.
+fn outlines(marker: &Marker) -> Vec<Vec<Point>> {
+    let contours = marker.pieces.iter().flat_map(|piece| &piece.contours);
+    contours.map(|contour| marker.list.points(contour.range).into_owned()).collect()
+}
+
 fn rectangle(x: i64, y: i64, width: i64, height: i64) -> String {
     let (right, top) = (x + width, y + height);
     format!("PU{x},{y};PD{right},{y},{right},{top},{x},{top},{x},{y};")

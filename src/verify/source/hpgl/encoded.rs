@@ -11,6 +11,8 @@ impl Scan<'_> {
         let (mut base, mut last_from) = (64.0, 191);
         let (mut bits, mut is_up, mut is_absolute, mut flag) = (0, false, false, b' ');
         let (mut value, mut weight) = (0.0, 1.0);
+        // Where the number begins that is being read.
+        let mut begun = None;
         let mut first: Option<(f64, usize)> = None;
         while let Some(&raw) = self.bytes.get(self.at) {
             self.at += 1;
@@ -21,18 +23,25 @@ impl Scan<'_> {
                 self.at += 1;
             }
             match byte {
+                // A number without its last digit is the instruction that comes next.
+                b';' | b'0'..=b'9' | b'+' | b'-' | b',' if begun.is_some() => {
+                    self.at = begun.unwrap_or(self.at);
+                    return;
+                }
                 b';' => return,
                 b'7' => (base, last_from) = (32.0, 95),
                 b'<' => is_up = true,
                 b'=' => is_absolute = true,
                 b':' | b'>' => flag = byte,
                 63..=126 | 191..=254 => {
+                    begun.get_or_insert(self.at - 1);
                     let is_last = byte >= last_from;
                     value += f64::from(byte - if is_last { last_from } else { 63 }) * weight;
                     weight *= base;
                     if !is_last {
                         continue;
                     }
+                    begun = None;
                     let half = (value / 2.0).floor();
                     let number = if value % 2.0 == 0.0 { half } else { -half };
                     (value, weight) = (0.0, 1.0);

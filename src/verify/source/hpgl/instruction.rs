@@ -71,7 +71,11 @@ impl Scan<'_> {
     pub(super) fn instruction(&mut self, mnemonic: [u8; 2]) {
         let cause = self.at;
         match &mnemonic {
-            b"IN" | b"BP" => self.reset(),
+            b"IN" => self.reset(),
+            b"BP" => {
+                self.title();
+                self.reset();
+            }
             b"DF" => (self.pen.is_relative, self.scale, self.terminator) = (false, None, ETX),
             b"PU" | b"PD" | b"PA" | b"PR" => {
                 match &mnemonic {
@@ -83,7 +87,7 @@ impl Scan<'_> {
             }
             b"PE" => self.encoded(),
             b"SP" => self.pen.cause = None,
-            b"LB" => {
+            b"LB" | b"BL" | b"WD" => {
                 let window = &self.bytes[self.at..self.bytes.len().min(self.at + LABEL_BYTES)];
                 match memchr::memchr(self.terminator, window) {
                     Some(length) => self.at += length + 1,
@@ -95,12 +99,12 @@ impl Scan<'_> {
                 self.terminator = given.unwrap_or(ETX);
                 self.at += usize::from(given.is_some());
             }
-            b"CO" => {
-                let quoted = self.bytes.get(self.at) == Some(&b'"');
-                let window = self.bytes[self.at..].iter().skip(1).take(LABEL_BYTES);
-                let end = window.clone().position(|&byte| byte == b'"').filter(|_| quoted);
-                self.at += end.map_or_else(|| self.until(b";\r\n", usize::MAX), |length| length + 2);
+            b"CO" | b"MG" => {
+                if !self.quote() {
+                    self.at += self.until(b";\r\n", usize::MAX);
+                }
             }
+            b"SM" => self.at += usize::from(!matches!(self.bytes.get(self.at), Some(b';') | None)),
             _ => {
                 let numbers = match &mnemonic {
                     b"BZ" | b"BR" => return self.beziers(mnemonic == *b"BR"),
@@ -110,6 +114,38 @@ impl Scan<'_> {
                 self.frame(mnemonic, &numbers);
             }
         }
+    }
+
+    /// A text between quotes, which stand twice within it; `false` where none stands, or only one quote.
+    fn quote(&mut self) -> bool {
+        let blanks = self.bytes[self.at..].iter().take_while(|&&byte| byte == b' ').count();
+        let mut at = self.at + blanks;
+        if self.bytes.get(at) != Some(&b'"') {
+            return false;
+        }
+        let end = self.bytes.len().min(at + LABEL_BYTES);
+        at += 1;
+        while at < end {
+            let is_quote = self.bytes[at] == b'"';
+            if is_quote && self.bytes.get(at + 1) != Some(&b'"') {
+                self.at = at + 1;
+                return true;
+            }
+            at += 1 + usize::from(is_quote);
+        }
+        false
+    }
+
+    /// BP: numbers with texts in quotes between them.
+    fn title(&mut self) {
+        while self.number().is_some() || {
+            let next = self.at + self.bytes[self.at..].iter().take_while(|&&byte| matches!(byte, b',' | b' ')).count();
+            let is_text = self.bytes.get(next) == Some(&b'"');
+            if is_text {
+                self.at = next;
+            }
+            is_text && self.quote()
+        } {}
     }
 
     /// Places behind PU, PD, PA and PR.

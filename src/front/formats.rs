@@ -1,0 +1,292 @@
+//! Formats that cutc does not read: by their first bytes, else by the names of files. A table says what each is, and what to
+//! do instead.
+
+use super::sewn;
+
+/// Bytes that are looked at.
+const SNIFFED: usize = 4096;
+
+/// A format that no dialect reads.
+#[derive(Debug)]
+pub(super) struct Format {
+    /// How a message names it.
+    pub(super) what: &'static str,
+    /// What to do.
+    pub(super) hint: &'static str,
+    /// Whether its name tells more than its bytes, if that is known.
+    pub(super) is_vague: bool,
+    is: fn(&[u8]) -> bool,
+}
+
+const EXPORT_CUT: &str = "let the CAD export an ISO cut file for a knife cutter";
+const EXPORT_PLOT: &str = "let the program that drew it export an HPGL plot, or let the CAD export an ISO cut file";
+const EXPORT_PATTERN: &str = "open it in its CAD, and export an ISO cut file of the marker, an HPGL plot, or the pieces as pattern DXF (AAMA, ASTM)";
+const UNPACK: &str = "unpack it and give cutc the files inside";
+const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
+const OTHER_STITCHES: &str = "let the embroidery program save it as DST or EXP: `cutc sew` reads those";
+const PICTURE: &str =
+    "pictures hold no lines: let the CAD that made the drawing export an ISO cut file or an HPGL plot";
+const OTHER_PLOTTER: &str = "let the driver of the plotter write HPGL instead";
+
+const fn known(what: &'static str, hint: &'static str, is: fn(&[u8]) -> bool) -> Format {
+    Format { what, hint, is_vague: false, is }
+}
+
+const fn vague(what: &'static str, hint: &'static str, is: fn(&[u8]) -> bool) -> Format {
+    Format { what, hint, is_vague: true, is }
+}
+
+/// Formats by their bytes, the surest signs first.
+#[rustfmt::skip] // a table: a row a format
+const FORMATS: &[Format] = &[
+    known("a stitch file of a sewing machine (DST)", SEW, sewn::is_dst),
+    known("a pattern for a sewing machine", SEW, sewn::is_pattern),
+    known("a stitch queue of a sewing machine", SEW, sewn::is_queue),
+    known("a stitch file of an embroidery machine (PES)", OTHER_STITCHES, |b| b.starts_with(b"#PES") || b.starts_with(b"#PEC")),
+    known("a stitch file of an embroidery machine (VP3)", OTHER_STITCHES, |b| b.starts_with(b"%vsm%")),
+    vague("a zip archive", UNPACK, |b| b.starts_with(b"PK")),
+    known("a 7z archive", UNPACK, |b| b.starts_with(b"7z\xbc\xaf\x27\x1c")),
+    known("a RAR archive", UNPACK, |b| b.starts_with(b"Rar!")),
+    known("a gzip archive", UNPACK, |b| b.starts_with(b"\x1f\x8b")),
+    known("a drawing of Adobe Illustrator (AI)", EXPORT_PLOT, is_illustrator),
+    known("a PDF document", EXPORT_CUT, |b| b.starts_with(b"%PDF")),
+    known("a PostScript file (EPS)", EXPORT_PLOT, |b| b.starts_with(b"%!PS") || b.starts_with(b"\xc5\xd0\xd3\xc6")),
+    known("a PNG picture", PICTURE, |b| b.starts_with(b"\x89PNG")),
+    known("a JPEG picture", PICTURE, |b| b.starts_with(b"\xff\xd8\xff")),
+    known("a GIF picture", PICTURE, |b| b.starts_with(b"GIF8")),
+    known("a TIFF picture", PICTURE, |b| b.starts_with(b"II*\0") || b.starts_with(b"MM\0*")),
+    known("a WebP picture", PICTURE, |b| b.starts_with(b"RIFF") && b.get(8..12) == Some(b"WEBP")),
+    known("a BMP picture", PICTURE, |b| b.starts_with(b"BM") && b.get(6..10) == Some(&[0; 4])),
+    known("an SVG drawing", EXPORT_PLOT, is_svg),
+    known("text in UTF-16", "save it as plain text: one byte a character", is_utf16),
+    known("a binary DXF drawing", "save it as text (ASCII DXF)", |b| b.starts_with(b"AutoCAD Binary DXF")),
+    known("a DWG drawing of AutoCAD", "save it as ASCII DXF; cutc reads DXF of patterns (AAMA, ASTM)", |b| b.starts_with(b"AC10")),
+    known("a table of grading rules (RUL)", "give cutc the pattern DXF that lies beside it", is_rule_table),
+    known("a plot in the language of Graphtec plotters (GP-GL)", OTHER_PLOTTER, is_gp_gl),
+    known("a plot in the language of Houston Instruments plotters (DMPL)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
+    vague("binary data", EXPORT_CUT, is_binary),
+    known("a Gerber file for circuit boards", "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15", is_circuit_board),
+    known("a plot in the language of Roland plotters (CAMM-GL I)", OTHER_PLOTTER, is_camm_gl),
+    known("a table of points with semicolons and decimal commas", "write commas between the numbers and points for decimals: `x_mm,y_mm`", is_comma_table),
+    known("G-code for a machine tool", "its blocks end with the line; cutter files end them with `*`", is_g_code),
+];
+
+/// A format of which only the names of files tell.
+struct Named {
+    extensions: &'static [&'static str],
+    format: Format,
+}
+
+const fn named(extensions: &'static [&'static str], what: &'static str, hint: &'static str) -> Named {
+    Named { extensions, format: known(what, hint, |_| false) }
+}
+
+#[rustfmt::skip] // likewise
+const NAMED: &[Named] = &[
+    named(&["dst", "exp"], "a stitch file of a sewing machine", SEW),
+    named(&["jef", "hus", "xxx", "sew", "pec", "vip", "pcs", "emb"], "a stitch file of an embroidery machine", OTHER_STITCHES),
+    named(&["mrk", "mark"], "a marker in the storage of a CAD system (MRK)", EXPORT_PATTERN),
+    named(&["mkx", "mka", "plx", "plh"], "a marker of Lectra Diamino", EXPORT_PATTERN),
+    named(&["mdl", "iba", "vet", "vtx", "mdlx"], "a model of Lectra Modaris", EXPORT_PATTERN),
+    named(&["pds", "pdml"], "a pattern set of Optitex", EXPORT_PATTERN),
+    named(&["zprj", "zpac", "zpat"], "a project of CLO", EXPORT_PATTERN),
+    named(&["val", "sm2d"], "a pattern of Valentina or Seamly2D", EXPORT_PATTERN),
+    named(&["cdr"], "a drawing of CorelDRAW", EXPORT_PLOT),
+    named(&["studio", "studio3"], "a drawing of Silhouette Studio", EXPORT_PLOT),
+];
+
+/// The format that the content is.
+pub(super) fn of_content(bytes: &[u8]) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| (format.is)(bytes))
+}
+
+/// The format that files of such a name have.
+pub(super) fn of_name(name: &str) -> Option<&'static Format> {
+    let (_, extension) = name.rsplit_once('.')?;
+    let is = |known: &&str| extension.eq_ignore_ascii_case(known);
+    NAMED.iter().find(|named| named.extensions.iter().any(|known| is(&known))).map(|named| &named.format)
+}
+
+/// The first bytes of a file: those that are looked at.
+pub(super) fn head(bytes: &[u8]) -> &[u8] {
+    &bytes[..bytes.len().min(SNIFFED)]
+}
+
+/// Whether a text holds some bytes, in capital letters or small ones.
+fn has(bytes: &[u8], text: &[u8]) -> bool {
+    head(bytes).windows(text.len()).any(|window| window.eq_ignore_ascii_case(text))
+}
+
+fn is_illustrator(bytes: &[u8]) -> bool {
+    (bytes.starts_with(b"%!PS") || bytes.starts_with(b"%PDF")) && has(bytes, b"Adobe Illustrator")
+}
+
+/// An element of that name, behind whatever XML begins with.
+fn is_svg(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    bytes.trim_ascii_start().starts_with(b"<") && (has(bytes, b"<svg") || has(bytes, b":svg"))
+}
+
+/// Keys of ASTM D6673 that DXF files do not have as lines of their own.
+fn is_rule_table(bytes: &[u8]) -> bool {
+    let starts = |line: &[u8], key: &[u8]| line.len() >= key.len() && line[..key.len()].eq_ignore_ascii_case(key);
+    let keys: [&[u8]; 3] = [b"RULE:", b"GRADE RULE TABLE:", b"SIZE LIST:"];
+    let lines = || head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    keys.iter().filter(|key| lines().any(|line| starts(line, key))).count() >= 2
+}
+
+/// Rows of two numbers with a semicolon between them, and commas in numbers.
+fn is_comma_table(bytes: &[u8]) -> bool {
+    let rows = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !row.is_empty());
+    let is_number = |field: &[u8]| {
+        let field = field.trim_ascii();
+        !field.is_empty() && field.iter().all(|byte| byte.is_ascii_digit() || b"-+,.".contains(byte))
+    };
+    // The first row may be a header, and the last one cut off.
+    let rows: Vec<&[u8]> = rows.skip(1).take(8).collect();
+    let is_row =
+        |row: &&[u8]| row.split(|&byte| byte == b';').count() >= 2 && row.split(|&byte| byte == b';').all(is_number);
+    rows.len() >= 2 && rows.iter().all(is_row) && rows.iter().any(|row| row.contains(&b','))
+}
+
+/// Commands of one letter between ETX bytes, moves and lines among them.
+fn is_gp_gl(bytes: &[u8]) -> bool {
+    let commands = head(bytes).split(|&byte| byte == 3).map(<[u8]>::trim_ascii).filter(|command| !command.is_empty());
+    let leads = commands.filter(|command| is_lead(command, b"MDOE"));
+    leads.count() >= 2 && memchr::memchr(b';', head(bytes)).is_none()
+}
+
+/// Lines of one letter with pairs of numbers: moves and lines.
+fn is_camm_gl(bytes: &[u8]) -> bool {
+    let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
+    let commands = commands.filter(|command| !command.is_empty());
+    let (mut all, mut leads) = (0, 0);
+    for command in commands.take(50) {
+        all += 1;
+        leads += usize::from(is_lead(command, b"MDIR"));
+    }
+    leads >= 3 && 2 * leads > all
+}
+
+/// Whether a command is one of some letters, with a pair of numbers and a comma between them.
+fn is_lead(command: &[u8], letters: &[u8]) -> bool {
+    let Some((letter, numbers)) = command.split_first() else { return false };
+    let is_number = |byte: &u8| byte.is_ascii_digit() || b"+-., ".contains(byte);
+    letters.contains(letter) && numbers.contains(&b',') && numbers.iter().all(is_number) && numbers[0] != b','
+}
+
+fn is_utf16(bytes: &[u8]) -> bool {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return true;
+    }
+    // Without a mark: every other byte of western text is NUL.
+    let zeros = |parity: usize| {
+        let (pairs, _) = head(bytes).as_chunks::<2>();
+        pairs.len() >= 4 && pairs.iter().all(|pair| pair[parity] == 0 && pair[1 - parity] != 0)
+    };
+    zeros(0) || zeros(1)
+}
+
+/// More than one byte in ten that no text has.
+fn is_binary(bytes: &[u8]) -> bool {
+    let head = head(bytes);
+    let control =
+        |&&byte: &&u8| (byte < b' ' && !byte.is_ascii_whitespace() && byte != 0x1a && byte != 0) || byte == 0x7f;
+    let zeros = memchr::memchr_iter(0, head).count();
+    let asterisks = memchr::memchr_iter(b'*', head).count();
+    10 * head.iter().filter(control).count() > head.len() || (zeros > asterisks && 4 * zeros > head.len())
+}
+
+/// Parameters between per cent signs, or places with codes of apertures (RS-274D), and no knife.
+fn is_circuit_board(bytes: &[u8]) -> bool {
+    if memchr::memmem::find(head(bytes), b"M15*").is_some() || memchr::memmem::find(head(bytes), b"M14*").is_some() {
+        return false;
+    }
+    let is_flash = |block: &[u8]| {
+        let block = block.trim_ascii();
+        block.first().is_some_and(|byte| b"XY".contains(byte))
+            && [b"D01", b"D02", b"D03"].iter().any(|d| block.ends_with(*d))
+    };
+    if head(bytes).split(|&byte| byte == b'*').filter(|block| is_flash(block)).count() >= 2 {
+        return true;
+    }
+    let starts =
+        |text: &[u8]| [b"%FS", b"%MO", b"%AD", b"%AM", b"%LP", b"%TF", b"%IP"].iter().any(|p| text.starts_with(*p));
+    head(bytes).split(|&byte| byte == b'*' || byte == b'\n').take(20).any(|block| starts(block.trim_ascii()))
+}
+
+/// Lines of words that begin with G, M, N and the like, and no asterisks to end them.
+fn is_g_code(bytes: &[u8]) -> bool {
+    let head = head(bytes);
+    let (mut all, mut sound, mut g) = (0, 0, false);
+    for line in head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty()) {
+        all += 1;
+        let comment = matches!(line[0], b'(' | b';' | b'%');
+        let word =
+            line[0].is_ascii_alphabetic() && line.get(1).is_some_and(|b| b.is_ascii_digit() || b"-. ".contains(b));
+        sound += usize::from(comment || word);
+        g |= line.split(u8::is_ascii_whitespace).any(|w| matches!(w, [b'G' | b'g', b'0'..=b'9', ..]));
+    }
+    // Some senders add a checksum behind an asterisk, one a line at most, and never behind each word.
+    let asterisks = memchr::memchr_iter(b'*', head).count();
+    g && 2 * sound > all && all >= 2 && asterisks == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(bytes: &[u8], what: Option<&str>) {
+        let found = of_content(bytes).map(|format| format.what);
+        assert_eq!(found, what, "{}", String::from_utf8_lossy(bytes));
+    }
+
+    #[test]
+    fn a_foreign_file_is_called_by_its_name() {
+        check(b"x_mm,y_mm,element\n0,0,\n", Some("a pattern for a sewing machine"));
+        check(b"op,dx_mm,dy_mm,value\nEND,,,\n", Some("a stitch queue of a sewing machine"));
+        check(b"PK\x03\x04\x14\0", Some("a zip archive"));
+        check(b"G04 comment*\n%FSLAX24Y24*%\n%MOIN*%\nX0Y0D02*", Some("a Gerber file for circuit boards"));
+        check(b"%\nG21\nG0 X1 Y2\nM30\n", Some("G-code for a machine tool"));
+        check(b"AutoCAD Binary DXF\r\n\x1a\0\0\0SECTION", Some("a binary DXF drawing"));
+        check(b"H\x001\0*\0M\x001\x005\0*\0", Some("text in UTF-16"));
+        check(b"\x01\x02\x7f\x03abc\x04\x05", Some("binary data"));
+        check(b"G75*\nG70*\nD10*\nX0Y5D02*\nX0Y9D01*\nM02*\n", Some("a Gerber file for circuit boards"));
+        check(b"<?xml version=\"1.0\"?>\n<svg width=\"1\">", Some("an SVG drawing"));
+        check(
+            b"%!PS-Adobe-3.0 EPSF-3.0\n%%Creator: Adobe Illustrator(R) 9",
+            Some("a drawing of Adobe Illustrator (AI)"),
+        );
+        check(b"%!PS-Adobe-3.0 EPSF-3.0\n", Some("a PostScript file (EPS)"));
+        check(b"\xff\xd8\xff\xe0\0\x10JFIF", Some("a JPEG picture"));
+        check(
+            b"ANSI/AAMA\r\nUNITS: METRIC\r\nSIZE LIST: S M\r\nRULE: DELTA 1\r\n",
+            Some("a table of grading rules (RUL)"),
+        );
+        check(
+            b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03",
+            Some("a plot in the language of Graphtec plotters (GP-GL)"),
+        );
+        check(
+            b";:H A L0 EC1 U 400,400 D 4400,400 @ ",
+            Some("a plot in the language of Houston Instruments plotters (DMPL)"),
+        );
+        check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a plot in the language of Roland plotters (CAMM-GL I)"));
+    }
+
+    #[test]
+    fn a_name_tells_of_files_whose_bytes_do_not() {
+        let what = |name: &str| of_name(name).map(|format| format.what);
+        assert_eq!(what("a/b.MRK"), Some("a marker in the storage of a CAD system (MRK)"));
+        assert_eq!([what("a.cut"), what("mrk"), what("a.plt")], [None; 3]);
+    }
+
+    #[test]
+    fn a_cutter_file_is_not_foreign() {
+        check(b"H1*G71*M15*N1*X0Y0*M14*X100Y0*M15*M0*", None);
+        check(b"H1*\nG71*\nM15*\nX0Y0*\nM14*\n", None);
+        check(b"x_mm,y_mm\n1,2\n", None);
+        check(b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", None);
+        check(b"H1*M15*M20*%FS;PU;PD*M0*", None);
+    }
+}

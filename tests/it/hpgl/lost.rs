@@ -1,0 +1,83 @@
+//! A character that is lost or changed amid an outline is an error, or changes nothing.
+
+use cutc::diagnostic::Diagnostics;
+use cutc::front::by_name;
+use cutc::machine::Job;
+use cutc::pipeline;
+
+use super::{as_read, outlines, source};
+
+/// The same outlines in the spellings of several drivers.
+const PLOTS: [&str; 5] = [
+    "IN;SP1;PU400,400;PD4400,400;PD4400,2400;PD2400,2600;PD400,2400;PD400,400;PU;PU5000,0;PD9000,0;PD9000,900;PD5000,0;PU;SP0;",
+    "IN;SP1;PU400,400;PD4400,400,4400,2400,2400,2600,400,2400,400,400;PU5000,0;PD9000,0,9000,900,5000,0;PU;SP0;",
+    "IN;SP1;PU;PA400,400;PD;PA4400,400;PA4400,2400;PA2400,2600;PA400,2400;PA400,400;PU;PA5000,0;PD;PA9000,0;PA9000,900;PA5000,0;PU;",
+    "IN;SP1;PU;PA400,400;PD;PR4000,0;PR0,2000;PR-2000,200;PR-2000,-200;PR0,-2000;PU;PA5000,0;PD;PR4000,0,0,900,-4000,-900;PU;",
+    "INSP1PU400,400PD4400 400,4400 2400PD2400,2600,400 2400,400,400PU5000,0PD9000,0,9000,900,5000,0PU;",
+];
+
+#[test]
+fn a_character_that_is_lost_is_an_error_or_changes_nothing() {
+    let job = Job::default();
+    let mut silent = Vec::new();
+    let (mut refused, mut same) = (0, 0);
+    for plot in PLOTS {
+        let whole = outlines(&as_read(&source(plot), &job));
+        assert_eq!(whole.len(), 2, "{plot}");
+        for at in plot.find("PU").expect("a move")..plot.len() {
+            let byte = plot.as_bytes()[at];
+            let [before, behind] = [&plot[..at], &plot[at + 1..]];
+            let mut damaged = vec![format!("{before}#{behind}"), format!("{before}~{behind}")];
+            // A digit or a sign that is gone leaves another number, and nothing in the file tells.
+            if !byte.is_ascii_digit() && byte != b'-' {
+                damaged.push(format!("{before}{behind}"));
+            }
+            if byte == b',' {
+                damaged.extend([
+                    format!("{before},,{behind}"),
+                    format!("{before}.{behind}"),
+                    format!("{before};{behind}"),
+                ]);
+            }
+            for text in damaged {
+                let mut found = Diagnostics::default();
+                let read = pipeline::read(&source(text.as_str()), by_name("hpgl"), &job, &mut found);
+                let is_refused = found.has_errors();
+                let is_same = read.is_some_and(|_| outlines(&as_read(&source(text.as_str()), &job)) == whole);
+                refused += usize::from(is_refused);
+                same += usize::from(is_same);
+                if !is_refused && !is_same {
+                    silent.push(text);
+                }
+            }
+        }
+    }
+    assert!(refused > 1000 && same > 100, "{refused} refused, {same} the same");
+    assert!(
+        silent.is_empty(),
+        "{} outlines are others in silence: {:#?}",
+        silent.len(),
+        &silent[..silent.len().min(8)]
+    );
+}
+
+#[test]
+fn figures_that_lack_numbers_are_errors() {
+    for figure in ["AA400,400", "CI", "EA400", "EW400,0", "AT1,2,3", "BZ1,2,3,4", "AR0,0"] {
+        let mut found = Diagnostics::default();
+        let plot = source(format!("IN;SP1;PU0,0;PD800,0,800,800,0,0;PU900,900;{figure};PU;"));
+        pipeline::read(&plot, by_name("hpgl"), &Job::default(), &mut found);
+        assert!(found.iter().any(|finding| finding.code.name == "hpgl/lost-place"), "{figure}");
+    }
+}
+
+#[test]
+fn what_drivers_write_between_outlines_is_no_error() {
+    for junk in ["!PG;", "%%", "QQ;", "QQ12,3;", "!", "\0\0"] {
+        let mut found = Diagnostics::default();
+        let plot =
+            format!("IN;{junk}SP1;PU0,0;PD4000,0,4000,4000,0,0;PU;{junk}PU5000,0;PD9000,0,9000,4000,5000,0;{junk}");
+        pipeline::read(&source(plot), by_name("hpgl"), &Job::default(), &mut found);
+        assert!(!found.has_errors(), "{junk:?}");
+    }
+}
