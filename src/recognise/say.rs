@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+use super::doubts;
 use super::line::{Class, Line};
 use super::pens::Use;
 use super::sheet::Sheet;
@@ -48,6 +49,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(nothing(sheet, job));
         return;
     }
+    doubts::all(sheet, out);
     inner_lines(sheet, job, out);
     lines_outside(sheet, out);
     frames(sheet, out);
@@ -64,7 +66,7 @@ fn counted(lines: &[&Line], noun: &str) -> String {
     }
 }
 
-fn finding(code: &'static Code, message: String, first: &Line, sheet: &Sheet) -> Diagnostic {
+pub(super) fn finding(code: &'static Code, message: String, first: &Line, sheet: &Sheet) -> Diagnostic {
     Diagnostic::new(code, message).at(first.span(&sheet.vertices))
 }
 

@@ -3,6 +3,7 @@
 
 mod audit;
 mod classes;
+mod closing;
 mod curves;
 mod notches;
 mod patience;
