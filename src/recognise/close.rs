@@ -91,7 +91,7 @@ fn drawn_is_wide(ring: &Line, reach: Reach) -> bool {
 
 /// The way along a frame between two places on it: straight, or by one corner. `None` when a place lies elsewhere or the two
 /// lie on sides that do not meet.
-fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<Option<Point>> {
+pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<Option<Point>> {
     let sides = ends.map(|at| {
         let off = [at.x - frame.min.x, frame.max.x - at.x, at.y - frame.min.y, frame.max.y - at.y];
         off.map(|mm| mm.abs() <= reach)

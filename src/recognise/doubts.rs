@@ -49,7 +49,8 @@ fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
         }
     }
     let gap = |i: usize| if let Closing::Open(gap) = sheet.lines[i].closing { gap } else { 0.0 };
-    let open = sheet.indices(|line| matches!(line.closing, Closing::Open(_)) && !line.is_cut && line.usage != Use::Drawn);
+    let open =
+        sheet.indices(|line| matches!(line.closing, Closing::Open(_)) && !line.is_cut && line.usage != Use::Drawn);
     let open: Vec<usize> = open.into_iter().filter(|&i| held[i] > 0 && sheet.lines[i].class != Class::Frame).collect();
     let Some(&first) = open.first() else { return };
     let lines: usize = open.iter().map(|&i| held[i]).sum();
@@ -61,7 +62,9 @@ fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
     let lines = if lines == 1 { "one closed line".to_owned() } else { format!("{lines} closed lines") };
     let message = format!("{outlines}: not cut, and neither is any of {lines} {around}");
     let found = finding(&code::DRAWING_OPEN_PART, message, &sheet.lines[first], sheet);
-    out.push(found.hint(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={widest}`")));
+    out.push(
+        found.hint(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={widest}`")),
+    );
 }
 
 /// Parts without a seam line where many have one.
@@ -79,13 +82,14 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             1 => ("a part".to_owned(), "has"),
             n => (format!("{n} parts"), "have"),
         };
-        let message = format!(
-            "{parts} {verb} no seam line, {}, while {} parts have one",
-            pieces(owners, &without),
-            with.len()
-        );
+        let message =
+            format!("{parts} {verb} no seam line, {}, while {} parts have one", pieces(owners, &without), with.len());
         let found = finding(&code::DRAWING_NO_SEAM, message, &sheet.lines[first], sheet);
-        out.push(found.hint("if the outline is missing in the file, this is the seam line: leave the piece out with `--skip`"));
+        out.push(
+            found.hint(
+                "if the outline is missing in the file, this is the seam line: leave the piece out with `--skip`",
+            ),
+        );
     }
 }
 
@@ -97,7 +101,8 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             Closing::Edge(mm) if is_edge => Some(mm),
             Closing::Gap(_) | Closing::Edge(_) | Closing::Drawn | Closing::Retraced | Closing::Open(_) => None,
         };
-        let closed: Vec<usize> = owners.iter().copied().filter(|&i| sheet.lines[i].is_cut && length(i).is_some()).collect();
+        let closed: Vec<usize> =
+            owners.iter().copied().filter(|&i| sheet.lines[i].is_cut && length(i).is_some()).collect();
         let Some(&first) = closed.first() else { continue };
         let longest = fixed(closed.iter().filter_map(|&i| length(i)).fold(0.0, f64::max), DECIMALS);
         let (outlines, stop) = match closed.len() {

@@ -77,7 +77,10 @@ impl Joining<'_> {
     fn may_be(&self, contour: &Contour) -> bool {
         let [start, end] = self.list.ends_of(contour.range);
         let points = || self.list.points(contour.range);
-        !contour.closed && (end - start).norm() <= WIDEST && points().len() > 2 && polyline::length(&points()) <= LONGEST
+        !contour.closed
+            && (end - start).norm() <= WIDEST
+            && points().len() > 2
+            && polyline::length(&points()) <= LONGEST
     }
 
     /// Puts the strokes that stand on an outline into it: which ones.
@@ -94,7 +97,12 @@ impl Joining<'_> {
         mouths.retain(|mouth| mouth.from < mouth.to);
         mouths.sort_by(|a, b| a.from.0.cmp(&b.from.0).then(a.from.1.total_cmp(&b.from.1)));
         let mut end = (0, 0.0);
-        mouths.retain(|mouth| mouth.from >= end && { end = mouth.to; true });
+        mouths.retain(|mouth| {
+            mouth.from >= end && {
+                end = mouth.to;
+                true
+            }
+        });
         if mouths.is_empty() {
             return Vec::new();
         }
@@ -139,7 +147,13 @@ impl Joining<'_> {
         let share = polyline::foot(point, from, to).clamp(0.0, 1.0);
         let at = from + (to - from) * share;
         // No segment shorter than the grid is left beside a mouth.
-        let share = if (at - from).norm() < self.grid { 0.0 } else if (at - to).norm() < self.grid { 1.0 } else { share };
+        let share = if (at - from).norm() < self.grid {
+            0.0
+        } else if (at - to).norm() < self.grid {
+            1.0
+        } else {
+            share
+        };
         Some((nearest, share))
     }
 }

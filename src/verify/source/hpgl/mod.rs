@@ -1,7 +1,8 @@
 //! A second, small reading of a plot: where the pen goes while it is down, by other means than the reader's.
 //!
-//! It knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together must be
-//! what the pen draws. Holes are deduced from shapes, so their number is not in the bytes.
+//! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together must be
+//! what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges by the same
+//! strokes whether the right lines are cut.
 
 mod curve;
 mod encoded;

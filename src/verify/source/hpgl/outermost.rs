@@ -146,14 +146,16 @@ impl<'a> Judging<'a> {
     fn cut_inside(&self, stroke: &[Point]) -> Option<Point> {
         let extent = Extent::of(stroke);
         let boxes = self.boxes.all();
-        let inside: Vec<usize> = self.boxes.near(extent).filter(|&k| extent.covers(&boxes[k])).collect();
+        // Parts may touch the frame.
+        let (is_rectangle, reach) = (is_own_box(stroke), extent.grown(SAME_BOX));
+        let inside: Vec<usize> = self.boxes.near(reach).filter(|&k| reach.covers(&boxes[k])).collect();
         if inside.is_empty() || self.lies_in_a_cut(stroke) {
             return None;
         }
         let holds = |&k: &usize| {
             let points = &self.cuts.contours[k];
             let is_large = boxes[k].size().0.max(boxes[k].size().1) >= LEAST_SIZE;
-            is_large && points.iter().all(|&point| ring::contains(stroke, point))
+            is_large && (is_rectangle || points.iter().all(|&point| ring::contains(stroke, point)))
         };
         let cost: usize = inside.iter().map(|&k| self.cuts.contours[k].len()).sum();
         if !self.work.borrow_mut().spend(cost.saturating_mul(stroke.len())) {
@@ -162,7 +164,6 @@ impl<'a> Judging<'a> {
         let held: Vec<usize> = inside.into_iter().filter(holds).collect();
         let &first = held.first()?;
         // A frame is a rectangle around parts beside each other.
-        let is_rectangle = is_own_box(stroke);
         let beside = held.iter().any(|&k| held.iter().any(|&other| !boxes[k].meets(&boxes[other])))
             || held.len() > 1 && !held.iter().any(|&k| held.iter().all(|&other| boxes[k].covers(&boxes[other])));
         (!is_rectangle || !beside).then(|| self.cuts.contours[first][0])
@@ -188,7 +189,8 @@ impl<'a> Judging<'a> {
         for stroke in drawn {
             let Some(tip) = tip(stroke) else { continue };
             let [first, .., last] = stroke[..] else { continue };
-            if !is_among(&ends, [first, last]) && !is_among(&ends, [last, first]) && self.is_on_part([first, last], tip) {
+            if !is_among(&ends, [first, last]) && !is_among(&ends, [last, first]) && self.is_on_part([first, last], tip)
+            {
                 found.push(tip);
             }
         }
@@ -201,7 +203,10 @@ impl<'a> Judging<'a> {
         let near: Vec<usize> = self.boxes.near(around).collect();
         near.into_iter().any(|k| {
             let points = &self.cuts.contours[k];
-            if points.len() < 4 || points[0] != points[points.len() - 1] || !self.work.borrow_mut().spend(3 * points.len()) {
+            if points.len() < 4
+                || points[0] != points[points.len() - 1]
+                || !self.work.borrow_mut().spend(3 * points.len())
+            {
                 return false;
             }
             let is_near = |end: &Point| polyline::distance(*end, points) <= ON_EDGE;
