@@ -4,9 +4,8 @@
 use super::line::{Class, Closing, Line, SIGN};
 use super::pens::Use;
 use super::piece::owners;
-use super::say::finding;
 use super::sheet::Sheet;
-use crate::diagnostic::{Diagnostics, code};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::units::number::fixed;
 
 /// Pieces that a message names.
@@ -23,6 +22,11 @@ pub(super) fn all(sheet: &Sheet, out: &mut Diagnostics) {
     without_seam(sheet, &owners, out);
     closed(sheet, &owners, out);
     from_edges(sheet, &owners, out);
+}
+
+/// A finding about a line.
+pub(super) fn finding(code: &'static Code, message: String, first: &Line, sheet: &Sheet) -> Diagnostic {
+    Diagnostic::new(code, message).at(first.span(&sheet.vertices))
 }
 
 /// Pieces in a few words: their numbers, or how many there are.
