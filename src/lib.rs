@@ -74,7 +74,8 @@
 //!   [`analysis`].
 //! - **No curves in the Toolpath.** It is polylines, as files are; what is smooth about a motion is `plan`'s own.
 //! - **No second form for a dialect's peculiarities.** What the forms cannot say, a reader must resolve or report.
-//! - **No repair of the drawing.** A gap or a repeated contour is named and cut as it stands: closing it would be a guess.
+//! - **No repair of the drawing in silence.** Small gaps of a plot are closed, and what retraces an outline is left out; each is said.
+//!   A wider gap or a repeated contour is named and cut as it stands: closing it would be a guess.
 //! - **No state between two compiles**, and no configuration but the profile and the arguments.
 
 pub mod analysis;

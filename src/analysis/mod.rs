@@ -7,6 +7,7 @@
 pub mod air;
 mod area;
 mod chord;
+pub mod closing;
 pub mod cloth;
 pub mod declare;
 pub mod depth;

@@ -208,6 +208,14 @@ codes! {
     DRAWING_MAY_BE_FRAME = warning(Spoils, Shape, "drawing/may-be-frame", "A part holds several closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.", "Frames are known by their shape: rectangles around two parts or more, which fill half of them. One of another shape, or nearly empty, looks like a part with cut-outs, and only its edge would be cut. Say which it is.\n  cutc compile marker.plt --set hpgl.frame=outermost\n  cutc compile marker.plt --inner cut");
     /// Lines that nobody closed.
     DRAWING_OPEN_OUTLINES = warning(Spares, Shape, "drawing/open-outlines", "Long lines of a drawing do not close and lie in no part: they may be outlines, and are not cut.", "Only closed lines are taken for parts, and ends up to four units and 0.2 mm from each other are joined. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut-all");
+    /// Outlines with a gap.
+    DRAWING_CLOSED = warning(Spares, Shape, "drawing/closed", "Outlines of a drawing stop a little before their start, or at the edge of the frame; they are closed by straight lines, and cut.", "Ends of an outline up to drawing.close_mm apart are joined by a straight line, and so are two ends on the edge of the frame, which draws the rest. Look at the places in the picture (-t svg), or close the outlines in the CAD system.\n  cutc compile marker.plt --set drawing.close_mm=0");
+    /// A part with an open outline.
+    DRAWING_OPEN_PART = warning(Spoils, Shape, "drawing/open-part", "Closed lines lie inside an outline that does not close: they may be its seam line or its cut-outs, and nothing of them is cut.", "An outline with a gap wider than drawing.close_mm is no part, and a line inside it is never cut in its place: the part would be too small. Close the outline in the CAD system, or raise drawing.close_mm after a look at the picture (-t svg).\n  cutc compile marker.plt --set drawing.close_mm=5");
+    /// A part without its seam line.
+    DRAWING_NO_SEAM = warning(Spoils, Shape, "drawing/no-seam-line", "A part has no seam line inside it, though most parts of the drawing have one.", "Where every other part has its seam line, the outline of one without may be missing and its seam line cut in its place: the part would be too small. Compare the part in the picture (-t svg) with the CAD system.");
+    /// Lines on outlines.
+    DRAWING_LINE_FROM_EDGE = warning(Spares, Shape, "drawing/line-from-edge", "Open lines begin on the outline of a part and are not cut.", "A notch of another size or shape looks so, and so do a dart, a slash or a grain line. Strokes of 1 to 15 mm that lead inwards are notches, and so are open strokes whose both ends lie on the outline. A line that must be cut can be cut by hand, or with every other line.\n  cutc compile marker.plt --cut-all");
     /// A rectangle around a few parts.
     DRAWING_FRAME = warning(Spoils, Shape, "drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.", "Frames are drawn around markers, to show the cloth. A rectangular part with cut-outs that fill half of it looks the same: then say that there is no frame.\n  cutc compile marker.plt --set hpgl.frame=none");
     /// Closed lines inside parts.
@@ -328,6 +336,10 @@ codes! {
     // The marker, whatever the dialect.
     /// A contour that does not close.
     MARKER_OPEN = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
+    /// An outline with an overcut of other software.
+    MARKER_OVERRUN = warning(Spares, Shape, "marker/overrun", "Outlines run past their own start, as overcuts of other software do; they are closed where they start, and cut once.", "Other software draws the overcut of its own knife into the file. The knife lays its own overlap at the start of every outline, so the drawn one is left out, and the area of the part counts once. Leave the overcut out of the export and the line goes.");
+    /// An outline with several rounds.
+    MARKER_ROUND_AGAIN = warning(Spares, Shape, "marker/round-again", "Outlines go round two times or more in one stroke; they are cut once.", "Some plots draw an outline twice to make the line bold, and some cutters go twice through thick cloth. A second cut frays the edge and may shift the part, which is free by then. Draw each outline once in the CAD system.");
     /// The same contour twice.
     MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.

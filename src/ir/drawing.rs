@@ -228,6 +228,8 @@ pub struct Moved {
     pub points: usize,
     /// Lines that were drawn a little otherwise.
     pub redrawn: Vec<Redrawn>,
+    /// Lines that nobody drew: each closes an outline that is cut, from its last place to its first.
+    pub closed: Vec<Vec<Point>>,
 }
 
 /// A line that was drawn a little otherwise than it is now.

@@ -10,8 +10,8 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drill, flow, gcode, knife, labels, nest, notches, order, path, patterns, sewing, sheet,
-    table, time, tool, tracking, verify,
+    axes, common, counts, drawings, drill, flow, gcode, knife, labels, nest, notches, order, path, patterns, sewing,
+    sheet, table, time, tool, tracking, verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.
@@ -31,6 +31,7 @@ const SECTIONS: &[&[Key]] = &[
     counts::KEYS,
     gcode::KEYS,
     verify::KEYS,
+    drawings::KEYS,
     plot::KEYS,
     patterns::KEYS,
     labels::KEYS,

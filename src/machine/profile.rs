@@ -12,6 +12,7 @@ use super::axes::{Axes, CAxis};
 pub use super::codes::CodeUse;
 use super::common::{Common, CommonLines, Lines};
 use super::counts::Counts;
+use super::drawings::Drawings;
 use super::drill::Drill;
 use super::flow::Flow;
 use super::gcode::Gcode;
@@ -94,6 +95,8 @@ pub struct MachineProfile {
     pub gcode: Gcode,
     /// What the verifier allows.
     pub verify: Verify,
+    /// How drawings are read.
+    pub drawing: Drawings,
     /// How plots are read.
     pub hpgl: Hpgl,
     /// How pattern DXF is read.
@@ -168,6 +171,7 @@ impl Default for MachineProfile {
             counts: Counts::default(),
             gcode: Gcode::default(),
             verify: Verify::default(),
+            drawing: Drawings::default(),
             hpgl: Hpgl::default(),
             dxf: Dxf::default(),
             labels: Labels::default(),

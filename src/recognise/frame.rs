@@ -18,7 +18,7 @@ const MOST_HOLDERS: usize = 64;
 
 /// Marks the frames among the lines. A rectangle around one closed line alone is a part.
 pub(super) fn mark(lines: &mut [Line], how: Frame, slack: f64) {
-    let is_large = |line: &Line| line.is_outline() && line.size() > SMALL_OUTLINE;
+    let is_large = |line: &Line| line.may_hold() && line.size() > SMALL_OUTLINE;
     let mut order: Vec<usize> = (0..lines.len()).filter(|&i| is_large(&lines[i])).collect();
     order.sort_by(|&a, &b| lines[b].area.total_cmp(&lines[a].area).then(a.cmp(&b)));
     // A hem may be drawn past the corner of its part, and so past the frame.

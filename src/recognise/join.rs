@@ -3,13 +3,17 @@
 //!
 //! Ends of one pen that meet to the bit are at one place, and so are two that lie within reach of each other and of no
 //! third. Where two ends are left at a place once lines that lead nowhere are put aside, they continue each other; where
-//! more are, a line that comes back to the place closes, and else the two that go straightest continue each other.
+//! more are, a line that comes back to the place closes, and else the two that go straightest continue each other. A line
+//! that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its neighbours end in
+//! the same places.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::line::Line;
+use super::close::along;
+use super::line::{Line, SMALL_OUTLINE};
 use super::pens::{self, Use};
-use crate::geom::{Vector, angle, bits};
+use crate::analysis::closing;
+use crate::geom::{Extent, Point, Vector, angle, bits};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
 use crate::machine::Job;
 
@@ -17,6 +21,8 @@ use crate::machine::Job;
 /// end their outlines 0.025 to 0.1 mm from where they start. Four units, and half a one for what fractions round to.
 const REACH_UNITS: f64 = 4.5;
 const REACH: f64 = 0.2;
+/// Places of a stroke that is a rectangle.
+const RECTANGLE: std::ops::RangeInclusive<usize> = 4..=6;
 /// Fewest places of a line that goes around something and comes back: a triangle's.
 const LEAST_RING: usize = 4;
 /// Most ends at one place among which a continuation is looked for: more are the middle of a star or a hatching.
@@ -42,6 +48,7 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
     let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
     let mut joining = Joining {
         reach: if drawing.unit > 0.0 { (REACH_UNITS * drawing.unit).min(REACH) } else { REACH },
+        close: job.profile.drawing.close_mm,
         drawing,
         moved: Moved::default(),
     };
@@ -79,6 +86,8 @@ fn start(stroke: usize, links: &[Option<End>]) -> End {
 
 struct Joining<'a> {
     reach: f64,
+    /// Widest gap that is closed, mm.
+    close: f64,
     drawing: &'a mut Drawing,
     moved: Moved,
 }
@@ -107,7 +116,11 @@ impl Joining<'_> {
 
     /// Of each end the one that continues it.
     fn links(&self) -> Vec<Option<End>> {
-        let open = |k: &usize| self.place(2 * k).at != self.place(2 * k + 1).at;
+        let frame = self.frame();
+        let open = |k: &usize| {
+            let ends = [self.place(2 * k).at, self.place(2 * k + 1).at];
+            ends[0] != ends[1] && !frame.is_some_and(|frame| self.ends_at(&frame, ends)) && !self.retraces(*k)
+        };
         let ends: Vec<End> = (0..self.drawing.strokes.len()).filter(open).flat_map(|k| [2 * k, 2 * k + 1]).collect();
         if ends.is_empty() {
             return vec![None; 2 * self.drawing.strokes.len()];
@@ -116,6 +129,34 @@ impl Joining<'_> {
         graph.put_dead_ends_aside();
         graph.link();
         graph.links
+    }
+
+    /// Whether a stroke closes by itself and runs on.
+    fn retraces(&self, stroke: usize) -> bool {
+        let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
+        closing::retrace(vertices.len(), |k| vertices[k].at, closing::reach(self.drawing.unit)).is_some()
+    }
+
+    /// Whether a stroke goes around something and ends so near to its start that it is closed.
+    fn nearly_closes(&self, stroke: usize) -> bool {
+        let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
+        let [first, .., last] = vertices else { return false };
+        (last.at - first.at).amax() <= self.close && vertices.iter().any(|at| (at.at - first.at).amax() > SMALL_OUTLINE)
+    }
+
+    /// The largest rectangle that one stroke draws.
+    fn frame(&self) -> Option<Extent> {
+        let drawing = &self.drawing;
+        let rectangles = drawing.strokes.iter().filter(|stroke| RECTANGLE.contains(&stroke.range().len()));
+        let lines = rectangles.map(|stroke| Line::of(&drawing.vertices[stroke.range()], stroke.first, Use::Unsaid));
+        let frames =
+            lines.filter(|line| line.is_closed && line.is_rectangle(self.close) && line.size() > SMALL_OUTLINE);
+        frames.max_by(|a, b| a.area.total_cmp(&b.area)).map(|line| line.extent)
+    }
+
+    /// Whether a line between two places is closed by a frame.
+    fn ends_at(&self, frame: &Extent, ends: [Point; 2]) -> bool {
+        (ends[1] - ends[0]).amax() > SMALL_OUTLINE && along(frame, ends, self.close).is_some()
     }
 
     /// Ends that are at one place, two at least.
@@ -319,7 +360,8 @@ impl<'a, 'b> Graph<'a, 'b> {
 
     /// The ends at a place that nothing continues yet.
     fn open(&self, node: usize, with_dead: bool) -> Vec<End> {
-        let is_open = |end: &End| self.links[*end].is_none() && (with_dead || !self.is_dead[end / 2]);
+        let may_go_on = |stroke: usize| !self.is_dead[stroke] || with_dead && !self.joining.nearly_closes(stroke);
+        let is_open = |end: &End| self.links[*end].is_none() && may_go_on(end / 2);
         self.nodes[node].iter().copied().filter(is_open).collect()
     }
 

@@ -53,13 +53,13 @@ pub(super) struct Rule {
 #[rustfmt::skip] // a table: one row a class
 pub(super) const RULES: [Rule; 12] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
-    Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards", cut: Cut::Always },
+    Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards, or from edge to edge", cut: Cut::Always },
     Rule { class: Class::Hole, name: "hole", about: "a closed square or circle up to hpgl.drill_max_mm, drilled", cut: Cut::Always },
     Rule { class: Class::Inner, name: "inner line", about: "a closed line inside a part that is not its seam line", cut: Cut::Inner },
     Rule { class: Class::Seam, name: "seam line", about: "a closed line that follows the outline around it from inside", cut: Cut::All },
     Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Never },
     Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
-    Rule { class: Class::FromEdge, name: "line from edge", about: "an open line longer than 15 mm from the edge of a part", cut: Cut::Never },
+    Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Never },
     Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Never },
     Rule { class: Class::Frame, name: "frame", about: "a rectangle around all parts", cut: Cut::Never },
     Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Never },
@@ -84,12 +84,32 @@ pub(super) const SIGN: f64 = 10.0;
 pub(super) const SHORTEST_NOTCH: f64 = 1.0;
 pub(super) const LONGEST_NOTCH: f64 = 15.0;
 
+/// How a line closes that does not end where it starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Closing {
+    /// It stays as it is drawn.
+    Drawn,
+    /// It runs past its start, or goes round again.
+    Retraced,
+    /// A straight line closes a gap of so many mm.
+    Gap(f64),
+    /// The edge of the frame closes it, along so many mm.
+    Edge(f64),
+    /// It nearly encloses something, and a gap of so many mm stays open.
+    Open(f64),
+}
+
 /// A line with its measures.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
-    /// Its places among the vertices, the last one excluded.
+    /// Its places among the vertices, the last one excluded: those of the ring where it closes in another way than by its
+    /// last place.
     pub(super) first: u32,
     pub(super) end: u32,
+    /// Its places as it is drawn, in the same way.
+    pub(super) drawn: [u32; 2],
+    /// How it closes.
+    pub(super) closing: Closing,
     /// What its pen stands for.
     pub(super) usage: Use,
     /// Whether it ends where it starts and has an inside.
@@ -119,7 +139,21 @@ impl Line {
         let is_closed = !is_flat && origin == vertices[vertices.len() - 1].at;
         let class = if usage == Use::Ignore { Class::Ignored } else { Class::Other };
         let end = first + vertices.len() as u32;
-        Self { first, end, usage, is_closed, length, area: doubled.abs() / 2.0, extent, class, is_cut: false }
+        let (drawn, closing) = ([first, end], Closing::Drawn);
+        let area = doubled.abs() / 2.0;
+        Self { first, end, drawn, closing, usage, is_closed, length, area, extent, class, is_cut: false }
+    }
+
+    /// The line with a ring in place of its own places.
+    pub(super) fn as_ring(&self, vertices: &[Vertex], first: u32, closing: Closing) -> Self {
+        let ring = Self::of(vertices, first, self.usage);
+        let is_closed = ring.is_closed && !matches!(closing, Closing::Open(_));
+        Self { drawn: self.drawn, length: self.length, class: self.class, closing, is_closed, ..ring }
+    }
+
+    /// Its places as it is drawn.
+    pub(super) fn as_drawn<'a>(&self, all: &'a [Vertex]) -> &'a [Vertex] {
+        &all[self.drawn[0] as usize..self.drawn[1] as usize]
     }
 
     /// Its places.
@@ -150,7 +184,13 @@ impl Line {
 
     /// Whether it is a closed line that may hold others: neither ignored nor a frame.
     pub(super) fn is_outline(&self) -> bool {
-        self.is_closed && self.class != Class::Ignored && self.class != Class::Frame
+        self.is_closed && self.may_hold()
+    }
+
+    /// Whether it goes around something, with a gap or without one.
+    pub(super) fn may_hold(&self) -> bool {
+        let goes_around = self.is_closed || matches!(self.closing, Closing::Open(_));
+        goes_around && self.class != Class::Ignored && self.class != Class::Frame
     }
 
     /// Whether it is its own box, but for rounding.

@@ -10,7 +10,7 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Vertex;
 
 /// How far from the edge a stroke may start and still be a notch, mm: CAD systems leave it by some units.
-const MOUTH: f64 = 0.5;
+pub(super) const MOUTH: f64 = 0.5;
 /// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from
 /// edge to edge.
 const TOUCH: f64 = 0.1;
@@ -32,14 +32,21 @@ pub(super) struct Mark {
 }
 
 /// A stroke that may be a notch, by its shape: one line, or one of two legs.
-struct Candidate {
-    line: usize,
+pub(super) struct Candidate {
+    pub(super) line: usize,
     leg: usize,
     /// Whether the line has another.
     is_leg: bool,
-    ends: [Point; 2],
+    pub(super) ends: [Point; 2],
     /// The outlines that each end stands on, with the distance.
-    on: [ArrayVec<(f64, usize), MEETING>; 2],
+    pub(super) on: [ArrayVec<(f64, usize), MEETING>; 2],
+}
+
+impl Candidate {
+    /// A line as a whole, by its ends.
+    pub(super) fn whole(line: usize, ends: [Point; 2]) -> Self {
+        Self { line, leg: 0, is_leg: false, ends, on: [ArrayVec::new(), ArrayVec::new()] }
+    }
 }
 
 /// What is looked at.
@@ -65,8 +72,8 @@ fn stroke(vertices: &[Vertex]) -> Option<Stroke> {
     Some((place, [first, tip.at])).filter(|stroke| is_notch(stroke.1))
 }
 
-/// The legs of a line that may be notches: those of a V, which meet at its tip, and two slits that face each other across the
-/// common edge of two parts and were drawn or joined as one line.
+/// The legs of a line that may be notches: two slits that face each other across the common edge of two parts and were drawn
+/// or joined as one line.
 fn legs(vertices: &[Vertex]) -> Option<[Stroke; 2]> {
     let (first, last) = (vertices[0].at, vertices[vertices.len() - 1].at);
     let legs = match vertices {
@@ -74,8 +81,6 @@ fn legs(vertices: &[Vertex]) -> Option<[Stroke; 2]> {
         [_, edge, other, _] if is_straight(vertices) && (other.at - edge.at).norm() <= MOUTH => {
             [(1, [edge.at, first]), (3, [other.at, last])]
         }
-        // The chords of an arc are no legs.
-        [_, tip, end] if !is_straight(vertices) && tip.span != end.span => [(1, [first, tip.at]), (2, [last, tip.at])],
         _ => return None,
     };
     legs.iter().all(|leg| is_notch(leg.1)).then_some(legs)
@@ -120,7 +125,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
 }
 
 /// Finds the outlines that the ends of candidates stand on.
-fn meet(candidates: &mut [Candidate], search: Search, reach: f64, work: &mut Budget) {
+pub(super) fn meet(candidates: &mut [Candidate], search: Search, reach: f64, work: &mut Budget) {
     let Search { lines, vertices, outlines, .. } = search;
     let ends: Vec<Extent> =
         candidates.iter().flat_map(|c| c.ends).map(|end| Extent::between(end, end).grown(reach)).collect();
@@ -221,21 +226,19 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     bars
 }
 
-/// Open lines, longer than notches, that start or end on the edge of a part.
-pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<usize> {
+/// Open lines that were taken for nothing else and start or end on an outline, each with that outline.
+pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<(usize, usize)> {
     let Search { lines, vertices, unit, .. } = search;
-    let is_long = |line: &Line| !line.is_closed && line.is_open_question() && line.length > LONGEST_NOTCH;
+    let is_open = |line: &Line| !line.is_closed && line.is_open_question();
     let ends = |line: usize| {
         let all = lines[line].vertices(vertices);
         [all[0].at, all[all.len() - 1].at]
     };
-    let long = (0..lines.len()).filter(|&i| is_long(&lines[i]));
-    let mut candidates: Vec<Candidate> = long
-        .map(|line| Candidate { line, leg: 0, is_leg: false, ends: ends(line), on: [ArrayVec::new(), ArrayVec::new()] })
-        .collect();
+    let open = (0..lines.len()).filter(|&i| is_open(&lines[i]));
+    let mut candidates: Vec<Candidate> = open.map(|line| Candidate::whole(line, ends(line))).collect();
     if !candidates.is_empty() {
         meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
     }
-    let stands = |candidate: &&Candidate| candidate.on.iter().any(|on| !on.is_empty());
-    candidates.iter().filter(stands).map(|candidate| candidate.line).collect()
+    let outline = |candidate: &Candidate| candidate.on.iter().find_map(|on| on.first()).map(|&(_, outline)| outline);
+    candidates.iter().filter_map(|candidate| Some((candidate.line, outline(candidate)?))).collect()
 }

@@ -6,10 +6,12 @@
 //! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it. Never
 //! knows the dialect.
 //!
-//! `join` makes lines of strokes; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies
-//! in what, `marks` the notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when
-//! each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful.
+//! `join` makes lines of strokes, `close` closes them; `sheet` sorts them out, and asks the others: `frame` finds the frames,
+//! `nest` what lies in what, `marks` and `strokes` the notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when
+//! each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
+mod close;
+mod doubts;
 mod frame;
 mod join;
 mod letters;
@@ -21,6 +23,7 @@ mod piece;
 mod say;
 mod seam;
 mod sheet;
+mod strokes;
 
 use self::sheet::Sheet;
 use crate::analysis::nesting::Nesting;
@@ -31,13 +34,16 @@ use crate::machine::Job;
 
 /// Decides what of a drawing is cut, and makes the marker of it.
 pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
-    let (lines, moved) = join::join(&mut drawing, job);
+    let (mut lines, moved) = join::join(&mut drawing, job);
+    close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
     let mut sheet = Sheet {
         vertices,
         lines,
         nest: Nesting::default(),
         marks: Vec::new(),
+        strokes: Vec::new(),
+        from_edges: Vec::new(),
         pens,
         texts,
         unit,

@@ -15,10 +15,10 @@ const MOSTLY: Hold = Hold { box_share: 0.8, share: 0.75, twins: true, band: 0.0 
 /// What holds each line that may be an outline; only large ones hold others.
 pub(super) fn nesting(lines: &[Line], vertices: &[Vertex], work: &mut Budget) -> Nesting {
     let line = |(line, group): (&Line, u32)| nesting::Line {
-        extent: if line.is_outline() { line.extent } else { Extent::EMPTY },
+        extent: if line.may_hold() { line.extent } else { Extent::EMPTY },
         group,
-        is_closed: line.is_closed,
-        may_hold: line.is_outline() && line.size() > SMALL_OUTLINE,
+        is_closed: line.may_hold() || line.is_closed,
+        may_hold: line.may_hold() && line.size() > SMALL_OUTLINE,
     };
     let points = |line: usize| Cow::Owned(lines[line].points(vertices));
     Nesting::new(lines.iter().zip(0..).map(line).collect(), MOSTLY, points, work)

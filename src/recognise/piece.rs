@@ -1,6 +1,6 @@
 //! The marker of a drawing whose lines are sorted out, and the account of what it does not cut.
 
-use super::line::{Class, Line, RULES, Rule};
+use super::line::{Class, Closing, Line, RULES, Rule};
 use super::marks::Mark;
 use super::sheet::Sheet;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -60,14 +60,7 @@ impl<'a> Making<'a> {
     /// A piece for each part that is cut, or in which something is, in the order of the file.
     fn new(sheet: &'a Sheet) -> Self {
         let lines = &sheet.lines;
-        let mut owns = vec![false; lines.len()];
-        let cut = (0..lines.len()).filter(|&i| lines[i].is_cut && lines[i].is_outline());
-        for i in cut {
-            // What lies in a part that is not cut is one of its own.
-            let part = sheet.part_around(i);
-            owns[part.unwrap_or(i)] |= lines[i].class != Class::Hole || part.is_some();
-        }
-        let owners: Vec<usize> = (0..lines.len()).filter(|&i| owns[i]).collect();
+        let owners = owners(sheet);
         let mut piece_of = vec![0; lines.len()];
         owners.iter().zip(1..).for_each(|(&owner, piece)| piece_of[owner] = piece);
         let span = |&i: &usize| Piece { span: lines[i].span(&sheet.vertices), ..Piece::default() };
@@ -100,6 +93,13 @@ impl<'a> Making<'a> {
     /// Lines inside a part come before its outline.
     fn add_contours(&mut self) {
         let sheet = self.sheet;
+        // A notch that goes from edge to edge is made part of its outline by a pass, as in every dialect.
+        for stroke in sheet.strokes.iter().filter(|stroke| sheet.lines[stroke.line].is_cut) {
+            let line = &sheet.lines[stroke.line];
+            let own = self.piece_of[stroke.outline].checked_sub(1);
+            let piece = own.map_or_else(|| self.piece_around(stroke.tip, line), |own| own as usize);
+            self.add_contour(piece, line);
+        }
         let is_line =
             |i: &usize| sheet.lines[*i].is_cut && !matches!(sheet.lines[*i].class, Class::Hole | Class::Notch);
         let all: Vec<usize> = (0..sheet.lines.len()).filter(is_line).collect();
@@ -121,7 +121,12 @@ impl<'a> Making<'a> {
     }
 
     fn add_contour(&mut self, piece: usize, line: &Line) {
-        let vertices = line.vertices(&self.sheet.vertices);
+        let all = &self.sheet.vertices;
+        // The retraced part of a line is left out by a pass, as in every dialect.
+        let vertices = match line.closing {
+            Closing::Drawn | Closing::Gap(_) | Closing::Edge(_) => line.vertices(all),
+            Closing::Retraced | Closing::Open(_) => line.as_drawn(all),
+        };
         let (points, spans): (Vec<Point>, Vec<_>) = vertices.iter().map(|vertex| (vertex.at, vertex.span)).unzip();
         if let Some(range) = self.list.append_line(&points, &spans) {
             self.pieces[piece].contours.push(Contour { range, closed: points.first() == points.last() });
@@ -169,6 +174,18 @@ impl<'a> Making<'a> {
     }
 }
 
+/// The closed lines that pieces are of, in the order of the file: piece 1 is of the first.
+pub(super) fn owners(sheet: &Sheet) -> Vec<usize> {
+    let lines = &sheet.lines;
+    let mut owns = vec![false; lines.len()];
+    for i in (0..lines.len()).filter(|&i| lines[i].is_cut && lines[i].is_outline()) {
+        // What lies in a part that is not cut is one of its own.
+        let part = sheet.part_around(i);
+        owns[part.unwrap_or(i)] |= lines[i].class != Class::Hole || part.is_some();
+    }
+    (0..lines.len()).filter(|&i| owns[i]).collect()
+}
+
 /// The notch of a mark.
 fn notch(mark: &Mark, sheet: &Sheet) -> Notch {
     let [root, tip] = mark.cut;
@@ -196,7 +213,11 @@ fn centroid(vertices: &[Vertex]) -> Point {
 fn aside(sheet: &Sheet) -> Aside {
     let mut aside = Aside { moved: sheet.moved.clone(), ..Aside::default() };
     for line in &sheet.lines {
-        let vertices = line.vertices(&sheet.vertices);
+        let vertices = line.as_drawn(&sheet.vertices);
+        if line.is_cut && line.class != Class::Hole && matches!(line.closing, Closing::Gap(_) | Closing::Edge(_)) {
+            let ring = line.points(&sheet.vertices);
+            aside.moved.closed.push(ring[vertices.len() - 1..].to_vec());
+        }
         match (line.is_cut, line.class) {
             // The outline of a hole is drilled, not cut.
             (false, _) | (true, Class::Hole) => aside.add(Some(line.class.rule().name), vertices),

@@ -3,10 +3,11 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+use super::doubts::{self, finding};
 use super::line::{Class, Line};
 use super::pens::Use;
 use super::sheet::Sheet;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::ring;
@@ -48,6 +49,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(nothing(sheet, job));
         return;
     }
+    doubts::all(sheet, out);
     inner_lines(sheet, job, out);
     lines_outside(sheet, out);
     frames(sheet, out);
@@ -62,10 +64,6 @@ fn counted(lines: &[&Line], noun: &str) -> String {
         1 => format!("one {noun} of {length}"),
         n => format!("{n} {noun}s of {length} in all"),
     }
-}
-
-fn finding(code: &'static Code, message: String, first: &Line, sheet: &Sheet) -> Diagnostic {
-    Diagnostic::new(code, message).at(first.span(&sheet.vertices))
 }
 
 /// Closed lines inside parts that are not cut: cut-outs, or parts in a frame that was not known for one.
@@ -130,7 +128,7 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     let parts = Parts::of(sheet);
     let open: Vec<&Line> = sheet.lines.iter().filter(|line| is_long(line) && !parts.hold(line)).collect();
     if let Some(first) = open.first() {
-        let places = first.vertices(&sheet.vertices);
+        let places = first.as_drawn(&sheet.vertices);
         let gap = (places[places.len() - 1].at - places[0].at).norm();
         let ends = match gap {
             0.0 => "closes, but crosses itself so that its halves cancel".to_owned(),

@@ -3,7 +3,8 @@
 use super::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
 use super::marks::{Mark, Search};
 use super::pens::Use;
-use super::{frame, letters, marks, nest, seam};
+use super::strokes::{self, Stroke};
+use super::{close, frame, letters, marks, nest, seam};
 use crate::analysis::nesting::Nesting;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
@@ -29,6 +30,10 @@ pub(super) struct Sheet {
     pub(super) lines: Vec<Line>,
     pub(super) nest: Nesting,
     pub(super) marks: Vec<Mark>,
+    /// Notches that are open strokes between two places of an outline.
+    pub(super) strokes: Vec<Stroke>,
+    /// Open lines from the edge of a part that are no notches, each with the outline of that part.
+    pub(super) from_edges: Vec<(usize, usize)>,
     /// The pens that draw them.
     pub(super) pens: Vec<Pen>,
     pub(super) texts: Vec<Label>,
@@ -45,6 +50,7 @@ impl Sheet {
         let band = BAND.max(ROUNDING * self.unit);
         let frame = if job.lines.all { Frame::None } else { job.profile.hpgl.frame };
         frame::mark(&mut self.lines, frame, band);
+        close::close_along_frames(&mut self.lines, &mut self.vertices, close::Reach::of(self.unit, job));
         let mut work = Budget::of_a_marker();
         self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
         for i in 0..self.lines.len() {
@@ -70,7 +76,8 @@ impl Sheet {
         }
         self.find_parts_of_knives(&mut work);
         let parts = self.indices(|line| line.class == Class::Part);
-        for line in marks::from_edges(self.search(&parts), &mut work) {
+        self.from_edges = marks::from_edges(self.search(&parts), &mut work);
+        for &(line, _) in &self.from_edges {
             self.lines[line].class = Class::FromEdge;
         }
         self.is_cut_short = work.is_spent();
@@ -92,6 +99,11 @@ impl Sheet {
     }
 
     fn find_marks_on(&mut self, parts: &[usize], work: &mut Budget) {
+        let strokes = strokes::on_outlines(self.search(parts), work);
+        for stroke in &strokes {
+            self.lines[stroke.line].class = Class::Notch;
+        }
+        self.strokes.extend(strokes);
         let mut marks = marks::on_outlines(self.search(parts), work);
         for mark in &marks {
             self.lines[mark.line].class = Class::Notch;
@@ -183,6 +195,9 @@ impl Sheet {
             self.lines[i].is_cut = may_be && (by_rule || job.lines.all);
         }
         // A notch is cut with its outline.
+        for stroke in &self.strokes {
+            self.lines[stroke.line].is_cut &= job.lines.all || self.lines[stroke.outline].is_cut;
+        }
         for marks in self.marks.chunk_by(|a, b| a.line == b.line) {
             let is_cut = job.lines.all || marks.iter().any(|mark| self.lines[mark.outline].is_cut);
             for line in marks.iter().filter_map(|mark| mark.bar).chain([marks[0].line]) {

@@ -28,6 +28,7 @@ pub use rules::{RULES, Rule, rule};
 pub use source::audit::source_audit;
 pub use source::census::Census;
 pub use source::dxf::{CutPlaces, pattern_audit};
+pub use source::hpgl::{PlotCuts, plot_audit};
 pub use source::kept::Works;
 pub use source::sheet::Drawn;
 pub use verdict::{Verdict, sort};

@@ -10,6 +10,7 @@ mod near;
 mod notch;
 mod order;
 mod pass;
+mod retrace;
 mod route;
 mod sanity;
 mod saved;
@@ -19,6 +20,7 @@ mod severed;
 mod sheet;
 mod slit;
 mod spike;
+mod stroke;
 mod table;
 mod visit;
 mod weld;
@@ -29,6 +31,8 @@ pub use saved::saved_by;
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] = &[
     weld::PASS,
+    retrace::PASS,
+    stroke::PASS,
     spike::PASS,
     slit::PASS,
     inspect::PASS,
@@ -45,7 +49,7 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
 ];
 
 /// How many of the first passes find what is drawn, where the file draws it: the next one lays it on the table.
-pub const DRAWN_PASSES: usize = 7;
+pub const DRAWN_PASSES: usize = 9;
 
 /// How many of the last passes say how the knife cuts what is drawn: only programs need these.
 pub const CUTTING_PASSES: usize = 2;

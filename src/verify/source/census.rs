@@ -85,6 +85,12 @@ impl Census {
                 vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
         }
         self.points += aside.moved.points;
+        // Nobody drew the lines that close outlines.
+        for places in &aside.moved.closed {
+            let moments = Moments::of(places.iter().copied());
+            self.length -= moments.length();
+            self.moments -= moments;
+        }
         // What was drawn elsewhere is another line, whatever the account says.
         for Redrawn { drawn, now: [from, to] } in aside.moved.redrawn.iter().filter(|line| is_redrawn_nearby(line)) {
             let moments = [Moments::of(drawn.iter().copied()), Moments::line(*from, *to)];

@@ -3,6 +3,7 @@
 
 mod audit;
 mod classes;
+mod closing;
 mod curves;
 mod lost;
 mod notches;
@@ -281,12 +282,12 @@ fn an_outline_is_whole_when_its_strokes_miss_each_other_by_a_few_units_and_named
             assert!(marker.contours().all(|(_, contour)| contour.closed));
         }
     }
-    for gap in [5, 39] {
+    for (gap, code) in [(5, "drawing/closed"), (39, "drawing/closed"), (61, "drawing/open-outlines")] {
         let (_, found) = read(&source(strokes(gap)), &Job::default());
         assert_eq!(found, ["drawing/nothing-to-cut"], "{gap}");
         let text = rectangle(10_000, 0, 4000, 4000) + &one(gap);
         let (_, found) = read(&source(text), &Job::default());
-        assert_eq!(found, ["drawing/open-outlines"], "{gap}");
+        assert_eq!(found, [code], "{gap}");
     }
 }
 

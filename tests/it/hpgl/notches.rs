@@ -53,7 +53,7 @@ fn what_is_too_short_too_long_outside_or_in_the_midst_is_no_notch() {
         "PU8000,4800;PD8000,5000;",
         "PU8000,4000;PD8200,4000;",
         "PU8000,3840;PD8000,4160;",
-        "PU8000,4000;PD8000,4240,8240,4240,8240,4000;",
+        "PU8000,4000;PD8000,4240,8600,4240,8600,4000;",
     ] {
         check(mark, None);
     }
@@ -69,10 +69,13 @@ fn a_mark_that_misses_its_edge_by_some_units_reaches_it() {
 }
 
 #[test]
-fn two_legs_that_meet_are_two_slits_to_one_tip_and_none_alone() {
-    let legs = vec![[[7880, 4000], [8000, 4240]], [[8120, 4000], [8000, 4240]]];
+fn two_legs_that_meet_are_one_notch_of_the_outline_and_none_alone() {
     for mark in ["PU7880,4000;PD8000,4240,8120,4000;", "PU7880,4000;PD8000,4240;PU8120,4000;PD8000,4240;"] {
-        assert_eq!(slits(&(part() + mark), &Job::default()), std::slice::from_ref(&legs), "{mark}");
+        let text = part() + mark;
+        assert_eq!(slits(&text, &Job::default()), [[[[0; 2]; 2]; 0]], "{mark}");
+        let marker = read(&source(format!("IN;SP1;{text}PU;SP0;")), &Job::default()).0;
+        assert!(matches!(marker.pieces[0].outline_notches[..], [notch] if notch.word() == "v"), "{mark}");
+        assert_eq!(marker.contours().count(), 1, "{mark}");
     }
     check("PU7880,4000;PD8000,4240,8120,4200;", None);
 }

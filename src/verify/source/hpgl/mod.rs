@@ -1,17 +1,21 @@
 //! A second, small reading of a plot: where the pen goes while it is down, by other means than the reader's.
 //!
-//! It knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together must be
-//! what the pen draws. Holes are deduced from shapes, so their number is not in the bytes.
+//! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together must be
+//! what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges by the same
+//! strokes whether the right lines are cut.
 
 mod curve;
 mod encoded;
 mod figure;
 mod frame;
 mod instruction;
+mod outermost;
 mod scan;
 
 use self::instruction::ETX;
+pub use self::outermost::{PlotCuts, plot_audit};
 use self::scan::{Pen, Scan};
+use crate::geom::Point;
 use crate::geom::moments::Moments;
 use crate::machine::MachineProfile;
 use crate::verify::source::census::ARC_SAGITTA;
@@ -20,6 +24,16 @@ use crate::verify::source::census::Slack;
 
 /// Scans a plot.
 pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
+    let scan = scanned(bytes, profile, None);
+    (scan.census, scan.slack)
+}
+
+/// The strokes of a plot: the places between two lifts, mm.
+fn strokes(bytes: &[u8], profile: &MachineProfile) -> Vec<Vec<Point>> {
+    scanned(bytes, profile, Some(Vec::new())).strokes.unwrap_or_default()
+}
+
+fn scanned<'a>(bytes: &'a [u8], profile: &MachineProfile, strokes: Option<Vec<Vec<Point>>>) -> Scan<'a> {
     let unit = profile.hpgl.unit.mm();
     let sagitta = profile.tolerance(unit) * ARC_SAGITTA;
     let mut scan = Scan {
@@ -42,8 +56,11 @@ pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
         stroke: Moments::default(),
         slack: Slack { sagitta, length: 0.0, bounds: 0.0, moments: Moments::default() },
         curves: Vec::new(),
+        strokes,
+        is_up: true,
+        has_no_pen: false,
     };
     scan.run();
     scan.end_stroke();
-    (scan.census, scan.slack)
+    scan
 }

@@ -55,6 +55,11 @@ pub(super) struct Scan<'a> {
     pub(super) slack: Slack,
     /// The curves of the polygon.
     pub(super) curves: Vec<Gathered>,
+    /// The strokes, where they are asked for, and whether the next line begins one.
+    pub(super) strokes: Option<Vec<Vec<Point>>>,
+    pub(super) is_up: bool,
+    /// Whether no pen is taken, so that nothing is drawn.
+    pub(super) has_no_pen: bool,
 }
 
 /// A curve as chords.
@@ -126,10 +131,22 @@ impl Scan<'_> {
             self.stroke += Moments::line(a, b);
             self.census.bounds.add(a);
             self.census.bounds.add(b);
+            self.note([a, b]);
+        }
+    }
+
+    /// Notes a line of a stroke.
+    fn note(&mut self, [a, b]: [Point; 2]) {
+        let is_new = std::mem::take(&mut self.is_up);
+        let Some(strokes) = self.strokes.as_mut().filter(|_| !self.has_no_pen) else { return };
+        match strokes.last_mut().filter(|stroke| !is_new && stroke.last() == Some(&a)) {
+            Some(stroke) => stroke.push(b),
+            None => strokes.push(vec![a, b]),
         }
     }
 
     pub(super) fn end_stroke(&mut self) {
+        self.is_up = true;
         self.census.moments += std::mem::take(&mut self.stroke);
     }
 

@@ -1,0 +1,210 @@
+//! The closing of a line: how a line comes back to where it starts, and the ring that results.
+//!
+//! Drawing programs close an outline in several ways. Its last place is its first; or it stops a little before; or it runs
+//! on past its start, along its own head, since other software lays an overcut there; or it goes round twice in one stroke.
+
+use crate::geom::{Point, cross, polyline};
+
+/// Longest stretch that counts as an overcut of other software, mm, as the crow flies: longer ones are lines of their own.
+const LONGEST_PAST: f64 = 25.0;
+/// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
+/// places miss the head by that.
+const LEAST_REACH: f64 = 0.1;
+/// What rounding of two places to the grid of a file may part, in units: the diagonal.
+const DIAGONAL: f64 = std::f64::consts::SQRT_2;
+/// Most rounds of an outline that are looked for: cutters go twice through thick cloth, plotters over a bold line.
+const MOST_ROUNDS: usize = 4;
+/// Places of a line beside an even share of it where the round may end.
+const BESIDE: usize = 3;
+/// Returns to the start that are looked at: a line comes back there once a round.
+const MOST_RETURNS: usize = 8;
+/// How much longer one of two courses along the same line may be by rounding: in reaches, and as a share of its length.
+const SLIP_REACHES: f64 = 2.0;
+const SLIP_SHARE: f64 = 0.002;
+/// Segments of a ring at least.
+const LEAST_SEGMENTS: usize = 3;
+
+/// A line that closes and goes on along itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Retrace {
+    /// The last place of its ring, which goes from there straight to the first one.
+    pub last: usize,
+    /// Times that it goes round.
+    pub rounds: usize,
+    /// Length that it goes on past its start after the last whole round, mm.
+    pub past: f64,
+}
+
+/// Distance within which the tail of a line lies on its head, mm, in a file with that unit.
+pub fn reach(unit: f64) -> f64 {
+    (DIAGONAL * unit).max(LEAST_REACH)
+}
+
+/// How a line of `count` places runs past its start or goes round again; `None` for every other line. A line whose ends
+/// are one place, or far apart, costs a few comparisons.
+pub fn retrace(count: usize, at: impl Fn(usize) -> Point, reach: f64) -> Option<Retrace> {
+    if count <= LEAST_SEGMENTS {
+        return None;
+    }
+    let line = Line { count, at, reach };
+    let (first, end) = ((line.at)(0), (line.at)(count - 1));
+    if first == end {
+        return line.whole_rounds();
+    }
+    if (end - first).amax() > LONGEST_PAST {
+        return None;
+    }
+    line.returns().take(MOST_RETURNS).find_map(|last| line.followed(last))
+}
+
+struct Line<F> {
+    count: usize,
+    at: F,
+    reach: f64,
+}
+
+impl<F: Fn(usize) -> Point> Line<F> {
+    /// Of a line that ends where it starts: whether it has been there before.
+    fn whole_rounds(&self) -> Option<Retrace> {
+        let (segments, first) = (self.count - 1, (self.at)(0));
+        let near_share = |rounds: usize| {
+            let share = segments / rounds;
+            share.saturating_sub(BESIDE).max(LEAST_SEGMENTS)..=share + BESIDE
+        };
+        let mut ends = (2..=MOST_ROUNDS).rev().flat_map(near_share);
+        ends.find_map(|k| if k < segments && (self.at)(k) == first { self.followed(k - 1) } else { None })
+    }
+
+    /// Segments, by their first places, at which the line comes back to its start.
+    fn returns(&self) -> impl Iterator<Item = usize> {
+        let first = (self.at)(0);
+        let left = (1..self.count).find(|&k| ((self.at)(k) - first).amax() > self.reach).unwrap_or(self.count);
+        let comes_near = move |k: &usize| {
+            let [a, b] = [*k, *k + 1].map(&self.at);
+            let [least, most] = [[a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]];
+            let is_beside = first.x < least[0] - self.reach
+                || first.x > most[0] + self.reach
+                || first.y < least[1] - self.reach
+                || first.y > most[1] + self.reach;
+            !is_beside && polyline::distance_to_segment(first, a, b) <= self.reach
+        };
+        (left.max(LEAST_SEGMENTS - 1)..self.count - 1).filter(comes_near)
+    }
+
+    /// The line as a ring that ends behind a place, if all behind it lies on that ring in its own direction.
+    fn followed(&self, last: usize) -> Option<Retrace> {
+        let ring = last + 1;
+        if ring < LEAST_SEGMENTS || self.is_flat(ring) {
+            return None;
+        }
+        let start = (self.at)(0);
+        let head = Course::of((0..ring).map(&self.at).chain([start]));
+        let tail = Course::of(std::iter::once(start).chain((ring..self.count).map(&self.at)));
+        let (round, length) = (head.length(), tail.length());
+        // The head as often as the tail goes along it.
+        let laps = (length / round).ceil() as usize + 1;
+        if laps > MOST_ROUNDS {
+            return None;
+        }
+        let again = (0..laps).flat_map(|_| head.places[1..].iter().copied());
+        let head = Course::of(std::iter::once(start).chain(again));
+        if !tail.lies_on(&head, length, self.reach) || !head.lies_on(&tail, length, self.reach) {
+            return None;
+        }
+        let whole = ((length + self.reach) / round).floor();
+        let is_at_start = (self.at)(self.count - 1) == start;
+        let past = if is_at_start { 0.0 } else { (length - whole * round).max(0.0) };
+        let has_more = whole > 0.0 || past > self.reach || (self.at)(ring) == start;
+        has_more.then_some(Retrace { last, rounds: 1 + whole as usize, past })
+    }
+
+    /// Whether the ring of the first places encloses nothing.
+    fn is_flat(&self, ring: usize) -> bool {
+        let first = (self.at)(0);
+        let (mut doubled, mut length) = (0.0, 0.0);
+        for k in 1..ring {
+            let [a, b] = [k - 1, k].map(&self.at);
+            doubled += cross(a - first, b - first);
+            length += (b - a).norm();
+        }
+        doubled.abs() <= self.reach * length
+    }
+}
+
+/// A polyline with the length up to each of its places, mm.
+struct Course {
+    places: Vec<Point>,
+    stations: Vec<f64>,
+}
+
+impl Course {
+    fn of(places: impl Iterator<Item = Point>) -> Self {
+        let places: Vec<Point> = places.collect();
+        let stations = polyline::stations(&places);
+        Self { places, stations }
+    }
+
+    fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1]
+    }
+
+    /// Whether each place of the first `length` mm lies on another course about as far along it.
+    fn lies_on(&self, other: &Self, length: f64, reach: f64) -> bool {
+        let places = self.places.iter().zip(&self.stations).take_while(|(_, station)| **station <= length);
+        places.into_iter().all(|(place, station)| other.passes(*place, *station, reach))
+    }
+
+    /// Whether the course passes a place about `station` mm from its start.
+    fn passes(&self, place: Point, station: f64, reach: f64) -> bool {
+        let slip = SLIP_REACHES * reach + SLIP_SHARE * station;
+        let first = self.stations.partition_point(|&at| at < station - slip).saturating_sub(1);
+        let near = (first..self.places.len() - 1).take_while(|&k| self.stations[k] <= station + slip);
+        near.into_iter().any(|k| polyline::distance_to_segment(place, self.places[k], self.places[k + 1]) <= reach)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(places: &[[f64; 2]], expected: Option<(usize, usize, f64)>) {
+        let found = retrace(places.len(), |k| places[k].into(), reach(0.1));
+        let found = found.map(|Retrace { last, rounds, past }| (last, rounds, (past * 1e3).round() / 1e3));
+        assert_eq!(found, expected, "{places:?}");
+    }
+
+    const A: [f64; 2] = [0.0, 0.0];
+    const B: [f64; 2] = [100.0, 0.0];
+    const C: [f64; 2] = [100.0, 50.0];
+    const D: [f64; 2] = [0.0, 50.0];
+
+    #[test]
+    fn a_line_that_runs_past_its_start_is_a_ring_however_it_passes_it() {
+        check(&[A, B, C, D, A, [5.0, 0.0]], Some((3, 1, 5.0)));
+        check(&[A, B, C, D, A, [0.1, 0.0]], Some((3, 1, 0.1)));
+        // Beside the head by a unit; past a corner; with a start amid an edge that no place of the end repeats.
+        check(&[A, B, C, D, [0.1, 0.0], [5.0, 0.1]], Some((3, 1, 5.0)));
+        check(&[[90.0, 0.0], B, C, D, A, [90.0, 0.0], B, [100.0, 5.0]], Some((4, 1, 15.0)));
+        check(&[[50.0, 0.0], B, C, D, A, [70.0, 0.0]], Some((4, 1, 20.0)));
+    }
+
+    #[test]
+    fn a_line_that_goes_round_again_is_a_ring() {
+        check(&[A, B, C, D, A, B, C, D, A], Some((3, 2, 0.0)));
+        check(&[A, B, C, D, A, B, C, D, A, B, C, D, A], Some((3, 3, 0.0)));
+        check(&[A, B, C, D, A, [40.0, 0.0], B, C, D, A], Some((3, 2, 0.0)));
+        check(&[A, B, C, D, A, B, C, D, A, [5.0, 0.0]], Some((3, 2, 5.0)));
+    }
+
+    #[test]
+    fn any_other_line_stays_as_it_is() {
+        check(&[A, B, C, D, A], None);
+        check(&[A, B, C, D], None);
+        check(&[A, B, C, D, A, D, C, B, A], None);
+        check(&[A, B, C, D, A, [5.0, 5.0]], None);
+        check(&[A, B, A, [5.0, 0.0]], None);
+        check(&[A, B, C, D, [0.0, 1.0]], None);
+        check(&[A, B, C, D, A, [0.0, 5.0]], None);
+        check(&[A, B, C, D, A, B, [100.0, 5.0], [95.0, 5.0]], None);
+    }
+}

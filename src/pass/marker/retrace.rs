@@ -1,0 +1,90 @@
+//! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour.
+//!
+//! Needs: welded contours. Other software lays an overcut at the end of an outline, plotters draw bold lines by going round
+//! twice. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts once. Leaves
+//! true: such a contour ends where it starts, and keeps its start and direction.
+
+use super::pass::MarkerPass;
+use crate::analysis::closing::{self, Retrace};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::ir::list::Segment;
+use crate::ir::marker::Marker;
+use crate::machine::Job;
+use crate::source::Span;
+use crate::units::number::fixed;
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "retrace", about: "leaves out what runs past the start of an outline or round again", run };
+
+/// Pieces that a message names.
+const SHOWN: usize = 8;
+/// Decimals of lengths in messages, mm.
+const DECIMALS: u32 = 1;
+
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+    let reach = closing::reach(marker.unit);
+    let (mut past, mut again) = (Found::default(), Found::default());
+    for piece in &mut marker.pieces {
+        for contour in &mut piece.contours {
+            let points = marker.list.points(contour.range);
+            let Some(found) = closing::retrace(points.len(), |k| points[k], reach) else { continue };
+            let Retrace { last, rounds, past: length } = found;
+            let mut ring: Vec<Segment> =
+                marker.list.walk(contour.range).map(|(_, segment)| segment).take(last + 1).collect();
+            let start = points[0];
+            if let Some(closing) = ring.last_mut() {
+                closing.to = start;
+            }
+            let Some(range) = marker.list.append(ring.clone()) else { continue };
+            (contour.range, contour.closed) = (range, true);
+            if length > 0.0 {
+                past.add(piece.number, length, ring[0].span);
+            }
+            if rounds > 1 {
+                again.add(piece.number, rounds as f64, ring[0].span);
+            }
+        }
+    }
+    past.say(&code::MARKER_OVERRUN, diagnostics, |longest| {
+        format!("past their own start, by up to {} mm", fixed(longest, DECIMALS))
+    });
+    again.say(&code::MARKER_ROUND_AGAIN, diagnostics, |most| format!("round {} times in one stroke", fixed(most, 0)));
+}
+
+/// Outlines that something was found about.
+#[derive(Default)]
+struct Found {
+    pieces: Vec<u32>,
+    count: usize,
+    worst: f64,
+    first: Option<Span>,
+}
+
+impl Found {
+    fn add(&mut self, piece: u32, worst: f64, span: Span) {
+        self.count += 1;
+        self.worst = self.worst.max(worst);
+        self.first.get_or_insert(span);
+        if self.pieces.last() != Some(&piece) {
+            self.pieces.push(piece);
+        }
+    }
+
+    fn say(&self, code: &'static Code, diagnostics: &mut Diagnostics, how: impl Fn(f64) -> String) {
+        let Some(first) = self.first else { return };
+        let (outlines, verb) = if self.count == 1 { ("outline", "runs") } else { ("outlines", "run") };
+        let shown: Vec<String> = self.pieces.iter().take(SHOWN).map(u32::to_string).collect();
+        let more = match self.pieces.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let noun = if self.pieces.len() == 1 { "piece" } else { "pieces" };
+        let message = format!(
+            "{} {outlines} {verb} {}, {noun} {}{more}: cut once",
+            self.count,
+            how(self.worst),
+            shown.join(", ")
+        );
+        diagnostics.push(Diagnostic::new(code, message).at(first));
+    }
+}

@@ -1,0 +1,127 @@
+//! Lines that close in another way than by their last place: they run past their start or go round again, they stop a little
+//! before it, or they end at the edge of the cloth, which only the frame draws.
+//!
+//! A line with a wider gap stays open and still holds what lies in it: a seam line is no part because the outline around it
+//! has a fault.
+
+use super::line::{Class, Closing, Line, SMALL_OUTLINE};
+use super::pens::Use;
+use crate::analysis::closing;
+use crate::geom::{Extent, Point, polyline};
+use crate::ir::drawing::Vertex;
+use crate::machine::Job;
+
+/// Share of its length that the gap of a line takes at the most, if it goes around something: a tenth of a square of straight
+/// sides is less than half of one side.
+const WIDEST_OPEN: f64 = 0.1;
+/// Places of a line at least that goes around something.
+const LEAST_PLACES: usize = 3;
+
+/// How far apart two places may be that a line closes over.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    /// Distance of a tail from the head that it retraces, mm.
+    retraced: f64,
+    /// Widest gap that is closed, mm.
+    close: f64,
+}
+
+impl Reach {
+    pub(super) fn of(unit: f64, job: &Job) -> Self {
+        Self { retraced: closing::reach(unit), close: job.profile.drawing.close_mm }
+    }
+}
+
+/// Finds how each line closes, and adds the rings to the vertices.
+pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
+    for line in lines.iter_mut() {
+        if line.usage == Use::Ignore || line.size() <= SMALL_OUTLINE {
+            continue;
+        }
+        let drawn = line.as_drawn(vertices);
+        if let Some(retrace) = closing::retrace(drawn.len(), |k| drawn[k].at, reach.retraced) {
+            let ring: Vec<Vertex> = drawn[..=retrace.last].to_vec();
+            *line = with_ring(line, vertices, Ring { places: ring, along: &[], closing: Closing::Retraced });
+            continue;
+        }
+        let gap = (drawn[drawn.len() - 1].at - drawn[0].at).norm();
+        if gap == 0.0 || drawn.len() < LEAST_PLACES || gap > reach.close.max(WIDEST_OPEN * line.length) {
+            continue;
+        }
+        let closing = if gap <= reach.close { Closing::Gap(gap) } else { Closing::Open(gap) };
+        // The area of an open line is that of its ring.
+        if line.area > (line.length + gap) * gap.min(reach.close).max(reach.retraced) {
+            let places = drawn.to_vec();
+            *line = with_ring(line, vertices, Ring { places, along: &[], closing });
+        }
+    }
+}
+
+/// Closes lines whose ends lie on the same side of a frame, or on two sides that meet: the frame draws the rest of them.
+pub(super) fn close_along_frames(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
+    let frames: Vec<Extent> = lines.iter().filter(|line| line.class == Class::Frame).map(|line| line.extent).collect();
+    if frames.is_empty() {
+        return;
+    }
+    for line in lines.iter_mut() {
+        let is_open = matches!(line.closing, Closing::Drawn | Closing::Open(_)) && !line.is_closed;
+        if line.usage == Use::Ignore || !is_open || line.class != Class::Other || line.size() <= SMALL_OUTLINE {
+            continue;
+        }
+        let drawn = line.as_drawn(vertices);
+        let ends = [drawn[0].at, drawn[drawn.len() - 1].at];
+        let Some(corner) = frames.iter().find_map(|frame| along(frame, ends, reach.close)) else { continue };
+        let along: Vec<Point> = corner.into_iter().collect();
+        let length = polyline::length(&[&[ends[1]][..], &along, &[ends[0]]].concat());
+        let ring = Ring { places: drawn.to_vec(), along: &along, closing: Closing::Edge(length) };
+        let before = vertices.len();
+        let closed = with_ring(line, vertices, ring);
+        if drawn_is_wide(&closed, reach) {
+            *line = closed;
+        } else {
+            vertices.truncate(before);
+        }
+    }
+}
+
+/// Whether a ring is more than a line that runs along the edge.
+fn drawn_is_wide(ring: &Line, reach: Reach) -> bool {
+    ring.is_closed && ring.area > ring.length * reach.close.max(reach.retraced)
+}
+
+/// The way along a frame between two places on it: straight, or by one corner. `None` when a place lies elsewhere or the two
+/// lie on sides that do not meet.
+pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<Option<Point>> {
+    let sides = ends.map(|at| {
+        let off = [at.x - frame.min.x, frame.max.x - at.x, at.y - frame.min.y, frame.max.y - at.y];
+        off.map(|mm| mm.abs() <= reach)
+    });
+    if !frame.grown(reach).holds(ends[0]) || !frame.grown(reach).holds(ends[1]) {
+        return None;
+    }
+    if (0..4).any(|side| sides[0][side] && sides[1][side]) {
+        return Some(None);
+    }
+    let x = |on: [bool; 4]| [on[0], on[1]].iter().position(|&is| is).map(|k| [frame.min.x, frame.max.x][k]);
+    let y = |on: [bool; 4]| [on[2], on[3]].iter().position(|&is| is).map(|k| [frame.min.y, frame.max.y][k]);
+    let corner = |a: [bool; 4], b: [bool; 4]| Some(Point::new(x(a)?, y(b)?));
+    corner(sides[0], sides[1]).or_else(|| corner(sides[1], sides[0])).map(Some)
+}
+
+/// A ring that a line makes.
+struct Ring<'a> {
+    /// The places of the line that are in it.
+    places: Vec<Vertex>,
+    /// What it goes by on the way back to the first of them.
+    along: &'a [Point],
+    closing: Closing,
+}
+
+/// A line with its ring, which is added to the vertices. What closes it comes from where it ends.
+fn with_ring(line: &Line, vertices: &mut Vec<Vertex>, Ring { places, along, closing }: Ring) -> Line {
+    let first = vertices.len() as u32;
+    let (start, span) = (places[0].at, places[places.len() - 1].span);
+    vertices.extend(places);
+    vertices.extend(along.iter().copied().chain([start]).map(|at| Vertex { at, span }));
+    line.as_ring(&vertices[first as usize..], first, closing)
+}

@@ -1,0 +1,242 @@
+//! Whether the right lines of a plot are cut, judged by its strokes alone: no line is cut in the place of the outline around
+//! it, and no stroke from edge to edge of a part is left out.
+//!
+//! It knows less than the reader and is stricter where it knows: lines of several strokes are not judged, and neither are
+//! plots whose pens somebody gave a meaning, since pens are no shapes.
+
+use std::cell::RefCell;
+
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point, polyline, ring};
+use crate::ir::marker::Notch;
+use crate::ir::{Finding, Marker};
+use crate::machine::Job;
+use crate::machine::plot::Frame;
+use crate::verify::worst::{Worst, at};
+
+/// Smallest line that may be the outline of a part, mm.
+const LEAST_SIZE: f64 = 30.0;
+/// Share of its length that the gap of an outline takes at the most.
+const GAP_SHARE: f64 = 0.08;
+/// Mean width of an outline at least, mm: less is a line out and back.
+const LEAST_WIDTH: f64 = 4.0;
+/// How far the boxes of a stroke and of the cut made of it may differ, mm, beside the gap that was closed.
+const SAME_BOX: f64 = 0.5;
+/// Rounding of gaps, mm.
+const CLOSE_EPSILON: f64 = 1e-6;
+/// Share by which a frame may be smaller than its box.
+const FRAME_LACK: f64 = 0.01;
+/// Lengths of a notch that is a stroke, mm: of all of it, of its mouth, of its depth.
+const STROKE_LENGTH: f64 = 55.0;
+const STROKE_MOUTH: [f64; 2] = [0.6, 11.5];
+const STROKE_DEPTH: [f64; 2] = [1.5, 14.5];
+/// How near to the outline both its ends lie, mm.
+const ON_EDGE: f64 = 0.4;
+/// How near to the ends of a cut those of its stroke lie, mm.
+const SAME_END: f64 = 0.05;
+
+/// What is cut of a plot, as it was read: the places of each contour and of each leg of a notch.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlotCuts {
+    contours: Vec<Vec<Point>>,
+    legs: Vec<[Point; 2]>,
+    /// Lines that close an outline and that nobody drew.
+    closed: Vec<Vec<Point>>,
+}
+
+impl PlotCuts {
+    /// Those of a marker, before any pass.
+    pub fn of(marker: &Marker) -> Self {
+        let contours = marker.contours().map(|(_, contour)| marker.points(contour)).collect();
+        let notches = marker.pieces.iter().flat_map(|piece| &piece.notches);
+        let legs = notches.flat_map(Notch::strokes).map(|stroke| [stroke.from, stroke.to]).collect();
+        let closed = marker.drawing.iter().flat_map(|account| account.aside.moved.closed.iter().cloned()).collect();
+        Self { contours, legs, closed }
+    }
+}
+
+/// Compares what is cut of a plot with its strokes.
+pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
+    let mut outermost = Worst::new("source/outermost", "lines", Some(0.0));
+    let mut strokes = Worst::new("source/strokes", "strokes", Some(0.0));
+    if job.lines.pens.is_none() && job.profile.hpgl.pens.is_empty() {
+        let drawn = super::strokes(bytes, &job.profile);
+        let judging = Judging::new(&drawn, read, job);
+        let mut wrong = judging.in_uncut_outlines();
+        wrong.extend(judging.made_up());
+        for (point, count) in wrong.into_iter().zip(1..) {
+            outermost.see(f64::from(count), || at(0.0, point, 0));
+        }
+        for (point, count) in judging.lost_strokes().into_iter().zip(1..) {
+            strokes.see(f64::from(count), || at(0.0, point, 0));
+        }
+    }
+    vec![outermost.finding(), strokes.finding()]
+}
+
+struct Judging<'a> {
+    drawn: &'a [Vec<Point>],
+    cuts: &'a PlotCuts,
+    job: &'a Job,
+    /// The boxes of the contours that are cut.
+    boxes: Boxes,
+    work: RefCell<Budget>,
+}
+
+impl<'a> Judging<'a> {
+    fn new(drawn: &'a [Vec<Point>], cuts: &'a PlotCuts, job: &'a Job) -> Self {
+        let boxes = Boxes::new(cuts.contours.iter().map(|points| Extent::of(points)).collect());
+        Self { drawn, cuts, job, boxes, work: RefCell::new(Budget::of_a_marker()) }
+    }
+
+    /// Where a line is cut inside an outline that is not.
+    fn in_uncut_outlines(&self) -> Vec<Point> {
+        let drawn = self.drawn;
+        let outlines: Vec<&[Point]> = drawn.iter().map(|stroke| &stroke[..]).filter(|s| self.goes_around(s)).collect();
+        let size = |stroke: &&[Point]| ring::area(stroke).abs();
+        let largest = outlines.iter().map(size).fold(0.0, f64::max);
+        let mut found = Vec::new();
+        for stroke in outlines {
+            let is_asked_frame = self.job.profile.hpgl.frame == Frame::Outermost && size(&stroke) >= largest;
+            if !is_asked_frame && !self.is_cut(stroke) {
+                found.extend(self.cut_inside(stroke));
+            }
+        }
+        found
+    }
+
+    /// Where a line closes an outline that is neither short nor drawn by a rectangle.
+    fn made_up(&self) -> Vec<Point> {
+        let close = self.job.profile.drawing.close_mm + CLOSE_EPSILON;
+        let is_rectangle = |stroke: &&Vec<Point>| self.goes_around(stroke) && is_own_box(stroke);
+        let frames: Vec<Extent> = self.drawn.iter().filter(is_rectangle).map(|stroke| Extent::of(stroke)).collect();
+        let is_on = |frame: &Extent, place: &Point| {
+            let sides = [place.x - frame.min.x, frame.max.x - place.x, place.y - frame.min.y, frame.max.y - place.y];
+            sides.iter().any(|off| off.abs() <= close)
+        };
+        let is_drawn = |places: &[Point]| frames.iter().any(|frame| places.iter().all(|place| is_on(frame, place)));
+        let closed = self.cuts.closed.iter().filter(|places| polyline::length(places) > close && !is_drawn(places));
+        closed.map(|places| places[0]).collect()
+    }
+
+    /// Whether a stroke is large and comes back nearly to where it starts.
+    fn goes_around(&self, stroke: &[Point]) -> bool {
+        let (width, height) = Extent::of(stroke).size();
+        if stroke.len() < 3 || width.max(height) < LEAST_SIZE {
+            return false;
+        }
+        let (length, gap) = (polyline::length(stroke), (stroke[stroke.len() - 1] - stroke[0]).norm());
+        gap <= self.job.profile.drawing.close_mm.min(GAP_SHARE * length)
+            && ring::area(stroke).abs() >= LEAST_WIDTH / 2.0 * length
+    }
+
+    /// Whether some cut has the box of a stroke.
+    fn is_cut(&self, stroke: &[Point]) -> bool {
+        let extent = Extent::of(stroke);
+        let reach = SAME_BOX + self.job.profile.drawing.close_mm;
+        let boxes = self.boxes.all();
+        self.boxes.near(extent).any(|k| {
+            let corners = [boxes[k].min - extent.min, boxes[k].max - extent.max];
+            corners.iter().all(|corner| corner.amax() <= reach)
+        })
+    }
+
+    /// Where the first line is cut that lies in an outline which is not, unless that is a frame or lies in a part itself.
+    fn cut_inside(&self, stroke: &[Point]) -> Option<Point> {
+        let extent = Extent::of(stroke);
+        let boxes = self.boxes.all();
+        // Parts may touch the frame.
+        let (is_rectangle, reach) = (is_own_box(stroke), extent.grown(SAME_BOX));
+        let inside: Vec<usize> = self.boxes.near(reach).filter(|&k| reach.covers(&boxes[k])).collect();
+        if inside.is_empty() || self.lies_in_a_cut(stroke) {
+            return None;
+        }
+        let holds = |&k: &usize| {
+            let points = &self.cuts.contours[k];
+            let is_large = boxes[k].size().0.max(boxes[k].size().1) >= LEAST_SIZE;
+            is_large && (is_rectangle || points.iter().all(|&point| ring::contains(stroke, point)))
+        };
+        let cost: usize = inside.iter().map(|&k| self.cuts.contours[k].len()).sum();
+        if !self.work.borrow_mut().spend(cost.saturating_mul(stroke.len())) {
+            return None;
+        }
+        let held: Vec<usize> = inside.into_iter().filter(holds).collect();
+        let &first = held.first()?;
+        // A frame is a rectangle around parts beside each other.
+        let beside = held.iter().any(|&k| held.iter().any(|&other| !boxes[k].meets(&boxes[other])))
+            || held.len() > 1 && !held.iter().any(|&k| held.iter().all(|&other| boxes[k].covers(&boxes[other])));
+        (!is_rectangle || !beside).then(|| self.cuts.contours[first][0])
+    }
+
+    fn lies_in_a_cut(&self, stroke: &[Point]) -> bool {
+        let boxes = self.boxes.all();
+        let extent = Extent::of(stroke);
+        let around: Vec<usize> = self.boxes.near(extent).filter(|&k| boxes[k].covers(&extent)).collect();
+        around.into_iter().any(|k| {
+            let points = &self.cuts.contours[k];
+            !self.work.borrow_mut().spend(points.len()) || ring::contains(points, stroke[0])
+        })
+    }
+
+    /// Where a stroke from edge to edge of a part is not cut.
+    fn lost_strokes(&self) -> Vec<Point> {
+        let drawn = self.drawn;
+        let mut ends: Vec<[Point; 2]> = self.cuts.contours.iter().map(|c| [c[0], c[c.len() - 1]]).collect();
+        ends.extend(&self.cuts.legs);
+        ends.sort_by(|a, b| a[0].x.total_cmp(&b[0].x));
+        let mut found = Vec::new();
+        for stroke in drawn {
+            let Some(tip) = tip(stroke) else { continue };
+            let [first, .., last] = stroke[..] else { continue };
+            if !is_among(&ends, [first, last]) && !is_among(&ends, [last, first]) && self.is_on_part([first, last], tip)
+            {
+                found.push(tip);
+            }
+        }
+        found
+    }
+
+    /// Whether two places lie on the edge of one part and a third one in it, in no other cut inside.
+    fn is_on_part(&self, ends: [Point; 2], tip: Point) -> bool {
+        let around = Extent::between(ends[0], ends[1]).grown(ON_EDGE);
+        let near: Vec<usize> = self.boxes.near(around).collect();
+        near.into_iter().any(|k| {
+            let points = &self.cuts.contours[k];
+            if points.len() < 4
+                || points[0] != points[points.len() - 1]
+                || !self.work.borrow_mut().spend(3 * points.len())
+            {
+                return false;
+            }
+            let is_near = |end: &Point| polyline::distance(*end, points) <= ON_EDGE;
+            ends.iter().all(is_near) && ring::contains(points, tip)
+        })
+    }
+}
+
+/// Whether a stroke is its own box.
+fn is_own_box(stroke: &[Point]) -> bool {
+    let (width, height) = Extent::of(stroke).size();
+    ring::area(stroke).abs() >= (1.0 - FRAME_LACK) * width * height
+}
+
+/// The place of a stroke farthest from its mouth, if it has the measures of a notch.
+fn tip(stroke: &[Point]) -> Option<Point> {
+    let [first, _, .., last] = stroke[..] else { return None };
+    let is_within = |value: f64, [least, most]: [f64; 2]| (least..=most).contains(&value);
+    if !is_within((last - first).norm(), STROKE_MOUTH) || polyline::length(stroke) > STROKE_LENGTH {
+        return None;
+    }
+    let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
+    let deepest = stroke.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
+    is_within(depth(deepest), STROKE_DEPTH).then_some(*deepest)
+}
+
+/// Whether a cut goes from one place to another; the cuts stand in the order of the X of their starts.
+fn is_among(ends: &[[Point; 2]], [from, to]: [Point; 2]) -> bool {
+    let first = ends.partition_point(|cut| cut[0].x < from.x - SAME_END);
+    let near = ends[first..].iter().take_while(|cut| cut[0].x <= from.x + SAME_END);
+    let mut same = near.filter(|cut| (cut[0] - from).amax() <= SAME_END && (cut[1] - to).amax() <= SAME_END);
+    same.next().is_some()
+}
