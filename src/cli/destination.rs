@@ -93,6 +93,14 @@ impl Asked<'_> {
                 format!("`-o {}` may be G-code or a cut file: its name does not say", file.display()),
                 "say which with `-t gcode` or `-t iso`; alone `.ngc` is G-code here, `.iso` a cut file",
             )),
+            ([], None, Some(file)) if names_other_format(file) => Err(failure(
+                format!("`-o {}` is the name of no target", file.display()),
+                format!(
+                    "choose a target with -t, such as `-t {}`, or end the name as one does: {}",
+                    TARGETS[0].name,
+                    TARGETS.iter().map(|target| format!("`.{}`", target.extension)).collect::<Vec<_>>().join(", ")
+                ),
+            )),
             ([], None, _) => Ok(vec![&TARGETS[0]]),
             (typed, _, _) => Ok(typed.to_vec()),
         }
@@ -219,6 +227,12 @@ fn names_program(path: &Path) -> bool {
     matches!(extension.as_deref(), Some("nc" | "gcode" | "gco" | "tap" | "cnc" | "cut" | "gbr" | "ggt"))
 }
 
+/// Whether a path has an extension of some other format: whoever asks for a picture or a document must not get setpoints under
+/// its name. Plain text may have any name.
+fn names_other_format(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("txt"))
+}
+
 fn same_file(a: &Path, b: &Path) -> bool {
     a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }
@@ -265,6 +279,11 @@ mod tests {
             assert_eq!(written("x.txt", &[target]), Ok(vec![target.name]));
         }
         assert_eq!(written("x.txt", &[]), Ok(vec![TARGETS[0].name]));
+        for other in ["x.pdf", "x.PNG", "x.dxf", "x.plt", "x.xlsx", "out.d/x.prg"] {
+            let refused = written(other, &[]).expect_err("no target has this name");
+            assert!(refused.contains(other) && refused.contains("`.csv`") && refused.contains("-t csv"), "{refused}");
+            assert_eq!(written(other, &[&TARGETS[0]]), Ok(vec![TARGETS[0].name]));
+        }
         assert!(written("x.NC", &[]).expect_err("refused").contains("-t gcode"));
         assert_eq!(written("x.nc", &[&TARGETS[1]]), Ok(vec![TARGETS[1].name]));
         let [first, second] = [&TARGETS[0], &TARGETS[1]];

@@ -56,7 +56,7 @@ pub use kinematics::Limits;
 pub use knife::{Follow, Knife, Spare, TightCurves};
 pub use load::{Faults, load, load_given};
 pub use nest::Nest;
-pub use notches::{NotchStyle, Notches};
+pub use notches::{NotchStyle, Notches, TNotch};
 pub use order::{Order, OrderPolicy};
 pub use origin::{Axis, Origin};
 pub use path::Fit;

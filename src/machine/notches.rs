@@ -12,6 +12,7 @@ const DEPTH: Within = from(0.5, 15.0);
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "notch.style", takes: Takes::Word(words::<NotchStyle>), about: "How notches of all kinds, inwards and outwards, are cut: \"as-drawn\"; \"slit\" = each by one\nstraight cut into the part, as deep as the notch is high; \"skip\" = none. The outline then runs\nstraight over their mouths." },
+    Key { name: "notch.t", takes: Takes::Word(words::<TNotch>), about: "How T notches are cut while `notch.style` is \"as-drawn\": \"as-drawn\", with their crossbar; \"slit\" =\nby their stem alone, as a slit." },
     Key { name: "notch.depth_mm", takes: Takes::NumberOr(DEPTH, AsDrawn::WORD), about: "How deep slits go into the part, also those that notches of another kind become; V, castle and U\nnotches that are cut as drawn keep their depth." },
     Key { name: "notch.box_max_mm", takes: Takes::Number(from(0.0, 2.0)), about: "A notch that the outline draws as a box or needle up to so wide is a slit along its middle." },
 ];
@@ -22,6 +23,8 @@ pub(super) const KEYS: &[Key] = &[
 pub struct Notches {
     /// Their shape.
     pub style: NotchStyle,
+    /// Crossbars of T notches.
+    pub t: TNotch,
     /// Depth of slits.
     #[serde(with = "OrWord::<AsDrawn>")]
     pub depth_mm: Option<f64>,
@@ -31,8 +34,26 @@ pub struct Notches {
 
 impl Default for Notches {
     fn default() -> Self {
-        Self { style: NotchStyle::AsDrawn, depth_mm: None, box_max_mm: 0.6 }
+        Self { style: NotchStyle::AsDrawn, t: TNotch::AsDrawn, depth_mm: None, box_max_mm: 0.6 }
     }
+}
+
+impl Notches {
+    /// Whether the crossbars of T notches are cut.
+    pub fn cuts_crossbars(&self) -> bool {
+        self.style == NotchStyle::AsDrawn && self.t == TNotch::AsDrawn
+    }
+}
+
+/// The shape of T notches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TNotch {
+    /// Stem and crossbar.
+    #[default]
+    AsDrawn,
+    /// The stem alone.
+    Slit,
 }
 
 /// The shape of notches.

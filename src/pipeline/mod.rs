@@ -7,6 +7,7 @@ mod head;
 mod input;
 mod judge;
 mod off_table;
+mod overreach;
 mod place;
 mod product;
 mod program;
@@ -126,6 +127,7 @@ pub fn compile_all(
     let proofs = Proofs::of(products, verify);
     if proofs.beside || products.iter().any(|product| product.target.emit.needs_toolpaths()) {
         make_cuts(&mut input, source, job, diagnostics);
+        overreach::check(&input.marker, source, job, diagnostics);
     }
     let context = Context { source, job, marker: &input.marker };
     if diagnostics.has_errors() {

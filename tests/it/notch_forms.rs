@@ -288,6 +288,78 @@ fn every_style_acts_on_every_form_whichever_way_it_goes() {
     }
 }
 
+/// A form that leans: sheared along the edge, and as deep along its axis as before.
+fn leaning(drawn: &[Place], lean: f64) -> Vec<Place> {
+    drawn.iter().map(|&(x, y)| (x + y * lean.sin(), y * lean.cos())).collect()
+}
+
+/// Seeded leans up to 40 degrees to either side, rad.
+fn leans() -> impl Iterator<Item = f64> {
+    let most = 40.0_f64.to_radians();
+    let mut seed: u64 = 0x5eed;
+    let seeded = std::iter::repeat_with(move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((seed >> 40) as f64 / f64::from(1 << 24)).mul_add(2.0, -1.0) * most
+    });
+    [-most, most].into_iter().chain(seeded.take(4))
+}
+
+/// Forms that outlines make, with a mouth that stays wider than a slit when they lean.
+fn wide_forms() -> impl Iterator<Item = (Vec<Place>, &'static str, f64, f64)> {
+    forms().into_iter().filter(|(_, word, width, _)| *word != "slit" && *width >= 2.0)
+}
+
+#[test]
+fn a_notch_that_leans_to_its_edge_keeps_its_form_depth_and_place() {
+    let job = Job::default();
+    for (drawn, word, width, depth) in wide_forms() {
+        for (unit, edge) in UNITS.into_iter().flat_map(|unit| edges().map(move |edge| (unit, edge))) {
+            for lean in leans() {
+                let points = part(edge, &leaning(&drawn, lean));
+                for (start, is_turned) in [(0, false), (2, true), (points.len() / 2, false)] {
+                    let line = rounded(&ring(&points, start, is_turned), unit);
+                    let (marker, is_kept, codes) = passed(&[line], unit, &job);
+                    let case = format!("{word} {width} by {depth}, lean {lean}, unit {unit}, turned {}", edge.turn);
+                    assert!(is_kept && codes.is_empty(), "{case}: {codes:?} {is_kept}");
+                    let found = notches(&marker);
+                    let [(kind, deep, root)] = found[..] else { panic!("{case}: {found:?}") };
+                    let slack = std::f64::consts::SQRT_2 * unit + 0.02;
+                    let base = if edge.radius > 0.0 { 0.1 } else { 0.0 };
+                    assert_eq!(kind, word, "{case}");
+                    let off = (root - turned(edge, (0.0, 0.0))).norm();
+                    assert!((deep - depth).abs() <= slack && off <= slack + base, "{case}: {deep} {off}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_style_acts_on_a_notch_that_leans() {
+    for (drawn, word, _, depth) in wide_forms() {
+        for (style, lean) in [NotchStyle::Slit, NotchStyle::Skip].into_iter().flat_map(|s| leans().map(move |l| (s, l)))
+        {
+            let mut job = Job::default();
+            job.profile.notch.style = style;
+            let edge = Edge { turn: 0.0, radius: 0.0 };
+            let line = rounded(&ring(&part(edge, &leaning(&drawn, lean)), 0, false), 0.025);
+            let (marker, ..) = passed(&[line], 0.025, &job);
+            let steps = trace(&marker, &job).flat_map(|toolpath| toolpath.steps);
+            let run = |step| if let cutc::ir::toolpath::Step::Run(run) = step { Some(run.points) } else { None };
+            let runs: Vec<Vec<Point>> = steps.filter_map(run).collect();
+            let case = format!("{word} {style:?} {lean}");
+            assert_eq!(runs.len(), if style == NotchStyle::Slit { 2 } else { 1 }, "{case}");
+            let outline: f64 = runs[runs.len() - 1].windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+            assert!((outline - 700.0).abs() < 0.1, "{case}: {outline}");
+            if style == NotchStyle::Slit {
+                let slit = runs[0][1] - runs[0][0];
+                assert!((slit.norm() - depth).abs() < 0.05, "{case}: as deep as along the axis");
+                assert!((slit.y - depth * lean.cos()).abs() < 0.05, "{case}: into the part, along the axis");
+            }
+        }
+    }
+}
+
 #[test]
 fn boxes_as_wide_as_the_profile_says_are_slits() {
     let edge = Edge { turn: 0.2, radius: 0.0 };

@@ -3,9 +3,12 @@
 use cutc::diagnostic::Diagnostics;
 use cutc::ir::Marker;
 use cutc::ir::marker::{Notch, NotchKind};
-use cutc::machine::Job;
+use cutc::machine::{Job, TNotch};
+use cutc::pass::toolpath::trace;
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
+
+use crate::support::room::{DONE, FAULTY, Room};
 
 fn read(text: &str) -> (Marker, Vec<&'static str>) {
     let source = Source::new("a.cut", text.as_bytes().to_vec()).expect("small");
@@ -27,6 +30,51 @@ fn a_v_notch_is_listed_with_its_measures_and_stays_on_the_outline() {
     assert_eq!(found, [""; 0]);
     let report = Report::of(&marker, "iso");
     assert_eq!((report.notches.slit, report.notches.v), (0, 1));
+}
+
+#[test]
+fn v_notches_that_lean_are_counted_in_every_dialect_and_cut_in_every_style() {
+    let cases = [
+        ("v-notches-that-lean.cut", include_str!("../../fixtures/iso/v-notches-that-lean.cut"), [1, 1]),
+        ("v-notches-that-lean.plt", include_str!("../../fixtures/hpgl/v-notches-that-lean.plt"), [1, 1]),
+        ("v-notches-at-an-angle.dxf", include_str!("../../fixtures/dxf/v-notches-at-an-angle.dxf"), [3, 0]),
+    ];
+    for (name, text, expected) in cases {
+        let source = Source::new(name, text.as_bytes().to_vec()).expect("small");
+        let mut found = Diagnostics::default();
+        let input = pipeline::read(&source, None, &Job::default(), &mut found).expect("readable");
+        let counts = Report::of(&input.marker, input.dialect.name).notches;
+        assert_eq!([counts.v, counts.v_out], expected, "{name}");
+        let room = Room::with(name, text);
+        for (style, said) in [("as-drawn", ""), ("slit", "all cut as slits"), ("skip", "none is cut")] {
+            let told = room.says(&format!("compile {name} -o {style}.csv --set notch.style={style}"), DONE);
+            assert!(told.contains("verified") && told.contains(said), "{name} {style}: {told}");
+        }
+    }
+}
+
+#[test]
+fn a_t_notch_is_cut_as_its_stem_alone_where_the_profile_says_so() {
+    let file = "H1*G71*N1*M15*X1000Y400*M14*X950Y400*M15*X950Y380*M14*X950Y420*M15*\
+        X0Y0*M14*X1000Y0*X1000Y800*X0Y800*X0Y0*M15*M0*";
+    let source = Source::new("t.cut", file.as_bytes().to_vec()).expect("small");
+    let cuts = |style: TNotch| {
+        let (mut job, mut found) = (Job::default(), Diagnostics::default());
+        job.profile.notch.t = style;
+        let mut input = pipeline::read(&source, None, &job, &mut found).expect("a cut file");
+        pipeline::make_cuts(&mut input, &source, &job, &mut found);
+        assert_eq!(Report::of(&input.marker, "iso").notches.t, 1, "the file draws a T either way");
+        trace(&input.marker, &job).count()
+    };
+    assert_eq!([TNotch::AsDrawn, TNotch::Slit].map(cuts), [3, 2]);
+    let room = Room::with("t.cut", file);
+    for style in ["as-drawn", "slit"] {
+        let said = room.says(&format!("compile t.cut -o {style}.csv --set notch.t={style}"), DONE);
+        assert!(said.contains("verified"), "{said}");
+    }
+    // A crossbar that is not asked for is damage, and so is one that is missing.
+    room.says("verify as-drawn.csv --source t.cut --set notch.t=slit", FAULTY);
+    room.says("verify slit.csv --source t.cut", FAULTY);
 }
 
 #[test]

@@ -432,7 +432,11 @@ fn a_blade_off_the_table_is_told_a_move_that_works_at_the_first_go() {
     let room = Room::with("m.cut", MARKER);
     let table = "--set table.x_mm=[-0.1,400] --set table.y_mm=[-0.1,200]";
     let said = room.says(&format!("compile m.cut -o m.csv {table}"), FAULTY);
-    assert!(said.contains("verify/table") && said.contains("move the marker by X +7.3 mm and Y +7.3 mm"), "{said}");
+    assert!(said.contains("marker/off-table") && said.contains("move the marker by X +7.3 mm and Y +7.3 mm"), "{said}");
+    assert!(
+        said.contains("sheet.origin = \"corner\"") && !said.contains("verify/table"),
+        "told before planning: {said}"
+    );
     let told = said.split("sheet.origin = ").nth(1).and_then(|rest| rest.split(';').next()).expect("an origin");
     let told = told.replace(' ', "");
     let said = room.says(&format!("compile m.cut -o m.csv {table} --set sheet.origin={told}"), DONE);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::geom::bits;
 use crate::ir::list::Segment;
 use crate::ir::marker::{NotchKind, NotchStroke, OutlineNotch, Piece};
-use crate::machine::{NotchStyle, Notches};
+use crate::machine::{NotchStyle, Notches, TNotch};
 
 /// The slits of a piece, each with its speed in percent: those that are drawn, with their crossbars, and those that
 /// outlines no longer have.
@@ -22,7 +22,7 @@ pub(in crate::verify) fn slits(
         let deeper = notches.depth_mm.map_or(0.0, |depth| depth - notch.depth());
         let deeper = (notch.tip - notch.root).normalize() * deeper;
         slits.push((NotchStroke { from: notch.root, to: notch.tip + deeper, span: notch.span }, notch.percent));
-        if let (NotchKind::T(bar), NotchStyle::AsDrawn) = (notch.kind, notches.style) {
+        if let (NotchKind::T(bar), NotchStyle::AsDrawn, TNotch::AsDrawn) = (notch.kind, notches.style, notches.t) {
             slits.push((NotchStroke { from: bar.from + deeper, to: bar.to + deeper, span: bar.span }, notch.percent));
         }
     }

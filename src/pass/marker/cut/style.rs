@@ -27,8 +27,8 @@ pub(super) struct Slit {
 pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = NotchStroke> + use<> {
     let notch = deepened(notch, notches.depth_mm);
     let count = match notches.style {
-        NotchStyle::AsDrawn => usize::MAX,
-        NotchStyle::Slit => 1, // the stem
+        NotchStyle::AsDrawn if notches.cuts_crossbars() => usize::MAX,
+        NotchStyle::AsDrawn | NotchStyle::Slit => 1, // the stem
         NotchStyle::Skip => 0,
     };
     notch.strokes().take(count)

@@ -15,7 +15,12 @@ const MOUTH: [f64; 2] = [1.5, 12.0];
 const DEPTH: [f64; 2] = [1.5, 15.0];
 /// How much longer than the other a leg of a V may be.
 const LEG_RATIO: f64 = 1.25;
-/// How far the sides of a castle may lean, of its depth.
+/// Tangent of how far the axis of a notch may lean from the square to its mouth: 60 degrees. Pattern makers point notches
+/// along seams that meet the edge askew.
+const AXIS_LEAN: f64 = 1.732_050_8;
+/// Least height of the tip over the mouth, mm: an outline that rises less only bends.
+const HEIGHT: f64 = 1.0;
+/// How far the sides of a castle may lean from its axis, of its depth.
 const LEAN: f64 = 0.2;
 /// Least turn at the bottom of a castle, rad: it is round where the turn is spread.
 const CORNER: f64 = 65.0 * PI / 180.0;
@@ -109,7 +114,7 @@ impl Ring<'_> {
             let way = self.at(i + steps) - from;
             let height = side * cross(edge, way);
             // It came back too soon, or never will.
-            if way.norm() > FAR || height <= self.slack && highest < DEPTH[0] - self.slack {
+            if way.norm() > FAR || height <= self.slack && highest < HEIGHT - self.slack {
                 return None;
             }
             highest = highest.max(height);
@@ -150,7 +155,7 @@ impl Ring<'_> {
         let points: Vec<[f64; 2]> = (0..=steps).map(local).collect();
         let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
         let way = Way { points, width, depth };
-        if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
+        if !is_within(depth, [HEIGHT, DEPTH[1]], self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
             return None;
         }
         let (form, tip) = way.form(self.slack)?;
@@ -205,6 +210,27 @@ fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
 impl Way {
     /// What it looks like, and the middle of its bottom.
     fn form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
+        let square = is_within(self.depth, DEPTH, slack).then(|| self.square_form(slack)).flatten();
+        square.or_else(|| self.leaning_form(slack))
+    }
+
+    /// The form of a notch whose axis leans: that which it has when it is sheared along its mouth until its axis is square.
+    fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
+        let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
+        let (left, right) = ((0..self.points.len()).find(low)?, (0..self.points.len()).rfind(low)?);
+        let across = (self.points[left][0] + self.points[right][0] - self.width) / 2.0;
+        let leans_little = across.abs() <= AXIS_LEAN * self.depth + slack;
+        if !leans_little || !is_within(across.hypot(self.depth), DEPTH, slack) {
+            return None;
+        }
+        let lean = across / self.depth;
+        let points = self.points.iter().map(|&[x, y]| [x - lean * y, y]).collect();
+        let (form, [x, y]) = Self { points, ..*self }.square_form(slack)?;
+        Some((form, [x + lean * y, y]))
+    }
+
+    /// What it looks like when its axis is square to its mouth, and the middle of its bottom.
+    fn square_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
         if is_within(self.width, V_MOUTH, slack) && self.is_v(slack) {
             return Some((NotchForm::V, self.points[self.apex()]));
         }

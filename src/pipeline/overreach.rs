@@ -1,0 +1,79 @@
+//! Overlaps that leave the table, told before anything is planned: the lines lie on it, the ends of the blade would not.
+//!
+//! The verifier judges every instant of the program. Here only the two ends of each open cut are looked at, where overlaps
+//! reach farthest, so that a marker that must be moved is refused at once.
+
+use super::toolpaths::Toolpaths;
+use super::{off_table, place};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::ir::Marker;
+use crate::ir::toolpath::{Shape, Step, Toolpath};
+use crate::machine::{Job, Table};
+use crate::source::{Source, Span};
+use crate::units::number::up;
+
+/// Decimals of distances in messages, mm.
+const DECIMALS: u32 = 1;
+
+/// The end of a cut that lies farthest off the table.
+struct Farthest {
+    /// mm.
+    off: f64,
+    at: Point,
+    span: Span,
+}
+
+/// Refuses a marker whose overlaps leave the table by more than a blade may.
+pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
+    let profile = &job.profile;
+    if diagnostics.has_errors() || !job.mode.cuts() || !may_leave(marker, job) {
+        return;
+    }
+    let mut toolpaths = Toolpaths::new(marker, job);
+    let (mut drawing, mut linking) = toolpaths.stages();
+    let mut worst: Option<Farthest> = None;
+    while let Some(window) = drawing.next() {
+        for toolpath in linking.link(window).toolpaths {
+            // The planner moves an end by up to the tolerance.
+            let least = Table::EDGE_MM + toolpath.tolerance;
+            for end in ends(&toolpath, &profile.table).filter(|end| end.off > least) {
+                if worst.as_ref().is_none_or(|worst| end.off > worst.off) {
+                    worst = Some(end);
+                }
+            }
+        }
+    }
+    let Some(Farthest { off, at, span }) = worst else { return };
+    let known = diagnostics.iter().len();
+    let by = up(off, DECIMALS);
+    let message = format!("the blade leaves the table by {by} mm where it cuts beyond the end of a line");
+    let mut finding = Diagnostic::new(&code::MARKER_OFF_TABLE, message).at(span).on_cloth(at).by(off);
+    if profile.sheet.origin.is_some() {
+        finding =
+            finding.hint("have the marker laid as far from the edges as the blade reaches: sheet.origin = \"corner\"");
+    }
+    diagnostics.push(finding.hint(off_table::advice(marker, job)));
+    place::place(diagnostics, known, marker, source, job);
+}
+
+/// Whether an end of the blade could be off the table anywhere: in most jobs the table ends far from the marker.
+fn may_leave(marker: &Marker, job: &Job) -> bool {
+    let (table, extent) = (&job.profile.table, marker.extent());
+    let off = table.off(extent.min.into()).max(table.off(extent.max.into()));
+    !extent.is_empty() && off + job.profile.knife.reach() > Table::EDGE_MM
+}
+
+/// Both ends of each open cut, with overlaps, as far as they are off the table.
+fn ends<'a>(toolpath: &'a Toolpath, table: &'a Table) -> impl Iterator<Item = Farthest> + 'a {
+    let run = |step: &'a Step| match step {
+        Step::Run(run) if run.shape == Shape::Open => Some(run),
+        _ => None,
+    };
+    toolpath.steps.iter().filter_map(run).flat_map(|run| {
+        let reached = run.extended();
+        let [first, last] = [0, reached.len() - 1].map(|i| reached[i]);
+        let spans = [run.spans[0], run.spans[run.spans.len() - 1]];
+        [first, last].into_iter().zip(spans).map(|(at, span)| Farthest { off: table.off(at.into()), at, span })
+    })
+}
