@@ -46,7 +46,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         }
     }
     past.say(&code::MARKER_OVERRUN, diagnostics, |longest| {
-        format!("past their own start, by up to {} mm", fixed(longest, DECIMALS))
+        format!("past the start, by up to {} mm", fixed(longest, DECIMALS))
     });
     again.say(&code::MARKER_ROUND_AGAIN, diagnostics, |most| format!("round {} times in one stroke", fixed(most, 0)));
 }

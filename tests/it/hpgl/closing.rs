@@ -154,7 +154,7 @@ fn outlines_that_end_at_the_frame_are_closed_along_it_and_lines_across_the_cloth
     let (marker, codes) = found(text, &Job::default());
     assert_eq!((marker.pieces.len(), areas(&marker).len(), codes), (4, 4, vec!["drawing/closed"]));
     let (across, codes) = found(&format!("{text}PU9050,0;PD9050,12000;"), &Job::default());
-    assert_eq!((across.pieces.len(), codes), (4, vec!["drawing/closed"]));
+    assert_eq!((across.pieces.len(), codes), (4, vec!["drawing/closed", "drawing/open-outlines"]));
 }
 
 /// Reads one plot and judges it by the bytes of another, as if the reader had missed what only the other draws.
