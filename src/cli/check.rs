@@ -68,6 +68,9 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
         Inputs::One(file) => Ok(one(arguments, &file, &job)),
         Inputs::Many(inputs) => {
             let Arguments { messages: Messages { quiet, .. }, format, .. } = *arguments;
+            if !quiet {
+                batch::tell_passed_over(&arguments.files, console);
+            }
             let telling = Telling { columns: Columns::Read, quiet, json: format == Format::Json };
             let work = |_, input: &Input| arguments.outcome(input, &job);
             let batch = Batch { inputs: &inputs, threads, telling };

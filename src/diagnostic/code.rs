@@ -399,7 +399,7 @@ codes! {
     /// Off the table, by a hair.
     MARKER_OVER_EDGE = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.", "A hand puts a marker down no better than to a millimetre, so this is only said, in one line. Move the marker a little, or correct `table` in the profile.");
     /// Off the table.
-    MARKER_OFF_TABLE = error(Shape, "marker/off-table", "The marker, or a head that follows its edges, leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
+    MARKER_OFF_TABLE = error(Shape, "marker/off-table", "The marker, the blade beyond the end of a line, or a head that follows edges leaves the table of the profile by more than a millimetre; the hint says how to move the marker.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
 
     // Motion.
     /// No curve inside the tolerance band.

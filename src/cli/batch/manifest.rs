@@ -20,6 +20,12 @@ use crate::machine::sha256_of;
 const NAME: &str = "cutc.jsonl";
 const PART: [&str; 2] = ["cutc.", ".jsonl"];
 
+/// Whether a file is a manifest by its name, whole or of a part.
+pub(in crate::cli) fn is_manifest(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name == NAME || name.starts_with(PART[0]) && name.ends_with(PART[1])
+}
+
 /// What a program is made from: the same gives the same bytes.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(in crate::cli) struct Made {

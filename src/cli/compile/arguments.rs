@@ -65,7 +65,7 @@ pub(in crate::cli) struct Making {
 
     /// What to write; several programs are written together or not at all, as in `-t csv,svg`
     ///
-    /// Without it the extension of -o chooses, as in `-o marker.svg`; else csv.
+    /// Without it the extension of -o chooses, as in `-o marker.svg`; csv goes to `.txt`, directories and `-o -`.
     #[arg(
         short,
         long = "target",

@@ -31,6 +31,9 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     if arguments.dump_after.is_some() {
         return Err(failure("`--dump-after` looks into one file", "name one file, without --changed and --shard"));
     }
+    if !arguments.messages.quiet {
+        batch::tell_passed_over(&arguments.files, console);
+    }
     many::run(arguments, &inputs, threads, console)
 }
 

@@ -21,5 +21,8 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     if arguments.labels {
         return Err(failure("`--labels` looks into one file", "name one file, without `--format csv`"));
     }
+    if !arguments.messages.quiet {
+        batch::tell_passed_over(&arguments.files, console);
+    }
     many::run(arguments, &inputs, threads, console)
 }

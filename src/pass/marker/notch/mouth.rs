@@ -15,9 +15,9 @@ const MOUTH: [f64; 2] = [1.5, 12.0];
 const DEPTH: [f64; 2] = [1.5, 15.0];
 /// How much longer than the other a leg of a V may be.
 const LEG_RATIO: f64 = 1.25;
-/// Tangent of how far the axis of a notch may lean from the square to its mouth: 60 degrees. Pattern makers point notches
+/// Tangent of how far the axis of a V or castle may lean from the square to its mouth: 45 degrees. Pattern makers point notches
 /// along seams that meet the edge askew.
-const AXIS_LEAN: f64 = 1.732_050_8;
+const AXIS_LEAN: f64 = 1.0;
 /// Least height of the tip over the mouth, mm: an outline that rises less only bends.
 const HEIGHT: f64 = 1.0;
 /// How far the sides of a castle may lean from its axis, of its depth.
@@ -214,7 +214,8 @@ impl Way {
         square.or_else(|| self.leaning_form(slack))
     }
 
-    /// The form of a notch whose axis leans: that which it has when it is sheared along its mouth until its axis is square.
+    /// The form of a notch whose axis leans: the form that it has when it is sheared along its mouth until its axis is square.
+    /// A part of a round bottom may look like a U that leans, so that only a V and a castle may.
     fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
         let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
         let (left, right) = ((0..self.points.len()).find(low)?, (0..self.points.len()).rfind(low)?);
@@ -225,7 +226,7 @@ impl Way {
         }
         let lean = across / self.depth;
         let points = self.points.iter().map(|&[x, y]| [x - lean * y, y]).collect();
-        let (form, [x, y]) = Self { points, ..*self }.square_form(slack)?;
+        let (form, [x, y]) = Self { points, ..*self }.square_form(slack).filter(|(form, _)| *form != NotchForm::U)?;
         Some((form, [x + lean * y, y]))
     }
 
