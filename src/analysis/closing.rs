@@ -183,7 +183,7 @@ mod tests {
         check(&[A, B, C, D, A, [5.0, 0.0]], Some((3, 1, 5.0)));
         check(&[A, B, C, D, A, [0.1, 0.0]], Some((3, 1, 0.1)));
         // Beside the head by a unit; past a corner; with a start amid an edge that no place of the end repeats.
-        check(&[A, B, C, D, [0.1, 0.0], [5.0, 0.1]], Some((3, 1, 5.0)));
+        check(&[A, B, C, D, [0.1, 0.0], [5.0, 0.1]], Some((3, 1, 5.001)));
         check(&[[90.0, 0.0], B, C, D, A, [90.0, 0.0], B, [100.0, 5.0]], Some((4, 1, 15.0)));
         check(&[[50.0, 0.0], B, C, D, A, [70.0, 0.0]], Some((4, 1, 20.0)));
     }

@@ -279,7 +279,7 @@ mod tests {
             assert_eq!(written("x.txt", &[target]), Ok(vec![target.name]));
         }
         assert_eq!(written("x.txt", &[]), Ok(vec![TARGETS[0].name]));
-        for other in ["x.pdf", "x.PNG", "x.dxf", "x.plt", "x.xlsx", "out.d/x.prg"] {
+        for other in ["x.pdf", "x.PNG", "x.dxf", "x.plt", "x.xlsx", "x.prg"] {
             let refused = written(other, &[]).expect_err("no target has this name");
             assert!(refused.contains(other) && refused.contains("`.csv`") && refused.contains("-t csv"), "{refused}");
             assert_eq!(written(other, &[&TARGETS[0]]), Ok(vec![TARGETS[0].name]));

@@ -112,6 +112,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("dialect", "says what a dialect is"),
+    ("formats", "is the table of formats that are no dialect of ours"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),

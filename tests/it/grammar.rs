@@ -289,15 +289,20 @@ fn plot_statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
         }
         let mnemonic = String::from_utf8_lossy(&[*first, *second]).to_uppercase();
         match mnemonic.as_str() {
-            "LB" => {
+            "LB" | "BL" | "WD" => {
                 let Some(length) = behind.iter().position(|&byte| byte == 3) else { break };
-                statements.push(("text", "LBTEXTETX".to_owned()));
+                statements.push(("text", format!("{mnemonic}TEXTETX")));
                 rest = &behind[length + 1..];
             }
-            "CO" if behind.first() == Some(&b'"') => {
+            "CO" | "MG" if behind.first() == Some(&b'"') => {
                 let Some(length) = behind.iter().skip(1).position(|&byte| byte == b'"') else { break };
-                statements.push(("text", "CO\"TEXT\";".to_owned()));
+                statements.push(("text", format!("{mnemonic}\"TEXT\";")));
                 rest = &behind[length + 2..];
+            }
+            "BP" if behind.contains(&b'"') => {
+                let Some(length) = behind.iter().position(|&byte| byte == b';') else { break };
+                statements.push(("text", "BP1,\"TEXT\",5,1;".to_owned()));
+                rest = &behind[length + 1..];
             }
             // A semicolon leads an instruction, or is all that is left of a label or a comment.
             _ if *first == b';' && !leads_instruction(&rest[1..]) => rest = &rest[1..],
@@ -329,7 +334,7 @@ fn leads_instruction(bytes: &[u8]) -> bool {
     let name = String::from_utf8_lossy(&bytes[..bytes.len().min(2)]).to_uppercase();
     name.len() == 2
         && name.bytes().all(|byte| byte.is_ascii_alphabetic())
-        && !["LB", "CO", "PE", "DT"].contains(&&*name)
+        && !["LB", "BL", "WD", "CO", "MG", "BP", "PE", "DT"].contains(&&*name)
 }
 
 /// The same with a digit 1 for each run of digits.

@@ -161,22 +161,16 @@ impl Lowering<'_> {
     fn obey(&mut self, instruction: Instruction, span: Span) {
         match instruction {
             Instruction::Down => {
-                self.plotter.mend_pen();
                 self.plotter.lower();
                 self.moves();
             }
             Instruction::Up => {
-                self.plotter.mend_pen();
                 self.plotter.lift();
                 self.moves();
             }
             Instruction::Absolute | Instruction::Relative => {
                 self.plotter.set_relative(instruction == Instruction::Relative);
-                let known = self.reader.at();
-                self.moves();
-                if self.reader.at() > known {
-                    self.plotter.trust_pen();
-                }
+                self.moves_as_it_is();
             }
             Instruction::Pen => self.pen(),
             Instruction::Encoded => self.encoded(),
@@ -200,17 +194,13 @@ impl Lowering<'_> {
                 self.check(drawn, span);
             }
             Instruction::Page => self.page(span),
-            Instruction::Label => self.label(span),
-            Instruction::Terminator => self.reader.define_terminator(),
-            Instruction::Buffer => self.buffer = Some(self.text(span)).filter(|text| text.start < text.end),
-            Instruction::PrintBuffer => {
-                if let Some(text) = self.buffer {
-                    self.write(text);
-                }
-            }
-            Instruction::Display => _ = self.text(span),
-            Instruction::Comment => self.reader.quoted(),
-            Instruction::Direction => self.direction(),
+            Instruction::Label
+            | Instruction::Terminator
+            | Instruction::Buffer
+            | Instruction::PrintBuffer
+            | Instruction::Display
+            | Instruction::Comment
+            | Instruction::Direction => self.say(instruction, span),
             Instruction::Initialize => self.reset(),
             Instruction::Begin => {
                 self.reader.pass_over(instruction.tail());
@@ -233,6 +223,32 @@ impl Lowering<'_> {
             | Instruction::LeftOut(_)
             | Instruction::Letters(_)
             | Instruction::Unknown => {}
+        }
+    }
+
+    /// Texts, where they end, and which way they are written.
+    fn say(&mut self, instruction: Instruction, span: Span) {
+        match instruction {
+            Instruction::Label => self.label(span),
+            Instruction::Terminator => self.reader.define_terminator(),
+            Instruction::Buffer => self.buffer = Some(self.text(span)).filter(|text| text.start < text.end),
+            Instruction::PrintBuffer => {
+                if let Some(text) = self.buffer {
+                    self.write(text);
+                }
+            }
+            Instruction::Display => _ = self.text(span),
+            Instruction::Comment => self.reader.quoted(),
+            _ => self.direction(),
+        }
+    }
+
+    /// The places behind PA and PR, which say nothing of whether the pen is down.
+    fn moves_as_it_is(&mut self) {
+        let first = self.reader.at();
+        self.moves();
+        if self.reader.at() > first {
+            self.plotter.trust_pen();
         }
     }
 
@@ -284,13 +300,16 @@ impl Lowering<'_> {
             match self.reader.pair() {
                 Next::Some(pair) => return Some(pair),
                 Next::End => return None,
-                Next::Odd(span) => {
-                    self.tally.odd(span);
-                    self.plotter.lose(span);
-                }
+                Next::Odd(span) => self.odd(span),
                 Next::Overflow(span) => self.tally.overflow(span),
             }
         }
+    }
+
+    /// A number without a partner.
+    fn odd(&mut self, span: Span) {
+        self.tally.odd(span);
+        self.plotter.lose(span);
     }
 
     /// Behind every move.
@@ -406,9 +425,7 @@ impl Lowering<'_> {
         }
         self.reader.behind(&body);
         if let Some((_, start)) = first {
-            let span = self.reader.within(start, body.at);
-            self.tally.odd(span);
-            self.plotter.lose(span);
+            self.odd(self.reader.within(start, body.at));
         }
         self.end_encoded(&body);
     }

@@ -166,11 +166,6 @@ impl Plotter {
         }
     }
 
-    /// PU, PD: whether the pen is down is known again.
-    pub(super) fn mend_pen(&mut self) {
-        self.torn = None;
-    }
-
     /// An absolute move ends that.
     pub(super) fn settle(&mut self) {
         self.standing = Standing::Known;
@@ -200,13 +195,13 @@ impl Plotter {
 
     /// PU.
     pub(super) fn lift(&mut self) {
-        self.is_down = false;
+        (self.is_down, self.torn) = (false, None);
         self.drawing.lift();
     }
 
     /// PD.
     pub(super) fn lower(&mut self) {
-        self.is_down = true;
+        (self.is_down, self.torn) = (true, None);
     }
 
     /// Whether the pen is down.

@@ -97,6 +97,7 @@ mod tests {
         let knots = knots(&[[0.0, 0.0], [100.0, 30.0], [150.0, 120.0], [140.0, 200.0]]);
         let [coarse, fine] = [0.02, 1e-5].map(|sagitta| {
             let spans = spans(&knots, Ends::Natural, sagitta, 1_000_000).expect("few places");
+            let spans = spans.into_iter().chain([Vec::new()]);
             knots.iter().zip(spans).flat_map(|(&knot, span)| [vec![knot], span].concat()).collect::<Vec<Point>>()
         });
         let worst = fine.iter().map(|&at| crate::geom::polyline::distance(at, &coarse)).fold(0.0, f64::max);
