@@ -18,8 +18,6 @@ const LEG_RATIO: f64 = 1.25;
 /// Tangent of how far the axis of a V or castle may lean from the square to its mouth: 45 degrees. Pattern makers point notches
 /// along seams that meet the edge askew.
 const AXIS_LEAN: f64 = 1.0;
-/// Least height of the tip over the mouth, mm: an outline that rises less only bends.
-const HEIGHT: f64 = 1.0;
 /// How far the sides of a castle may lean from its axis, of its depth.
 const LEAN: f64 = 0.2;
 /// Least turn at the bottom of a castle, rad: it is round where the turn is spread.
@@ -114,7 +112,7 @@ impl Ring<'_> {
             let way = self.at(i + steps) - from;
             let height = side * cross(edge, way);
             // It came back too soon, or never will.
-            if way.norm() > FAR || height <= self.slack && highest < HEIGHT - self.slack {
+            if way.norm() > FAR || height <= self.slack && highest < DEPTH[0] - self.slack {
                 return None;
             }
             highest = highest.max(height);
@@ -155,7 +153,7 @@ impl Ring<'_> {
         let points: Vec<[f64; 2]> = (0..=steps).map(local).collect();
         let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
         let way = Way { points, width, depth };
-        if !is_within(depth, [HEIGHT, DEPTH[1]], self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
+        if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
             return None;
         }
         let (form, tip) = way.form(self.slack)?;
@@ -210,8 +208,7 @@ fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
 impl Way {
     /// What it looks like, and the middle of its bottom.
     fn form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
-        let square = is_within(self.depth, DEPTH, slack).then(|| self.square_form(slack)).flatten();
-        square.or_else(|| self.leaning_form(slack))
+        self.square_form(slack).or_else(|| self.leaning_form(slack))
     }
 
     /// The form of a notch whose axis leans: the form that it has when it is sheared along its mouth until its axis is square.
