@@ -1,6 +1,6 @@
 //! Overlaps that leave the table, told before anything is planned: the lines lie on it, the ends of the blade would not.
 //!
-//! The verifier judges every instant of the program. Here only the two ends of each open cut are looked at, where overlaps
+//! The verifier judges every instant of the program. Here only the two ends of each open cut and each plunge are looked at, where overlaps
 //! reach farthest, so that a marker that must be moved is refused at once.
 
 use super::toolpaths::Toolpaths;
@@ -64,16 +64,23 @@ fn may_leave(marker: &Marker, job: &Job) -> bool {
     !extent.is_empty() && off + job.profile.knife.reach() > Table::EDGE_MM
 }
 
-/// Both ends of each open cut, with overlaps, as far as they are off the table.
+/// Both ends of the blade's reach in each open cut and each plunge, as far as they are off the table.
 fn ends<'a>(toolpath: &'a Toolpath, table: &'a Table) -> impl Iterator<Item = Farthest> + 'a {
-    let run = |step: &'a Step| match step {
-        Step::Run(run) if run.shape == Shape::Open => Some(run),
-        _ => None,
+    let reached = |step: &Step| -> Option<([Point; 2], [Span; 2])> {
+        match step {
+            Step::Run(run) if run.shape == Shape::Open => {
+                let points = run.extended();
+                Some(([points[0], points[points.len() - 1]], [run.spans[0], run.spans[run.spans.len() - 1]]))
+            }
+            Step::PlungeCut(cut) => {
+                let [first, last] = [cut.points[0], cut.points[cut.points.len() - 1]];
+                let ends = [first - cut.along * cut.heel, last + cut.along * cut.front];
+                Some((ends, [cut.spans[0], cut.spans[cut.spans.len() - 1]]))
+            }
+            _ => None,
+        }
     };
-    toolpath.steps.iter().filter_map(run).flat_map(|run| {
-        let reached = run.extended();
-        let [first, last] = [0, reached.len() - 1].map(|i| reached[i]);
-        let spans = [run.spans[0], run.spans[run.spans.len() - 1]];
-        [first, last].into_iter().zip(spans).map(|(at, span)| Farthest { off: table.off(at.into()), at, span })
+    toolpath.steps.iter().filter_map(reached).flat_map(|(ends, spans)| {
+        ends.into_iter().zip(spans).map(|(at, span)| Farthest { off: table.off(at.into()), at, span })
     })
 }
