@@ -52,7 +52,9 @@ pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
 /// Reports a file that is no dialect and of which only the name may tell anything: `true` when it does.
 pub(super) fn refuse_by_name(source: &Source, out: &mut Diagnostics) -> bool {
     let named = formats::of_name(source.name());
-    named.into_iter().for_each(|format| say(format, out));
+    if let Some(format) = named {
+        say(format, out);
+    }
     named.is_some()
 }
 

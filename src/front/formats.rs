@@ -20,7 +20,7 @@ pub(super) struct Format {
 
 const EXPORT_CUT: &str = "let the CAD export an ISO cut file for a knife cutter";
 const EXPORT_PLOT: &str = "let the program that drew it export an HPGL plot, or let the CAD export an ISO cut file";
-const EXPORT_PATTERN: &str = "open it in its CAD, and export an ISO cut file of the marker, an HPGL plot, or the pieces as pattern DXF (AAMA, ASTM)";
+const EXPORT_PATTERN: &str = "open it in its CAD and export an ISO cut file, an HPGL plot, or pattern DXF (AAMA, ASTM)";
 const UNPACK: &str = "unpack it and give cutc the files inside";
 const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
 const OTHER_STITCHES: &str = "let the embroidery program save it as DST or EXP: `cutc sew` reads those";
@@ -62,11 +62,11 @@ const FORMATS: &[Format] = &[
     known("a binary DXF drawing", "save it as text (ASCII DXF)", |b| b.starts_with(b"AutoCAD Binary DXF")),
     known("a DWG drawing of AutoCAD", "save it as ASCII DXF; cutc reads DXF of patterns (AAMA, ASTM)", |b| b.starts_with(b"AC10")),
     known("a table of grading rules (RUL)", "give cutc the pattern DXF that lies beside it", is_rule_table),
-    known("a plot in the language of Graphtec plotters (GP-GL)", OTHER_PLOTTER, is_gp_gl),
-    known("a plot in the language of Houston Instruments plotters (DMPL)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
+    known("a plot for Graphtec plotters (GP-GL)", OTHER_PLOTTER, is_gp_gl),
+    known("a plot for Houston Instruments plotters (DMPL)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
     vague("binary data", EXPORT_CUT, is_binary),
     known("a Gerber file for circuit boards", "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15", is_circuit_board),
-    known("a plot in the language of Roland plotters (CAMM-GL I)", OTHER_PLOTTER, is_camm_gl),
+    known("a plot for Roland plotters (CAMM-GL I)", OTHER_PLOTTER, is_camm_gl),
     known("a table of points with semicolons and decimal commas", "write commas between the numbers and points for decimals: `x_mm,y_mm`", is_comma_table),
     known("G-code for a machine tool", "its blocks end with the line; cutter files end them with `*`", is_g_code),
 ];
@@ -103,8 +103,8 @@ pub(super) fn of_content(bytes: &[u8]) -> Option<&'static Format> {
 /// The format that files of such a name have.
 pub(super) fn of_name(name: &str) -> Option<&'static Format> {
     let (_, extension) = name.rsplit_once('.')?;
-    let is = |known: &&str| extension.eq_ignore_ascii_case(known);
-    NAMED.iter().find(|named| named.extensions.iter().any(|known| is(&known))).map(|named| &named.format)
+    let is = |known: &&'static str| extension.eq_ignore_ascii_case(known);
+    NAMED.iter().find(|named| named.extensions.iter().any(is)).map(|named| &named.format)
 }
 
 /// The first bytes of a file: those that are looked at.
@@ -263,15 +263,9 @@ mod tests {
             b"ANSI/AAMA\r\nUNITS: METRIC\r\nSIZE LIST: S M\r\nRULE: DELTA 1\r\n",
             Some("a table of grading rules (RUL)"),
         );
-        check(
-            b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03",
-            Some("a plot in the language of Graphtec plotters (GP-GL)"),
-        );
-        check(
-            b";:H A L0 EC1 U 400,400 D 4400,400 @ ",
-            Some("a plot in the language of Houston Instruments plotters (DMPL)"),
-        );
-        check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a plot in the language of Roland plotters (CAMM-GL I)"));
+        check(b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03", Some("a plot for Graphtec plotters (GP-GL)"));
+        check(b";:H A L0 EC1 U 400,400 D 4400,400 @ ", Some("a plot for Houston Instruments plotters (DMPL)"));
+        check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a plot for Roland plotters (CAMM-GL I)"));
     }
 
     #[test]

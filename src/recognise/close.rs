@@ -4,6 +4,8 @@
 //! A line with a wider gap stays open and still holds what lies in it: a seam line is no part because the outline around it
 //! has a fault.
 
+use arrayvec::ArrayVec;
+
 use super::line::{Class, Closing, Line, SMALL_OUTLINE};
 use super::pens::Use;
 use crate::analysis::closing;
@@ -70,10 +72,9 @@ pub(super) fn close_along_frames(lines: &mut [Line], vertices: &mut Vec<Vertex>,
         }
         let drawn = line.as_drawn(vertices);
         let ends = [drawn[0].at, drawn[drawn.len() - 1].at];
-        let Some(corner) = frames.iter().find_map(|frame| along(frame, ends, reach.close)) else { continue };
-        let along: Vec<Point> = corner.into_iter().collect();
-        let length = polyline::length(&[&[ends[1]][..], &along, &[ends[0]]].concat());
-        let ring = Ring { places: drawn.to_vec(), along: &along, closing: Closing::Edge(length) };
+        let Some(corners) = frames.iter().find_map(|frame| along(frame, ends, reach.close)) else { continue };
+        let length = polyline::length(&[&[ends[1]][..], &corners, &[ends[0]]].concat());
+        let ring = Ring { places: drawn.to_vec(), along: &corners, closing: Closing::Edge(length) };
         let before = vertices.len();
         let closed = with_ring(line, vertices, ring);
         if drawn_is_wide(&closed, reach) {
@@ -89,9 +90,9 @@ fn drawn_is_wide(ring: &Line, reach: Reach) -> bool {
     ring.is_closed && ring.area > ring.length * reach.close.max(reach.retraced)
 }
 
-/// The way along a frame between two places on it: straight, or by one corner. `None` when a place lies elsewhere or the two
+/// The corners on the way along a frame between two places on it: none, or one. `None` when a place lies elsewhere or the two
 /// lie on sides that do not meet.
-pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<Option<Point>> {
+pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<ArrayVec<Point, 1>> {
     let sides = ends.map(|at| {
         let off = [at.x - frame.min.x, frame.max.x - at.x, at.y - frame.min.y, frame.max.y - at.y];
         off.map(|mm| mm.abs() <= reach)
@@ -100,12 +101,12 @@ pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<Opti
         return None;
     }
     if (0..4).any(|side| sides[0][side] && sides[1][side]) {
-        return Some(None);
+        return Some(ArrayVec::new());
     }
     let x = |on: [bool; 4]| [on[0], on[1]].iter().position(|&is| is).map(|k| [frame.min.x, frame.max.x][k]);
     let y = |on: [bool; 4]| [on[2], on[3]].iter().position(|&is| is).map(|k| [frame.min.y, frame.max.y][k]);
     let corner = |a: [bool; 4], b: [bool; 4]| Some(Point::new(x(a)?, y(b)?));
-    corner(sides[0], sides[1]).or_else(|| corner(sides[1], sides[0])).map(Some)
+    corner(sides[0], sides[1]).or_else(|| corner(sides[1], sides[0])).map(|at| ArrayVec::from([at]))
 }
 
 /// A ring that a line makes.

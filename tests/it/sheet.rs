@@ -437,8 +437,8 @@ fn a_blade_off_the_table_is_told_a_move_that_works_at_the_first_go() {
         said.contains("sheet.origin = \"corner\"") && !said.contains("verify/table"),
         "told before planning: {said}"
     );
-    let told = said.split("sheet.origin = ").nth(1).and_then(|rest| rest.split(';').next()).expect("an origin");
-    let told = told.replace(' ', "");
+    let told = said.split("sheet.origin = [").nth(1).and_then(|rest| rest.split(';').next()).expect("an origin");
+    let told = format!("[{}", told.replace(' ', ""));
     let said = room.says(&format!("compile m.cut -o m.csv {table} --set sheet.origin={told}"), DONE);
     assert!(!said.contains("marker/over-edge"), "{said}");
     // Where there is no room for the blade on both sides no move helps.

@@ -210,14 +210,11 @@ impl Lowering<'_> {
                 self.plotter.set_default();
                 (self.heading, self.unsized_at) = (None, None);
             }
-            Instruction::Scale => self.frame(Frame::set_scale, span),
-            Instruction::Corners => self.frame(Frame::set_corners, span),
-            Instruction::CornersPercent => self.frame(Frame::set_corners_percent, span),
-            Instruction::Rotate => self.frame(Frame::rotate, span),
-            Instruction::PageSize => {
-                let values = self.values::<2>();
-                self.plotter.reframe(|frame| frame.set_page(&values));
-            }
+            Instruction::Scale
+            | Instruction::Corners
+            | Instruction::CornersPercent
+            | Instruction::Rotate
+            | Instruction::PageSize => self.reframe(instruction, span),
             Instruction::Housekeeping
             | Instruction::Symbol
             | Instruction::LeftOut(_)
@@ -337,6 +334,20 @@ impl Lowering<'_> {
 
     fn take_pen(&mut self, pen: f64) {
         self.plotter.take_pen(if (0.0..=MOST_PENS).contains(&pen) { pen as u16 } else { NO_PEN });
+    }
+
+    /// What numbers mean from here on.
+    fn reframe(&mut self, instruction: Instruction, span: Span) {
+        match instruction {
+            Instruction::Scale => self.frame(Frame::set_scale, span),
+            Instruction::Corners => self.frame(Frame::set_corners, span),
+            Instruction::CornersPercent => self.frame(Frame::set_corners_percent, span),
+            Instruction::Rotate => self.frame(Frame::rotate, span),
+            _ => {
+                let values = self.values::<2>();
+                self.plotter.reframe(|frame| frame.set_page(&values));
+            }
+        }
     }
 
     /// SC, IP, IR, RO.

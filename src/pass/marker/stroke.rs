@@ -172,10 +172,10 @@ fn with(outline: &[Segment], mouths: &[Mouth]) -> Vec<Segment> {
     };
     let mut start: Place = (0, 0.0);
     for mouth in mouths {
-        for k in start.0..=mouth.from.0 {
-            let from = if k == start.0 { at(start) } else { outline[k].from };
-            let to = if k == mouth.from.0 { at(mouth.from) } else { outline[k].to };
-            add(Segment { from, to, ..outline[k] });
+        for (k, segment) in outline.iter().enumerate().take(mouth.from.0 + 1).skip(start.0) {
+            let from = if k == start.0 { at(start) } else { segment.from };
+            let to = if k == mouth.from.0 { at(mouth.from) } else { segment.to };
+            add(Segment { from, to, ..*segment });
         }
         let last = mouth.segments.len() - 1;
         for (k, segment) in mouth.segments.iter().enumerate() {

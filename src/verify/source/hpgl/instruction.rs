@@ -63,7 +63,7 @@ impl Scan<'_> {
     /// IN; DF leaves the pen, the corners and the turn alone.
     pub(super) fn reset(&mut self) {
         self.pen = Pen::default();
-        (self.is_up, self.has_no_pen) = (true, false);
+        self.is_up = true;
         (self.corners, self.scale, self.quarters, self.part) = (None, None, 0, None);
         (self.terminator, self.is_fresh) = (ETX, false);
         (self.polygon, self.curves) = (Vec::new(), Vec::new());
@@ -91,7 +91,7 @@ impl Scan<'_> {
                 self.pen.cause = None;
                 self.is_up = true;
                 let pen = self.number();
-                self.has_no_pen = pen.is_none_or(|pen| pen == 0.0);
+                self.pen.is_away = pen.is_none_or(|pen| pen == 0.0);
             }
             b"LB" | b"BL" | b"WD" => {
                 let window = &self.bytes[self.at..self.bytes.len().min(self.at + LABEL_BYTES)];

@@ -58,7 +58,6 @@ fn scanned<'a>(bytes: &'a [u8], profile: &MachineProfile, strokes: Option<Vec<Ve
         curves: Vec::new(),
         strokes,
         is_up: true,
-        has_no_pen: false,
     };
     scan.run();
     scan.end_stroke();

@@ -16,6 +16,8 @@ pub(super) struct Pen {
     pub(super) at: Place,
     pub(super) is_down: bool,
     pub(super) is_relative: bool,
+    /// Whether no pen is taken, so that nothing is drawn.
+    pub(super) is_away: bool,
     /// What the stroke was last led on by; `None` when the pen was lifted.
     pub(super) cause: Option<usize>,
 }
@@ -58,8 +60,6 @@ pub(super) struct Scan<'a> {
     /// The strokes, where they are asked for, and whether the next line begins one.
     pub(super) strokes: Option<Vec<Vec<Point>>>,
     pub(super) is_up: bool,
-    /// Whether no pen is taken, so that nothing is drawn.
-    pub(super) has_no_pen: bool,
 }
 
 /// A curve as chords.
@@ -138,7 +138,7 @@ impl Scan<'_> {
     /// Notes a line of a stroke.
     fn note(&mut self, [a, b]: [Point; 2]) {
         let is_new = std::mem::take(&mut self.is_up);
-        let Some(strokes) = self.strokes.as_mut().filter(|_| !self.has_no_pen) else { return };
+        let Some(strokes) = self.strokes.as_mut().filter(|_| !self.pen.is_away) else { return };
         match strokes.last_mut().filter(|stroke| !is_new && stroke.last() == Some(&a)) {
             Some(stroke) => stroke.push(b),
             None => strokes.push(vec![a, b]),
