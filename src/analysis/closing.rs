@@ -67,12 +67,19 @@ impl<F: Fn(usize) -> Point> Line<F> {
     /// Of a line that ends where it starts: whether it has been there before.
     fn whole_rounds(&self) -> Option<Retrace> {
         let (segments, first) = (self.count - 1, (self.at)(0));
-        let near_share = |rounds: usize| {
+        // Plain loops, since every closed line comes by here.
+        for rounds in (2..=MOST_ROUNDS).rev() {
             let share = segments / rounds;
-            share.saturating_sub(BESIDE).max(LEAST_SEGMENTS)..=share + BESIDE
-        };
-        let mut ends = (2..=MOST_ROUNDS).rev().flat_map(near_share);
-        ends.find_map(|k| if k < segments && (self.at)(k) == first { self.followed(k - 1) } else { None })
+            for k in share.saturating_sub(BESIDE).max(LEAST_SEGMENTS)..segments.min(share + BESIDE + 1) {
+                if (self.at)(k).x == first.x
+                    && (self.at)(k) == first
+                    && let Some(found) = self.followed(k - 1)
+                {
+                    return Some(found);
+                }
+            }
+        }
+        None
     }
 
     /// Segments, by their first places, at which the line comes back to its start.

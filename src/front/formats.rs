@@ -42,8 +42,8 @@ const FORMATS: &[Format] = &[
     known("a stitch file of a sewing machine (DST)", SEW, sewn::is_dst),
     known("a pattern for a sewing machine", SEW, sewn::is_pattern),
     known("a stitch queue of a sewing machine", SEW, sewn::is_queue),
-    known("a stitch file of an embroidery machine (PES)", OTHER_STITCHES, |b| b.starts_with(b"#PES") || b.starts_with(b"#PEC")),
-    known("a stitch file of an embroidery machine (VP3)", OTHER_STITCHES, |b| b.starts_with(b"%vsm%")),
+    known("an embroidery file (PES)", OTHER_STITCHES, |b| b.starts_with(b"#PES") || b.starts_with(b"#PEC")),
+    known("an embroidery file (VP3)", OTHER_STITCHES, |b| b.starts_with(b"%vsm%")),
     vague("a zip archive", UNPACK, |b| b.starts_with(b"PK")),
     known("a 7z archive", UNPACK, |b| b.starts_with(b"7z\xbc\xaf\x27\x1c")),
     known("a RAR archive", UNPACK, |b| b.starts_with(b"Rar!")),
@@ -62,12 +62,12 @@ const FORMATS: &[Format] = &[
     known("a binary DXF drawing", "save it as text (ASCII DXF)", |b| b.starts_with(b"AutoCAD Binary DXF")),
     known("a DWG drawing of AutoCAD", "save it as ASCII DXF; cutc reads DXF of patterns (AAMA, ASTM)", |b| b.starts_with(b"AC10")),
     known("a table of grading rules (RUL)", "give cutc the pattern DXF that lies beside it", is_rule_table),
-    known("a plot for Graphtec plotters (GP-GL)", OTHER_PLOTTER, is_gp_gl),
-    known("a plot for Houston Instruments plotters (DMPL)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
+    known("a GP-GL plot (Graphtec)", OTHER_PLOTTER, is_gp_gl),
+    known("a DMPL plot (Houston Instruments)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
     vague("binary data", EXPORT_CUT, is_binary),
     known("a Gerber file for circuit boards", "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15", is_circuit_board),
-    known("a plot for Roland plotters (CAMM-GL I)", OTHER_PLOTTER, is_camm_gl),
-    known("a table of points with semicolons and decimal commas", "write commas between the numbers and points for decimals: `x_mm,y_mm`", is_comma_table),
+    known("a CAMM-GL I plot (Roland)", OTHER_PLOTTER, is_camm_gl),
+    known("a table of points with decimal commas", "write commas between the numbers and points for decimals: `x_mm,y_mm`", is_comma_table),
     known("G-code for a machine tool", "its blocks end with the line; cutter files end them with `*`", is_g_code),
 ];
 
@@ -84,8 +84,8 @@ const fn named(extensions: &'static [&'static str], what: &'static str, hint: &'
 #[rustfmt::skip] // likewise
 const NAMED: &[Named] = &[
     named(&["dst", "exp"], "a stitch file of a sewing machine", SEW),
-    named(&["jef", "hus", "xxx", "sew", "pec", "vip", "pcs", "emb"], "a stitch file of an embroidery machine", OTHER_STITCHES),
-    named(&["mrk", "mark"], "a marker in the storage of a CAD system (MRK)", EXPORT_PATTERN),
+    named(&["jef", "hus", "xxx", "sew", "pec", "vip", "pcs", "emb"], "an embroidery file", OTHER_STITCHES),
+    named(&["mrk", "mark"], "a marker of AccuMark or Optitex (MRK)", EXPORT_PATTERN),
     named(&["mkx", "mka", "plx", "plh"], "a marker of Lectra Diamino", EXPORT_PATTERN),
     named(&["mdl", "iba", "vet", "vtx", "mdlx"], "a model of Lectra Modaris", EXPORT_PATTERN),
     named(&["pds", "pdml"], "a pattern set of Optitex", EXPORT_PATTERN),
@@ -129,6 +129,9 @@ fn is_svg(bytes: &[u8]) -> bool {
 
 /// Keys of ASTM D6673 that DXF files do not have as lines of their own.
 fn is_rule_table(bytes: &[u8]) -> bool {
+    if memchr::memmem::find(head(bytes), b"RULE").is_none() {
+        return false;
+    }
     let starts = |line: &[u8], key: &[u8]| line.len() >= key.len() && line[..key.len()].eq_ignore_ascii_case(key);
     let keys: [&[u8]; 3] = [b"RULE:", b"GRADE RULE TABLE:", b"SIZE LIST:"];
     let lines = || head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
@@ -151,13 +154,21 @@ fn is_comma_table(bytes: &[u8]) -> bool {
 
 /// Commands of one letter between ETX bytes, moves and lines among them.
 fn is_gp_gl(bytes: &[u8]) -> bool {
+    if memchr::memchr(3, head(bytes)).is_none() || memchr::memchr(b';', head(bytes)).is_some() {
+        return false;
+    }
     let commands = head(bytes).split(|&byte| byte == 3).map(<[u8]>::trim_ascii).filter(|command| !command.is_empty());
     let leads = commands.filter(|command| is_lead(command, b"MDOE"));
-    leads.count() >= 2 && memchr::memchr(b';', head(bytes)).is_none()
+    leads.count() >= 2
 }
 
 /// Lines of one letter with pairs of numbers: moves and lines.
 fn is_camm_gl(bytes: &[u8]) -> bool {
+    if memchr::memchr(b'*', head(bytes)).is_some()
+        || !matches!(bytes.trim_ascii_start(), [_, second, ..] if !second.is_ascii_alphabetic())
+    {
+        return false;
+    }
     let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
     let commands = commands.filter(|command| !command.is_empty());
     let (mut all, mut leads) = (0, 0);
@@ -263,15 +274,15 @@ mod tests {
             b"ANSI/AAMA\r\nUNITS: METRIC\r\nSIZE LIST: S M\r\nRULE: DELTA 1\r\n",
             Some("a table of grading rules (RUL)"),
         );
-        check(b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03", Some("a plot for Graphtec plotters (GP-GL)"));
-        check(b";:H A L0 EC1 U 400,400 D 4400,400 @ ", Some("a plot for Houston Instruments plotters (DMPL)"));
-        check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a plot for Roland plotters (CAMM-GL I)"));
+        check(b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03", Some("a GP-GL plot (Graphtec)"));
+        check(b";:H A L0 EC1 U 400,400 D 4400,400 @ ", Some("a DMPL plot (Houston Instruments)"));
+        check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a CAMM-GL I plot (Roland)"));
     }
 
     #[test]
     fn a_name_tells_of_files_whose_bytes_do_not() {
         let what = |name: &str| of_name(name).map(|format| format.what);
-        assert_eq!(what("a/b.MRK"), Some("a marker in the storage of a CAD system (MRK)"));
+        assert_eq!(what("a/b.MRK"), Some("a marker of AccuMark or Optitex (MRK)"));
         assert_eq!([what("a.cut"), what("mrk"), what("a.plt")], [None; 3]);
     }
 

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::curve::{Arc, Bezier, Through};
 use super::encoded::{Body, Ending, Item};
 use super::instruction::Instruction;
+use super::lost;
 use super::plotter::{NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
 use super::scale::{Frame, Pair, Unknown};
@@ -86,7 +87,7 @@ impl Lowering<'_> {
             match statement {
                 Statement::Instruction(Instruction::Unknown, mnemonic) => {
                     self.tally.unknown(mnemonic, span);
-                    self.lose_unknown(mnemonic, span);
+                    lost::over_unknown(mnemonic, &self.reader, &mut self.plotter, span);
                 }
                 Statement::Instruction(Instruction::LeftOut(what), mnemonic) => {
                     self.tally.left_out(mnemonic, what, span);
@@ -106,7 +107,7 @@ impl Lowering<'_> {
                 Statement::Reset => self.reset(),
                 Statement::Junk => {
                     self.tally.junk(span);
-                    self.lose_junk(span);
+                    lost::over_junk(&self.reader, &mut self.plotter, span);
                 }
             }
             self.last_drew = self.plotter.drawing.vertices.len() > drawn;
@@ -189,10 +190,7 @@ impl Lowering<'_> {
             }
             Instruction::Wedge => self.wedge(span),
             Instruction::Polygon => self.polygon(span),
-            Instruction::EdgePolygon => {
-                let drawn = self.plotter.edge_polygon();
-                self.check(drawn, span);
-            }
+            Instruction::EdgePolygon => self.edge_polygon(span),
             Instruction::Page => self.page(span),
             Instruction::Label
             | Instruction::Terminator
@@ -206,10 +204,7 @@ impl Lowering<'_> {
                 self.reader.pass_over(instruction.tail());
                 self.reset();
             }
-            Instruction::Default => {
-                self.plotter.set_default();
-                (self.heading, self.unsized_at) = (None, None);
-            }
+            Instruction::Default => self.set_default(),
             Instruction::Scale
             | Instruction::Corners
             | Instruction::CornersPercent
@@ -262,6 +257,18 @@ impl Lowering<'_> {
             Some(1.0) => self.plotter.close_part(span),
             Some(_) => self.plotter.end_polygon(span),
         }
+    }
+
+    /// EP.
+    fn edge_polygon(&mut self, span: Span) {
+        let drawn = self.plotter.edge_polygon();
+        self.check(drawn, span);
+    }
+
+    /// DF.
+    fn set_default(&mut self) {
+        self.plotter.set_default();
+        (self.heading, self.unsized_at) = (None, None);
     }
 
     /// PG: whatever is drawn next, what was drawn is whole.
@@ -575,32 +582,6 @@ impl Lowering<'_> {
         let (at, heading) = (Some(self.plotter.place()), self.heading);
         self.labels.push(Label { at, heading, span: text, mirrored: None });
         self.plotter.drift();
-    }
-
-    /// Bytes that begin no instruction: a letter of one may be lost.
-    fn lose_junk(&mut self, span: Span) {
-        let (is_torn, numbers) = (self.reader.is_torn_pen(span), self.reader.numbers_within(span));
-        if numbers > 1 {
-            // Places: an outline may be among them.
-            self.plotter.lost.add(span);
-        } else if self.plotter.is_drawing() || is_torn || numbers > 0 || self.reader.follows_number(span) {
-            self.plotter.lose(span);
-        }
-        if is_torn {
-            self.plotter.tear(span);
-        }
-    }
-
-    /// An instruction that is not known may be another one with a wrong letter.
-    fn lose_unknown(&mut self, mnemonic: [u8; 2], span: Span) {
-        let is_like_pen = mnemonic[0] == b'P' || matches!(mnemonic[1], b'U' | b'D');
-        let has_numbers = self.reader.pair_follows();
-        if has_numbers || is_like_pen && self.plotter.is_drawing() {
-            self.plotter.lose(span);
-        }
-        if is_like_pen {
-            self.plotter.tear(span);
-        }
     }
 
     /// An instruction that draws and lacks numbers.

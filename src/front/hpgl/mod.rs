@@ -7,7 +7,7 @@
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the
 //! table of what they mean; [`decimal_comma`] tells files whose numbers are none; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`]
-//! doubts the size; [`tally`] counts what was not obeyed.
+//! doubts the size; [`tally`] counts what was not obeyed, [`lost`] what may be lost.
 
 mod count;
 mod curve;
@@ -16,6 +16,7 @@ mod encoded;
 mod escape;
 mod instruction;
 mod label;
+mod lost;
 mod lower;
 mod plotter;
 mod reader;

@@ -233,7 +233,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether a number stands next.
-    pub(super) fn pair_follows(&self) -> bool {
+    pub(super) fn number_follows(&self) -> bool {
         syntax::parameter(&self.bytes[self.at..]).is_ok()
     }
 

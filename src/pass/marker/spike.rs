@@ -159,8 +159,12 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     let way = |i: usize| segments[i % count].to - segments[i % count].from;
     let most = measure.width * measure.width;
     let (mut is_taken, mut left) = (vec![false; count], count);
-    for i in 0..count {
-        let [before, bottom, next] = [i + count - 1, i, i + 1].map(way);
+    let triples = (0..count).scan([way(count - 1), way(0)], |[before, bottom], i| {
+        let triple = [*before, *bottom, way(i + 1)];
+        [*before, *bottom] = [triple[1], triple[2]];
+        Some((i, triple))
+    });
+    for (i, [before, bottom, next]) in triples {
         if is_taken[i] || !is_tip([before, bottom, next], most) {
             continue;
         }

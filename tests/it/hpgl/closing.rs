@@ -1,9 +1,12 @@
 //! Outlines that close in another way than by their last place, and notches that are strokes from edge to edge.
 
+use std::fmt::Write as _;
+
 use cutc::diagnostic::Diagnostics;
 use cutc::front::by_name;
 use cutc::geom::{Point, ring};
 use cutc::ir::Marker;
+use cutc::ir::marker::OutlineNotch;
 use cutc::machine::Job;
 use cutc::pipeline;
 use cutc::verify::{PlotCuts, plot_audit};
@@ -36,7 +39,7 @@ fn areas(marker: &Marker) -> Vec<f64> {
 fn stroke(places: &[[i64; 2]]) -> String {
     let mut text = format!("PU{},{};", places[0][0], places[0][1]);
     for [x, y] in &places[1..] {
-        text += &format!("PD{x},{y};");
+        _ = write!(text, "PD{x},{y};");
     }
     text
 }
@@ -134,7 +137,7 @@ fn a_stroke_from_edge_to_edge_is_a_notch_of_its_outline_as_if_that_drew_it() {
         let whole = format!("PU4000,4000;PD{drawn},16000,4000,16000,16000,4000,16000,4000,4000;");
         let (other, _) = found(&whole, &Job::default());
         for marker in [&one, &other] {
-            let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(|notch| notch.word()).collect();
+            let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect();
             assert_eq!((words, marker.contours().count()), (vec![kind], 1), "{stroke}");
         }
         assert_eq!(areas(&one), areas(&other), "{stroke}");

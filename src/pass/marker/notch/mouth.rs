@@ -217,8 +217,8 @@ impl Way {
         let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
         let (left, right) = ((0..self.points.len()).find(low)?, (0..self.points.len()).rfind(low)?);
         let across = (self.points[left][0] + self.points[right][0] - self.width) / 2.0;
-        let leans_little = across.abs() <= AXIS_LEAN * self.depth + slack;
-        if !leans_little || !is_within(across.hypot(self.depth), DEPTH, slack) {
+        let leans = (slack..=AXIS_LEAN * self.depth + slack).contains(&across.abs());
+        if !leans || !is_within(across.hypot(self.depth), DEPTH, slack) {
             return None;
         }
         let lean = across / self.depth;
