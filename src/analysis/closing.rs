@@ -70,9 +70,11 @@ impl<F: Fn(usize) -> Point> Line<F> {
         // Plain loops, since every closed line comes by here.
         for rounds in (2..=MOST_ROUNDS).rev() {
             let share = segments / rounds;
-            for k in share.saturating_sub(BESIDE).max(LEAST_SEGMENTS)..segments.min(share + BESIDE + 1) {
-                if (self.at)(k).x == first.x
-                    && (self.at)(k) == first
+            let [from, to] = [share.saturating_sub(BESIDE).max(LEAST_SEGMENTS), segments.min(share + BESIDE + 1)];
+            for k in from..to {
+                let at = (self.at)(k);
+                if at.x == first.x
+                    && at.y == first.y
                     && let Some(found) = self.followed(k - 1)
                 {
                     return Some(found);

@@ -24,8 +24,7 @@ const EXPORT_PATTERN: &str = "open it in its CAD and export an ISO cut file, an 
 const UNPACK: &str = "unpack it and give cutc the files inside";
 const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
 const OTHER_STITCHES: &str = "let the embroidery program save it as DST or EXP: `cutc sew` reads those";
-const PICTURE: &str =
-    "pictures hold no lines: let the CAD that made the drawing export an ISO cut file or an HPGL plot";
+const PICTURE: &str = "pictures hold no lines: let the CAD export an ISO cut file or an HPGL plot";
 const OTHER_PLOTTER: &str = "let the driver of the plotter write HPGL instead";
 
 const fn known(what: &'static str, hint: &'static str, is: fn(&[u8]) -> bool) -> Format {

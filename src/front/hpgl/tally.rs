@@ -150,13 +150,10 @@ impl Tally {
             found.push(finding.hint("a radius may be damaged, or the tolerance of the profile be far too fine"));
         }
         if self.lost.count > 0 {
-            let message = format!(
-                "a line hangs on what cannot be read here: a character is lost; this happens {}",
-                self.lost.times()
-            );
+            let message = format!("a line hangs on what cannot be read here; this happens {}", self.lost.times());
             let finding = self.lost.diagnostic(&code::HPGL_LOST, message);
             found.push(
-                finding.hint("transfer the file again; without what stood here the outline would be another one"),
+                finding.hint("transfer the file again; a character is lost, and the outline would be another one"),
             );
         }
         if self.adrift.count > 0 {

@@ -7,6 +7,7 @@
 use super::pass::MarkerPass;
 use crate::analysis::closing::{self, Retrace};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::geom::Point;
 use crate::ir::list::Segment;
 use crate::ir::marker::Marker;
 use crate::machine::Job;
@@ -27,6 +28,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     for piece in &mut marker.pieces {
         for contour in &mut piece.contours {
             let points = marker.list.points(contour.range);
+            let points: &[Point] = &points;
             let Some(found) = closing::retrace(points.len(), |k| points[k], reach) else { continue };
             let Retrace { last, rounds, past: length } = found;
             let mut ring: Vec<Segment> =

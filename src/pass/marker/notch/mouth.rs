@@ -215,7 +215,12 @@ impl Way {
     /// A part of a round bottom may look like a U that leans, so that only a V and a castle may.
     fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
         let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
-        let (left, right) = ((0..self.points.len()).find(low)?, (0..self.points.len()).rfind(low)?);
+        let last = self.points.len() - 1;
+        let (left, right) = ((0..=last).find(low)?, (0..=last).rfind(low)?);
+        // Shearing keeps straight sides straight, so that a way with curved ones is neither a V nor a castle.
+        if !self.is_straight([0, left], slack) || !self.is_straight([right, last], slack) {
+            return None;
+        }
         let across = (self.points[left][0] + self.points[right][0] - self.width) / 2.0;
         let leans = (slack..=AXIS_LEAN * self.depth + slack).contains(&across.abs());
         if !leans || !is_within(across.hypot(self.depth), DEPTH, slack) {
