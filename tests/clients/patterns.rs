@@ -49,6 +49,9 @@ for name in json.load(open("names.json")):
     is_plain, seen = True, set()
     placed = [entity.dxf.name for entity in doc.modelspace() if entity.dxftype() == "INSERT"]
     is_plain &= len(placed) == len(set(placed)) and (not placed or len(placed) == len(blocks))
+    # Texts of title blocks and legends belong to no piece.
+    is_outline = lambda entity: entity.dxf.layer == "1" and entity.dxftype() in ("POLYLINE", "LWPOLYLINE")
+    is_plain &= all(any(map(is_outline, block)) for block in blocks)
     for layout in [doc.modelspace()] + blocks:
         for entity in layout:
             kind, layer = entity.dxftype(), entity.dxf.layer
