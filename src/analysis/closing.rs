@@ -10,7 +10,7 @@ const LONGEST_PAST: f64 = 25.0;
 /// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
 /// places miss the head by that.
 const LEAST_REACH: f64 = 0.1;
-/// What rounding of two places to the grid of a file may part, in units: the diagonal.
+/// Distance that rounding to the grid of a file may put between two places, in units: the diagonal.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
 /// Most rounds of an outline that are looked for: cutters go twice through thick cloth, plotters over a bold line.
 const MOST_ROUNDS: usize = 4;
@@ -18,7 +18,7 @@ const MOST_ROUNDS: usize = 4;
 const BESIDE: usize = 3;
 /// Returns to the start that are looked at: a line comes back there once a round.
 const MOST_RETURNS: usize = 8;
-/// How much longer one of two courses along the same line may be by rounding: in reaches, and as a share of its length.
+/// Difference that rounding makes between the lengths of two courses along a line: in reaches, and as a share.
 const SLIP_REACHES: f64 = 2.0;
 const SLIP_SHARE: f64 = 0.002;
 /// Segments of a ring at least.

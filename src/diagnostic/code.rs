@@ -172,7 +172,7 @@ codes! {
     HPGL_JUNK = warning(Spares, Text, "hpgl/junk", "Bytes of a plot begin no instruction and were passed over; the message gives their count and first place.", "Plotters pass over such bytes, too. A few at the beginning or end come from drivers. Where a line hangs on them the file is refused (hpgl/lost-place).");
     /// X without Y.
     HPGL_ODD = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.", "Plotters ignore it as well. Amid a line a number is lost, and then the file is refused (hpgl/lost-place); behind one that is closed nothing hangs on it.");
-    /// What cannot be read, amid a line or before it.
+    /// Bytes that cannot be read, amid a line or before it.
     HPGL_LOST = error(Text, "hpgl/lost-place", "A line of a plot hangs on something that cannot be read, or an instruction that draws lacks numbers.", "A character was lost or changed amid an outline, so that it would miss a place, or start from another one. Transfer the file again and compare the sizes.");
     /// Numbers in the language of the computer.
     HPGL_DECIMAL_COMMA = error(Text, "hpgl/decimal-comma", "The numbers of a plot have commas for decimal points, so that each reads as two.", "A plotter takes a comma for the end of a number, and would draw something else. Let the program write points, and export again.");

@@ -145,7 +145,7 @@ fn quantity(text: &[u8]) -> Option<[u32; 2]> {
 }
 
 impl Asked<'_> {
-    /// What the file says of the CAD system that wrote it.
+    /// Texts of the file on the CAD system that wrote it.
     pub(super) fn author(&self) -> String {
         let author = [self.file.author.first, self.file.author.other].into_iter().flatten();
         author.map(|span| self.job.profile.labels.text(self.source.slice(span))).collect::<Vec<_>>().join(" ")

@@ -15,7 +15,7 @@ use crate::geom::budget::Budget;
 /// Vertices of the least ring.
 const LEAST_RING: usize = 3;
 
-/// What says where the lines of a block have curves.
+/// Signs of where the lines of a block have curves.
 #[derive(Debug, Default)]
 pub(in crate::front::dxf) struct Curves {
     fine: Vec<Fine>,

@@ -96,7 +96,7 @@ impl Fine {
         let (mut at, mut way, mut ways) = (start.station, 0.0, vec![0.0]);
         let ahead = |from: f64, to: f64| {
             let way = (if start.is_forward { to - from } else { from - to }).rem_euclid(length);
-            // A step back by rounding is none.
+            // Rounding alone makes a step back: it has no length.
             if way > length - ON { 0.0 } else { way }
         };
         for vertex in &coarse.vertices[1..] {

@@ -20,7 +20,7 @@ struct Node {
     is_knot: bool,
 }
 
-/// What lies between each two neighbours of a run of knots, in chords within `sagitta` mm; `None` where that takes more than
+/// Places between each two neighbours of a run of knots, in chords within `sagitta` mm; `None` where that takes more than
 /// `most` places.
 pub(super) fn spans(knots: &[Point], sagitta: f64, most: usize) -> Option<Vec<Stretch>> {
     let mut nodes: Vec<Node> = knots.iter().map(|&at| Node { at, is_active: true, is_knot: true }).collect();

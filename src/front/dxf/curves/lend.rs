@@ -8,7 +8,7 @@ use crate::front::dxf::shape::{Dot, Line, Shapes};
 use crate::geom::Point;
 use crate::source::Span;
 
-/// What a block is called, and whether it is of the size that the set was drawn in.
+/// Name of a block, and whether it is of the size that the set was drawn in.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::front::dxf) struct Size<'a> {
     pub(in crate::front::dxf) piece: Option<&'a [u8]>,

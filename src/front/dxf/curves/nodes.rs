@@ -26,7 +26,7 @@ pub(super) enum Node {
     Passing,
 }
 
-/// What is said of a place.
+/// Message about a place.
 #[derive(Debug, Clone, Copy)]
 enum Sign {
     Turn,

@@ -13,7 +13,7 @@ pub(super) enum Ends {
     Parabolic,
 }
 
-/// What lies between each two neighbours of a run of knots, in chords within `sagitta` mm; `None` where that takes more than
+/// Places between each two neighbours of a run of knots, in chords within `sagitta` mm; `None` where that takes more than
 /// `most` places.
 pub(super) fn spans(knots: &[Point], ends: Ends, sagitta: f64, most: usize) -> Option<Vec<Stretch>> {
     let lengths: Vec<f64> = knots.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
