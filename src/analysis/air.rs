@@ -180,7 +180,7 @@ impl Item {
             };
         }
         let at = |i: usize| points[i % last];
-        let limit = job.profile.corner.angle();
+        let limit = job.profile.corner_angle();
         let is_corner = |&i: &usize| {
             let before = (1..last).map(|k| at(i + last - k));
             let behind = (1..last).map(|k| at(i + k));

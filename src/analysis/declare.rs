@@ -91,9 +91,8 @@ impl OfCut<'_> {
     fn run(&mut self, run: &Run) {
         let Some(ends) = self.stations(&run.points, run.turned) else { return };
         self.plunge(run, ends);
-        let swing = swing(run, self.knife.width_mm);
-        if swing > self.knife.max_bow_mm {
-            self.declare(Kind::Swing, ends, None, swing);
+        if let Some(swing) = swing(run, self.knife.width_mm).filter(|swing| swing.off > self.knife.max_bow_mm) {
+            self.declare(Kind::Swing, ends, None, swing.off);
         }
         self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
         for (which, (end, length)) in

@@ -39,7 +39,7 @@ impl<'a> Runs<'a> {
         let [x, y, c] = job.profile.axes.limits();
         let mut line = x.min(y);
         line.speed = line.speed.min(knife.feed_mm_s.unwrap_or(f64::INFINITY));
-        let (corner, through) = (job.profile.corner.angle(), knife.clear() + knife.plunge());
+        let (corner, through) = (job.profile.corner_angle(), knife.clear() + knife.plunge());
         Self { marker, air: Air::new(job), corner, line, c, width: knife.width_mm, through }
     }
 

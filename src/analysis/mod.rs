@@ -16,7 +16,7 @@ pub mod mouths;
 pub mod nesting;
 pub mod outlines;
 pub mod plunge;
-mod swing;
+pub mod swing;
 pub mod tight;
 pub mod waits;
 

@@ -3,42 +3,101 @@
 use super::plunge::Plunge;
 use crate::geom::{Point, polyline};
 use crate::ir::toolpath::{OrientationMode, Run, Shape};
+use crate::machine::Knife;
 
 /// How far behind a place its direction is looked for, mm: points as near as their rounding show none.
 const LOOK: f64 = 0.5;
 /// How much of the path behind the tip is looked at, in widths of the blade.
 const BEHIND: f64 = 2.0;
 
-/// How far the body of a blade of a width leaves a run at the most while its tip follows that, mm; what it does where it
-/// plunges is not in it.
-pub(super) fn swing(run: &Run, width: f64) -> f64 {
-    if width == 0.0 {
-        return 0.0;
-    }
-    // On a ring the heel follows the lap before.
-    let (path, from) = match run.shape {
-        Shape::Open => (run.points.clone(), width),
-        Shape::Ring => (run.points.iter().chain(&run.points[1..]).copied().collect(), polyline::length(&run.points)),
-    };
-    let stations = polyline::stations(&path);
-    let place = |station: f64| polyline::place(&path, &stations, station);
-    let off = |vertex: usize| {
-        // Right behind a bend the body is off the most.
-        let station = stations[vertex] + LOOK;
-        let tip = place(station);
-        let first = stations.partition_point(|&passed| passed < station - BEHIND * width);
-        // The chord that reaches so far back may begin long before.
-        let behind: Vec<Point> = path[first.saturating_sub(1)..=vertex].iter().copied().chain([tip]).collect();
-        match run.orientation {
-            OrientationMode::Tangent => {
-                let along = polyline::direction(place(station - LOOK), place(station + LOOK));
-                along.map_or(0.0, |along| polyline::distance(tip - along * width, &behind))
-            }
-            OrientationMode::Chord => chord_off(&behind, width),
+/// The greatest swing of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// How far the body is off the line, mm.
+    pub off: f64,
+    /// The vertex behind which it is, of the run.
+    pub vertex: usize,
+}
+
+/// How far the body of a blade of a width leaves a run at the most while its tip follows that; what it does where it
+/// plunges is not in it. `None` where it never leaves it.
+pub fn swing(run: &Run, width: f64) -> Option<Swing> {
+    let followed = Followed::new(run, width)?;
+    let swings = followed.vertices(0, 0.0).map(|vertex| Swing { off: followed.off(vertex, 0), vertex });
+    let worst = swings.reduce(|worst, next| if next.off > worst.off { next } else { worst })?;
+    (worst.off > 0.0).then(|| Swing { vertex: worst.vertex % run.spans.len(), ..worst })
+}
+
+/// The vertices at which a blade must be lifted so that its body leaves a run by at most `knife.max_swing_mm`. Of a ring
+/// the first alone: from there on it is an open run.
+pub fn bends(run: &Run, knife: &Knife) -> Vec<usize> {
+    let Some((limit, followed)) = knife.max_swing_mm.zip(Followed::new(run, knife.width_mm)) else { return Vec::new() };
+    let mut bends = Vec::new();
+    let mut lifted = 0;
+    // It is plunged again so far before a lift.
+    let heel = |lifted: usize| if lifted == 0 { 0.0 } else { knife.corner_heel_overlap_mm };
+    while let Some(next) = followed.vertices(lifted, heel(lifted)).find(|&vertex| followed.off(vertex, lifted) > limit)
+    {
+        bends.push(next % run.spans.len());
+        if run.shape == Shape::Ring {
+            break;
         }
-    };
-    let first = stations.partition_point(|&station| station < from).max(1);
-    (first..path.len() - 1).map(off).fold(0.0, f64::max)
+        lifted = next;
+    }
+    bends
+}
+
+/// The way of a blade along a run.
+struct Followed {
+    /// Points; a ring goes round twice, because the heel follows the lap before.
+    path: Vec<Point>,
+    stations: Vec<f64>,
+    orientation: OrientationMode,
+    /// How far from its plunge on the blade follows the path, mm.
+    from: f64,
+    width: f64,
+}
+
+impl Followed {
+    /// `None` for a point, which has no body.
+    fn new(run: &Run, width: f64) -> Option<Self> {
+        let (path, from) = match run.shape {
+            Shape::Open => (run.points.clone(), width),
+            Shape::Ring => {
+                (run.points.iter().chain(&run.points[1..]).copied().collect(), polyline::length(&run.points))
+            }
+        };
+        let stations = polyline::stations(&path);
+        (width > 0.0).then_some(Self { path, stations, orientation: run.orientation, from, width })
+    }
+
+    /// The inner vertices behind which the blade follows the path that it was plunged on so many mm before a vertex.
+    fn vertices(&self, plunged: usize, before: f64) -> std::ops::Range<usize> {
+        let from = self.stations[plunged] + self.from - before;
+        self.stations.partition_point(|&station| station < from).max(plunged + 1)..self.path.len() - 1
+    }
+
+    fn place(&self, station: f64) -> Point {
+        polyline::place(&self.path, &self.stations, station)
+    }
+
+    /// How far the body is off the path that it was plunged on at a vertex, right behind another, mm: there it is off
+    /// the most.
+    fn off(&self, vertex: usize, plunged: usize) -> f64 {
+        let station = self.stations[vertex] + LOOK;
+        let tip = self.place(station);
+        let first = self.stations.partition_point(|&passed| passed < station - BEHIND * self.width);
+        // The chord that reaches so far back may begin long before.
+        let first = first.saturating_sub(1).max(plunged);
+        let behind: Vec<Point> = self.path[first..=vertex].iter().copied().chain([tip]).collect();
+        match self.orientation {
+            OrientationMode::Tangent => {
+                let along = polyline::direction(self.place(station - LOOK), self.place(station + LOOK));
+                along.map_or(0.0, |along| polyline::distance(tip - along * self.width, &behind))
+            }
+            OrientationMode::Chord => chord_off(&behind, self.width),
+        }
+    }
 }
 
 /// How far the path behind the tip is off a blade that is its chord.

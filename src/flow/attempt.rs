@@ -120,7 +120,7 @@ impl Work<'_> {
             back: back.max(WAVE * line.toolpath.tolerance),
             overlap: profile.flow.overlap_mm,
             blade: profile.knife.width_mm,
-            corner: profile.corner.angle(),
+            corner: profile.corner_angle(),
             unit: self.scene.unit,
         }
     }

@@ -31,6 +31,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "knife.max_down_mm", takes: Takes::NumberOr(from(1.0, 1.0e6), Off::WORD), about: "Maximum distance with the knife down: a longer cut is lifted there and rejoined with overlap." },
     Key { name: "knife.follow", takes: Takes::Word(words::<Follow>), about: "How the blade lies on curves: \"tangent\" = the tip on the line, the blade along it; \"chord\" =\ntip and heel both on the line." },
     Key { name: "knife.tight_curves", takes: Takes::Word(words::<TightCurves>), about: "Curves tighter than the blade, on which it would stand across as a chord (an arc of less than 0.55\nblade widths, a right angle rounded with less than 0.4): \"follow\" = cut along the tangent,\n\"nibble\" = by overlapping plunges within the tolerance, \"refuse\" = an error." },
+    Key { name: "knife.max_swing_mm", takes: Takes::NumberOr(from(0.5, 1000.0), Off::WORD), about: "How far the heel may leave the line behind a bend; where it would leave it farther, the knife is\nlifted as at a corner. \"off\" = no limit, only a warning." },
     Key { name: "knife.spare", takes: Takes::Word(words::<Spare>), about: "Where a cut shorter than the blade finds no waste for the rest of that: \"both\" = it lies least\ndeep in any part, \"own\" = in the part that is cut, \"other\" = in its neighbours." },
     Key { name: "knife.max_bow_mm", takes: Takes::Number(BLADE), about: "How far a blade that plunges on a curve may lie beside it: it is straight. Beyond that it is as\n`knife.tight_curves` says: a warning, nibbled, or an error." },
     Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round, heel first where C then turns less." },
@@ -84,6 +85,9 @@ pub struct Knife {
     pub follow: Follow,
     /// On curves tighter than the blade.
     pub tight_curves: TightCurves,
+    /// Of the heel, beside the line behind a bend.
+    #[serde(with = "OrWord::<Off>")]
+    pub max_swing_mm: Option<f64>,
     /// Which part is spared where a plunge cut finds no waste.
     pub spare: Spare,
     /// Of the body beside a curve that begins there.
@@ -241,6 +245,7 @@ impl Default for Knife {
             max_down_mm: None,
             follow: Follow::Tangent,
             tight_curves: TightCurves::Follow,
+            max_swing_mm: None,
             spare: Spare::Both,
             max_bow_mm: 0.5,
             edges: 1,

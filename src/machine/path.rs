@@ -26,8 +26,8 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// The least turn of a corner, rad.
-    pub fn angle(&self) -> f64 {
+    /// `angle_deg`, rad.
+    pub(super) fn angle(&self) -> f64 {
         rad(self.angle_deg)
     }
 }

@@ -201,6 +201,13 @@ impl MachineProfile {
         self.c.range().map(|range| range.map(|end| end - self.knife.yaw()))
     }
 
+    /// Least turn at which the knife is lifted, rad: of `corner.angle_deg`, and less where the heel would stand farther than
+    /// `knife.max_swing_mm` beside the line behind it, w sin(a).
+    pub fn corner_angle(&self) -> f64 {
+        let swing = self.knife.max_swing_mm.filter(|&swing| swing < self.knife.width_mm);
+        swing.map_or(f64::INFINITY, |swing| (swing / self.knife.width_mm).asin()).min(self.corner.angle())
+    }
+
     /// Permitted deviation of the tip from the path, mm, for a file whose numbers are multiples of `unit` mm:
     /// not smaller than what the file resolves, because its vertices carry that much noise.
     pub fn tolerance(&self, unit: f64) -> f64 {

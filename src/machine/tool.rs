@@ -120,6 +120,7 @@ const OF_BLADES: &[Asks] = &[
     ("knife.edges", |knife| knife.edges > 1),
     ("knife.follow", |knife| knife.follow == Follow::Chord),
     ("knife.tight_curves", |knife| knife.tight_curves != TightCurves::Follow),
+    ("knife.max_swing_mm", |knife| knife.max_swing_mm.is_some()),
     ("knife.spare", |knife| knife.spare != Spare::Both),
     ("knife.max_bow_mm", |_| true),
 ];

@@ -17,6 +17,7 @@ mod rounded;
 mod savings;
 mod sound;
 mod spent;
+mod swings;
 mod told;
 mod toolpaths;
 

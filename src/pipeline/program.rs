@@ -10,6 +10,7 @@ use super::report::{Axes, Program, Sides};
 use super::savings::{CLEAR_SHARE, Savings};
 use super::sound::assert_sound;
 use super::spent::Clock;
+use super::swings;
 use super::toolpaths::{Toolpaths, Window};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::declare;
@@ -112,7 +113,7 @@ struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    fn of(&self, Window { toolpaths, cuts: cuts_of, findings }: Window) -> Made {
+    fn of(&self, Window { toolpaths, cuts: cuts_of, mut findings }: Window) -> Made {
         let planned = if self.motion { &toolpaths[..] } else { &[] };
         let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
         let arcs = |interpolation: &Interpolation| {
@@ -124,10 +125,14 @@ impl Wanted<'_> {
             toolpaths.par_iter().map(solve).collect()
         };
         let arcs = self.interpolations.iter().map(arcs).collect();
-        let declared =
-            toolpaths.par_iter().zip(cuts_of).filter_map(|(toolpath, cut)| Some((toolpath, cut?, self.cloth?)));
-        let declared =
-            declared.flat_map_iter(|(toolpath, cut, cloth)| self.declarations(toolpath, cut, cloth)).collect();
+        let declared = toolpaths.par_iter().zip(cuts_of).zip(&mut findings);
+        let declared = declared.filter_map(|((toolpath, cut), found)| Some((toolpath, cut?, self.cloth?, found)));
+        let declared = declared.flat_map_iter(|(toolpath, cut, cloth, found)| {
+            let declared = self.declarations(toolpath, cut, cloth);
+            swings::warn(toolpath, &declared, &self.job.profile.knife, found);
+            declared
+        });
+        let declared = declared.collect();
         Made { toolpaths, cuts, arcs, declared, findings }
     }
 

@@ -84,7 +84,7 @@ impl Pace {
         let tool = &job.profile.tool;
         let [x, y, _] = job.profile.axes.limits();
         Self {
-            corner: job.profile.corner.angle(),
+            corner: job.profile.corner_angle(),
             askew: job.profile.verify.max_heading_deg.to_radians(),
             distance: tool.distance_mm,
             edge_speed: tool.edge_speed_mm_s,

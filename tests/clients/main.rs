@@ -77,7 +77,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 25] = [
+const OTHERWISE: [(&str, &str); 26] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
@@ -92,6 +92,7 @@ const OTHERWISE: [(&str, &str); 25] = [
     ("fills-left-out", "it fills"),
     ("junk-between", "it stops at junk"),
     ("odd-coordinate", "it stops at a coordinate without its partner"),
+    ("message", "its messages end at the terminator of labels, not at the semicolon"),
     ("pages", "it draws the first page alone"),
     ("polygons", "it leaves out the edge that PM 1 adds"),
     ("scaled-arcs-on-a-line", "its arcs by three points are not numbers"),

@@ -53,11 +53,11 @@ fn compile(points: &[Point], job: &Job, target: &str) -> Outcome {
     Outcome { compiled, program: String::from_utf8_lossy(out.get_ref()).into_owned(), found }
 }
 
-/// A program that is proven, with nothing said about it.
+/// A program that is proven, with nothing said about it but how far its heel swings.
 fn proven(points: &[Point], job: &Job, what: &str) -> Compiled {
     let Outcome { compiled, found, .. } = compile(points, job, "csv");
     let compiled = compiled.unwrap_or_else(|| panic!("{what}: {}", render(&found, &source(points))));
-    let codes: Vec<_> = found.iter().map(|said| said.code.name).collect();
+    let codes: Vec<_> = found.iter().map(|said| said.code.name).filter(|&code| code != "path/swing").collect();
     assert!(codes.is_empty(), "{what}: {codes:?}");
     compiled
 }

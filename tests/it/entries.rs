@@ -8,6 +8,7 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::code::Severity;
 use cutc::diagnostic::{Diagnostics, render};
+use cutc::ir::declaration::Kind;
 use cutc::machine::{Follow, Job, TightCurves};
 use cutc::pipeline::{self, Compiled, Order};
 use cutc::source::Source;
@@ -173,6 +174,32 @@ fn rounded_outlines_as_coarse_as_files_have_them_become_programs_of_every_kind()
             }
         }
     }
+}
+
+#[test]
+fn no_heel_leaves_its_line_by_more_than_the_profile_permits() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut lifted = 0;
+    for case in 0..30 {
+        let source = source(&rounded(&mut random));
+        for blade in BLADES {
+            for (follow, target) in [(Follow::Tangent, "gcode"), (Follow::Tangent, "csv"), (Follow::Chord, "csv")] {
+                let limit = random.random_range(1.0..4.0);
+                let mut job = job(blade);
+                job.profile.knife.follow = follow;
+                let what = format!("case {case}, blade {blade:?}, {follow:?}, limit {limit}");
+                let (free, _) = proven(&source, &job, (target, &what));
+                job.profile.knife.max_swing_mm = Some(limit);
+                let (kept, codes) = proven(&source, &job, (target, &what));
+                let swings = kept.declared.iter().filter(|entry| entry.kind == Kind::Swing);
+                let worst = swings.map(|entry| entry.magnitude_mm).fold(0.0, f64::max);
+                assert!(worst <= limit + 1e-3, "{what}: {worst} mm");
+                assert!(!codes.contains(&"path/swing") || limit > 3.0, "{what}: {codes:?}");
+                lifted += usize::from(kept.report.program.lifts > free.report.program.lifts);
+            }
+        }
+    }
+    assert!(lifted > 30, "only {lifted} of the jobs have a bend to lift at");
 }
 
 /// A piece on whose upper edge a short curve stands between two V notches.

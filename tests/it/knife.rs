@@ -214,9 +214,9 @@ fn a_ring_that_winds_past_the_range_of_c_begins_elsewhere_or_is_cut_in_parts() {
         toolpaths.iter().map(|toolpath| support::runs(toolpath).len()).sum::<usize>()
     };
     for (range_deg, parts, said) in [
-        (None, 1, &["iso/no-end"][..]),
-        (Some([-200.0, 200.0]), 1, &["iso/no-end"]),
-        (Some([-185.0, 185.0]), 2, &["iso/no-end", "path/bowed-plunge"]),
+        (None, 1, &["iso/no-end", "path/swing"][..]),
+        (Some([-200.0, 200.0]), 1, &["iso/no-end", "path/swing"]),
+        (Some([-185.0, 185.0]), 2, &["iso/no-end", "path/bowed-plunge", "path/swing"]),
     ] {
         job.profile.c.range_deg = range_deg;
         assert_eq!(compile("iso/seed-circle.cut", &job), said, "{range_deg:?}");

@@ -51,7 +51,7 @@ impl<'a> Join<'a> {
     /// the blade is longer than each chord of a curve.
     fn is_tight(&self, about: [f64; 2], ground: &Ground) -> bool {
         let [a, b] = self.strokes.map(|stroke| stroke.cover);
-        let corner = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
+        let corner = ground.profile.corner_angle() * (1.0 - CORNER_EPSILON);
         // A plunged blade stands off a bend of more than that.
         let bend = ground.tolerance() / ground.profile.knife.width_mm;
         let limit = if a.plunge || b.plunge { corner.min(bend) } else { corner };

@@ -20,7 +20,7 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
-    let limit = Limit { angle: scene.job.profile.corner.angle(), unit: scene.unit };
+    let limit = Limit { angle: scene.job.profile.corner_angle(), unit: scene.unit };
     runs::replace(toolpath, |run| split(run, limit));
 }
 

@@ -38,8 +38,7 @@ fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
         return vec![run];
     }
     let mut parts: Vec<Run> = Vec::new();
-    let lead =
-        |station: f64| if way.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] };
+    let lead = |station: f64| way.lead(station, knife);
     let mut at = 0.0;
     loop {
         let is_start = parts.is_empty() && !way.is_ring();

@@ -3,6 +3,7 @@
 //! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it. They
 //! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
 
+mod bend;
 mod corner;
 mod down;
 mod entry;
@@ -39,6 +40,7 @@ pub use trace::trace;
 pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
     corner::PASS,
     ring::PASS,
+    bend::PASS,
     down::PASS,
     wind::PASS,
     entry::PASS,

@@ -6,6 +6,7 @@
 use crate::geom::{Point, polyline, spline};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{End, Run, Shape, Side};
+use crate::machine::Knife;
 
 /// Turns that differ by less are alike, rad: a curve is no gentler for its rounding.
 const TURN_EPSILON: f64 = 0.02;
@@ -100,6 +101,13 @@ impl<'a> Way<'a> {
     /// behind it: on a bend the blade would plunge over what is cut already, and leave it.
     pub(super) fn leads_on(&self, station: f64, [before, behind]: [f64; 2]) -> bool {
         self.turned([station - before, station + behind]) <= GENTLE_TURN
+    }
+
+    /// By how much the stretches before and behind a lift amid the run lead on along it: heel and front overlap of a
+    /// corner, mm, where it is straight enough.
+    pub(super) fn lead(&self, station: f64, knife: &Knife) -> [f64; 2] {
+        let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
+        if self.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] }
     }
 
     /// How much the run turns between two stations, to either side, rad.

@@ -18,6 +18,7 @@
 //!
 //! Leaves no run with the chord mode that the blade cannot be a chord of.
 
+use super::bend;
 use super::entry::split;
 use super::nibble::{nibbled, worst_overcut};
 use super::pass::ToolpathPass;
@@ -71,6 +72,16 @@ fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
         return vec![run];
     }
     let treatment = treatment(&run, &curves, around);
+    if treatment == Treatment::Followed(OrientationMode::Chord) && !curves.is_empty() {
+        // Along the tangent its heel swings farther than as a chord; the blade may be a chord of a part of it.
+        let followed = Run { orientation: OrientationMode::Tangent, ..run.clone() };
+        let parts = bend::split(followed, around.knife);
+        if parts.len() > 1 {
+            let parts = parts.into_iter().map(|part| Run { orientation: run.orientation, ..part });
+            let parts = parts.flat_map(|part| split(part, around));
+            return parts.flat_map(|part| treated(part, around, report)).collect();
+        }
+    }
     let nibbled_start = start.as_ref().filter(|start| is_start_nibbled(start, treatment, around));
     // Behind a start that alone is nibbled the rest is treated, and seen, by itself.
     let alone = nibbled_start.filter(|_| treatment != Treatment::Nibbled).map(|start| *start.curve.vertices.end());

@@ -44,7 +44,7 @@ impl ToleranceBand {
         let [first, last] = seam;
         let end = turns.len() - 1;
         (turns[0], turns[end]) = (first, last);
-        let corner = profile.corner.angle();
+        let corner = profile.corner_angle();
         let is_turn = |turn: f64| turn.abs() > TURN_EPSILON && turn.abs() < corner;
         let height = |i: usize| {
             let [before, after] = [turns[i], turns[i + 1]];

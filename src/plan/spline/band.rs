@@ -129,7 +129,7 @@ impl Section {
 fn sagitta(a: Point, b: Point, turns: [f64; 2], profile: &MachineProfile) -> Vector {
     let [before, after] = turns;
     let length = (b - a).norm();
-    let corner = profile.corner.angle();
+    let corner = profile.corner_angle();
     let same_side = before * after > 0.0 && before.abs().min(after.abs()) > TURN_EPSILON;
     if !same_side || before.abs() >= corner || after.abs() >= corner || length > polyline::CURVE_CHORD_MAX {
         return Vector::zeros();

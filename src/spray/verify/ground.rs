@@ -84,7 +84,7 @@ pub struct Ground {
 impl Ground {
     /// The closed contours of a marker; vertices that turn by less than the corner angle of the profile stand for curves.
     pub fn new(marker: &Marker, profile: &MachineProfile) -> Self {
-        let corner = profile.corner.angle();
+        let corner = profile.corner_angle();
         let mut chords: Vec<Chord> = Vec::new();
         for (_, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
             let points = marker.list.points(contour.range);

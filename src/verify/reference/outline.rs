@@ -98,7 +98,7 @@ impl<'a> Outline<'a> {
 
     /// Its lines, which end at its corners.
     pub(in crate::verify) fn lines(mut self, place: OfContour) -> Vec<Line<'a>> {
-        let limit = place.profile.corner.angle();
+        let limit = place.profile.corner_angle();
         let is_corner = |i: &usize| self.segments[*i].joint.lift || self.is_corner(*i, limit, place.unit);
         let mut corners: Vec<usize> = (0..self.segments.len()).filter(is_corner).collect();
         let count = self.segments.len();
@@ -211,7 +211,7 @@ fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iter
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.
 fn sagitta(segment: &Segment, turns: [f64; 2], profile: &MachineProfile) -> f32 {
     let length = segment.length();
-    let is_turn = |turn: &f64| turn.abs() > TURN_EPSILON && turn.abs() < profile.corner.angle();
+    let is_turn = |turn: &f64| turn.abs() > TURN_EPSILON && turn.abs() < profile.corner_angle();
     let curved = turns[0] * turns[1] > 0.0 && turns.iter().all(is_turn);
     if profile.path.fit == Fit::Polygon || !curved || length > CURVE_CHORD {
         return 0.0;

@@ -66,13 +66,13 @@ pub(crate) const DAMAGES: &[Damage] = &[
     scaled("a start left uncut", COMPLETE, |case, rng, times| {
         let limit = case.job.profile.verify.max_uncut_mm;
         let reach = times * limit + SAME + case.job.profile.knife.heel_overlap_mm;
-        let at_corner = |segments: &[Segment], i: usize| turn(segments, i) > case.job.profile.corner.angle();
+        let at_corner = |segments: &[Segment], i: usize| turn(segments, i) > case.job.profile.corner_angle();
         gap(case, rng, (at_corner, |_| [0.0, reach]))
     }),
     scaled("an end left uncut", COMPLETE, |case, rng, times| {
         let limit = case.job.profile.verify.max_uncut_mm;
         let reach = times * limit + SAME + case.job.profile.knife.front_overlap_mm;
-        let at_end = |segments: &[Segment], i: usize| turn(segments, i + 1) > case.job.profile.corner.angle();
+        let at_end = |segments: &[Segment], i: usize| turn(segments, i + 1) > case.job.profile.corner_angle();
         gap(case, rng, (at_end, |length| [length - reach, length]))
     }),
     scaled("a gap amid a line", COMPLETE, |case, rng, times| {
@@ -217,7 +217,7 @@ fn gap(
         let segments = chain(&case.marker, case.marker.pieces[piece].contours[contour]);
         if case.marker.pieces[piece].contours[contour].closed {
             // Beside a short line between corners the blade, which is longer, would cut the gap with its body.
-            let smooth = (0..segments.len()).all(|i| turn(&segments, i) < case.job.profile.corner.angle());
+            let smooth = (0..segments.len()).all(|i| turn(&segments, i) < case.job.profile.corner_angle());
             let least = if smooth { SMOOTH_CHORD } else { 3.0 * case.job.profile.knife.width_mm };
             let long = (0..segments.len()).filter(|&i| segments[i].length() > least && fits(&segments, i));
             places.extend(long.map(|i| (piece, contour, i)));

@@ -194,7 +194,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
     damage("a corner that is thought none", "verify/on-path", |case, _| {
         // The bluntest corner between two lines that are long enough to leave each other's extension by the amount.
         let amount = DAMAGING * case.tolerance();
-        let corner = case.job.profile.corner.angle();
+        let corner = case.job.profile.corner_angle();
         let turns = case.marker.contours().flat_map(|(_, contour)| {
             let segments = chain(&case.marker, *contour);
             let far = |i: usize| segments[i].length().min(segments[i - 1].length()) * turn(&segments, i).sin();
@@ -231,7 +231,7 @@ fn has_ends(case: &Case) -> bool {
     let is_ring = |&(piece, contour): &(usize, usize)| {
         let contour = case.marker.pieces[piece].contours[contour];
         let segments = chain(&case.marker, contour);
-        contour.closed && (0..segments.len()).all(|i| turn(&segments, i) <= case.job.profile.corner.angle())
+        contour.closed && (0..segments.len()).all(|i| turn(&segments, i) <= case.job.profile.corner_angle())
     };
     !notches(&case.marker).is_empty() || !contours(&case.marker).iter().all(is_ring)
 }

@@ -144,7 +144,7 @@ pub(crate) fn passed_by(case: &Case, rows: &[Row]) -> f64 {
     let mut worst = 0.0_f64;
     for (_, contour) in case.marker.contours() {
         let segments = chain(&case.marker, *contour);
-        let is_bend = |i: &usize| turn(&segments, *i) < case.job.profile.corner.angle();
+        let is_bend = |i: &usize| turn(&segments, *i) < case.job.profile.corner_angle();
         // A way passes on the inside of the bend, where the lines are nearer than the vertex. The verifier judges the places
         // that it reads: the straight line between two of them passes farther inside than either.
         let passed = |i: usize| {

@@ -198,7 +198,7 @@ fn bend(
     for (piece, contour) in contours(&case.marker) {
         let old = case.marker.pieces[piece].contours[contour];
         let (points, segments) = (case.marker.points(&old), chain(&case.marker, old));
-        let is_bend = |i: usize| turn(&segments, i) < case.job.profile.corner.angle();
+        let is_bend = |i: usize| turn(&segments, i) < case.job.profile.corner_angle();
         let found = (1..points.len() - 1).filter_map(|i| find(&points, i)).filter(|at| at.clone().all(is_bend));
         places.extend(found.map(|at| ([piece, contour], at)));
     }

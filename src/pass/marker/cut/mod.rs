@@ -68,7 +68,7 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
         min: job.profile.common.min_mm,
         beyond: job.profile.tolerance(marker.unit),
         width: job.profile.knife.width_mm,
-        corner: job.profile.corner.angle(),
+        corner: job.profile.corner_angle(),
     });
     let Marker { list, pieces, cuts, common, junctions, .. } = marker;
     (*cuts, *common, *junctions) = (Vec::new(), Vec::new(), Vec::new());

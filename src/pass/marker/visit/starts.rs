@@ -58,7 +58,7 @@ impl Measures {
     /// Those of a job for a marker.
     pub(in crate::pass::marker) fn new(job: &Job, marker: &Marker) -> Self {
         let is_steady = job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::Steady;
-        Self { air: Air::new(job), corner: job.profile.corner.angle(), unit: marker.unit, is_steady }
+        Self { air: Air::new(job), corner: job.profile.corner_angle(), unit: marker.unit, is_steady }
     }
 
     /// That of a line that is cut as it is.

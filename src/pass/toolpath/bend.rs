@@ -1,0 +1,50 @@
+//! Pass `bend`: no run has a bend behind which the heel leaves the line by more than `knife.max_swing_mm`, when that is set.
+//!
+//! Needs runs split at corners, among which are the single vertices that turn too far for that key. Leaves runs that are
+//! lifted amid a curve before the heel would leave it too far, and plunged again with the heel overlap of a corner, which
+//! here lies along the contour. There is no front overlap: behind the bend is where the heel would swing.
+
+use super::pass::ToolpathPass;
+use super::runs;
+use super::scene::Scene;
+use super::stretch::{REJOINED, Way};
+use crate::analysis::swing::bends;
+use crate::diagnostic::Diagnostics;
+use crate::geom::polyline;
+use crate::ir::toolpath::{Run, Toolpath};
+use crate::machine::Knife;
+
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "bend",
+    about: "lifts runs behind whose bends the heel would leave the line by more than knife.max_swing_mm",
+    run,
+    chained: false,
+};
+
+fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
+    runs::replace(toolpath, |run| split(run, &scene.job.profile.knife));
+}
+
+/// The parts of a run between its lifts.
+pub(super) fn split(run: Run, knife: &Knife) -> Vec<Run> {
+    let found = bends(&run, knife);
+    let Some(&first) = found.first() else { return vec![run] };
+    let way = Way::new(&run);
+    // From its first bend on a ring is an open run.
+    let (from, ends, lifts) = if way.is_ring() {
+        let from = way.station(first.cast_signed());
+        let open = way.part(from, from + way.length(), [REJOINED; 2]);
+        let along = polyline::stations(&open.points);
+        (from, [REJOINED; 2], bends(&open, knife).into_iter().map(|bend| from + along[bend]).collect())
+    } else {
+        (0.0, run.ends, found.into_iter().map(|bend| way.station(bend.cast_signed())).collect::<Vec<f64>>())
+    };
+    let stations: Vec<f64> = std::iter::once(from).chain(lifts).chain([from + way.length()]).collect();
+    let last = stations.len() - 2;
+    let part = |i: usize| {
+        let start = if i == 0 { ends[0] } else { REJOINED };
+        let end = if i == last { ends[1] } else { REJOINED };
+        way.part(stations[i] - way.lead(stations[i], knife)[0], stations[i + 1], [start, end])
+    };
+    (0..=last).map(part).collect()
+}
