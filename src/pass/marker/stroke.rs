@@ -8,7 +8,7 @@
 use super::pass::MarkerPass;
 use crate::diagnostic::Diagnostics;
 use crate::geom::budget::Budget;
-use crate::geom::{Point, polyline};
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker, Piece};
 use crate::machine::Job;
@@ -85,8 +85,15 @@ impl Joining<'_> {
 
     /// Puts the strokes that stand on an outline into it: which ones.
     fn join_outline(&mut self, piece: &mut Piece, outline: usize, strokes: &[usize]) -> Vec<usize> {
-        let mut segments: Vec<Segment> = self.list.walk(piece.contours[outline].range).map(|(_, s)| s).collect();
-        let ranges: Vec<(usize, Range)> = strokes.iter().map(|&k| (k, piece.contours[k].range)).collect();
+        let range = piece.contours[outline].range;
+        let reach = Extent::of(&self.list.points(range)).grown(self.reach());
+        let is_near = |range: Range| self.list.ends_of(range).into_iter().all(|end| reach.holds(end));
+        let ranges = strokes.iter().map(|&k| (k, piece.contours[k].range)).filter(|&(_, range)| is_near(range));
+        let ranges: Vec<(usize, Range)> = ranges.collect();
+        if ranges.is_empty() {
+            return Vec::new();
+        }
+        let mut segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
         let mut mouths = self.mouths(&segments, &ranges);
         // The outline starts outside all mouths.
         if let Some(around) = mouths.iter().find(|mouth| mouth.from > mouth.to) {
@@ -110,6 +117,11 @@ impl Joining<'_> {
             piece.contours[outline].range = range;
         }
         mouths.iter().map(|mouth| mouth.contour).collect()
+    }
+
+    /// How far from the edge a stroke may end, mm.
+    fn reach(&self) -> f64 {
+        MISS + ROUNDING * self.grid
     }
 
     /// The mouths of those strokes that begin and end on an outline.
@@ -140,7 +152,7 @@ impl Joining<'_> {
         let away = |segment: &Segment| polyline::distance_to_segment(point, segment.from, segment.to);
         let (nearest, distance) =
             outline.iter().map(away).enumerate().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))?;
-        if distance > MISS + ROUNDING * self.grid {
+        if distance > self.reach() {
             return None;
         }
         let Segment { from, to, .. } = outline[nearest];

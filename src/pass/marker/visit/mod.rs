@@ -8,6 +8,8 @@
 mod starts;
 mod ways;
 
+use std::rc::Rc;
+
 pub(super) use self::starts::{Begin, Measures, Start};
 use self::ways::{Group, State};
 use crate::analysis::air::{Air, Stop};
@@ -62,26 +64,46 @@ pub(super) struct Cuts {
 
 /// The first cuts of a visit.
 struct Begun {
-    slits: Vec<usize>,
-    cuts: Vec<(usize, Begin)>,
+    slits: Rc<[usize]>,
+    /// Its cuts but for those of the last group: the last link of them.
+    trail: Option<usize>,
+    /// Its cuts of the last group.
+    last: Vec<(usize, Begin)>,
     ends: Option<[Stop; 2]>,
     within: f64,
     is_at_front: bool,
 }
 
-impl Begun {
-    fn visit(self) -> Visit {
-        let Self { slits, cuts, ends, within, is_at_front } = self;
-        Visit { slits, cuts, ends: ends.expect("something is cut or drilled"), within, is_at_front }
+/// The cuts of many visits, which begin alike: the cuts of a group, and the link of the groups before it.
+#[derive(Default)]
+struct Trail(Vec<(Vec<(usize, Begin)>, Option<usize>)>);
+
+impl Trail {
+    /// Keeps the last cuts of a visit.
+    fn keep(&mut self, begun: &mut Begun) {
+        self.0.push((std::mem::take(&mut begun.last), begun.trail));
+        begun.trail = Some(self.0.len() - 1);
     }
 
-    /// With cuts that follow, the moves to and between which take so long, s.
+    fn visit(&self, begun: Begun) -> Visit {
+        let Begun { slits, trail, last, ends, within, is_at_front } = begun;
+        let links = std::iter::successors(trail, |&link| self.0[link].1).map(|link| &self.0[link].0);
+        let mut groups: Vec<&Vec<(usize, Begin)>> = links.collect();
+        groups.reverse();
+        let cuts = groups.into_iter().flatten().copied().chain(last).collect();
+        let ends = ends.expect("something is cut or drilled");
+        Visit { slits: slits.to_vec(), cuts, ends, within, is_at_front }
+    }
+}
+
+impl Begun {
+    /// With cuts that follow those that a trail keeps, the moves to and between which take so long, s.
     fn with(&self, starts: &[(usize, Start)], time: f64, is_at_front: bool) -> Self {
         let [first, last] = [&starts[0].1, &starts[starts.len() - 1].1];
-        let cuts = starts.iter().map(|&(cut, Start { begin, .. })| (cut, begin));
         Self {
             slits: self.slits.clone(),
-            cuts: self.cuts.iter().copied().chain(cuts).collect(),
+            trail: self.trail,
+            last: starts.iter().map(|&(cut, Start { begin, .. })| (cut, begin)).collect(),
             ends: Some([self.ends.map_or(first.stops[0], |ends| ends[0]), last.stops[1]]),
             within: self.within + time,
             is_at_front,
@@ -165,6 +187,7 @@ impl Search<'_> {
         if self.cuts.slits.is_empty() && !self.cuts.fixed.is_empty() {
             begun.push(self.begun(Vec::new()));
         }
+        let mut trail = Trail::default();
         let mut from = 0;
         if let (true, Some(first)) = (begun.is_empty(), self.groups.first()) {
             // Nothing comes before them: they begin with each of their states.
@@ -175,10 +198,11 @@ impl Search<'_> {
                 let into = |other: State| if other == state { 0.0 } else { f64::INFINITY };
                 begun.extend(self.led_on(0, &nothing, &into));
             }
+            begun.iter_mut().for_each(|begun| trail.keep(begun));
         }
         let most = (2 * MOST_VISITS).div_ceil(begun.len().max(1));
-        let ended = begun.into_iter().flat_map(|begun| self.ended(from, begun, most));
-        let mut visits: Vec<Visit> = std::iter::once(self.as_is()).chain(ended).collect();
+        let mut visits = vec![self.as_is()];
+        visits.extend(begun.into_iter().flat_map(|begun| self.ended(from, begun, most, &mut trail)));
         if self.cuts.front.is_some() && visits.iter().any(|visit| visit.is_at_front) {
             visits.retain(|visit| visit.is_at_front);
         }
@@ -206,7 +230,7 @@ impl Search<'_> {
         let stops: Vec<[Stop; 2]> = self.cuts.fixed.iter().copied().chain(of_slits).collect();
         let within = stops.windows(2).map(|pair| self.air.time(&pair[0][1], &pair[1][0])).sum();
         let ends = stops.first().zip(stops.last()).map(|(first, last)| [first[0], last[1]]);
-        Begun { slits, cuts: Vec::new(), ends, within, is_at_front: false }
+        Begun { slits: slits.into(), trail: None, last: Vec::new(), ends, within, is_at_front: false }
     }
 
     /// A visit so far, led on through a group in each way that may be the best.
@@ -225,7 +249,7 @@ impl Search<'_> {
     }
 
     /// A visit led on through all groups from one on, in so many ways at the most.
-    fn ended(&self, from: usize, begun: Begun, most: usize) -> Vec<Visit> {
+    fn ended(&self, from: usize, begun: Begun, most: usize, trail: &mut Trail) -> Vec<Visit> {
         let mut all = vec![begun];
         for (place, group) in self.groups.iter().enumerate().skip(from) {
             let led = |begun: &Begun| {
@@ -236,20 +260,23 @@ impl Search<'_> {
             all = all.iter().flat_map(led).collect();
             all.sort_by(|a, b| a.within.total_cmp(&b.within));
             all.truncate(most);
+            all.iter_mut().for_each(|begun| trail.keep(begun));
         }
-        all.into_iter().map(Begun::visit).collect()
+        all.into_iter().map(|begun| trail.visit(begun)).collect()
     }
 
     /// All as it is drawn.
     fn as_is(&self) -> Visit {
+        let mut trail = Trail::default();
         let mut begun = self.begun((0..self.cuts.slits.len()).collect());
         for Unordered { first, starts } in &self.cuts.groups {
             for (cut, starts) in (*first..).zip(starts) {
                 let time = begun.ends.map_or(0.0, |ends| self.air.time(&ends[1], &starts[0].stops[0]));
                 begun = begun.with(&[(cut, starts[0])], time, self.cuts.is_at_front(&starts[0]));
+                trail.keep(&mut begun);
             }
         }
-        begun.visit()
+        trail.visit(begun)
     }
 }
 
