@@ -3,6 +3,7 @@
 //! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
 //! nothing about the cut.
 
+mod advance;
 mod head;
 mod input;
 mod judge;
@@ -21,6 +22,7 @@ mod swings;
 mod told;
 mod toolpaths;
 
+pub use self::advance::Advance;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
@@ -42,7 +44,7 @@ use tempfile::SpooledTempFile;
 pub use self::input::make_cuts;
 use self::input::{read_alone, run_passes};
 use self::judge::Asked;
-use self::program::{Sink, Written};
+use self::program::{Plan, Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::analysis::declare;
 use crate::back::{Context, Emit, Outcome, Proof, SETPOINTS, Target};
@@ -74,11 +76,13 @@ pub struct Order {
 
 /// What is chosen for a compile to several programs.
 #[derive(Debug, Clone, Copy)]
-pub struct Choices {
+pub struct Choices<'a> {
     /// What the source is read as; `None` = what its content looks like.
     pub from: Option<&'static Dialect>,
     /// Whether the programs are read back and judged.
     pub verify: bool,
+    /// Where it is noted how far the compile is.
+    pub advance: &'a Advance,
 }
 
 /// What a compile gives.
@@ -102,7 +106,8 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let Order { from, target, verify } = order;
-    compile_all(source, job, Choices { from, verify }, &mut [Product::new(target, out)], diagnostics)
+    let choices = Choices { from, verify, advance: &Advance::default() };
+    compile_all(source, job, choices, &mut [Product::new(target, out)], diagnostics)
 }
 
 /// Compiles a source to several programs at once: each stage runs once for all of them. `None` when the diagnostics hold
@@ -114,7 +119,7 @@ pub fn compile_all(
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
-    let Choices { from, verify } = choices;
+    let Choices { from, verify, advance } = choices;
     if job.profile.tool.kind == ToolKind::Spray {
         let made = head::compile(source, job, (from, verify), products, diagnostics)?;
         return Ok(made.map(|(report, verdict)| Compiled { report, verdict, declared: Vec::new() }));
@@ -130,6 +135,7 @@ pub fn compile_all(
         make_cuts(&mut input, source, job, diagnostics);
         overreach::check(&input.marker, source, job, diagnostics);
     }
+    advance.read(input.marker.cuts.len());
     let context = Context { source, job, marker: &input.marker };
     if diagnostics.has_errors() {
         if input.is_whole {
@@ -146,7 +152,7 @@ pub fn compile_all(
             let audited = |reading| judge::audited(source, input.dialect, reading, job);
             audit.extend(reading.into_iter().flat_map(audited));
         });
-        write(&context, products, proofs.beside.then_some(&mut scratch), diagnostics)
+        write(&context, products, (proofs.beside.then_some(&mut scratch), advance), diagnostics)
     })?;
     let mut report = Report::of(&input.marker, input.dialect.name);
     report.program = written.program;
@@ -169,7 +175,7 @@ pub fn compile_all(
 fn write(
     context: &Context,
     products: &mut [Product],
-    beside: Option<&mut SpooledTempFile>,
+    (beside, advance): (Option<&mut SpooledTempFile>, &Advance),
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
     let mut sinks: Vec<Sink> =
@@ -181,7 +187,7 @@ fn write(
         Written::default()
     } else {
         let toolpaths = Toolpaths::new(context.marker, context.job);
-        program::write(toolpaths, &mut sinks, context, false, diagnostics)?
+        program::write(toolpaths, &mut sinks, context, Plan { motion: false, advance }, diagnostics)?
     };
     drop(sinks);
     for Product { target, out, .. } in products {
@@ -308,7 +314,8 @@ pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut
     let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };
     let known = diagnostics.iter().len();
-    let written = program::write(toolpaths, &mut [], &context, true, diagnostics)?;
+    let written =
+        program::write(toolpaths, &mut [], &context, Plan { motion: true, advance: &Advance::default() }, diagnostics)?;
     place::place(diagnostics, known, &input.marker, source, job);
     Ok(written.program)
 }

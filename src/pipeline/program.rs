@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write};
 
 use rayon::prelude::*;
 
+use super::advance::Advance;
 use super::product::Medium;
 use super::report::{Axes, Program, Sides};
 use super::savings::{CLEAR_SHARE, Savings};
@@ -108,12 +109,14 @@ struct Wanted<'a> {
     /// The cloth on which the parts lie; `None` where nothing is cut.
     cloth: Option<&'a Cloth<'a>>,
     motion: bool,
+    advance: &'a Advance,
     /// How each target of arcs can be told a path.
     interpolations: Vec<Interpolation>,
 }
 
 impl Wanted<'_> {
     fn of(&self, Window { toolpaths, cuts: cuts_of, mut findings }: Window) -> Made {
+        let count = cuts_of.iter().flatten().count();
         let planned = if self.motion { &toolpaths[..] } else { &[] };
         let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
         let arcs = |interpolation: &Interpolation| {
@@ -133,6 +136,7 @@ impl Wanted<'_> {
             declared
         });
         let declared = declared.collect();
+        self.advance.plan(count);
         Made { toolpaths, cuts, arcs, declared, findings }
     }
 
@@ -142,13 +146,21 @@ impl Wanted<'_> {
     }
 }
 
-/// Writes toolpaths to every sink, but for the tails of those that wait for a verdict. `motion` asks for the planned motion
-/// where no sink does. What cannot be planned or written is a diagnostic; what was written is then worth nothing.
+/// What is asked of a program beside what its sinks need.
+#[derive(Clone, Copy)]
+pub(super) struct Plan<'a> {
+    /// The planned motion, where no sink needs it.
+    pub(super) motion: bool,
+    /// Where it is noted how many cuts are planned.
+    pub(super) advance: &'a Advance,
+}
+
+/// Writes toolpaths to every sink, but for the tails of those that wait for a verdict. What cannot be planned or written is a diagnostic; what was written is then worth nothing.
 pub(super) fn write(
     mut toolpaths: Toolpaths,
     sinks: &mut [Sink],
     context: &Context,
-    motion: bool,
+    Plan { motion, advance }: Plan,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
     let job = context.job;
@@ -169,7 +181,7 @@ pub(super) fn write(
     let mut savings = None;
     let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();
-    let wanted = Wanted { job, marker: context.marker, cloth: linking.cloth(), motion, interpolations };
+    let wanted = Wanted { job, marker: context.marker, cloth: linking.cloth(), motion, advance, interpolations };
     // Each stage has a window of its own: no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
     rayon::in_place_scope(|beside| {

@@ -12,7 +12,7 @@ use crate::cli::options::typed;
 use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
 use crate::machine::{Job, blake3_of, sha256_of};
-use crate::pipeline::{self, Choices, Compiled, Medium, Product};
+use crate::pipeline::{self, Advance, Choices, Compiled, Medium, Product};
 use crate::source::Source;
 
 /// One compile, ready to run.
@@ -22,6 +22,7 @@ pub(in crate::cli) struct Compile<'a> {
     pub(in crate::cli) targets: &'a [&'static Target],
     pub(in crate::cli) source: &'a Source,
     pub(in crate::cli) job: &'a Job,
+    pub(in crate::cli) advance: &'a Advance,
 }
 
 /// What a compile left.
@@ -148,7 +149,7 @@ impl Compile<'_> {
         let Making { reading, no_verify, .. } = self.making;
         let mut products: Vec<Product> =
             self.targets.iter().zip(outs).map(|(target, out)| Product::new(target, out)).collect();
-        let choices = Choices { from: reading.from, verify: !no_verify };
+        let choices = Choices { from: reading.from, verify: !no_verify, advance: self.advance };
         let compiled = pipeline::compile_all(self.source, self.job, choices, &mut products, diagnostics)?;
         Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
     }

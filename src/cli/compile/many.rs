@@ -18,7 +18,7 @@ use crate::cli::options::{Messages, typed};
 use crate::cli::{files, report};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
-use crate::pipeline::{Compiled, Report};
+use crate::pipeline::{Advance, Compiled, Report};
 use crate::source::Source;
 
 pub(super) fn run(
@@ -116,8 +116,9 @@ impl<'a> Many<'a> {
         }
     }
 
-    fn of(&self, source: &'a Source) -> Compile<'a> {
-        Compile { making: self.making, targets: self.targets, source, job: self.job }
+    /// The compile of a file; how far it is nobody watches.
+    fn of(&self, source: &'a Source, advance: &'a Advance) -> Compile<'a> {
+        Compile { making: self.making, targets: self.targets, source, job: self.job, advance }
     }
 
     /// Compiles a file to drafts of what belongs in its places.
@@ -125,7 +126,7 @@ impl<'a> Many<'a> {
         let others = paths.iter().filter(|_| !self.making.force);
         let drafted = match others.map(|path| not_of_another(path, &input.path)).find_map(Result::err) {
             Some(error) => Err(error),
-            None => Ok(Many::of(self, &source).draft(paths)),
+            None => Ok(Many::of(self, &source, &Advance::default()).draft(paths)),
         };
         One { source, made, drafted }
     }

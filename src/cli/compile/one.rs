@@ -6,6 +6,7 @@ use tempfile::SpooledTempFile;
 
 use super::arguments::{Arguments, Making};
 use super::made::{Compile, Emitted, Ended, move_aside};
+use super::shown::Shown;
 use crate::cli::choices::Format;
 use crate::cli::destination::{Asked, Destination, Place};
 use crate::cli::draft;
@@ -48,7 +49,9 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
             return Ok(refused);
         }
     };
-    let compile = Compile { making: &arguments.making, targets: &targets, source: &source, job: &job };
+    let shown = Shown::new(arguments.messages.quiet);
+    let making = &arguments.making;
+    let compile = Compile { making, targets: &targets, source: &source, job: &job, advance: shown.advance() };
     match place {
         Place::Stdout => to_stdout(&compile, arguments),
         Place::Files(paths) => {

@@ -11,7 +11,7 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::machine::{Job, MachineProfile, load};
-use cutc::pipeline::{Choices, Compiled, Product, compile_all, judge_program};
+use cutc::pipeline::{Advance, Choices, Compiled, Product, compile_all, judge_program};
 use cutc::source::Source;
 
 use crate::support::damage::names;
@@ -42,7 +42,7 @@ fn compiled(source: &Source, target: &str, job: &Job) -> Result<(Compiled, Vec<u
     let target = TARGETS.iter().find(|row| row.name == target).expect("a target");
     let mut bytes = Cursor::new(Vec::new());
     let mut out = Diagnostics::default();
-    let choices = Choices { from: None, verify: true };
+    let choices = Choices { from: None, verify: true, advance: &Advance::default() };
     let compiled = compile_all(source, job, choices, &mut [Product::new(target, &mut bytes)], &mut out);
     let said = render(&out, source);
     match compiled.expect("memory takes bytes") {

@@ -1,0 +1,44 @@
+//! A line on a terminal that shows how far a compile is.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use crate::pipeline::Advance;
+
+/// How often the line is drawn: short jobs end before that and show none.
+const PERIOD: Duration = Duration::from_millis(700);
+
+/// The line, on standard error; nothing where that is no terminal. It goes when this is dropped.
+pub(super) struct Shown {
+    advance: Arc<Advance>,
+    bar: ProgressBar,
+}
+
+impl Shown {
+    pub(super) fn new(quiet: bool) -> Self {
+        let advance = Arc::new(Advance::default());
+        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let of = Arc::clone(&advance);
+        let style = ProgressStyle::with_template("{spinner} {advance}, {elapsed}").expect("the template is sound");
+        let style = style.with_key("advance", move |_: &ProgressState, out: &mut dyn std::fmt::Write| {
+            // A line that cannot be drawn is not worth a job.
+            let _ = write!(out, "{of}");
+        });
+        let bar = ProgressBar::with_draw_target(None, target).with_style(style);
+        bar.enable_steady_tick(PERIOD);
+        Self { advance, bar }
+    }
+
+    /// Where the compile notes how far it is.
+    pub(super) fn advance(&self) -> &Advance {
+        &self.advance
+    }
+}
+
+impl Drop for Shown {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
