@@ -84,6 +84,8 @@ pub struct Outcome<'a> {
     pub findings: &'a [Finding],
     /// What it does beside the drawing, summed up.
     pub declared: &'a [Total],
+    /// Warnings that are about some of the pieces.
+    pub doubts: &'a [&'a Diagnostic],
 }
 
 /// The refusals of a target that expresses everything.

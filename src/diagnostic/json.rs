@@ -12,6 +12,9 @@ pub struct Json {
     code: &'static str,
     severity: Severity,
     file: String,
+    /// The pieces that it is about, where it is about several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pieces: Vec<u32>,
     piece: Option<u32>,
     /// Not there where there is but one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,6 +53,7 @@ impl Diagnostic {
             code: self.code.name,
             severity: self.code.severity,
             file: file.to_owned(),
+            pieces: self.pieces.clone(),
             piece: self.piece.as_ref().map(|piece| piece.number),
             copy: self.piece.as_ref().map(|piece| piece.copy).filter(|&copy| copy > 0),
             label: self.piece.as_ref().and_then(|piece| piece.label.clone()),

@@ -23,6 +23,8 @@ pub struct Diagnostic {
     pub span: Option<Span>,
     /// The piece that lies there, if it is in one.
     pub piece: Option<Box<PieceName>>,
+    /// The numbers of the pieces that it is about, where it is about several.
+    pub pieces: Vec<u32>,
     /// The place on the cloth, X and Y in mm.
     pub at: Option<[f64; 2]>,
     /// How bad it is, mm, where that can be measured: of its code the worst is told first, or alone.
@@ -57,7 +59,8 @@ impl fmt::Display for PieceName {
 impl Diagnostic {
     /// A finding about the file as a whole.
     pub fn new(code: &'static Code, message: impl Into<String>) -> Self {
-        Self { code, span: None, piece: None, at: None, by: None, message: message.into(), hints: Vec::new() }
+        let (message, pieces, hints) = (message.into(), Vec::new(), Vec::new());
+        Self { code, span: None, piece: None, pieces, at: None, by: None, message, hints }
     }
 
     /// The finding, at a place.
@@ -71,6 +74,13 @@ impl Diagnostic {
     #[must_use]
     pub fn on_cloth(mut self, at: impl Into<[f64; 2]>) -> Self {
         self.at = Some(at.into());
+        self
+    }
+
+    /// The finding, about the pieces with these numbers.
+    #[must_use]
+    pub fn about(mut self, pieces: Vec<u32>) -> Self {
+        self.pieces = pieces;
         self
     }
 

@@ -210,11 +210,12 @@ fn finish(
 ) -> io::Result<()> {
     let mut findings = refused::findings(diagnostics);
     findings.extend(verdict.iter().flat_map(|verdict| verdict.findings.iter().cloned()));
+    let doubts = refused::doubts(diagnostics);
     for Product { target, out, shows_refusal } in products {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Emit::Toolpath(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
-            (parts.tail)(context, Outcome { findings: &findings, declared }, &mut out)?;
+            (parts.tail)(context, Outcome { findings: &findings, declared, doubts: &doubts }, &mut out)?;
             out.flush()?;
         }
         out.flush()?;

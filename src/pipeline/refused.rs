@@ -1,4 +1,4 @@
-//! What pictures show of a program that was refused: the errors, each at the place that it speaks of.
+//! What pictures show of findings: the errors of a program that was refused, each at its place, and the doubts about pieces.
 
 use std::io::{self, BufWriter, Write};
 
@@ -34,15 +34,22 @@ pub(super) fn findings(diagnostics: &Diagnostics) -> Vec<Finding> {
     diagnostics.iter().filter(is_error).map(finding).take(MOST).collect()
 }
 
+/// The warnings that are about some of the pieces.
+pub(super) fn doubts(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
+    let is_doubt = |d: &&Diagnostic| d.code.severity == Severity::Warning && !d.pieces.is_empty();
+    diagnostics.iter().filter(is_doubt).take(MOST).collect()
+}
+
 /// Draws a marker that was refused before anything was planned.
 pub(super) fn draw(context: &Context, products: &mut [Product], diagnostics: &Diagnostics) -> io::Result<()> {
     let findings = findings(diagnostics);
+    let doubts = doubts(diagnostics);
     for Product { target, out, shows_refusal } in products {
         let Emit::Toolpath(parts) = &target.emit else { continue };
         if is_picture(target) {
             let mut out = BufWriter::new(&mut **out);
             (parts.head)(context, &mut out)?;
-            (parts.tail)(context, Outcome { findings: &findings, declared: &[] }, &mut out)?;
+            (parts.tail)(context, Outcome { findings: &findings, declared: &[], doubts: &doubts }, &mut out)?;
             out.flush()?;
             *shows_refusal = true;
         }

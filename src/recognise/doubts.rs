@@ -29,13 +29,18 @@ pub(super) fn finding(code: &'static Code, message: String, first: &Line, sheet:
     Diagnostic::new(code, message).at(first.span(&sheet.vertices))
 }
 
-/// Pieces in a few words: their numbers, or how many there are.
-fn pieces(owners: &[usize], lines: &[usize]) -> String {
-    let number = |line: &usize| owners.binary_search(line).ok().map(|k| k + 1);
-    let mut numbers: Vec<usize> = lines.iter().filter_map(number).collect();
+/// The numbers of the pieces of some lines.
+fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
+    let number = |line: &usize| owners.binary_search(line).ok().map(|k| k as u32 + 1);
+    let mut numbers: Vec<u32> = lines.iter().filter_map(number).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    let shown: Vec<String> = numbers.iter().take(SHOWN).map(usize::to_string).collect();
+    numbers
+}
+
+/// Pieces in a few words: their numbers, or how many there are.
+fn words(numbers: &[u32]) -> String {
+    let shown: Vec<String> = numbers.iter().take(SHOWN).map(u32::to_string).collect();
     let noun = if numbers.len() == 1 { "piece" } else { "pieces" };
     match numbers.len().saturating_sub(SHOWN) {
         0 => format!("{noun} {}", shown.join(", ")),
@@ -86,11 +91,11 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             1 => ("a part".to_owned(), "has"),
             n => (format!("{n} parts"), "have"),
         };
-        let message =
-            format!("{parts} {verb} no seam line, {}, while {} parts have one", pieces(owners, &without), with.len());
+        let numbers = numbers(owners, &without);
+        let message = format!("{parts} {verb} no seam line, {}, while {} parts have one", words(&numbers), with.len());
         let found = finding(&code::DRAWING_NO_SEAM, message, &sheet.lines[first], sheet);
         out.push(
-            found.hint(
+            found.about(numbers).hint(
                 "if the outline is missing in the file, this is the seam line: leave the piece out with `--skip`",
             ),
         );
@@ -113,14 +118,19 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             1 => ("an outline".to_owned(), "stops"),
             n => (format!("{n} outlines"), "stop"),
         };
-        let pieces = pieces(owners, &closed);
+        let numbers = numbers(owners, &closed);
+        let pieces = words(&numbers);
         let message = if is_edge {
             format!("{outlines} {stop} at the edge of the frame, {pieces}: closed along it, by up to {longest} mm")
         } else {
             format!("{outlines} {stop} before the start, {pieces}: closed straight, by up to {longest} mm")
         };
         let found = finding(&code::DRAWING_CLOSED, message, &sheet.lines[first], sheet);
-        out.push(found.hint("look at them in the picture (`-t svg`); `--set drawing.close_mm=0` leaves them open"));
+        out.push(
+            found
+                .about(numbers)
+                .hint("look at them in the picture (`-t svg`); `--set drawing.close_mm=0` leaves them open"),
+        );
     }
 }
 
@@ -137,8 +147,13 @@ fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
         n => (format!("{n} open lines begin"), "the longest is"),
     };
     let length = fixed(lines.iter().map(|&i| sheet.lines[i].length).fold(0.0, f64::max), DECIMALS);
-    let pieces = pieces(owners, &parts);
+    let numbers = numbers(owners, &parts);
+    let pieces = words(&numbers);
     let message = format!("not cut: {begin} on the outline of {pieces}; {longest} {length} mm long");
     let found = finding(&code::DRAWING_LINE_FROM_EDGE, message, &sheet.lines[first], sheet);
-    out.push(found.hint("notches lead 1 to 15 mm into a part, or from edge to edge; `--cut-all` cuts every line"));
+    out.push(
+        found
+            .about(numbers)
+            .hint("notches lead 1 to 15 mm into a part, or from edge to edge; `--cut-all` cuts every line"),
+    );
 }

@@ -3,6 +3,7 @@
 use std::io::Cursor;
 
 use cutc::back::{Context, Emit, Outcome, Parts, TARGETS};
+use cutc::diagnostic::{Diagnostic, code};
 use cutc::geom::{Heading, Point};
 use cutc::ir::declaration::{Kind, Total};
 use cutc::ir::finding::Sighting;
@@ -41,6 +42,11 @@ fn square_knife() -> Job {
     job
 }
 
+/// A doubt about the circle.
+fn doubt() -> Diagnostic {
+    Diagnostic::new(&code::DRAWING_CLOSED, "an outline stops before the start, piece 12").about(vec![12])
+}
+
 /// What the pictures say that the program declares.
 const DECLARED: [Total; 2] = [
     Total { kind: Kind::Plunge, count: 4, pieces: 4, worst_mm: 0.48, piece: 12, copy: 0, at_mm: [160.0, 50.0] },
@@ -64,7 +70,8 @@ fn picture(marker: &Marker, job: &Job, found: &[Finding]) -> String {
     for toolpath in support::toolpaths(marker, job) {
         (parts().body)(&toolpath, &context, &mut out).expect("a buffer takes all");
     }
-    (parts().tail)(&context, Outcome { findings: found, declared: &DECLARED }, &mut out).expect("a buffer takes all");
+    (parts().tail)(&context, Outcome { findings: found, declared: &DECLARED, doubts: &[&doubt()] }, &mut out)
+        .expect("a buffer takes all");
     String::from_utf8(out.into_inner()).expect("UTF-8")
 }
 
@@ -200,6 +207,15 @@ fn the_worst_places_are_ringed_red_where_a_rule_fails_and_amber_where_it_holds()
     let height = |text: &str| numbers(attribute(text, "viewBox"))[3];
     assert!(height(&text) > height(&plain) && elements(&text).len() > elements(&plain).len());
     assert_eq!(attribute(&text, "height"), format!("{:.3}mm", height(&text)));
+}
+
+#[test]
+fn pieces_that_are_in_doubt_have_a_band_and_a_sign_that_the_legend_explains() {
+    let text = picture(&demo(), &square_knife(), &[]);
+    assert_eq!(count(&text, "doubt"), 1, "the circle alone");
+    assert!(text.contains("<g><title>?1 an outline stops before the start, piece 12</title>"));
+    assert_eq!(text.matches("<text class=\"doubt-sign\"").count(), 1);
+    assert_eq!(text.matches("<text class=\"doubt-text\"").count(), 2, "a title and a row");
 }
 
 #[test]

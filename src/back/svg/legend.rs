@@ -3,11 +3,12 @@
 use std::fmt::Write;
 
 use super::declared;
+use super::doubts;
 use super::findings;
 use super::items::{Item, Symbol, items};
 use super::markup::{PathData, short};
 use super::piece::PALETTE;
-use super::sheet::{CELL_PX, LINE_PX, MARGIN_PX, Sheet, caption};
+use super::sheet::{CELL_PX, LINE_PX, MARGIN_PX, Sheet, caption, table_lines};
 use crate::back::target::{Context, Outcome};
 use crate::geom::{Point, Vector};
 use crate::units::MM_PER_M;
@@ -17,12 +18,12 @@ const SYMBOL_PX: f64 = 30.0;
 /// The scale bar is at most this part of the sheet's width.
 const SCALE_PART: f64 = 0.2;
 
-/// Scale bar, caption, symbols and the tables of findings and of what is declared, below the drawing; with the numbers of
+/// Scale bar, caption, symbols and the tables of findings, of doubts and of what is declared, below the drawing; with the numbers of
 /// rules that have a limit and that only report.
 pub(super) fn layer(
     sheet: &Sheet,
     context: &Context,
-    Outcome { findings: found, declared }: Outcome,
+    Outcome { findings: found, declared, doubts }: Outcome,
     (limited, reported): (usize, usize),
 ) -> String {
     let line = LINE_PX * sheet.px;
@@ -61,6 +62,8 @@ pub(super) fn layer(
         }
         y += line;
     }
+    text.push_str(&doubts::table(doubts, sheet, Point::new(left, y)));
+    y += line * table_lines(doubts.len()) as f64;
     text.push_str(&declared::table(declared, sheet, Point::new(left, y)));
     let _infallible = writeln!(text, "</g>\n<view id=\"whole\" viewBox=\"{}\"/>", sheet.view_box());
     text

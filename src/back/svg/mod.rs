@@ -6,13 +6,14 @@
 //!
 //! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the
 //! knife's way (a group for each contour, notch and drill), the word `refused` where no program is written, edges that are
-//! cut once for two parts, near lines, the worst places that the verifier saw, those of what the program declares, the
+//! cut once for two parts, near lines, pieces that are in doubt, the worst places that the verifier saw, those of what the program declares, the
 //! legend. In a browser the picture fills the window; a piece's number is a link to a view of that piece, and the legend
 //! links to the whole and to the actual size.
 
 mod aside;
 mod common;
 mod declared;
+mod doubts;
 mod findings;
 mod items;
 mod knife;
@@ -57,19 +58,21 @@ fn body(toolpath: &Toolpath, context: &Context, out: &mut dyn Output) -> io::Res
 }
 
 fn tail(context: &Context, outcome: Outcome, out: &mut dyn Output) -> io::Result<()> {
-    let Outcome { findings: found, declared } = outcome;
+    let Outcome { findings: found, declared, doubts } = outcome;
     let shown = findings::worth_a_ring(found);
-    let sheet = Sheet::of(context, Outcome { findings: &shown, declared });
+    let outcome = Outcome { findings: &shown, ..outcome };
+    let sheet = Sheet::of(context, outcome);
     let mut text = String::from("</g>\n");
     if found.iter().any(|finding| !finding.holds()) {
         text.push_str(&sheet.refused());
     }
     text.push_str(&common::layer(context));
     text.push_str(&near::layer(context));
+    text.push_str(&doubts::layer(doubts, &sheet, context));
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
     text.push_str(&declared::layer(declared, &sheet));
     let counts = finding::counts(found);
-    text.push_str(&legend::layer(&sheet, context, Outcome { findings: &shown, declared }, counts));
+    text.push_str(&legend::layer(&sheet, context, outcome, counts));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.

@@ -60,6 +60,9 @@ path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .holds-text{fill:#9a6600}
 .declared{stroke:#7a3fb0;stroke-width:1.1}
 .declared-text{fill:#6a2fa0}
+.doubt{stroke:#ff5a1f;stroke-width:8;stroke-opacity:.5;stroke-linejoin:round}
+.doubt-sign{fill:#d23c00;font-weight:bold;text-anchor:middle}
+.doubt-text{fill:#b83400}
 .verdict{font-weight:bold}
 .frame{stroke:#bbb;stroke-width:.7}
 .axis{stroke:#666;stroke-width:1.2}
@@ -85,8 +88,8 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// The sheet of a marker, with room for the tables of findings and of what is declared.
-    pub(super) fn of(context: &Context, Outcome { findings: found, declared }: Outcome) -> Self {
+    /// The sheet of a marker, with room for the tables of findings, of doubts and of what is declared.
+    pub(super) fn of(context: &Context, Outcome { findings: found, declared, doubts }: Outcome) -> Self {
         let profile = &context.job.profile;
         let extent = context.marker.extent();
         let mut drawn = extent;
@@ -108,8 +111,8 @@ impl Sheet {
         let (left, top) = (drawn.min.x - margin, -drawn.max.y - margin);
         let legend = -drawn.min.y + margin;
         let mut sheet = Self { px, extent, left, top, width, height: 0.0, legend };
-        let table = |rows: usize| rows + usize::from(rows > 0);
-        let lines = 2 + items(context).count().div_ceil(sheet.columns()) + table(found.len()) + table(declared.len());
+        let tables: usize = [found.len(), declared.len(), doubts.len()].into_iter().map(table_lines).sum();
+        let lines = 2 + items(context).count().div_ceil(sheet.columns()) + tables;
         sheet.height = legend - top + LINE_PX * px * (lines as f64 + 0.5);
         sheet
     }
@@ -208,6 +211,11 @@ impl Sheet {
         let size = mm(TEXT_PX * self.px);
         format!("<text{class} x=\"{}\" y=\"{}\" font-size=\"{size}\">{}</text>\n", mm(at.x), mm(y), escape(words))
     }
+}
+
+/// Lines that a table of so many rows takes, with its title.
+pub(super) fn table_lines(rows: usize) -> usize {
+    rows + usize::from(rows > 0)
 }
 
 /// The style element: what is common, then the colours of the pieces.

@@ -1,0 +1,72 @@
+//! Doubts about pieces that are cut: a band along the outlines of each, wide enough for the whole marker, and the table that
+//! explains the bands.
+
+use std::fmt::Write;
+
+use super::markup::{PathData, escape, mm};
+use super::sheet::{LINE_PX, Sheet};
+use crate::back::target::Context;
+use crate::diagnostic::Diagnostic;
+use crate::geom::{Extent, Point};
+use crate::ir::marker::Piece;
+
+/// Height of the sign of a doubt, nominal pixels.
+const SIGN_PX: f64 = 22.0;
+/// From the middle of a piece up to its sign, nominal pixels: above the number.
+const RISE_PX: f64 = 24.0;
+
+/// The name of the n-th doubt.
+fn sign(n: usize) -> String {
+    format!("?{}", n + 1)
+}
+
+/// The pieces that a doubt is about.
+fn pieces<'a>(doubt: &'a Diagnostic, context: &'a Context) -> impl Iterator<Item = &'a Piece> {
+    context.marker.pieces.iter().filter(|piece| doubt.pieces.contains(&piece.number))
+}
+
+/// The bands and signs, in the coordinates of the sheet (Y down).
+pub(super) fn layer(doubts: &[&Diagnostic], sheet: &Sheet, context: &Context) -> String {
+    if doubts.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from("<g id=\"doubts\" inkscape:groupmode=\"layer\" inkscape:label=\"doubts\">\n");
+    for (n, doubt) in doubts.iter().enumerate() {
+        for piece in pieces(doubt, context) {
+            let outlines: Vec<Vec<Point>> =
+                piece.contours.iter().filter(|c| c.closed).map(|c| context.marker.points(c)).collect();
+            let mut data = PathData::default();
+            for outline in &outlines {
+                data.line(outline.iter().map(|point| Point::new(point.x, -point.y)));
+            }
+            let Extent { min, max } = Extent::of(&outlines.concat());
+            let middle = min + (max - min) / 2.0;
+            let _infallible = write!(
+                text,
+                "<g><title>{} {}</title>\n{}<text class=\"doubt-sign\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text></g>\n",
+                sign(n),
+                escape(&doubt.message),
+                data.element("doubt"),
+                mm(middle.x),
+                mm(-middle.y - RISE_PX * sheet.px),
+                mm(SIGN_PX * sheet.px),
+                sign(n)
+            );
+        }
+    }
+    text.push_str("</g>\n");
+    text
+}
+
+/// The table, from its first line on.
+pub(super) fn table(doubts: &[&Diagnostic], sheet: &Sheet, mut at: Point) -> String {
+    if doubts.is_empty() {
+        return String::new();
+    }
+    let mut text = sheet.text("doubt-text", at, "doubtful in the drawing; look at these pieces before you cut:");
+    for (n, doubt) in doubts.iter().enumerate() {
+        at.y += LINE_PX * sheet.px;
+        text.push_str(&sheet.text("doubt-text", at, &format!("{}  {}", sign(n), doubt.message)));
+    }
+    text
+}
