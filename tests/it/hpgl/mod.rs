@@ -8,6 +8,7 @@ mod curves;
 mod lost;
 mod notches;
 mod patience;
+mod twin;
 mod words;
 
 use std::fmt::Write as _;

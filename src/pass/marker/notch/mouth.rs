@@ -111,12 +111,13 @@ impl Ring<'_> {
         for steps in 1..count.min(MOST_STEPS) {
             let way = self.at(i + steps) - from;
             let height = side * cross(edge, way);
-            // It came back too soon, or never will.
-            if way.norm() > FAR || height <= self.slack && highest < DEPTH[0] - self.slack {
+            let width = way.norm();
+            // It came back too soon, or never will. So near the first vertex rounding hides which way it goes.
+            let is_low = height <= self.slack && width > 2.0 * self.slack;
+            if width > FAR || is_low && highest < DEPTH[0] - self.slack {
                 return None;
             }
             highest = highest.max(height);
-            let width = way.norm();
             let is_back = height.abs() <= width * MOUTH_TURN.tan() + self.slack;
             if steps > 1 && is_back && width <= MOUTH[1] + self.slack && width >= V_MOUTH[0] - self.slack {
                 let found = self.between(i, steps, side);
