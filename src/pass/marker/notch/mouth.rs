@@ -15,9 +15,9 @@ const MOUTH: [f64; 2] = [1.5, 12.0];
 const DEPTH: [f64; 2] = [1.5, 15.0];
 /// How much longer than the other a leg of a V may be.
 const LEG_RATIO: f64 = 1.25;
-/// Tangent of how far the axis of a V or castle may lean from the square to its mouth: 45 degrees. Pattern makers point notches
-/// along seams that meet the edge askew.
-const AXIS_LEAN: f64 = 1.0;
+/// Tangent of how far the axis of a V or castle may lean from the square to its mouth: 60 degrees, as in the notches of
+/// pattern DXF. Pattern makers point notches along seams that meet the edge askew.
+const AXIS_LEAN: f64 = 1.733;
 /// How far the sides of a castle may lean from its axis, of its depth.
 const LEAN: f64 = 0.2;
 /// Least turn at the bottom of a castle, rad: it is round where the turn is spread.
