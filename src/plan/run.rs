@@ -12,7 +12,7 @@ use crate::machine::kinematics::Move;
 use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
 use crate::plan::spline::{Blocks, Extended};
-use crate::plan::spline::{Curve, Smooth, smooth};
+use crate::plan::spline::{Curve, LEAD, Smooth, has_room, smooth};
 use crate::plan::spline::{JUNCTION_SHARES, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
@@ -97,6 +97,8 @@ const STRAIGHT_SHARE: f64 = 0.9;
 const RESERVE_SHARE: f64 = 0.03;
 /// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
 const NARROWER: [f64; 2] = [0.4, 0.15];
+/// Laps of a ring before its start and behind its end beyond which no more are tried.
+const LEADS: u32 = 4;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
 const ROUNDS: usize = 12;
 /// Steps towards the seam of a ring, and the longest of them, mm: the gap is below two tolerances, and a step closes nearly
@@ -117,7 +119,7 @@ struct Order<'a> {
 /// Solves one run.
 pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let knife = &job.profile.knife;
-    let extended = Extended::new(run, knife.width_mm);
+    let extended = extended(run, tolerance, knife.width_mm);
     let Extended { points, blocks, feeds, .. } = &extended;
     let stations = polyline::stations(points);
     let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
@@ -131,7 +133,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     let smooth = if is_straight {
         Smooth { curve: Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
     } else {
-        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile);
+        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
         let mut shares = JUNCTION_SHARES.iter().filter(|_| !extended.junctions.is_empty());
         let nearer = |&share: &f64| order.smoothed(&band().with_junctions(&extended.junctions, share)).ok();
         // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
@@ -150,6 +152,21 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         }
     }
     Ok(cut)
+}
+
+/// A run with its overlaps; a ring goes as far round as closing its curve takes.
+fn extended(run: &Run, tolerance: f64, width: f64) -> Extended {
+    let most = f64::from(LEADS) * polyline::length(&run.points);
+    let mut lead = LEAD;
+    loop {
+        let extended = Extended::new(run, width, lead);
+        let Some(lap) = extended.lap(run) else { return extended };
+        let band = ToleranceBand::plain(extended.points.clone(), tolerance).with_lap(Some(lap));
+        if has_room(&band) || lead > most {
+            return extended;
+        }
+        lead *= 2.0;
+    }
 }
 
 /// The curve of a ring ends before it comes back to its start.

@@ -380,7 +380,7 @@ fn a_program_that_fails_its_verification_is_never_written() {
 }
 
 impl Room {
-    /// Compiles the circle and moves Y of one row, in the middle of the cut, by 1 mm, as a slip of the hand would. Gives
+    /// Compiles the circle and moves one row, in the middle of the cut, by 1 mm in X and in Y, as a slip of the hand would. Gives
     /// the time of that row.
     fn edited(&self) -> f64 {
         self.expect("compile circle.cut", DONE);
@@ -390,7 +390,9 @@ impl Room {
             (1..lines.len()).filter(|&i| lines[i].split(',').nth(4).expect("a knife") == "1").collect();
         let at = down[down.len() / 2];
         let mut fields: Vec<String> = lines[at].split(',').map(str::to_owned).collect();
-        fields[2] = format!("{:.6}", fields[2].parse::<f64>().expect("a number") + 1.0);
+        for place in &mut fields[1..3] {
+            *place = format!("{:.6}", place.parse::<f64>().expect("a number") + 1.0);
+        }
         lines[at] = fields.join(",");
         self.write("edited.csv", (lines.join("\n") + "\n").as_bytes());
         fields[0].parse().expect("a number")

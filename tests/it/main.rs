@@ -49,6 +49,7 @@ mod sew;
 mod sheet;
 mod spray;
 mod targets;
+mod threads;
 mod told;
 mod track;
 mod verifier;

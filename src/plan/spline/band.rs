@@ -4,6 +4,7 @@
 //! the band is therefore wider towards the outside, by the sagitta of the arc that the turns at its ends suggest;
 //! everywhere else it is the plain neighbourhood of the chord.
 
+use super::lap::Lap;
 use crate::geom::{Point, Vector, left, polyline};
 use crate::machine::MachineProfile;
 use crate::machine::profile::Fit;
@@ -29,6 +30,8 @@ pub(in crate::plan) struct ToleranceBand {
     shares: Vec<f64>,
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
+    /// The lap of a ring, whose curve closes.
+    pub(super) lap: Option<Lap>,
 }
 
 /// A cross-section of the band: the segment of points that count as on the path there.
@@ -50,7 +53,7 @@ impl ToleranceBand {
         let turns = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
         let sagittas = vec![Vector::zeros(); points.len() - 1];
         let shares = vec![1.0; points.len() - 1];
-        Self { points, stations, turns, sagittas, shares, tolerance }
+        Self { points, stations, turns, sagittas, shares, tolerance, lap: None }
     }
 
     /// The same, with a share of the tolerance by the chords about which it crosses cuts of other parts; of these there may be
@@ -59,6 +62,12 @@ impl ToleranceBand {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
             (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share);
         }
+        self
+    }
+
+    /// The same of a ring.
+    pub(in crate::plan) fn with_lap(mut self, lap: Option<Lap>) -> Self {
+        self.lap = lap;
         self
     }
 

@@ -1,5 +1,6 @@
 //! The polyline that the tip and, in the plunge, the heel follow: a run with its overlaps.
 
+use super::lap::Lap;
 use crate::geom::{Point, polyline};
 use crate::ir::motion::Spell;
 use crate::ir::toolpath::{OrientationMode, Run, Shape};
@@ -21,13 +22,19 @@ pub(in crate::plan) struct Extended {
 }
 
 impl Extended {
-    /// The run with its overlaps, as one polyline; `width` is that of the blade, mm.
-    pub(in crate::plan) fn new(run: &Run, width: f64) -> Self {
+    /// The run with its overlaps, as one polyline; `width` is that of the blade, mm. A ring goes on along itself before its
+    /// start and behind its end by `lead` mm at least.
+    pub(in crate::plan) fn new(run: &Run, width: f64, lead: f64) -> Self {
         match (run.shape, run.orientation) {
             (Shape::Open, _) => open(run),
-            (Shape::Ring, OrientationMode::Tangent) => ring(run, 0.0),
-            (Shape::Ring, OrientationMode::Chord) => ring(run, HEEL_REACH * width),
+            (Shape::Ring, OrientationMode::Tangent) => ring(run, [lead, lead]),
+            (Shape::Ring, OrientationMode::Chord) => ring(run, [lead + HEEL_REACH * width, lead]),
         }
+    }
+
+    /// The lap of a ring.
+    pub(in crate::plan) fn lap(&self, run: &Run) -> Option<Lap> {
+        Lap::of(run, self.start, self.end + SEAM)
     }
 
     /// Its points, each with its station, mm.
@@ -62,31 +69,35 @@ fn open(run: &Run) -> Extended {
     Extended { points, blocks, feeds, junctions, start: 0.0, end }
 }
 
-/// Length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
+/// Least length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
 /// what it is elsewhere, mm; and the fewest chords of it.
-const LEAD: f64 = 8.0;
+pub(in crate::plan) const LEAD: f64 = 8.0;
 const LEAD_CHORDS: usize = 3;
+/// Most laps that join it at either end.
+const MOST_LAPS: usize = 4;
+/// Length behind the end of a ring up to which its curve may be cut, mm: smoothing may have drawn it back.
+const SEAM: f64 = 1.0;
 
 /// How far behind its tip along a curve the heel of a blade may lie, in widths of the blade: on the tightest curve whose
 /// chord it can be, with the radius of 0.55 widths, it is 1.26.
 const HEEL_REACH: f64 = 1.3;
 
-/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path by at most `heel` mm
-/// behind, and goes past its start by the front overlap.
-fn ring(run: &Run, heel: f64) -> Extended {
+/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path behind, and goes past its
+/// start by the front overlap.
+fn ring(run: &Run, [lead_before, lead_behind]: [f64; 2]) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
-    // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
+    // Chords of the contour, walked on and on until they are as long as asked.
     let lead = |length: f64, next: &dyn Fn(usize) -> usize| {
         let (mut chords, mut sum) = (0, 0.0);
-        while (sum < length || chords < LEAD_CHORDS) && chords < 2 * n {
+        while (sum < length || chords < LEAD_CHORDS) && chords < MOST_LAPS * n {
             sum += chord(next(chords));
             chords += 1;
         }
         (chords, sum)
     };
-    let (before, start) = lead(LEAD + heel, &|i| n - 1 - i % n);
-    let (after, _) = lead(run.front + LEAD, &|i| i);
+    let (before, start) = lead(lead_before, &|i| n - 1 - i % n);
+    let (after, _) = lead(run.front + lead_behind, &|i| i);
     let first = n - before % n;
     let chords = before + n + after;
     let points = (0..=chords).map(|i| run.points[(first + i) % n]).collect();

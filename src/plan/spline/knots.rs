@@ -3,7 +3,10 @@
 //! At a vertex with turn `th` the rounding inside a band of `tol` is about `4 tol / th` long, so the spacing there is a
 //! part of that; away from vertices it grows in proportion to the distance. Long straight chords cost next to nothing.
 
+use std::ops::Range;
+
 use super::band::ToleranceBand;
+use super::lap::Lap;
 
 /// Knot spacing at a vertex, as a part of the length of its rounding.
 const SHARE_OF_ROUNDING: f64 = 0.5;
@@ -16,18 +19,64 @@ const TURN_EPSILON: f64 = 1e-4;
 /// Spacing at the ends of a run, mm, and as a part of its length.
 const END_SPACING: f64 = 2.0;
 const END_SHARE: f64 = 1.0 / 6.0;
+/// Rounding of a station, mm.
+const STATION_EPSILON: f64 = 1e-6;
 /// Fewest spans of a spline.
 const SPANS_MIN: usize = 5;
 
 /// The breaks of a spline over the band's stations; `finer` multiplies the spacing at each vertex.
 pub(super) fn breaks(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
-    let length = band.length();
-    let spacing = spacing_at_vertices(band, finer);
-    let steps: Vec<Step> = spacing.windows(2).zip(band.stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
+    match &band.lap {
+        None => spread(&spacing_at_vertices(band, finer), &band.stations),
+        Some(lap) => repeated(band, finer, lap),
+    }
+}
+
+/// The breaks of a ring: those of its lap, again and again, and the ends of its polyline.
+fn repeated(band: &ToleranceBand, finer: &[f64], lap: &Lap) -> Vec<f64> {
+    let vertex = |station: f64| band.stations.partition_point(|&at| at < station - STATION_EPSILON);
+    let [from, to] = [vertex(lap.start), vertex(lap.start + lap.length)];
+    let once = spread(&spacing_on_lap(band, finer, from..to), &band.stations[from..=to]);
+    let (length, first) = (band.length(), once[0]);
+    let [before, behind] = [(lap.start / lap.length).ceil(), ((length - lap.start) / lap.length).ceil()];
+    let laps = (-before as i64..behind as i64).map(|k| lap.start - first + k as f64 * lap.length);
+    let all = laps.flat_map(|by| once[..once.len() - 1].iter().map(move |at| at + by));
+    let mut breaks = vec![0.0];
+    let apart = |a: f64, b: f64| b - a > SPACING_MIN;
+    breaks.extend(all.filter(|&at| apart(0.0, at) && apart(at, length)));
+    breaks.push(length);
+    breaks
+}
+
+/// Spacing at the vertices of a lap, the last one of which is the first again, mm: the least of what their images in other laps have.
+fn spacing_on_lap(band: &ToleranceBand, finer: &[f64], lap: Range<usize>) -> Vec<f64> {
+    let (count, last) = (lap.len(), band.points.len() - 1);
+    let mut spacing = vec![f64::INFINITY; count];
+    for i in 1..last {
+        let j = (i + count - lap.start % count) % count;
+        spacing[j] = spacing[j].min(at_vertex(band, i) * finer[i]);
+    }
+    let chord = |j: usize| band.stations[lap.start + j + 1] - band.stations[lap.start + j];
+    // Twice round, so that each vertex has felt all others.
+    for k in 0..2 * count {
+        let (j, next) = (k % count, (k + 1) % count);
+        spacing[next] = spacing[next].min(spacing[j] + GROWTH * chord(j));
+    }
+    for k in (0..2 * count).rev() {
+        let (j, next) = (k % count, (k + 1) % count);
+        spacing[j] = spacing[j].min(spacing[next] + GROWTH * chord(j));
+    }
+    spacing.push(spacing[0]);
+    spacing
+}
+
+/// Breaks over stations, with a spacing at each, from the first to the last.
+fn spread(spacing: &[f64], stations: &[f64]) -> Vec<f64> {
+    let steps: Vec<Step> = spacing.windows(2).zip(stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
     let total: f64 = steps.iter().map(Step::count).sum();
     let spans = (total.ceil() as usize).max(SPANS_MIN);
     let mut breaks = Vec::with_capacity(spans + 1);
-    breaks.push(0.0);
+    breaks.push(stations[0]);
     let (mut step, mut before) = (0, 0.0);
     for i in 1..spans {
         let wanted = total * i as f64 / spans as f64;
@@ -37,23 +86,21 @@ pub(super) fn breaks(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
         }
         breaks.push(steps[step].place(wanted - before));
     }
-    breaks.push(length);
+    breaks.push(stations[stations.len() - 1]);
     breaks
+}
+
+/// Spacing at a vertex by its own turn, mm.
+fn at_vertex(band: &ToleranceBand, vertex: usize) -> f64 {
+    let rounding = 4.0 * band.tolerance / band.turns[vertex].abs().max(TURN_EPSILON);
+    (SHARE_OF_ROUNDING * rounding).max(SPACING_MIN)
 }
 
 /// Spacing at each vertex, mm, such that it nowhere grows faster than [`GROWTH`].
 fn spacing_at_vertices(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     let last = band.points.len() - 1;
     let end = END_SPACING.min(band.length() * END_SHARE);
-    let mut spacing: Vec<f64> = band
-        .turns
-        .iter()
-        .zip(finer)
-        .map(|(turn, factor)| {
-            let rounding = 4.0 * band.tolerance / turn.abs().max(TURN_EPSILON);
-            (SHARE_OF_ROUNDING * rounding).max(SPACING_MIN) * factor
-        })
-        .collect();
+    let mut spacing: Vec<f64> = (0..=last).map(|vertex| at_vertex(band, vertex) * finer[vertex]).collect();
     spacing[0] = end * finer[0];
     spacing[last] = end * finer[last];
     for i in 1..=last {

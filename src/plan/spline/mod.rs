@@ -6,8 +6,9 @@
 mod band;
 mod extended;
 mod knots;
+mod lap;
 mod smooth;
 
 pub(super) use band::{JUNCTION_SHARES, ToleranceBand};
-pub(super) use extended::{Blocks, Extended};
-pub(super) use smooth::{Curve, Smooth, smooth};
+pub(super) use extended::{Blocks, Extended, LEAD};
+pub(super) use smooth::{Curve, Smooth, has_room, smooth};

@@ -74,7 +74,10 @@ pub(in crate::plan) fn smooth(band: &ToleranceBand) -> Result<Smooth, TooTight> 
         let trouble = match start {
             Ok((control, weight)) => {
                 let start = problem.relax(control, weight);
-                let control = windows::minimise(&problem, start.clone(), WINDOWS).unwrap_or(start);
+                let mut control = windows::minimise(&problem, start.clone(), WINDOWS).unwrap_or(start);
+                if let Some(lap) = &band.lap {
+                    control = lap.closed(control, &problem.breaks);
+                }
                 let curve = problem.curve(&control);
                 let (violations, deviation, sagitta) = problem.check(&curve);
                 if violations.is_empty() {
@@ -92,6 +95,11 @@ pub(in crate::plan) fn smooth(band: &ToleranceBand) -> Result<Smooth, TooTight> 
         refine(band, &mut finer, &trouble, problem.median_span());
     }
     Err(TooTight { deviation: worst })
+}
+
+/// Whether the polyline of a ring goes round far enough for its curve to be closed.
+pub(in crate::plan) fn has_room(band: &ToleranceBand) -> bool {
+    band.lap.is_none_or(|lap| lap.has_room(&knots::breaks(band, &vec![1.0; band.points.len()])))
 }
 
 /// Makes the spacing finer at the vertices near trouble.
@@ -274,13 +282,14 @@ impl<'a> Problem<'a> {
         control
     }
 
-    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and the greatest sagitta
+    /// Where the curve that is needed leaves the whole tolerance between the samples, its greatest deviation and the greatest sagitta
     /// that it uses, mm.
     fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
         let mut violations = Vec::new();
         let (mut deviation, mut sagitta) = (0.0_f64, 0.0_f64);
         let mut chord = 0;
-        for (span, ends) in self.breaks.windows(2).enumerate() {
+        let last = self.band.lap.map_or(f64::INFINITY, |lap| lap.last);
+        for (span, ends) in self.breaks.windows(2).enumerate().take_while(|(_, ends)| ends[0] <= last) {
             for i in 0..CHECKS_A_SPAN {
                 let u = ends[0] + (ends[1] - ends[0]) * i as f64 / CHECKS_A_SPAN as f64;
                 while chord + 2 < self.band.stations.len() && self.band.stations[chord + 1] <= u {
