@@ -185,18 +185,24 @@ impl Ring<'_> {
             if is_end { self.at(i + steps + k) - self.at(i + steps) } else { self.points[i] - self.at(i + count - k) }
         };
         let width = mouth.norm();
-        let (mut least, mut is_next) = (f64::INFINITY, None);
+        let turn = |way: Vector| angle::turn(way, mouth).abs();
+        // The one that turns least has the greatest cosine; angles of all would take much longer.
+        let (mut straightest, mut cosine, mut is_next) = (None, f64::NEG_INFINITY, None);
         for k in 1..(count - steps).min(MOST_STEPS) {
             let way = beside(k);
-            let turn = angle::turn(way, mouth).abs();
-            least = least.min(turn);
-            if way.norm() >= 2.0 * self.slack {
-                is_next.get_or_insert(turn <= NEXT_TURN + self.slack.atan2(way.norm()));
+            let length = way.norm();
+            let along = way.dot(&mouth) / length;
+            if along > cosine {
+                (straightest, cosine) = (Some(way), along);
             }
-            if way.norm() >= width {
+            if length >= 2.0 * self.slack && is_next.is_none() {
+                is_next = Some(turn(way) <= NEXT_TURN + self.slack.atan2(length));
+            }
+            if length >= width {
                 break;
             }
         }
+        let least = straightest.map_or(f64::INFINITY, turn);
         (least <= MOUTH_TURN + self.slack.atan2(width) && is_next.unwrap_or(true)).then_some(least)
     }
 }
