@@ -7,7 +7,6 @@
 pub mod air;
 mod area;
 mod chord;
-pub mod closing;
 pub mod cloth;
 pub mod declare;
 pub mod depth;

@@ -6,6 +6,7 @@
 pub mod angle;
 pub mod boxes;
 pub mod budget;
+pub mod closing;
 pub mod corner;
 pub mod fade;
 pub mod moments;

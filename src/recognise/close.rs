@@ -8,7 +8,7 @@ use arrayvec::ArrayVec;
 
 use super::line::{Class, Closing, Line, SMALL_OUTLINE};
 use super::pens::Use;
-use crate::analysis::closing;
+use crate::geom::closing;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
 use crate::machine::Job;

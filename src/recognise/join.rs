@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::close::along;
 use super::line::{Line, SMALL_OUTLINE};
 use super::pens::{self, Use};
-use crate::analysis::closing;
+use crate::geom::closing;
 use crate::geom::{Extent, Point, Vector, angle, bits};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
 use crate::machine::Job;

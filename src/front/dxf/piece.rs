@@ -8,6 +8,7 @@ use super::fold::{Fold, Refusal};
 use super::layer::{Does, Form, Layer, Named, OUTLINE};
 use super::notch::{self, Mark, Notched};
 use super::outline::{Outline, outlines};
+use super::retrace::{Retraced, once};
 use super::shape::{Dot, Line, Shapes};
 use super::spur::chains_with_spurs;
 use super::tally::{Tally, Thing};
@@ -72,6 +73,8 @@ pub(super) struct Making<'o> {
     pub(super) curved: CurvedPieces,
     pub(super) work: Budget,
     pub(super) tally: Tally,
+    /// Lines that run past their own start or go round again.
+    pub(super) retraced: Vec<Retraced>,
     /// Lines of blocks that have no outline.
     pub(super) apart: Vec<(Named, Chain)>,
     pub(super) out: &'o mut Diagnostics,
@@ -116,7 +119,7 @@ impl Making<'_> {
         let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).map(of_edges).collect();
         folded.dedup_by(|next, before| next.is_same(before));
         let is_folded = !folds.is_empty() || dots.iter().any(|dot| dot.layer.does == Does::Fold);
-        let mut lines = joined(lines);
+        let mut lines = joined(lines, &mut self.retraced);
         lines
             .extend(folds.into_iter().filter_map(|line| Some((line.layer, Chain::of(line.vertices, line.is_closed)?))));
         let (edges, lines): (Vec<_>, Vec<_>) = lines.into_iter().partition(|(layer, _)| layer.does == Does::Outline);
@@ -373,7 +376,7 @@ impl Holes {
 }
 
 /// Lines with those of a layer joined that the convention lets be drawn in parts.
-fn joined(lines: Vec<Line>) -> Vec<(Named, Chain)> {
+fn joined(lines: Vec<Line>, retraced: &mut Vec<Retraced>) -> Vec<(Named, Chain)> {
     let mut layers: Vec<(Named, Vec<Chain>)> = Vec::new();
     let mut places: BTreeMap<u16, usize> = BTreeMap::new();
     for Line { layer, vertices, is_closed } in lines {
@@ -387,10 +390,13 @@ fn joined(lines: Vec<Line>) -> Vec<(Named, Chain)> {
     for (_, lines) in &mut layers {
         drop_doubled(lines);
     }
+    let mut unsaid = Vec::new();
     let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
-            Does::Outline => chains_with_spurs(lines),
-            Does::Inner | Does::Drawn | Does::Seam | Does::Fine => chains(lines),
+            Does::Outline => chains_with_spurs(lines, retraced),
+            Does::Inner => once(chains(lines), retraced),
+            Does::Fine => once(chains(lines), &mut unsaid),
+            Does::Drawn | Does::Seam => chains(lines),
             Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Turn | Does::Curve => lines,
         };
         lines.into_iter().map(move |line| (layer, line))

@@ -12,6 +12,7 @@ use super::layer::{Does, Named, Names};
 use super::over;
 use super::piece::{Making, Piece};
 use super::placing::{Held, MOST_PIECES, Placing};
+use super::retrace::say_retraced;
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
@@ -145,6 +146,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         curved: CurvedPieces::default(),
         work: Budget::of_a_marker(),
         tally: Tally::default(),
+        retraced: Vec::new(),
         apart: Vec::new(),
         out,
     };
@@ -165,10 +167,9 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     }
     set.is_plain = !file.says_anything() && set.pieces.is_empty();
     set.lay(&placing, loose, &mut making);
-    let Making { work, tally, apart, curved, drafting, .. } = making;
+    making.report();
+    let Making { work, apart, .. } = making;
     set.apart = apart;
-    say_curves(&curved, &drafting, out);
-    tally.report(out);
     say_unread(&set.unread, out);
     say_on_paper(on_paper, out);
     say_hidden(hidden, out);
@@ -210,6 +211,13 @@ fn sizes_of<'a>(own: &[Facts], Asked { source, file, .. }: &Asked<'a>) -> Vec<Si
 }
 
 impl Making<'_> {
+    /// Reports the curves of the pieces, what is left out of their outlines, and what is not done as the file says.
+    fn report(&mut self) {
+        say_curves(&self.curved, &self.drafting, self.out);
+        say_retraced(&self.retraced, self.out);
+        self.tally.report(self.out);
+    }
+
     /// The pieces of a block, of which something was said when it was read. With an error it is a piece that cannot be cut.
     fn pieces_of_block(&mut self, shapes: Shapes, span: Span, read: Diagnostics) -> Vec<Piece> {
         let labels = shapes.texts.clone();

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::chain::{Chain, REACH, chains};
+use super::retrace::{Retraced, once};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
@@ -11,8 +12,8 @@ use crate::ir::drawing::Vertex;
 /// Ends that meet in a node of an outline that goes on: more meet where something stands off it.
 const PASSING: usize = 2;
 
-/// The lines of a layer joined, each with the spurs that stand off it.
-pub(super) fn chains_with_spurs(lines: Vec<Chain>) -> Vec<Chain> {
+/// The lines of a layer joined, each with the spurs that stand off it and without what goes along it again.
+pub(super) fn chains_with_spurs(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain> {
     let nodes = Nodes::of(&lines);
     let (mut is_spur, mut spurs) = (vec![false; lines.len()], Vec::new());
     for (tip, path) in nodes.paths(&lines) {
@@ -23,7 +24,7 @@ pub(super) fn chains_with_spurs(lines: Vec<Chain>) -> Vec<Chain> {
     }
     let mut left = is_spur.iter();
     let rest = lines.into_iter().filter(|_| left.next() == Some(&false)).collect();
-    attached(chains(rest), spurs)
+    attached(once(chains(rest), retraced), spurs)
 }
 
 /// The end of a line: twice its place among the lines, and one more for its last vertex.
@@ -196,7 +197,7 @@ mod tests {
     }
 
     fn check(lines: &[&[[f64; 2]]], expected: &[&[[f64; 2]]]) {
-        let found = chains_with_spurs(lines.iter().map(|places| line(places)).collect());
+        let found = chains_with_spurs(lines.iter().map(|places| line(places)).collect(), &mut Vec::new());
         let places = |chain: &Chain| chain.vertices.iter().map(|v| [v.at.x, v.at.y]).collect::<Vec<_>>();
         assert_eq!(found.iter().map(places).collect::<Vec<_>>(), expected, "{lines:?}");
     }

@@ -5,9 +5,9 @@
 //! true: such a contour ends where it starts, and keeps its start and direction.
 
 use super::pass::MarkerPass;
-use crate::analysis::closing::{self, Retrace};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::geom::Point;
+use crate::geom::closing::{self, Retrace};
 use crate::ir::list::Segment;
 use crate::ir::marker::Marker;
 use crate::machine::Job;

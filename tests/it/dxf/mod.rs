@@ -6,6 +6,7 @@ mod curves;
 mod damage;
 mod habits;
 mod programs;
+mod retrace;
 mod sets;
 mod writer;
 

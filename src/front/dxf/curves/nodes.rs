@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::front::dxf::chain::Chain;
 use crate::front::dxf::fold::Fold;
 use crate::front::dxf::layer::Does;
+use crate::front::dxf::retrace::retraces;
 use crate::front::dxf::shape::{Dot, Line};
 use crate::geom::{Point, bits};
 
@@ -103,7 +104,8 @@ impl Nodes {
         for line in lines.iter().filter(|line| line.layer.is_curved()) {
             let doubled = line.vertices.windows(2).filter(|pair| pair[0].at == pair[1].at);
             doubled.for_each(|pair| nodes.add(pair[0].at, Signs::default().with(Sign::Doubled)));
-            let ends = Chain::of(line.vertices.clone(), line.is_closed).filter(|chain| !chain.is_closed);
+            let open = |chain: &Chain| !chain.is_closed && !retraces(chain);
+            let ends = Chain::of(line.vertices.clone(), line.is_closed).filter(open);
             for end in ends.iter().flat_map(|chain| [chain.vertices.first(), chain.vertices.last()]).flatten() {
                 nodes.add(end.at, Signs::default().with(Sign::Joint));
             }

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::again::once;
 use super::lines::{MEETS, Measure, Path, Stroke, clusters, paths, strokes};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
@@ -65,7 +66,7 @@ impl Curves {
         let notches = points(&sheet.items, |of| matches!(of, 4 | 80..=83), measure.unit);
         let fine = FINE.into_iter().flat_map(|layer| {
             let all = clusters(paths(&sheet.items, layer, measure));
-            all.into_iter().map(move |paths| (layer, paths))
+            all.into_iter().map(move |paths| (layer, once(paths)))
         });
         let [of_turns, of_curves, of_notches] =
             [&turns, &curves, &notches].map(|points| Lookup::of(points.iter().copied(), ON));

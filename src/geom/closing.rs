@@ -6,14 +6,14 @@
 use crate::geom::{Point, cross, polyline};
 
 /// Longest stretch that counts as an overcut of other software, mm, as the crow flies: longer ones are lines of their own.
-const LONGEST_PAST: f64 = 25.0;
+pub const LONGEST_PAST: f64 = 25.0;
 /// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
 /// places miss the head by that.
-const LEAST_REACH: f64 = 0.1;
+pub const LEAST_REACH: f64 = 0.1;
 /// Distance that rounding to the grid of a file may put between two places, in units: the diagonal.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
 /// Most rounds of an outline that are looked for: cutters go twice through thick cloth, plotters over a bold line.
-const MOST_ROUNDS: usize = 4;
+pub const MOST_ROUNDS: usize = 4;
 /// Places of a line beside an even share of it where the round may end.
 const BESIDE: usize = 3;
 /// Returns to the start that are looked at: a line comes back there once a round.

@@ -1,0 +1,78 @@
+//! Retraced lines: one that runs past its own start, or goes round again, is the ring that it closes.
+//!
+//! Other software draws the overcut of its own knife into an outline. Notches and folds need the ring itself, so what goes
+//! along it again is left out before they are looked at.
+
+use super::chain::Chain;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::geom::closing::{self, Retrace};
+use crate::machine::patterns::Dxf;
+use crate::source::Span;
+
+/// Stretch of a line that was left out, since it goes along the line again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Retraced {
+    /// Length past the start, mm.
+    past: f64,
+    rounds: usize,
+    /// Where the line begins.
+    span: Span,
+}
+
+/// How a line goes along itself again.
+fn retrace(line: &Chain) -> Option<Retrace> {
+    let count = line.vertices.len();
+    let round = count + usize::from(line.is_closed);
+    closing::retrace(round, |k| line.vertices[k % count].at, Dxf::RETRACE_OFF)
+}
+
+/// Whether a line runs past its own start or goes round again.
+pub(super) fn retraces(line: &Chain) -> bool {
+    retrace(line).is_some()
+}
+
+/// Lines without what goes along them again; each one that had such a stretch is noted.
+pub(super) fn once(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain> {
+    let ring = |mut line: Chain| {
+        if let Some(Retrace { last, rounds, past }) = retrace(&line) {
+            let count = line.vertices.len();
+            retraced.push(Retraced { past, rounds, span: line.vertices[0].span });
+            // What led on from there leads to the first.
+            let closing = line.vertices[(last + 1) % count].span;
+            line.vertices.truncate(last + 1);
+            line.vertices[0].span = closing;
+            line.is_closed = true;
+        }
+        line
+    };
+    lines.into_iter().map(ring).collect()
+}
+
+/// Says how many outlines and cut-outs run past their start, and how many go round again.
+pub(super) fn say_retraced(retraced: &[Retraced], out: &mut Diagnostics) {
+    let longest = retraced.iter().map(|line| line.past).fold(0.0, f64::max);
+    let most = retraced.iter().map(|line| line.rounds).max().unwrap_or(0);
+    let mut say = |code: &'static Code, is_so: fn(&Retraced) -> bool, how: String| {
+        let lines: Vec<&Retraced> = retraced.iter().filter(|line| is_so(line)).collect();
+        let Some(first) = lines.first() else { return };
+        let (count, verb) = match lines.len() {
+            1 => ("1 outline".to_owned(), "runs"),
+            count => (format!("{count} outlines"), "run"),
+        };
+        out.push(Diagnostic::new(code, format!("{count} {verb} {how}: cut once")).at(first.span));
+    };
+    say(&code::MARKER_OVERRUN, |line| line.past > 0.0, format!("past the start, by up to {longest:.1} mm"));
+    say(&code::MARKER_ROUND_AGAIN, |line| line.rounds > 1, format!("round {most} times in one stroke"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_is_what_is_promised() {
+        assert_eq!(Dxf::OVERRUN.to_bits(), closing::LONGEST_PAST.to_bits());
+        assert_eq!(Dxf::RETRACE_OFF.to_bits(), closing::LEAST_REACH.to_bits());
+        assert_eq!(Dxf::ROUNDS as usize, closing::MOST_ROUNDS);
+    }
+}

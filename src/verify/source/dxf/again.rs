@@ -1,0 +1,225 @@
+//! Lines that go along themselves again behind their start, found anew: the overcut of another cutter, and further rounds.
+//! A line is walked from its first place. Where it comes back there, all of it behind must be where it was as far from its start.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::lines::{MEETS, Path, Round};
+use crate::geom::{Point, cross, polyline};
+use crate::machine::patterns::Dxf;
+
+/// How far two walks along one line may be apart in length: in millimetres, and as a part of them.
+const SLIP: f64 = 0.2;
+const SLIP_SHARE: f64 = 0.002;
+/// Returns to the start that are looked at.
+const MOST_RETURNS: usize = 8;
+/// Lines that are walked as one: their ends are compared with each other.
+const MOST_PATHS: usize = 2000;
+/// Places of a curve that are looked at.
+const SAMPLES: usize = 16;
+
+/// Lines that belong together, without what goes along them again.
+pub(super) fn once(paths: Vec<Path>) -> Vec<Path> {
+    let Some(walk) = walk(&paths) else { return paths };
+    let legs = Legs::of(&walk);
+    let Some(last) = legs.closing() else { return paths };
+    let mut kept = walk;
+    let (path, edge) = legs.owner[last];
+    kept.truncate(path + 1);
+    kept[path].end_at(edge, legs.start(), path == 0);
+    kept
+}
+
+/// Lines in the order in which they are walked, each in the direction of the walk, from the start of the first one or, before
+/// it, of those that lead there; `None` when they branch.
+fn walk(paths: &[Path]) -> Option<Vec<Path>> {
+    let [first, others @ ..] = paths else { return None };
+    if others.is_empty() {
+        return (first.points.len() > 1).then(|| vec![first.clone()]);
+    }
+    if paths.len() > MOST_PATHS || paths.iter().any(|path| path.is_closed) {
+        return None;
+    }
+    let mut left: Vec<&Path> = others.iter().collect();
+    let mut walked = vec![first.clone()];
+    // On from the end of the first one, then on from its start, each time with all of it turned afterwards.
+    for _ in 0..2 {
+        loop {
+            let at = *walked.last()?.points.last()?;
+            let meets = |end: Option<&Point>| end.is_some_and(|end| (end - at).norm() <= MEETS);
+            let [starts, ends] = [
+                left.iter().position(|path| meets(path.points.first())),
+                left.iter().position(|path| meets(path.points.last())),
+            ];
+            let next = match (starts, ends) {
+                (Some(k), _) => left.remove(k).clone(),
+                (None, Some(k)) => left.remove(k).turned(),
+                (None, None) => break,
+            };
+            walked.push(next);
+        }
+        walked = walked.iter().rev().map(Path::turned).collect();
+    }
+    left.is_empty().then_some(walked)
+}
+
+impl Path {
+    /// The same in the other direction.
+    fn turned(&self) -> Self {
+        let turned = |round: &Round| Round { start: round.start + round.sweep, sweep: -round.sweep, ..*round };
+        let curves = self.curves.iter().rev().map(|curve| curve.as_ref().map(turned)).collect();
+        Self { points: self.points.iter().rev().copied().collect(), curves, ..self.clone() }
+    }
+
+    /// Ends a line amid an edge at a place; one that is a ring of its own becomes closed.
+    fn end_at(&mut self, edge: usize, at: Point, is_ring: bool) {
+        self.points.truncate(edge + 1);
+        self.curves.truncate(edge + 1);
+        if let Some(Some(round)) = self.curves.last_mut() {
+            round.sweep *= round.share(at);
+        }
+        self.is_closed = is_ring;
+        if !is_ring {
+            self.points.push(at);
+        }
+    }
+}
+
+impl Round {
+    /// How much of the curve lies before the place nearest to another.
+    fn share(&self, at: Point) -> f64 {
+        let spoke = at - self.centre;
+        let angle = (spoke.y.atan2(spoke.x) - self.start) * self.sweep.signum();
+        let share = angle.rem_euclid(TAU) / self.sweep.abs();
+        match share {
+            _ if share <= 1.0 => share,
+            _ if (at - self.at(0.0)).norm() <= (at - self.at(1.0)).norm() => 0.0,
+            _ => 1.0,
+        }
+    }
+}
+
+/// A stretch of a walk.
+#[derive(Debug, Clone, Copy)]
+struct Leg {
+    ends: [Point; 2],
+    curve: Option<Round>,
+}
+
+impl Leg {
+    fn share(&self, at: Point) -> f64 {
+        self.curve.map_or_else(|| polyline::foot(at, self.ends[0], self.ends[1]), |round| round.share(at))
+    }
+
+    fn at(&self, share: f64) -> Point {
+        self.curve.map_or_else(|| self.ends[0] + (self.ends[1] - self.ends[0]) * share, |round| round.at(share))
+    }
+
+    fn distance(&self, at: Point) -> f64 {
+        (self.at(self.share(at)) - at).norm()
+    }
+}
+
+/// A walk in stretches.
+struct Legs {
+    all: Vec<Leg>,
+    /// The line and the edge of it that each one is.
+    owner: Vec<(usize, usize)>,
+    /// Lengths from the start to the start of each one, mm, and of the whole.
+    stations: Vec<f64>,
+}
+
+impl Legs {
+    fn of(walk: &[Path]) -> Self {
+        let mut legs = Self { all: Vec::new(), owner: Vec::new(), stations: vec![0.0] };
+        for (k, path) in walk.iter().enumerate() {
+            for edge in 0..path.curves.len() {
+                legs.all.push(Leg { ends: path.edge(edge), curve: path.curves[edge] });
+                legs.owner.push((k, edge));
+                legs.stations.push(legs.length() + path.length(edge));
+            }
+        }
+        legs
+    }
+
+    fn start(&self) -> Point {
+        self.all[0].ends[0]
+    }
+
+    fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1]
+    }
+
+    /// The place at a station.
+    fn at(&self, station: f64) -> Point {
+        let k = self.stations.partition_point(|&at| at <= station).clamp(1, self.all.len()) - 1;
+        let length = self.stations[k + 1] - self.stations[k];
+        let share = if length > 0.0 { (station - self.stations[k]) / length } else { 0.0 };
+        self.all[k].at(share.clamp(0.0, 1.0))
+    }
+
+    /// The stretch that closes the ring, if the walk goes along itself behind it.
+    fn closing(&self) -> Option<usize> {
+        let start = self.start();
+        let end = self.all.last()?.ends[1];
+        if (end - start).amax() > Dxf::OVERRUN {
+            return None;
+        }
+        let comes_back = |k: &usize| self.all[*k].distance(start) <= Dxf::RETRACE_OFF;
+        let returns = (1..self.all.len()).filter(comes_back).filter(|k| !self.is_flat(*k)).take(MOST_RETURNS);
+        returns.into_iter().find(|&k| {
+            let round = self.stations[k] + (self.stations[k + 1] - self.stations[k]) * self.all[k].share(start);
+            self.goes_again(k, round)
+        })
+    }
+
+    /// Whether what the walk encloses up to a stretch is nothing.
+    fn is_flat(&self, last: usize) -> bool {
+        let start = self.start();
+        let places = self.all[..=last].iter().flat_map(|leg| {
+            let count = if leg.curve.is_some() { SAMPLES } else { 1 };
+            (0..count).map(move |k| leg.at(k as f64 / count as f64))
+        });
+        let places: Vec<Point> = places.chain([start]).collect();
+        let doubled: f64 = places.windows(2).map(|ends| cross(ends[0] - start, ends[1] - start)).sum();
+        doubled.abs() <= Dxf::RETRACE_OFF * polyline::length(&places)
+    }
+
+    /// Whether all behind the first `round` mm, which end on a stretch, lies where the walk was a round before.
+    fn goes_again(&self, last: usize, round: f64) -> bool {
+        let again = self.length() - round;
+        if again <= Dxf::RETRACE_OFF || again > f64::from(Dxf::ROUNDS - 1) * round + Dxf::RETRACE_OFF {
+            return false;
+        }
+        let mut stations = vec![again];
+        for k in 0..self.all.len() {
+            let [from, to] = [self.stations[k], self.stations[k + 1]];
+            let count = if self.all[k].curve.is_some() { SAMPLES } else { 1 };
+            let own = (0..count).map(|i| from + (to - from) * i as f64 / count as f64);
+            if k <= last {
+                let rounds = (0..Dxf::ROUNDS).map(|n| f64::from(n) * round);
+                stations.extend(own.clone().flat_map(|at| rounds.clone().map(move |before| before + at)));
+            }
+            stations.extend(own.map(|at| at - round));
+        }
+        stations.retain(|at| (0.0..=again).contains(at));
+        stations.into_iter().all(|station| {
+            let [place, before] = [self.at(round + station), self.at(station % round)];
+            let slip = SLIP + SLIP_SHARE * station;
+            let ways = [self.near(station % round, slip), self.near(0.0, slip + station % round - round)];
+            let is_on_head = || ways.into_iter().flatten().any(|k| k <= last && self.is_on(k, place));
+            let mut tail = self.near(round + station, slip);
+            (place - before).norm() <= slip && is_on_head() && tail.any(|k| k >= last && self.is_on(k, before))
+        })
+    }
+
+    /// Stretches about a station of the walk.
+    fn near(&self, station: f64, slip: f64) -> Range<usize> {
+        let first = self.stations.partition_point(|&at| at < station - slip).saturating_sub(1);
+        first..self.stations.partition_point(|&at| at <= station + slip).min(self.all.len())
+    }
+
+    fn is_on(&self, k: usize, place: Point) -> bool {
+        self.all[k].distance(place) <= Dxf::RETRACE_OFF
+    }
+}
