@@ -216,7 +216,8 @@ pub(super) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Di
             };
         } else if entity.is("ENDSEC") {
             within = Within::Others;
-        } else if entity.is("BLOCK") && within == Within::Blocks {
+        } else if entity.is("BLOCK") {
+            // Some writers end the section of blocks too early.
             open = Some(Block { head: entity, entities: Vec::new() });
         } else if !is_end {
             match (&mut open, within) {

@@ -165,15 +165,8 @@ impl Making<'_> {
         let thing = match line.layer.does {
             Does::Notch(_) => Thing::StrokeOfNotch,
             Does::Drill => Thing::StrokeOfHole,
-            Does::Outline
-            | Does::Fold
-            | Does::Inner
-            | Does::Drawn
-            | Does::Seam
-            | Does::Sign
-            | Does::Turn
-            | Does::Curve
-            | Does::Fine => return,
+            Does::Turn | Does::Curve => Thing::StrokeOfPoints,
+            Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Seam | Does::Sign | Does::Fine => return,
         };
         self.tally.add(thing, line.vertices.first().map_or(Span::default(), |vertex| vertex.span));
     }

@@ -17,6 +17,8 @@ pub(super) enum Thing {
     /// A line lies where points alone are notches, and where they are holes.
     StrokeOfNotch,
     StrokeOfHole,
+    /// A line lies where points alone say how an outline runs.
+    StrokeOfPoints,
     /// A quantity is no number, or none.
     Quantity,
     /// Texts of a piece say different quantities.
@@ -83,6 +85,7 @@ fn row(thing: Thing) -> Row {
         Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "what has no outline on layer 1 asks for cuts; nothing of it is cut", many: "blocks without an outline on layer 1 ask for cuts; nothing of them is cut", hint: "count the pieces with `cutc info`" },
         Thing::StrokeOfNotch => Row { code: &code::DXF_STROKE, one: "a line on a layer of notches (4, 80 to 83) is not cut", many: "lines on layers of notches (4, 80 to 83) are not cut", hint: "let the CAD system export notches as points, or draw them into the outline" },
         Thing::StrokeOfHole => Row { code: &code::DXF_STROKE, one: "a line on the layer of drill holes (13) is not drilled", many: "lines on the layer of drill holes (13) are not drilled", hint: "let the CAD system export holes as points" },
+        Thing::StrokeOfPoints => Row { code: &code::DXF_STROKE, one: "a line on a layer of points (2, 3) is not cut", many: "lines on layers of points (2, 3) are not cut", hint: "these layers hold points; have what is to be cut drawn on layer 1, or on 11 if it lies inside" },
         Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is 0 or no number; the piece is cut once", many: "quantities are 0 or no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
         Thing::TwoQuantities => Row { code: &code::DXF_SAID_TWICE, one: "a piece has two quantities, the other one here", many: "pieces have two quantities, another one", hint: "see which is right; `--quantity one` cuts each piece once" },
         Thing::Placed => Row { code: &code::DXF_PLACED_QUANTITY, one: "INSERTs place a piece more or less often than its quantity says; they hold", many: "pieces are placed more or less often than their quantities say; the INSERTs hold", hint: "count the pieces with `cutc info`" },

@@ -227,7 +227,7 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &'a Labels) -> (Vec<Sheet<'a>>
                 }
             }
             b"ENDSEC" => section.clear(),
-            b"BLOCK" if section == b"BLOCKS" => {
+            b"BLOCK" => {
                 is_in_block = true;
                 let base = if item.has(10) || item.has(20) { item.pair([10, 20]) } else { Some([0.0; 2]) };
                 blocks.push(Sheet {
