@@ -6,6 +6,7 @@ use super::pens::Use;
 use super::piece::owners;
 use super::sheet::Sheet;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::machine::CLOSE_MOST_MM;
 use crate::units::number::fixed;
 
 /// Pieces that a message names.
@@ -71,9 +72,12 @@ fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
     let lines = if lines == 1 { "one closed line".to_owned() } else { format!("{lines} closed lines") };
     let message = format!("{outlines}: not cut, and neither is any of {lines} {around}");
     let found = finding(&code::DRAWING_OPEN_PART, message, &sheet.lines[first], sheet);
-    out.push(
-        found.hint(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={widest}`")),
-    );
+    let may_close = open.iter().all(|&i| gap(i) <= CLOSE_MOST_MM);
+    out.push(found.hint(if may_close {
+        format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={widest}`")
+    } else {
+        "let the CAD close it: the gap is wider than `drawing.close_mm` may be".to_owned()
+    }));
 }
 
 /// Parts without a seam line where many have one.
@@ -143,17 +147,17 @@ fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     let (lines, parts): (Vec<usize>, Vec<usize>) = sheet.from_edges.iter().filter(is_left).copied().unzip();
     let Some(&first) = lines.first() else { return };
     let (begin, longest) = match lines.len() {
-        1 => ("one open line begins".to_owned(), "it is"),
-        n => (format!("{n} open lines begin"), "the longest is"),
+        1 => ("one open line ends".to_owned(), "it is"),
+        n => (format!("{n} open lines end"), "the longest is"),
     };
     let length = fixed(lines.iter().map(|&i| sheet.lines[i].length).fold(0.0, f64::max), DECIMALS);
     let numbers = numbers(owners, &parts);
     let pieces = words(&numbers);
-    let message = format!("not cut: {begin} on the outline of {pieces}; {longest} {length} mm long");
+    let message = format!("not cut: {begin} at the outline of {pieces}; {longest} {length} mm long");
     let found = finding(&code::DRAWING_LINE_FROM_EDGE, message, &sheet.lines[first], sheet);
     out.push(
         found
             .about(numbers)
-            .hint("notches lead 1 to 15 mm into a part, or from edge to edge; `--cut-all` cuts every line"),
+            .hint("notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts every line"),
     );
 }

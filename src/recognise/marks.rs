@@ -14,6 +14,8 @@ pub(super) const MOUTH: f64 = 0.5;
 /// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from
 /// edge to edge.
 const TOUCH: f64 = 0.1;
+/// How far from an outline a stroke as long as a notch ends and is named, mm: it may be a notch that misses its edge.
+const NEAR: f64 = 2.0;
 /// Outlines that meet at one place, at the most.
 const MEETING: usize = 4;
 
@@ -226,7 +228,8 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     bars
 }
 
-/// Open lines that were taken for nothing else and start or end on an outline, each with that outline.
+/// Open lines that were taken for nothing else and start or end on an outline, each with that outline; of strokes as long as
+/// a notch those, too, that nearly do.
 pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<(usize, usize)> {
     let Search { lines, vertices, unit, .. } = search;
     let is_open = |line: &Line| !line.is_closed && line.is_open_question();
@@ -235,10 +238,16 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<(usize, usize
         [all[0].at, all[all.len() - 1].at]
     };
     let open = (0..lines.len()).filter(|&i| is_open(&lines[i]));
-    let mut candidates: Vec<Candidate> = open.map(|line| Candidate::whole(line, ends(line))).collect();
-    if !candidates.is_empty() {
-        meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
+    let open = open.map(|line| Candidate::whole(line, ends(line)));
+    let (mut short, mut candidates): (Vec<Candidate>, Vec<Candidate>) =
+        open.partition(|candidate| (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&lines[candidate.line].length));
+    for (candidates, reach) in [(&mut short, NEAR), (&mut candidates, TOUCH)] {
+        if !candidates.is_empty() {
+            meet(candidates, search, reach + ROUNDING * unit, work);
+        }
     }
+    candidates.extend(short);
+    candidates.sort_unstable_by_key(|candidate| candidate.line);
     let outline = |candidate: &Candidate| candidate.on.iter().find_map(|on| on.first()).map(|&(_, outline)| outline);
     candidates.iter().filter_map(|candidate| Some((candidate.line, outline(candidate)?))).collect()
 }

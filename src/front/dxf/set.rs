@@ -359,7 +359,7 @@ impl Set {
             None
         } else {
             let all: Vec<String> = numbers.values().flat_map(|(_, numbers)| numbers).map(u32::to_string).collect();
-            Some(format!("all other pieces can be cut without it: `--skip {}`", all.join(",")))
+            Some(format!("`cutc compile` cuts all other pieces without it: `--skip {}`", all.join(",")))
         };
         for (piece, numbers) in numbers.values() {
             say_at_fault(piece, numbers[0], hint.as_deref(), asked, out);

@@ -4,6 +4,8 @@
 const ETX: u8 = 3;
 /// Longest text that a label has, bytes: a longer one has lost its terminator and would swallow what is drawn.
 const LONGEST: usize = 1024;
+/// Places with the pen down, behind one with the pen up, that no text holds: an outline has so many at least.
+const OUTLINE: usize = 3;
 
 /// The terminator in force.
 #[derive(Debug)]
@@ -35,15 +37,34 @@ impl Terminator {
         at + usize::from(given.is_some())
     }
 
-    /// The text that starts at `at`. One whose terminator is missing ends with its line or at a semicolon.
+    /// The text that starts at `at`. One whose terminator is missing ends with its line or at a semicolon; the terminator
+    /// behind an outline is that of a later text.
     pub(super) fn text(&self, bytes: &[u8], at: usize) -> Text {
         let window = &bytes[at..bytes.len().min(at + LONGEST)];
-        if let Some(length) = memchr::memchr(self.byte, window) {
+        if let Some(length) = memchr::memchr(self.byte, window)
+            && !holds_outline(&window[..length])
+        {
             return Text { end: at + length, next: at + length + 1, is_open: false };
         }
         let length = window.iter().position(|byte| b";\r\n".contains(byte)).unwrap_or(window.len());
         Text { end: at + length, next: at + length, is_open: true }
     }
+}
+
+/// Whether a text holds instructions that draw an outline.
+fn holds_outline(text: &[u8]) -> bool {
+    let (mut is_placed, mut down) = (false, 0);
+    for instruction in text.split(|byte| b";\r\n".contains(byte)) {
+        let Some((mnemonic, numbers)) = instruction.split_at_checked(2) else { continue };
+        let is_of_number = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+        let places = numbers.split(|byte| !is_of_number(byte)).filter(|run| !run.is_empty()).count() / 2;
+        match mnemonic {
+            b"PU" => is_placed |= places > 0,
+            b"PD" if is_placed => down += places,
+            _ => {}
+        }
+    }
+    down >= OUTLINE
 }
 
 /// Where the file goes on behind the quoted text of CO or MG: a quote within it stands twice. One without its second quote,
@@ -91,6 +112,15 @@ mod tests {
         assert_eq!(terminator.text(b"LBSIZE M\nPU", 2), Text { end: 8, next: 8, is_open: true });
         let far = [b"LBA;PU;".as_slice(), &[b' '; 2 * LONGEST], b"\x03"].concat();
         assert_eq!(Terminator::new().text(&far, 2), Text { end: 3, next: 3, is_open: true });
+    }
+
+    #[test]
+    fn a_label_that_would_swallow_an_outline_ends_with_its_line() {
+        let terminator = Terminator::new();
+        let swallowed = b"LBBACK;PU1,1;PD9,1,9,9;PD1,9,1,1;PU;LBFRONT\x03";
+        assert_eq!(terminator.text(swallowed, 2), Text { end: 6, next: 6, is_open: true });
+        let words = b"LBPU1,1;PD9,1;SC0,9,0,9;PD\x03";
+        assert!(!terminator.text(words, 2).is_open);
     }
 
     #[test]

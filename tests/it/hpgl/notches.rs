@@ -69,6 +69,15 @@ fn a_mark_that_misses_its_edge_by_some_units_reaches_it() {
 }
 
 #[test]
+fn a_stroke_that_misses_the_edge_farther_is_named() {
+    // From 0.8 and 1.5 mm inside the edge, and from 1 mm outside on.
+    for mark in ["PU8000,4032;PD8000,4240;", "PU8000,4060;PD8000,4240;", "PU8000,3960;PD8000,4240;"] {
+        let codes = read(&source(format!("IN;SP1;{}{mark}PU;SP0;", part())), &Job::default()).1;
+        assert_eq!(codes, ["drawing/line-from-edge"], "{mark}");
+    }
+}
+
+#[test]
 fn two_legs_that_meet_are_one_notch_of_the_outline_and_none_alone() {
     for mark in ["PU7880,4000;PD8000,4240,8120,4000;", "PU7880,4000;PD8000,4240;PU8120,4000;PD8000,4240;"] {
         let text = part() + mark;

@@ -1,6 +1,7 @@
 //! Texts of plots hold any words, those of instructions too, and change nothing of what is drawn.
 
 use cutc::diagnostic::Diagnostics;
+use cutc::front::by_name;
 use cutc::machine::Job;
 
 use super::audit::audit;
@@ -98,6 +99,23 @@ fn a_reader_that_runs_a_text_is_caught() {
         let source = source(format!("IN;SP1;{one}{other}PU0,0;{said}PU;"));
         let refused: Vec<&str> = audit(&source, &marker, &job).iter().map(|finding| finding.rule).collect();
         assert!(refused.contains(&"source/points") && refused.contains(&"source/length"), "{said:?}: {refused:?}");
+    }
+}
+
+#[test]
+fn a_text_without_its_terminator_swallows_no_outline() {
+    let job = Job::default();
+    let plain = outlines(&as_read(&source(format!("IN;SP1;{}{}SP0;", OUTLINES[0], OUTLINES[1])), &job));
+    let [one, other] = OUTLINES;
+    for before in ["LB", "BL", "WD"] {
+        for end in [";", "\r\n", "\n"] {
+            let source = source(format!("IN;SP1;{before}BACK{end}{one}LBFRONT\x03{other}SP0;"));
+            let mut found = Diagnostics::default();
+            let marker = cutc::pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, &job, &mut found);
+            assert_eq!(outlines(&marker), plain, "{before}{end:?}");
+            assert_eq!(audit(&source, &marker, &job), [], "{before}{end:?}");
+            assert!(found.iter().any(|said| said.code.name == "hpgl/open-label"), "{before}{end:?}");
+        }
     }
 }
 

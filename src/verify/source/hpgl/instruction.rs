@@ -4,6 +4,8 @@ use super::scan::{Pen, Place, Scan};
 
 /// The terminator of labels unless DT gives another: ETX.
 pub(super) const ETX: u8 = 3;
+/// Places behind PD, after a PU with a place, from which on a label is no text: it has swallowed an outline.
+const DRAWN_PLACES: usize = 3;
 /// Longest label, bytes, before its terminator counts as lost.
 const LABEL_BYTES: usize = 1024;
 
@@ -96,8 +98,8 @@ impl Scan<'_> {
             b"LB" | b"BL" | b"WD" => {
                 let window = &self.bytes[self.at..self.bytes.len().min(self.at + LABEL_BYTES)];
                 match memchr::memchr(self.terminator, window) {
-                    Some(length) => self.at += length + 1,
-                    None => self.at += self.until(b";\r\n", LABEL_BYTES),
+                    Some(length) if !draws(&window[..length]) => self.at += length + 1,
+                    _ => self.at += self.until(b";\r\n", LABEL_BYTES),
                 }
             }
             b"DT" => {
@@ -172,4 +174,19 @@ impl Scan<'_> {
         }
         self.go(to, cause, self.pen.is_down && !starts);
     }
+}
+
+/// Whether a label draws: by the commas between PD and the next letter.
+fn draws(label: &[u8]) -> bool {
+    let starts = |mnemonic: &[u8]| {
+        let places: Vec<usize> = memchr::memmem::find_iter(label, mnemonic).collect();
+        places.into_iter().filter(|&at| at == 0 || matches!(label[at - 1], b';' | b'\r' | b'\n'))
+    };
+    let commas = |at: usize| {
+        let numbers = &label[at + 2..];
+        let end = numbers.iter().position(|byte| byte.is_ascii_alphabetic() || *byte == b';').unwrap_or(numbers.len());
+        numbers[..end].iter().filter(|byte| **byte == b',').count()
+    };
+    let Some(first) = starts(b"PU").find(|&at| commas(at) > 0) else { return false };
+    starts(b"PD").filter(|&at| at > first).map(|at| commas(at).div_ceil(2)).sum::<usize>() >= DRAWN_PLACES
 }
