@@ -48,12 +48,12 @@ fn rounded(value: f64) -> f64 {
 impl Diagnostic {
     /// The form for programs.
     pub fn to_json(&self, file: &str, lines: &mut Lines) -> Json {
-        let [x_mm, y_mm] = [0, 1].map(|axis| self.at.map(|at| rounded(at[axis])));
+        let [x_mm, y_mm] = [0, 1].map(|axis| self.at.as_ref().map(|at| rounded(at[axis])));
         Json {
             code: self.code.name,
             severity: self.code.severity,
             file: file.to_owned(),
-            pieces: self.pieces.clone(),
+            pieces: self.pieces.to_vec(),
             piece: self.piece.as_ref().map(|piece| piece.number),
             copy: self.piece.as_ref().map(|piece| piece.copy).filter(|&copy| copy > 0),
             label: self.piece.as_ref().and_then(|piece| piece.label.clone()),

@@ -24,9 +24,9 @@ pub struct Diagnostic {
     /// The piece that lies there, if it is in one.
     pub piece: Option<Box<PieceName>>,
     /// The numbers of the pieces that it is about, where it is about several.
-    pub pieces: Vec<u32>,
+    pub pieces: Box<[u32]>,
     /// The place on the cloth, X and Y in mm.
-    pub at: Option<[f64; 2]>,
+    pub at: Option<Box<[f64; 2]>>,
     /// How bad it is, mm, where that can be measured: of its code the worst is told first, or alone.
     pub by: Option<f64>,
     /// What is wrong and where: lower case, no full stop, values with units.
@@ -59,7 +59,7 @@ impl fmt::Display for PieceName {
 impl Diagnostic {
     /// A finding about the file as a whole.
     pub fn new(code: &'static Code, message: impl Into<String>) -> Self {
-        let (message, pieces, hints) = (message.into(), Vec::new(), Vec::new());
+        let (message, pieces, hints) = (message.into(), Box::default(), Vec::new());
         Self { code, span: None, piece: None, pieces, at: None, by: None, message, hints }
     }
 
@@ -73,14 +73,14 @@ impl Diagnostic {
     /// The finding, at a place on the cloth, X and Y in mm.
     #[must_use]
     pub fn on_cloth(mut self, at: impl Into<[f64; 2]>) -> Self {
-        self.at = Some(at.into());
+        self.at = Some(Box::new(at.into()));
         self
     }
 
     /// The finding, about the pieces with these numbers.
     #[must_use]
     pub fn about(mut self, pieces: Vec<u32>) -> Self {
-        self.pieces = pieces;
+        self.pieces = pieces.into();
         self
     }
 

@@ -190,7 +190,7 @@ fn on_cloth(diagnostic: &Diagnostic) -> String {
     if let Some(piece) = &diagnostic.piece {
         let _ = write!(place, "{piece}");
     }
-    if let Some([x, y]) = diagnostic.at.map(|at| at.map(|value| fixed(value, PLACE_DECIMALS))) {
+    if let Some([x, y]) = diagnostic.at.as_ref().map(|at| at.map(|value| fixed(value, PLACE_DECIMALS))) {
         let space = if place.is_empty() { "" } else { " " };
         let _ = write!(place, "{space}at {x}, {y} mm");
     }

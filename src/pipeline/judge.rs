@@ -190,7 +190,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
             (None, _) if finding.rule == TABLE => off_table::advice(marker, job),
             (None, _) => fault(crossing),
         };
-        let at = finding.place.map(|place| place.point.into());
+        let at = finding.place.map(|place| Box::new(place.point.into()));
         let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
         diagnostics.push(diagnostic.hint(rule).hint(hint));
     }

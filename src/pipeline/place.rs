@@ -53,13 +53,14 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
         let places = finding.span.and_then(|span| wanted.get(&span.start)).into_iter().flatten();
         // Of several copies the one where it was found.
         let away = |place: &OnCloth| {
-            let [at, point] = [finding.at.map(Point::from), place.point].map(|at| at.unwrap_or(Point::origin()));
+            let [at, point] =
+                [finding.at.as_deref().copied().map(Point::from), place.point].map(|at| at.unwrap_or(Point::origin()));
             if finding.at.is_none() { 0.0 } else { (at - point).norm() }
         };
         let place = places.min_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(place) = place.filter(|_| finding.piece.is_none()) else { return };
         finding.piece = place.piece.map(|piece| Box::new(name(&marker.pieces[piece], source, job)));
-        finding.at = finding.at.or(place.point.map(Into::into));
+        finding.at = finding.at.take().or_else(|| place.point.map(|point| Box::new(point.into())));
     });
 }
 

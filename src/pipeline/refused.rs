@@ -24,7 +24,7 @@ pub(super) fn findings(diagnostics: &Diagnostics) -> Vec<Finding> {
         worst: f64::INFINITY,
         limit: Some(0.0),
         unit: "",
-        place: d.at.map(|at| Sighting {
+        place: d.at.as_deref().map(|&at| Sighting {
             time: None,
             line: None,
             point: at.into(),

@@ -41,7 +41,9 @@ fn source(points: &[[f64; 2]], (head, unit): (&str, f64)) -> Source {
     places.push(places[0]);
     places.dedup();
     let mut text = format!("{head}N1*M15*X{}Y{}*M14*", places[0][0], places[0][1]);
-    places[1..].iter().for_each(|[x, y]| write!(text, "X{x}Y{y}*").expect("a text takes all"));
+    for [x, y] in &places[1..] {
+        write!(text, "X{x}Y{y}*").expect("a text takes all");
+    }
     Source::new("ring.cut", (text + "M15*M0*").into_bytes()).expect("small")
 }
 

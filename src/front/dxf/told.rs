@@ -24,7 +24,12 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
     let pieces =
         |from: &CurvedFrom| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
     let off = |from: &CurvedFrom| format!("up to {:.1} mm off the chords", from.off);
-    let CurvedPieces { fine, laid } = curved;
+    let CurvedPieces { fine, laid, missed } = curved;
+    if missed.pieces > 0 {
+        let message = format!("layer 84 misses vertices of the outline and is not used: {}", pieces(missed));
+        let finding = Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(missed.first);
+        out.push(finding.hint("compare a neck and an armhole in the picture (`-t svg`) with the CAD system"));
+    }
     if fine.pieces > 0 {
         let message = format!("cut along the curves of layer 84: {}, {}", pieces(fine), off(fine));
         let finding = Diagnostic::new(&code::DXF_CURVED, message).at(fine.first);

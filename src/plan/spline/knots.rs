@@ -52,9 +52,9 @@ fn repeated(band: &ToleranceBand, finer: &[f64], lap: &Lap) -> Vec<f64> {
 fn spacing_on_lap(band: &ToleranceBand, finer: &[f64], lap: Range<usize>) -> Vec<f64> {
     let (count, last) = (lap.len(), band.points.len() - 1);
     let mut spacing = vec![f64::INFINITY; count];
-    for i in 1..last {
+    for (i, finer) in finer.iter().enumerate().take(last).skip(1) {
         let j = (i + count - lap.start % count) % count;
-        spacing[j] = spacing[j].min(at_vertex(band, i) * finer[i]);
+        spacing[j] = spacing[j].min(at_vertex(band, i) * finer);
     }
     let chord = |j: usize| band.stations[lap.start + j + 1] - band.stations[lap.start + j];
     // Twice round, so that each vertex has felt all others.

@@ -59,7 +59,9 @@ fn twins(random: &mut fastrand::Rng) -> [String; 2] {
                 // A slit comes back to the edge.
                 drawn.push(drawn[0]);
             }
-            drawn.iter().for_each(|[x, y]| write!(cut, "X{x}Y{y}*").expect("a text takes all"));
+            for [x, y] in drawn {
+                write!(cut, "X{x}Y{y}*").expect("a text takes all");
+            }
             let mut plotted: Vec<String> =
                 places.iter().map(|p| format!("{},{}", p[0] * PLOT_UNITS, p[1] * PLOT_UNITS)).collect();
             if random.bool() {
@@ -115,7 +117,9 @@ fn a_part_as_a_plot_and_as_a_cut_file_has_the_same_notches() {
         let found = notches("hpgl", plot.clone());
         let is_same = found.len() == expected.len() && found.iter().zip(&expected).all(|(a, b)| are_alike(a, b));
         assert!(is_same, "case {case}\n{found:?}\n{expected:?}\n{cut}\n{plot}");
-        expected.iter().for_each(|notch| *seen.entry(notch.0).or_insert(0) += 1);
+        for notch in expected {
+            *seen.entry(notch.0).or_insert(0) += 1;
+        }
     }
     for word in ["slit", "v", "castle", "u"] {
         assert!(seen.get(word).is_some_and(|count| *count > 300), "{seen:?}");

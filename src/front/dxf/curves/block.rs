@@ -59,10 +59,14 @@ impl Curves {
         let vertices = &coarse.line.vertices;
         let held = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.holds(vertex.at, work))).count();
         let is_fine_itself = held > 0 && 2 * held <= vertices.len();
-        match self.laid(&coarse.line, drafting).filter(|_| !is_fine_itself) {
+        let about = own.iter().find(|fine| fine.lies_about(&coarse.line)).filter(|_| !is_fine_itself);
+        let missed = about.map(|fine| fine.span());
+        let mut curved = match self.laid(&coarse.line, drafting).filter(|_| !is_fine_itself) {
             Some(legs) => Curved::of(&coarse, legs, Origin::Laid),
             None => Curved::drawn(line),
-        }
+        };
+        curved.missed = missed;
+        curved
     }
 
     /// What a curve by the rule has from each vertex of a line on; `None` when it has none.

@@ -8,6 +8,8 @@ use crate::source::Span;
 pub(in crate::front::dxf) struct CurvedPieces {
     pub(in crate::front::dxf) fine: CurvedFrom,
     pub(in crate::front::dxf) laid: CurvedFrom,
+    /// Pieces with fine lines that miss vertices of their lines, and are not used.
+    pub(in crate::front::dxf) missed: CurvedFrom,
 }
 
 /// Pieces with curves from one origin.
@@ -35,6 +37,9 @@ impl CurvedPieces {
     pub(in crate::front::dxf) fn see(&mut self, curved: &Curved) {
         let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
         let line = CurvedFrom { pieces: 1, off: curved.off, first };
+        if let Some(first) = curved.missed {
+            self.missed.add(CurvedFrom { pieces: 1, off: 0.0, first });
+        }
         match curved.origin {
             Origin::Drawn => {}
             Origin::Fine => self.fine.add(line),
@@ -46,5 +51,6 @@ impl CurvedPieces {
     pub(in crate::front::dxf) fn add(&mut self, those: Self) {
         self.fine.add(those.fine);
         self.laid.add(those.laid);
+        self.missed.add(those.missed);
     }
 }

@@ -7,6 +7,7 @@ use crate::front::dxf::chain::Chain;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, polyline};
 use crate::machine::patterns::Dxf;
+use crate::source::Span;
 
 /// Where a line got its curves from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +27,8 @@ pub(in crate::front::dxf) struct Curved {
     pub(in crate::front::dxf) origin: Origin,
     /// How far the curves leave the chords of the coarse line, mm.
     pub(in crate::front::dxf) off: f64,
+    /// Where a fine line begins that lies about it and misses vertices of it.
+    pub(in crate::front::dxf) missed: Option<Span>,
     /// The coarse line, and what became of each of its edges; empty where they are as they were.
     coarse: Vec<Point>,
     legs: Vec<Vec<Point>>,
@@ -34,7 +37,7 @@ pub(in crate::front::dxf) struct Curved {
 impl Curved {
     /// A line as it is drawn.
     pub(super) fn drawn(line: &Chain) -> Self {
-        Self { line: line.clone(), origin: Origin::Drawn, off: 0.0, coarse: Vec::new(), legs: Vec::new() }
+        Self { line: line.clone(), origin: Origin::Drawn, off: 0.0, missed: None, coarse: Vec::new(), legs: Vec::new() }
     }
 
     /// A line that has curves now, from each vertex of the coarse one on, without spikes.
@@ -54,7 +57,7 @@ impl Curved {
         let off = ways.iter().zip(round.windows(2)).map(off_edge).fold(0.0, f64::max);
         coarse.put_back(&mut legs);
         let line = Chain { vertices: legs.concat(), is_closed: base.is_closed };
-        Self { line, origin, off, coarse: round, legs: ways }
+        Self { line, origin, off, missed: None, coarse: round, legs: ways }
     }
 
     /// Where a place beside a chord of the coarse line is on the curve: straight up from the chord. Places that lie beside

@@ -7,6 +7,7 @@ use crate::front::dxf::chain::Chain;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
+use crate::source::Span;
 
 /// Places of a fine line at one vertex from which it is followed: it passes a vertex once, or twice at a seam.
 const MOST_STARTS: usize = 4;
@@ -37,6 +38,16 @@ impl Fine {
         let edges = points.windows(2).map(|edge| Extent::between(edge[0], edge[1]).grown(ON)).collect();
         let (stations, extent) = (polyline::stations(&points), Extent::of(&points).grown(ON));
         Self { layer, chain, stations, edges: Boxes::new(edges), extent, points }
+    }
+
+    /// Where it begins in the file.
+    pub(super) fn span(&self) -> Span {
+        self.chain.vertices[0].span
+    }
+
+    /// Whether it lies where a line does.
+    pub(super) fn lies_about(&self, line: &Chain) -> bool {
+        self.extent.overlaps(&Extent::of(&line.points()))
     }
 
     fn length(&self) -> f64 {

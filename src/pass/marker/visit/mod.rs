@@ -74,20 +74,26 @@ struct Begun {
     is_at_front: bool,
 }
 
-/// The cuts of many visits, which begin alike: the cuts of a group, and the link of the groups before it.
+/// The cuts of many visits, which begin alike.
 #[derive(Default)]
-struct Trail(Vec<(Vec<(usize, Begin)>, Option<usize>)>);
+struct Trail(Vec<Link>);
+
+/// The cuts of a group, and the link of the group before it.
+struct Link {
+    cuts: Vec<(usize, Begin)>,
+    before: Option<usize>,
+}
 
 impl Trail {
     /// Keeps the last cuts of a visit.
     fn keep(&mut self, begun: &mut Begun) {
-        self.0.push((std::mem::take(&mut begun.last), begun.trail));
+        self.0.push(Link { cuts: std::mem::take(&mut begun.last), before: begun.trail });
         begun.trail = Some(self.0.len() - 1);
     }
 
     fn visit(&self, begun: Begun) -> Visit {
         let Begun { slits, trail, last, ends, within, is_at_front } = begun;
-        let links = std::iter::successors(trail, |&link| self.0[link].1).map(|link| &self.0[link].0);
+        let links = std::iter::successors(trail, |&link| self.0[link].before).map(|link| &self.0[link].cuts);
         let mut groups: Vec<&Vec<(usize, Begin)>> = links.collect();
         groups.reverse();
         let cuts = groups.into_iter().flatten().copied().chain(last).collect();
@@ -198,7 +204,9 @@ impl Search<'_> {
                 let into = |other: State| if other == state { 0.0 } else { f64::INFINITY };
                 begun.extend(self.led_on(0, &nothing, &into));
             }
-            begun.iter_mut().for_each(|begun| trail.keep(begun));
+            for begun in &mut begun {
+                trail.keep(begun);
+            }
         }
         let most = (2 * MOST_VISITS).div_ceil(begun.len().max(1));
         let mut visits = vec![self.as_is()];
@@ -260,7 +268,9 @@ impl Search<'_> {
             all = all.iter().flat_map(led).collect();
             all.sort_by(|a, b| a.within.total_cmp(&b.within));
             all.truncate(most);
-            all.iter_mut().for_each(|begun| trail.keep(begun));
+            for begun in &mut all {
+                trail.keep(begun);
+            }
         }
         all.into_iter().map(|begun| trail.visit(begun)).collect()
     }

@@ -185,7 +185,7 @@ fn draws(label: &[u8]) -> bool {
     let commas = |at: usize| {
         let numbers = &label[at + 2..];
         let end = numbers.iter().position(|byte| byte.is_ascii_alphabetic() || *byte == b';').unwrap_or(numbers.len());
-        numbers[..end].iter().filter(|byte| **byte == b',').count()
+        memchr::memchr_iter(b',', &numbers[..end]).count()
     };
     let Some(first) = starts(b"PU").find(|&at| commas(at) > 0) else { return false };
     starts(b"PD").filter(|&at| at > first).map(|at| commas(at).div_ceil(2)).sum::<usize>() >= DRAWN_PLACES
