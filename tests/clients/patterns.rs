@@ -77,6 +77,10 @@ for name in json.load(open("names.json")):
 print(json.dumps(found))
 "#;
 
+/// Files that ezdxf reads otherwise, and why.
+const OTHERWISE: [(&str, &str); 1] =
+    [("block-behind-the-section.dxf", "it reads no block behind the section of blocks")];
+
 /// Numbers of things by their names.
 type Counts = BTreeMap<String, u64>;
 
@@ -133,7 +137,7 @@ fn ezdxf_counts_the_same_in_patterns_of_its_own_and_in_the_fixtures() {
     let mut compared = 0;
     for (name, theirs) in &theirs {
         let (ours, is_told) = ours(name, folder.path());
-        if is_told {
+        if is_told || OTHERWISE.iter().any(|(other, _)| other == name) {
             continue;
         }
         assert_eq!(ours, *theirs, "{name}");

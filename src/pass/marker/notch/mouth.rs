@@ -28,6 +28,8 @@ const U_AREA: f64 = 0.68;
 /// be short, more.
 const MOUTH_TURN: f64 = PI / 6.0;
 const NEXT_TURN: f64 = PI / 3.0;
+/// Cosine of that turn.
+const NEXT_COSINE: f64 = 0.5;
 /// Square of the cosine of the least turn at the end of a mouth: 12 degrees.
 const LEAST_TURN: f64 = 0.957;
 /// The edge before a mouth has its direction over so much of it, mm.
@@ -186,7 +188,7 @@ impl Ring<'_> {
         };
         let width = mouth.norm();
         let turn = |way: Vector| angle::turn(way, mouth).abs();
-        // The one that turns least has the greatest cosine; angles of all would take much longer.
+        // The one that turns least has the greatest cosine; angles take much longer.
         let (mut straightest, mut cosine, mut is_next) = (None, f64::NEG_INFINITY, None);
         for k in 1..(count - steps).min(MOST_STEPS) {
             let way = beside(k);
@@ -196,14 +198,16 @@ impl Ring<'_> {
                 (straightest, cosine) = (Some(way), along);
             }
             if length >= 2.0 * self.slack && is_next.is_none() {
-                is_next = Some(turn(way) <= NEXT_TURN + self.slack.atan2(length));
+                let is_surely = along >= NEXT_COSINE * width;
+                is_next = Some(is_surely || turn(way) <= NEXT_TURN + self.slack.atan2(length));
             }
             if length >= width {
                 break;
             }
         }
         let least = straightest.map_or(f64::INFINITY, turn);
-        (least <= MOUTH_TURN + self.slack.atan2(width) && is_next.unwrap_or(true)).then_some(least)
+        let is_along = least <= MOUTH_TURN || least <= MOUTH_TURN + self.slack.atan2(width);
+        (is_along && is_next.unwrap_or(true)).then_some(least)
     }
 }
 
