@@ -185,7 +185,8 @@ fn off_table(case: &Case, axis: usize) -> Option<Harm> {
     let amount = DAMAGING * (cutc::machine::Table::EDGE_MM + PLACE_ROUNDING);
     let mut by = [0.0; 2];
     by[axis] = table[0] - least - amount - PLACE_ROUNDING;
-    Some(Harm::anywhere(all(case, |p| p + Vector::new(by[0], by[1])), amount))
+    // Which row is the farthest out hangs on where the blade lies between two of them: a micrometre or less.
+    Some(Harm::anywhere(all(case, |p| p + Vector::new(by[0], by[1])), amount - 1e-3))
 }
 
 /// Changes inner vertices of a contour, none of them a corner: those that are found from one of them.
