@@ -8,7 +8,7 @@ use cutc::ir::list::Segment;
 use crate::verifier::case::Case;
 use crate::verifier::harm::{Harm, Place};
 use crate::verifier::measure::{DAMAGING, SAME};
-use crate::verifier::rows::pick;
+use crate::verifier::rows::{self, Row, pick};
 use crate::verifier::sketch::{
     add, all, along, chain, contours, edited, longest, mapped, midpoint, redraw, segments, slit, turn,
 };
@@ -180,13 +180,17 @@ fn lever(case: &Case, value: impl Fn(&Segment, Vector) -> f64) -> f64 {
 fn off_table(case: &Case, axis: usize) -> Option<Harm> {
     let knife = &case.job.profile.knife;
     let table = [case.job.profile.table.x_mm, case.job.profile.table.y_mm][axis]?;
-    let places = case.rows.iter().filter(|row| row.knife == 1).flat_map(|row| [row.tip(knife), row.tail(knife)]);
-    let least = places.map(|place| [place.x, place.y][axis]).fold(f64::INFINITY, f64::min);
+    let least = |rows: &[Row]| {
+        let places = rows.iter().filter(|row| row.knife == 1).flat_map(|row| [row.tip(knife), row.tail(knife)]);
+        places.map(|place| [place.x, place.y][axis]).fold(f64::INFINITY, f64::min)
+    };
     let amount = DAMAGING * (cutc::machine::Table::EDGE_MM + PLACE_ROUNDING);
     let mut by = [0.0; 2];
-    by[axis] = table[0] - least - amount - PLACE_ROUNDING;
-    // Which row is the farthest out hangs on where the blade lies between two of them: a micrometre or less.
-    Some(Harm::anywhere(all(case, |p| p + Vector::new(by[0], by[1])), amount - 1e-3))
+    by[axis] = table[0] - least(&case.rows) - amount - PLACE_ROUNDING;
+    let program = all(case, |p| p + Vector::new(by[0], by[1]));
+    // It is planned anew where it lies now: its ticks fall on other places, and its own rows say how far off it is.
+    let off = table[0] - least(&rows::parse(&program));
+    Some(Harm::anywhere(program, off))
 }
 
 /// Changes inner vertices of a contour, none of them a corner: those that are found from one of them.
