@@ -71,7 +71,7 @@ impl Followed {
         (width > 0.0).then_some(Self { path, stations, orientation: run.orientation, from, width })
     }
 
-    /// The inner vertices behind which the blade follows the path that it was plunged on so many mm before a vertex.
+    /// Inner vertices that the tip passes while the blade follows the path, for a plunge `before` mm before a vertex.
     fn vertices(&self, plunged: usize, before: f64) -> std::ops::Range<usize> {
         let from = self.stations[plunged] + self.from - before;
         self.stations.partition_point(|&station| station < from).max(plunged + 1)..self.path.len() - 1

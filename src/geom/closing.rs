@@ -110,8 +110,8 @@ impl<F: Fn(usize) -> Point> Line<F> {
         let head = Course::of((0..ring).map(&self.at).chain([start]));
         let tail = Course::of(std::iter::once(start).chain((ring..self.count).map(&self.at)));
         let (round, length) = (head.length(), tail.length());
-        // The head as often as the tail goes along it.
-        let laps = (length / round).ceil() as usize + 1;
+        // The head as often as the tail goes along it; lengths of whole rounds differ by rounding.
+        let laps = ((length - self.reach) / round).ceil().max(0.0) as usize + 1;
         if laps > MOST_ROUNDS {
             return None;
         }
@@ -186,6 +186,27 @@ mod tests {
     const B: [f64; 2] = [100.0, 0.0];
     const C: [f64; 2] = [100.0, 50.0];
     const D: [f64; 2] = [0.0, 50.0];
+
+    #[test]
+    fn rounds_of_irregular_outlines_are_counted_whole() {
+        let mut random = fastrand::Rng::with_seed(44);
+        for rounds in 2..=MOST_ROUNDS {
+            for case in 0..200 {
+                let count = random.usize(5..24);
+                let place = |k: usize, reach: f64| {
+                    let angle = std::f64::consts::TAU * k as f64 / count as f64;
+                    [(300.0 + reach * angle.cos()) * 10.0, (300.0 + reach * angle.sin()) * 10.0]
+                        .map(|v| v.round() / 10.0)
+                };
+                let ring: Vec<[f64; 2]> = (0..count).map(|k| place(k, 60.0 + 90.0 * random.f64())).collect();
+                let mut places = ring.repeat(rounds);
+                places.push(ring[0]);
+                let found = retrace(places.len(), |k| places[k].into(), reach(0.1));
+                let found = found.map(|Retrace { last, rounds, .. }| (last, rounds));
+                assert_eq!(found, Some((count - 1, rounds)), "case {case}");
+            }
+        }
+    }
 
     #[test]
     fn a_line_that_runs_past_its_start_is_a_ring_however_it_passes_it() {

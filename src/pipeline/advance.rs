@@ -11,7 +11,7 @@ pub struct Advance {
 }
 
 impl Advance {
-    /// The marker is read, and has so many cuts.
+    /// Sets the number of cuts, once the marker is read.
     pub(super) fn read(&self, cuts: usize) {
         self.cuts.store(cuts, Ordering::Relaxed);
     }

@@ -81,7 +81,7 @@ pub struct Choices<'a> {
     pub from: Option<&'static Dialect>,
     /// Whether the programs are read back and judged.
     pub verify: bool,
-    /// Where it is noted how far the compile is.
+    /// Progress of the compile.
     pub advance: &'a Advance,
 }
 

@@ -146,12 +146,12 @@ impl Wanted<'_> {
     }
 }
 
-/// What is asked of a program beside what its sinks need.
+/// Extra demands on a program.
 #[derive(Clone, Copy)]
 pub(super) struct Plan<'a> {
     /// The planned motion, where no sink needs it.
     pub(super) motion: bool,
-    /// Where it is noted how many cuts are planned.
+    /// Progress of the compile.
     pub(super) advance: &'a Advance,
 }
 

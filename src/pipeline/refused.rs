@@ -1,4 +1,4 @@
-//! What pictures show of findings: the errors of a program that was refused, each at its place, and the doubts about pieces.
+//! Findings in pictures: the errors of a program that was refused, each at its place, and the doubts about pieces.
 
 use std::io::{self, BufWriter, Write};
 

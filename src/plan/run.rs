@@ -97,7 +97,7 @@ const STRAIGHT_SHARE: f64 = 0.9;
 const RESERVE_SHARE: f64 = 0.03;
 /// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
 const NARROWER: [f64; 2] = [0.4, 0.15];
-/// Laps of a ring before its start and behind its end beyond which no more are tried.
+/// Most laps before the start and behind the end of a ring.
 const LEADS: u32 = 4;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
 const ROUNDS: usize = 12;

@@ -15,7 +15,7 @@ use rand_chacha::ChaCha8Rng;
 
 /// Head of a cut file, and its unit, mm.
 const UNITS: [(&str, f64); 3] = [("H1*G71*", 0.1), ("H1*", 0.254), ("H1*G70*", 0.0254)];
-/// Greatest distance of the end from the start that is none, mm: rows have six decimals, and chords of a tick.
+/// Distance between end and start that rows may show, mm: they have six decimals, and chords of a tick.
 const NONE: f64 = 1e-3;
 /// Length of the overlap that is looked at, back from the end, and of the start that it must lie on, mm.
 const TAIL: f64 = 0.4;

@@ -63,7 +63,7 @@ pub(super) fn table(doubts: &[&Diagnostic], sheet: &Sheet, mut at: Point) -> Str
     if doubts.is_empty() {
         return String::new();
     }
-    let mut text = sheet.text("doubt-text", at, "doubtful in the drawing; look at these pieces before you cut:");
+    let mut text = sheet.text("doubt-text", at, "doubtful pieces, to be checked before cutting:");
     for (n, doubt) in doubts.iter().enumerate() {
         at.y += LINE_PX * sheet.px;
         text.push_str(&sheet.text("doubt-text", at, &format!("{}  {}", sign(n), doubt.message)));

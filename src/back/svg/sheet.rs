@@ -213,7 +213,7 @@ impl Sheet {
     }
 }
 
-/// Lines that a table of so many rows takes, with its title.
+/// Number of text lines of a table, its title included.
 pub(super) fn table_lines(rows: usize) -> usize {
     rows + usize::from(rows > 0)
 }

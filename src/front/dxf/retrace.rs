@@ -37,7 +37,7 @@ pub(super) fn once(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain
         if let Some(Retrace { last, rounds, past }) = retrace(&line) {
             let count = line.vertices.len();
             retraced.push(Retraced { past, rounds, span: line.vertices[0].span });
-            // What led on from there leads to the first.
+            // The next segment starts at the first vertex instead.
             let closing = line.vertices[(last + 1) % count].span;
             line.vertices.truncate(last + 1);
             line.vertices[0].span = closing;

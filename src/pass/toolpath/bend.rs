@@ -1,4 +1,4 @@
-//! Pass `bend`: no run has a bend behind which the heel leaves the line by more than `knife.max_swing_mm`, when that is set.
+//! Pass `bend`: lifts the knife where the heel would swing out by more than `knife.max_swing_mm`.
 //!
 //! Needs runs split at corners, among which are the single vertices that turn too far for that key. Leaves runs that are
 //! lifted amid a curve before the heel would leave it too far, and plunged again with the heel overlap of a corner, which

@@ -1,14 +1,14 @@
 //! The lap of a ring: its smooth curve ends on its own start.
 //!
-//! The curve of a ring is found along a polyline that goes round more than once, so that it is no other near the seam than
-//! elsewhere. Found by themselves, its end and its start would still lie beside each other, each inside the band, and a
+//! The curve of a ring is found along a polyline that goes round more than once, so that it has the same shape near the
+//! seam as elsewhere. Found by themselves, its end and its start would still lie beside each other, each inside the band, and a
 //! thread of cloth would stay between the two cuts. The knots of a ring therefore repeat with each lap, and the control
 //! points behind the seam are those behind the start; those before the seam lead there little by little.
 
 use crate::geom::polyline;
 use crate::ir::toolpath::{Run, Shape};
 
-/// Control points before the seam over which the curve is led onto its start: one is felt over some ten.
+/// Control points before the seam over which the curve is led onto its start. A control point influences about ten spans.
 const LED: usize = 8;
 /// Breaks at an end of the spline that belong to no lap, and on which control points depend: the order of the spline.
 const AT_END: usize = 6;

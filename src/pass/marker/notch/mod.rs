@@ -4,7 +4,7 @@
 //! contour, of which all of this is true, to rounding:
 //!
 //! - it is a V (mouth 1 to 12 mm), a castle or a U (mouth 1.5 to 12 mm), 1.5 to 15 mm deep along its axis;
-//! - the axis of a V or castle, from the middle of the mouth to that of the bottom, leans up to 45 degrees from the square;
+//! - the axis of a V or castle, from the middle of the mouth to that of the bottom, leans up to 60 degrees from the square;
 //! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction;
 //! - on either side the next notch is farther than the mouth is wide: closer ones are the teeth of a pinked hem;
 //! - three vertices at least belong to none of the contour's notches.

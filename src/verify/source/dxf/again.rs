@@ -86,7 +86,7 @@ impl Path {
 }
 
 impl Round {
-    /// How much of the curve lies before the place nearest to another.
+    /// Share of the curve, from 0 to 1, up to its place nearest to a point.
     fn share(&self, at: Point) -> f64 {
         let spoke = at - self.centre;
         let angle = (spoke.y.atan2(spoke.x) - self.start) * self.sweep.signum();
