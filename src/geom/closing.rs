@@ -6,7 +6,7 @@
 use crate::geom::{Point, cross, polyline};
 
 /// Longest stretch that counts as an overcut of other software, mm, as the crow flies: longer ones are lines of their own.
-pub const LONGEST_PAST: f64 = 25.0;
+pub const LONGEST_PAST: f64 = 100.0;
 /// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
 /// places miss the head by that.
 pub const LEAST_REACH: f64 = 0.1;

@@ -194,6 +194,12 @@ impl Notch {
     /// Longest slit, and longest crossbar, mm: what cutters punch is 3 to 12 mm deep, and the lines that are drawn inside
     /// parts are longer.
     pub const LONGEST: f64 = 15.0;
+    /// Longest stroke from edge to edge that is a notch, mm: there and back, and as much again across.
+    pub const LONGEST_STROKE: f64 = 4.0 * Self::LONGEST;
+    /// Widest mouth, mm.
+    pub const WIDEST: f64 = 12.0;
+    /// How far from its edge a stroke of a notch may begin, mm, beside rounding: drawing programs leave it by some units.
+    pub const MISS: f64 = 0.5;
 
     /// How far it goes into the part, mm.
     pub fn depth(&self) -> f64 {

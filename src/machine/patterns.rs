@@ -47,7 +47,7 @@ impl Dxf {
     /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
     pub const NOTCH_OFF: f64 = 1.0;
     /// Longest stretch that an outline runs past its own start, mm, as the crow flies: the overcut of another cutter.
-    pub const OVERRUN: f64 = 25.0;
+    pub const OVERRUN: f64 = 100.0;
     /// Farthest that such a stretch, or another round, lies from the first round, mm.
     pub const RETRACE_OFF: f64 = 0.1;
     /// Most rounds that an outline goes in one stroke and is still one outline.

@@ -32,6 +32,13 @@ impl Reach {
     pub(super) fn of(unit: f64, job: &Job) -> Self {
         Self { retraced: closing::reach(unit), close: job.profile.drawing.close_mm }
     }
+
+    /// Whether the edge of a rectangle would close an open line to a ring with an inside.
+    pub(super) fn is_edged(&self, frame: &Extent, line: &Line, vertices: &[Vertex]) -> bool {
+        let drawn = line.as_drawn(vertices);
+        let ends = [drawn[0].at, drawn[drawn.len() - 1].at];
+        along(frame, ends, self.close).is_some() && line.area > line.length * self.close.max(self.retraced)
+    }
 }
 
 /// Finds how each line closes, and adds the rings to the vertices.

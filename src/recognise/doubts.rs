@@ -1,7 +1,10 @@
 //! Doubts about parts, by the numbers of their pieces: outlines that were closed or stay open, parts without a seam line, and
 //! lines that begin on an outline and are not cut.
 
+use std::collections::BTreeMap;
+
 use super::line::{Class, Closing, Line, SIGN};
+use super::marks::EdgeLine;
 use super::pens::Use;
 use super::piece::owners;
 use super::sheet::Sheet;
@@ -16,7 +19,7 @@ const MANY: usize = 3;
 /// Decimals of lengths, mm.
 const DECIMALS: u32 = 1;
 
-/// Says all of them.
+/// Tells every doubt about parts.
 pub(super) fn all(sheet: &Sheet, out: &mut Diagnostics) {
     let owners = owners(sheet);
     open_parts(sheet, out);
@@ -49,34 +52,42 @@ fn words(numbers: &[u32]) -> String {
     }
 }
 
-/// Outlines with a gap around closed lines.
-fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
+/// Outlines with a gap around closed lines, each with how many of those it holds.
+pub(super) fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     let is_held = |line: &Line| line.is_closed && line.size() >= SIGN && line.class != Class::Ignored;
-    let mut held = vec![0_usize; sheet.lines.len()];
-    for i in sheet.indices(is_held) {
-        if let Some(outer) = sheet.nest.outermost(i).filter(|&outer| outer != i) {
-            held[outer] += 1;
-        }
+    let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i);
+    let holders = sheet.indices(is_held).into_iter().filter_map(outer);
+    let mut held = BTreeMap::new();
+    for outline in holders.chain(sheet.remains.iter().map(|[outline, _]| *outline)) {
+        *held.entry(outline).or_insert(0) += 1;
     }
-    let gap = |i: usize| if let Closing::Open(gap) = sheet.lines[i].closing { gap } else { 0.0 };
-    let open =
-        sheet.indices(|line| matches!(line.closing, Closing::Open(_)) && !line.is_cut && line.usage != Use::Drawn);
-    let open: Vec<usize> = open.into_iter().filter(|&i| held[i] > 0 && sheet.lines[i].class != Class::Frame).collect();
-    let Some(&first) = open.first() else { return };
-    let lines: usize = open.iter().map(|&i| held[i]).sum();
-    let widest = fixed(open.iter().map(|&i| gap(i)).fold(0.0, f64::max), DECIMALS);
+    let is_left = |line: &Line| !line.is_closed && !line.is_cut && line.usage != Use::Drawn;
+    held.retain(|&i, _| is_left(&sheet.lines[i]) && sheet.lines[i].class != Class::Frame);
+    held
+}
+
+/// Says how many outlines have a gap around closed lines.
+fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
+    let open = open_outlines(sheet);
+    let Some((&first, _)) = open.first_key_value() else { return };
+    let gap = |&i: &usize| {
+        let drawn = sheet.lines[i].as_drawn(&sheet.vertices);
+        (drawn[drawn.len() - 1].at - drawn[0].at).norm()
+    };
+    let lines: usize = open.values().sum();
+    let widest = fixed(open.keys().map(gap).fold(0.0, f64::max), DECIMALS);
     let (outlines, around) = match open.len() {
         1 => (format!("an outline has a gap of {widest} mm"), "in it"),
         n => (format!("{n} outlines have gaps of up to {widest} mm"), "in them"),
     };
-    let lines = if lines == 1 { "one closed line".to_owned() } else { format!("{lines} closed lines") };
-    let message = format!("{outlines}: not cut, and neither is any of {lines} {around}");
+    let lines = if lines == 1 { "is the closed line".to_owned() } else { format!("are the {lines} closed lines") };
+    let message = format!("{outlines}: not cut, and neither {lines} {around}");
     let found = finding(&code::DRAWING_OPEN_PART, message, &sheet.lines[first], sheet);
-    let may_close = open.iter().all(|&i| gap(i) <= CLOSE_MOST_MM);
+    let may_close = open.keys().all(|i| gap(i) <= CLOSE_MOST_MM);
     out.push(found.hint(if may_close {
         format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={widest}`")
     } else {
-        "let the CAD close it: the gap is wider than `drawing.close_mm` may be".to_owned()
+        "let the CAD close it; if it is the edge of the cloth, leave its pen out (`--cut-pens`)".to_owned()
     }));
 }
 
@@ -110,9 +121,14 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
 fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     for is_edge in [false, true] {
         let length = |i: usize| match sheet.lines[i].closing {
-            Closing::Gap(mm) if !is_edge => Some(mm),
+            Closing::Gap(mm) | Closing::Bridged(mm) if !is_edge => Some(mm),
             Closing::Edge(mm) if is_edge => Some(mm),
-            Closing::Gap(_) | Closing::Edge(_) | Closing::Drawn | Closing::Retraced | Closing::Open(_) => None,
+            Closing::Gap(_)
+            | Closing::Bridged(_)
+            | Closing::Edge(_)
+            | Closing::Drawn
+            | Closing::Retraced
+            | Closing::Open(_) => None,
         };
         let closed: Vec<usize> =
             owners.iter().copied().filter(|&i| sheet.lines[i].is_cut && length(i).is_some()).collect();
@@ -140,24 +156,35 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
 
 /// Lines that begin on the outline of a part and are not cut.
 fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
-    let is_left = |&&(line, part): &&(usize, usize)| {
-        let Line { is_cut, usage, .. } = sheet.lines[line];
-        !is_cut && usage != Use::Drawn && sheet.lines[part].is_cut
+    let is_left = |edge: &&EdgeLine| {
+        let Line { is_cut, usage, .. } = sheet.lines[edge.line];
+        !is_cut && usage != Use::Drawn && sheet.lines[edge.outline].is_cut
     };
-    let (lines, parts): (Vec<usize>, Vec<usize>) = sheet.from_edges.iter().filter(is_left).copied().unzip();
-    let Some(&first) = lines.first() else { return };
-    let (begin, longest) = match lines.len() {
-        1 => ("one open line ends".to_owned(), "it is"),
-        n => (format!("{n} open lines end"), "the longest is"),
-    };
-    let length = fixed(lines.iter().map(|&i| sheet.lines[i].length).fold(0.0, f64::max), DECIMALS);
-    let numbers = numbers(owners, &parts);
-    let pieces = words(&numbers);
-    let message = format!("not cut: {begin} at the outline of {pieces}; {longest} {length} mm long");
-    let found = finding(&code::DRAWING_LINE_FROM_EDGE, message, &sheet.lines[first], sheet);
-    out.push(
-        found
-            .about(numbers)
-            .hint("notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts every line"),
-    );
+    let (dividing, others): (Vec<&EdgeLine>, Vec<&EdgeLine>) =
+        sheet.from_edges.iter().filter(is_left).partition(|edge| edge.divides);
+    for (edges, code, does, hint) in [
+        (
+            dividing,
+            &code::DRAWING_DIVIDED_PART,
+            ["goes from edge to edge", "go from edge to edge"],
+            "if it divides a part in two, let the CAD draw both parts; `--cut-all` cuts every line",
+        ),
+        (
+            others,
+            &code::DRAWING_LINE_FROM_EDGE,
+            ["ends at the outline", "end at the outline"],
+            "notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts every line",
+        ),
+    ] {
+        let Some(first) = edges.first() else { continue };
+        let (begin, longest) = match edges.len() {
+            1 => (format!("one open line {}", does[0]), "it is"),
+            n => (format!("{n} open lines {}", does[1]), "the longest is"),
+        };
+        let length = fixed(edges.iter().map(|edge| sheet.lines[edge.line].length).fold(0.0, f64::max), DECIMALS);
+        let parts: Vec<usize> = edges.iter().map(|edge| edge.outline).collect();
+        let numbers = numbers(owners, &parts);
+        let message = format!("not cut: {begin} of {}; {longest} {length} mm long", words(&numbers));
+        out.push(finding(code, message, &sheet.lines[first.line], sheet).about(numbers).hint(hint));
+    }
 }

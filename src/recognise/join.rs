@@ -9,11 +9,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::bridge;
+use super::chains::{Chains, End, other, place};
 use super::close::along;
-use super::line::{Line, SMALL_OUTLINE};
+use super::line::{Closing, Line, SMALL_OUTLINE};
 use super::pens::{self, Use};
 use crate::geom::closing;
-use crate::geom::{Extent, Point, Vector, angle, bits};
+use crate::geom::{Extent, Point, Vector, angle, bits, polyline};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
 use crate::machine::Job;
 
@@ -33,15 +35,8 @@ const SHARPEST: f64 = FRAC_PI_2;
 const STRETCH: f64 = 1.0;
 const MOST_STEPS: usize = 64;
 
-/// An end of a stroke: twice its index, and one more for its last place.
-type End = usize;
-
 /// The pen, and the cell of a grid.
 type Cell = (u16, [i64; 2]);
-
-const fn other(end: End) -> End {
-    end ^ 1
-}
 
 /// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
 pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
@@ -49,11 +44,12 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
     let mut joining = Joining {
         reach: if drawing.unit > 0.0 { (REACH_UNITS * drawing.unit).min(REACH) } else { REACH },
         close: job.profile.drawing.close_mm,
+        strokes: drawing.strokes.len(),
         drawing,
         moved: Moved::default(),
     };
     joining.close_alone();
-    let links = joining.links();
+    let chains = joining.chains();
     let strokes = std::mem::take(&mut joining.drawing.strokes);
     let mut taken = vec![false; strokes.len()];
     let mut lines = Vec::with_capacity(strokes.len());
@@ -61,43 +57,36 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
         if taken[i] {
             continue;
         }
-        let stroke = if links[2 * i].is_none() && links[2 * i + 1].is_none() {
-            strokes[i]
-        } else {
-            joining.chain(&strokes, &links, start(i, &links), &mut taken)
+        let start = chains.start(i);
+        let stroke = match chains.links[other(start)] {
+            None => strokes[i],
+            Some(_) => joining.chain(&strokes, &chains, start, &mut taken),
         };
         let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
-        lines.push(Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage));
+        let mut line = Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage);
+        let bridges = chains
+            .from(start)
+            .filter(|end| end / 2 >= joining.strokes)
+            .map(|end| polyline::length(&joining.moved.closed[end / 2 - joining.strokes]));
+        if let Some(longest) = bridges.max_by(f64::total_cmp) {
+            line.closing = Closing::Bridged(longest);
+        }
+        lines.push(line);
     }
     (lines, joining.moved)
-}
-
-/// Where a chain that holds a stroke starts. One that closes starts with that stroke itself.
-fn start(stroke: usize, links: &[Option<End>]) -> End {
-    let mut at = 2 * stroke;
-    while let Some(before) = links[at] {
-        at = other(before);
-        if at / 2 == stroke {
-            return 2 * stroke;
-        }
-    }
-    at
 }
 
 struct Joining<'a> {
     reach: f64,
     /// Widest gap that is closed, mm.
     close: f64,
+    /// Strokes that the file draws; those behind them are bridges.
+    strokes: usize,
     drawing: &'a mut Drawing,
     moved: Moved,
 }
 
 impl Joining<'_> {
-    fn place(&self, end: End) -> Vertex {
-        let stroke = self.drawing.strokes[end / 2];
-        self.drawing.vertices[if end.is_multiple_of(2) { stroke.first } else { stroke.end - 1 } as usize]
-    }
-
     /// Moves the last place of a stroke that nearly closes to its first.
     fn close_alone(&mut self) {
         for k in 0..self.drawing.strokes.len() {
@@ -114,21 +103,38 @@ impl Joining<'_> {
         }
     }
 
-    /// Of each end the one that continues it.
-    fn links(&self) -> Vec<Option<End>> {
+    /// What continues what; strokes are added where gaps are bridged.
+    fn chains(&mut self) -> Chains {
         let frame = self.frame();
         let open = |k: &usize| {
-            let ends = [self.place(2 * k).at, self.place(2 * k + 1).at];
+            let ends = [place(self.drawing, 2 * k), place(self.drawing, 2 * k + 1)];
             ends[0] != ends[1] && !frame.is_some_and(|frame| self.ends_at(&frame, ends)) && !self.retraces(*k)
         };
         let ends: Vec<End> = (0..self.drawing.strokes.len()).filter(open).flat_map(|k| [2 * k, 2 * k + 1]).collect();
         if ends.is_empty() {
-            return vec![None; 2 * self.drawing.strokes.len()];
+            return Chains::alone(self.drawing.strokes.len());
         }
-        let mut graph = Graph::new(self, self.nodes(ends));
+        let mut graph = Graph::new(self, self.nodes(ends.clone()));
         graph.put_dead_ends_aside();
         graph.link();
-        graph.links
+        let mut chains = graph.chains;
+        let is_free = |end: &End| chains.links[*end].is_none() && !self.nearly_closes(end / 2);
+        let free: Vec<End> = ends.into_iter().filter(is_free).collect();
+        for pair in bridge::find(self.drawing, &chains, &self.near_pairs(&free, self.close)) {
+            self.bridge(pair);
+            chains.join_over(pair);
+        }
+        chains
+    }
+
+    /// Adds the straight stroke from an end to another.
+    fn bridge(&mut self, [from, to]: [End; 2]) {
+        let ends = [from, to].map(|end| place(self.drawing, end));
+        let span = self.drawing.vertices[self.drawing.strokes[to / 2].first as usize + 1].span;
+        let (first, pen) = (self.drawing.vertices.len() as u32, self.drawing.strokes[from / 2].pen);
+        self.drawing.vertices.extend(ends.map(|at| Vertex { at, span }));
+        self.drawing.strokes.push(PenStroke { first, end: first + 2, pen });
+        self.moved.closed.push(ends.to_vec());
     }
 
     /// Whether a stroke closes by itself and runs on.
@@ -161,7 +167,7 @@ impl Joining<'_> {
 
     /// Ends that are at one place, two at least.
     fn nodes(&self, ends: Vec<End>) -> Vec<Vec<End>> {
-        let key = |end: End| (self.drawing.strokes[end / 2].pen, bits(self.place(end).at), end);
+        let key = |end: End| (self.drawing.strokes[end / 2].pen, bits(place(self.drawing, end)), end);
         let mut keyed: Vec<(u16, [u64; 2], End)> = ends.into_iter().map(key).collect();
         keyed.sort_unstable();
         let (mut alone, mut nodes) = (Vec::new(), Vec::new());
@@ -171,27 +177,27 @@ impl Joining<'_> {
                 _ => nodes.push(group.iter().map(|(.., end)| *end).collect()),
             }
         }
-        nodes.extend(self.near_pairs(&alone));
+        nodes.extend(self.near_pairs(&alone, self.reach).into_iter().map(|pair| pair.to_vec()));
         nodes
     }
 
     /// Pairs of ends within reach of each other and of no third.
-    fn near_pairs(&self, ends: &[End]) -> Vec<Vec<End>> {
+    fn near_pairs(&self, ends: &[End], reach: f64) -> Vec<[End; 2]> {
         let cell = |end: End| {
-            let at = self.place(end).at;
-            let [x, y] = [at.x, at.y].map(|mm| (mm / self.reach).floor() as i64);
+            let at = place(self.drawing, end);
+            let [x, y] = [at.x, at.y].map(|mm| (mm / reach).floor() as i64);
             ((self.drawing.strokes[end / 2].pen, [x, y]), end)
         };
         let mut cells: Vec<(Cell, End)> = ends.iter().map(|&end| cell(end)).collect();
         cells.sort_unstable();
-        let only = self.only_near(&cells);
+        let only = self.only_near(&cells, reach);
         let pair = |k: usize| only[k].filter(|&other| k < other && only[other] == Some(k)).map(|other| [k, other]);
-        (0..cells.len()).filter_map(pair).map(|pair| pair.map(|k| cells[k].1).to_vec()).collect()
+        (0..cells.len()).filter_map(pair).map(|pair| pair.map(|k| cells[k].1)).collect()
     }
 
     /// Of each of some ends, sorted by their cells, the only other one within reach, as an index; nothing when there are
     /// more, and the other end of the same stroke does not count.
-    fn only_near(&self, cells: &[(Cell, End)]) -> Vec<Option<usize>> {
+    fn only_near(&self, cells: &[(Cell, End)], reach: f64) -> Vec<Option<usize>> {
         let cell = |k: usize| cells.get(k).map(|(cell, _)| *cell);
         // Where the cells below and beside an end begin, in the three columns around it: they go on as the ends do.
         let mut starts = [0; 3];
@@ -207,13 +213,13 @@ impl Joining<'_> {
                 only.push(None);
                 continue;
             }
-            let at = self.place(end).at;
+            let at = place(self.drawing, end);
             let columns = starts.iter().zip(x - 1..).flat_map(|(&start, column)| {
                 (start..).take_while(move |&k| cell(k).is_some_and(|cell| cell <= (pen, [column, y + 1])))
             });
             let is_near = |&there: &usize| {
                 let beside = cells[there].1;
-                beside != end && beside != other(end) && (self.place(beside).at - at).amax() <= self.reach
+                beside != end && beside != other(end) && (place(self.drawing, beside) - at).amax() <= reach
             };
             let mut near = columns.filter(is_near);
             only.push(near.next().filter(|_| near.next().is_none()));
@@ -222,18 +228,23 @@ impl Joining<'_> {
     }
 
     /// Puts the strokes of a chain together in one, from an end on.
-    fn chain(&mut self, strokes: &[PenStroke], links: &[Option<End>], start: End, taken: &mut [bool]) -> PenStroke {
+    fn chain(&mut self, strokes: &[PenStroke], chains: &Chains, start: End, taken: &mut [bool]) -> PenStroke {
         let first = self.drawing.vertices.len();
-        let mut at = start;
-        loop {
+        for at in chains.from(start) {
             taken[at / 2] = true;
-            self.append(&strokes[at / 2], at.is_multiple_of(2), first);
-            let Some(next) = links[other(at)] else { break };
-            if next == start {
-                self.close(first);
-                break;
+            if at / 2 < self.strokes {
+                self.append(&strokes[at / 2], at.is_multiple_of(2), first);
+            } else {
+                let stroke = strokes[at / 2];
+                let [from, to] = [stroke.first, stroke.first + 1].map(|k| self.drawing.vertices[k as usize].at);
+                // No instruction leads over a bridge: it counts to the one before it.
+                let span = self.drawing.vertices[self.drawing.vertices.len() - 1].span;
+                let at = if at.is_multiple_of(2) { to } else { from };
+                self.drawing.vertices.push(Vertex { at, span });
             }
-            at = next;
+        }
+        if chains.links[start].is_some() {
+            self.close(first);
         }
         let end = self.drawing.vertices.len() as u32;
         PenStroke { first: first as u32, end, pen: strokes[start / 2].pen }
@@ -300,9 +311,7 @@ struct Graph<'a, 'b> {
     nodes: Vec<Vec<End>>,
     /// Of each end the place where it meets others.
     node: Vec<Option<u32>>,
-    links: Vec<Option<End>>,
-    /// Of each end of a chain of linked strokes the other one.
-    far: Vec<End>,
+    chains: Chains,
     /// Strokes that lead nowhere.
     is_dead: Vec<bool>,
 }
@@ -314,8 +323,8 @@ impl<'a, 'b> Graph<'a, 'b> {
         for (k, end) in nodes.iter().enumerate().flat_map(|(k, node)| node.iter().map(move |end| (k, *end))) {
             node[end] = Some(k as u32);
         }
-        let is_dead = vec![false; joining.drawing.strokes.len()];
-        Self { joining, nodes, node, links: vec![None; ends], far: (0..ends).map(other).collect(), is_dead }
+        let strokes = joining.drawing.strokes.len();
+        Self { joining, nodes, node, chains: Chains::alone(strokes), is_dead: vec![false; strokes] }
     }
 
     /// Finds the strokes of which an end meets no other, and those that then lead nowhere.
@@ -343,17 +352,17 @@ impl<'a, 'b> Graph<'a, 'b> {
     fn link(&mut self) {
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open(k, false)[..] {
-                self.join([a, b]);
+                self.chains.join([a, b]);
             }
         }
         for k in 0..self.nodes.len() {
             while let Some(pair) = self.continuation(k) {
-                self.join(pair);
+                self.chains.join(pair);
             }
         }
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open(k, true)[..] {
-                self.join([a, b]);
+                self.chains.join([a, b]);
             }
         }
     }
@@ -361,7 +370,7 @@ impl<'a, 'b> Graph<'a, 'b> {
     /// The ends at a place that nothing continues yet.
     fn open(&self, node: usize, with_dead: bool) -> Vec<End> {
         let may_go_on = |stroke: usize| !self.is_dead[stroke] || with_dead && !self.joining.nearly_closes(stroke);
-        let is_open = |end: &End| self.links[*end].is_none() && may_go_on(end / 2);
+        let is_open = |end: &End| self.chains.links[*end].is_none() && may_go_on(end / 2);
         self.nodes[node].iter().copied().filter(is_open).collect()
     }
 
@@ -371,17 +380,8 @@ impl<'a, 'b> Graph<'a, 'b> {
             return None;
         }
         let pairs = || open.iter().enumerate().flat_map(|(i, &a)| open[i + 1..].iter().map(move |&b| [a, b]));
-        let ring = pairs().find(|&[a, b]| self.far[a] == b && self.joining.drawing.strokes.len() > 1);
+        let ring = pairs().find(|&[a, b]| self.chains.far(a) == b && self.joining.drawing.strokes.len() > 1);
         let turn = |[a, b]: [End; 2]| angle::turn(-self.joining.way(a), self.joining.way(b)).abs();
         ring.or_else(|| pairs().filter(|&pair| turn(pair) <= SHARPEST).min_by(|&a, &b| turn(a).total_cmp(&turn(b))))
-    }
-
-    /// Makes one chain of two.
-    fn join(&mut self, [a, b]: [End; 2]) {
-        (self.links[a], self.links[b]) = (Some(b), Some(a));
-        let [start, end] = [self.far[a], self.far[b]];
-        if start != b {
-            (self.far[start], self.far[end]) = (end, start);
-        }
     }
 }

@@ -80,9 +80,8 @@ const FLAT_EPSILON: f64 = 1e-9;
 pub(super) const SMALL_OUTLINE: f64 = 25.0;
 /// Largest sign, mm: blades are as wide as that.
 pub(super) const SIGN: f64 = 10.0;
-/// Shortest and longest notch, mm.
+/// Shortest notch, mm.
 pub(super) const SHORTEST_NOTCH: f64 = 1.0;
-pub(super) const LONGEST_NOTCH: f64 = 15.0;
 
 /// How a line closes that does not end where it starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,6 +92,8 @@ pub(super) enum Closing {
     Retraced,
     /// A straight line closes a gap of so many mm.
     Gap(f64),
+    /// Straight lines close gaps between its strokes, of up to so many mm.
+    Bridged(f64),
     /// The edge of the frame closes it, along so many mm.
     Edge(f64),
     /// It nearly encloses something, and a gap of so many mm stays open.

@@ -2,15 +2,14 @@
 
 use arrayvec::ArrayVec;
 
-use super::line::{Class, LONGEST_NOTCH, Line, ROUNDING, SHORTEST_NOTCH, is_straight};
+use super::line::{Class, Line, ROUNDING, SHORTEST_NOTCH, is_straight};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::near::{Near, sorted};
 use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Vertex;
+use crate::ir::marker::Notch;
 
-/// How far from the edge a stroke may start and still be a notch, mm: CAD systems leave it by some units.
-pub(super) const MOUTH: f64 = 0.5;
 /// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from
 /// edge to edge.
 const TOUCH: f64 = 0.1;
@@ -80,7 +79,7 @@ fn legs(vertices: &[Vertex]) -> Option<[Stroke; 2]> {
     let (first, last) = (vertices[0].at, vertices[vertices.len() - 1].at);
     let legs = match vertices {
         [_, edge, _] if is_straight(vertices) => [(1, [edge.at, first]), (2, [edge.at, last])],
-        [_, edge, other, _] if is_straight(vertices) && (other.at - edge.at).norm() <= MOUTH => {
+        [_, edge, other, _] if is_straight(vertices) && (other.at - edge.at).norm() <= Notch::MISS => {
             [(1, [edge.at, first]), (3, [other.at, last])]
         }
         _ => return None,
@@ -89,7 +88,7 @@ fn legs(vertices: &[Vertex]) -> Option<[Stroke; 2]> {
 }
 
 fn is_notch([a, b]: [Point; 2]) -> bool {
-    (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&(b - a).norm())
+    (SHORTEST_NOTCH..=Notch::LONGEST).contains(&(b - a).norm())
 }
 
 /// The notches among the open lines that were not taken for anything yet.
@@ -97,7 +96,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
     let Search { lines, vertices, unit, .. } = search;
     let open = (0..lines.len()).filter(|&i| !lines[i].is_closed && lines[i].is_open_question());
     let mut candidates: Vec<Candidate> = Vec::new();
-    for line in open.filter(|&i| lines[i].length <= 4.0 * LONGEST_NOTCH) {
+    for line in open.filter(|&i| lines[i].length <= Notch::LONGEST_STROKE) {
         let vertices = lines[line].vertices(vertices);
         let whole = stroke(vertices).map(|stroke| (false, stroke));
         let legs = legs(vertices).into_iter().flatten().map(|leg| (true, leg));
@@ -109,7 +108,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
         return Vec::new();
     }
     let slack = ROUNDING * unit;
-    meet(&mut candidates, search, MOUTH + slack, work);
+    meet(&mut candidates, search, Notch::MISS + slack, work);
     let mut marks: Vec<(bool, Mark)> = Vec::new();
     for candidate in &candidates {
         // What is a notch as a whole has no legs.
@@ -209,7 +208,7 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     let mut bars = Vec::new();
     let is_bar = |&i: &usize| {
         let line = &lines[i];
-        line.is_open_question() && line.end - line.first == 2 && line.length <= LONGEST_NOTCH
+        line.is_open_question() && line.end - line.first == 2 && line.length <= Notch::LONGEST
     };
     for bar in (0..lines.len()).filter(is_bar) {
         let [a, b] = [0, 1].map(|k| lines[bar].vertices(vertices)[k].at);
@@ -228,9 +227,18 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     bars
 }
 
-/// Open lines that were taken for nothing else and start or end on an outline, each with that outline; of strokes as long as
-/// a notch those, too, that nearly do.
-pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<(usize, usize)> {
+/// An open line that starts or ends on an outline.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeLine {
+    pub(super) line: usize,
+    pub(super) outline: usize,
+    /// Whether it goes from that outline to the same one, and is longer than a notch: it divides the part.
+    pub(super) divides: bool,
+}
+
+/// Open lines that were taken for nothing else and start or end on an outline; of strokes as long as a notch those, too, that
+/// nearly do.
+pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
     let is_open = |line: &Line| !line.is_closed && line.is_open_question();
     let ends = |line: usize| {
@@ -240,7 +248,7 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<(usize, usize
     let open = (0..lines.len()).filter(|&i| is_open(&lines[i]));
     let open = open.map(|line| Candidate::whole(line, ends(line)));
     let (mut short, mut candidates): (Vec<Candidate>, Vec<Candidate>) =
-        open.partition(|candidate| (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&lines[candidate.line].length));
+        open.partition(|candidate| (SHORTEST_NOTCH..=Notch::LONGEST).contains(&lines[candidate.line].length));
     for (candidates, reach) in [(&mut short, NEAR), (&mut candidates, TOUCH)] {
         if !candidates.is_empty() {
             meet(candidates, search, reach + ROUNDING * unit, work);
@@ -248,6 +256,14 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<(usize, usize
     }
     candidates.extend(short);
     candidates.sort_unstable_by_key(|candidate| candidate.line);
-    let outline = |candidate: &Candidate| candidate.on.iter().find_map(|on| on.first()).map(|&(_, outline)| outline);
-    candidates.iter().filter_map(|candidate| Some((candidate.line, outline(candidate)?))).collect()
+    let edge_line = |Candidate { line, on, .. }: &Candidate| {
+        let of = |on: &ArrayVec<(f64, usize), MEETING>| {
+            on.iter().map(|&(_, outline)| outline).collect::<ArrayVec<_, MEETING>>()
+        };
+        let [starts, ends] = [of(&on[0]), of(&on[1])];
+        let both = starts.iter().find(|outline| ends.contains(outline));
+        let outline = *both.or(starts.first()).or(ends.first())?;
+        Some(EdgeLine { line: *line, outline, divides: both.is_some() && lines[*line].length > Notch::LONGEST_STROKE })
+    };
+    candidates.iter().filter_map(edge_line).collect()
 }

@@ -6,10 +6,12 @@
 //! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it. Never
 //! knows the dialect.
 //!
-//! `join` makes lines of strokes, `close` closes them; `sheet` sorts them out, and asks the others: `frame` finds the frames,
+//! `join` makes lines (`chains`) of strokes, over the gaps that `bridge` finds, `close` closes them; `sheet` sorts them out, and asks the others: `frame` finds the frames,
 //! `nest` what lies in what, `marks` and `strokes` the notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when
 //! each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
+mod bridge;
+mod chains;
 mod close;
 mod doubts;
 mod frame;
@@ -44,6 +46,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
         marks: Vec::new(),
         strokes: Vec::new(),
         from_edges: Vec::new(),
+        remains: Vec::new(),
         pens,
         texts,
         unit,

@@ -124,7 +124,7 @@ impl<'a> Making<'a> {
         let all = &self.sheet.vertices;
         // The retraced part of a line is left out by a pass, as in every dialect.
         let vertices = match line.closing {
-            Closing::Drawn | Closing::Gap(_) | Closing::Edge(_) => line.vertices(all),
+            Closing::Drawn | Closing::Bridged(_) | Closing::Gap(_) | Closing::Edge(_) => line.vertices(all),
             Closing::Retraced | Closing::Open(_) => line.as_drawn(all),
         };
         let (points, spans): (Vec<Point>, Vec<_>) = vertices.iter().map(|vertex| (vertex.at, vertex.span)).unzip();
@@ -252,7 +252,8 @@ fn leave_beside_cut(vertices: &[Vertex], mark: &Mark, aside: &mut Aside) {
 fn pen_down(sheet: &Sheet) -> f64 {
     let lines = sheet.lines.iter().fold(0.0, |sum, line| sum + line.length);
     let longer = |Redrawn { drawn, now: [from, to] }: &Redrawn| polyline::length(drawn) - (to - from).norm();
-    sheet.moved.redrawn.iter().map(longer).fold(lines, |sum, longer| sum + longer)
+    let bridges: f64 = sheet.moved.closed.iter().map(|bridge| polyline::length(bridge)).sum();
+    sheet.moved.redrawn.iter().map(longer).fold(lines, |sum, longer| sum + longer) - bridges
 }
 
 /// How many lines were taken for what.

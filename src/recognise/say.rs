@@ -4,10 +4,11 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use super::doubts::{self, finding};
-use super::line::{Class, Line};
+use super::line::{Class, Line, SMALL_OUTLINE};
 use super::pens::Use;
 use super::sheet::Sheet;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Extent;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::ring;
@@ -45,11 +46,11 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding);
         return;
     }
+    doubts::all(sheet, out);
     if !sheet.lines.iter().any(|line| line.is_cut) {
         out.push(nothing(sheet, job));
         return;
     }
-    doubts::all(sheet, out);
     inner_lines(sheet, job, out);
     lines_outside(sheet, out);
     frames(sheet, out);
@@ -121,12 +122,15 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
         out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
     }
+    // An outline with a gap around closed lines is told for itself.
+    let held = doubts::open_outlines(sheet);
     let is_long = |line: &Line| {
         let is_open = matches!(line.class, Class::Other | Class::FromEdge);
         is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
     };
     let parts = Parts::of(sheet);
-    let open: Vec<&Line> = sheet.lines.iter().filter(|line| is_long(line) && !parts.hold(line)).collect();
+    let open = (0..sheet.lines.len()).filter(|i| !held.contains_key(i)).map(|i| &sheet.lines[i]);
+    let open: Vec<&Line> = open.filter(|line| is_long(line) && !parts.hold(line)).collect();
     if let Some(first) = open.first() {
         let places = first.as_drawn(&sheet.vertices);
         let gap = (places[places.len() - 1].at - places[0].at).norm();
@@ -256,11 +260,28 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
         let hint = format!("`hpgl.pens` of the profile leaves them out; {drawn}; `--set hpgl.pens.{first}=knife`");
         return finding.hint(hint);
     }
-    if sheet.lines.iter().any(|line| line.class == Class::SmallOutline) {
-        let hint = format!("{drawn}; closed lines up to 25 mm are parts with `--cut-pens {listed}`");
-        return finding.hint(hint);
+    let mut extent = Extent::EMPTY;
+    sheet.lines.iter().for_each(|line| extent.join(&line.extent));
+    let (width, height) = extent.size();
+    let is_small = sheet.lines.iter().any(|line| line.class == Class::SmallOutline);
+    if is_small || width.min(height) <= SMALL_OUTLINE {
+        let large = format!("all of it is {} x {} mm", fixed(width, 1), fixed(height, 1));
+        return finding.hint(if is_small {
+            format!("{large}: a wrong unit (`--set hpgl.unit=1`)? `--cut-pens {listed}` cuts small parts")
+        } else {
+            format!("{large}: a wrong unit (`--set hpgl.unit=1`), or decimal commas?")
+        });
     }
-    let closed = sheet.lines.iter().any(|line| line.is_closed);
-    let why = if closed { "no closed line is a part" } else { "no line closes" };
+    let is_back = |line: &Line| {
+        let places = line.as_drawn(&sheet.vertices);
+        !line.is_closed && places[0].at == places[places.len() - 1].at
+    };
+    let why = if sheet.lines.iter().any(|line| line.is_closed) {
+        "no closed line is a part"
+    } else if sheet.lines.iter().any(is_back) {
+        "its lines come back but enclose nothing"
+    } else {
+        "no line closes"
+    };
     finding.hint(format!("{drawn}, {why}; `--cut-all` cuts every line"))
 }

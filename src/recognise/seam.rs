@@ -1,5 +1,5 @@
 //! Seam lines: closed lines that follow the outline around them at a nearly even distance along each of its edges. The
-//! distance may differ from edge to edge: hems are wider than seams.
+//! distance may differ from edge to edge: hems are wider than seams. An outline that lacks a side is followed by what is left.
 
 use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
 
@@ -19,6 +19,29 @@ const SAMPLES: usize = 48;
 /// What it costs to look at one edge from all of them.
 pub(super) const COST: usize = SAMPLES;
 
+/// Share of a closed line, by its length and by its box, that an outline goes around which lacks the rest.
+const LEAST_LEFT: f64 = 0.4;
+
+/// Whether the box of an open line fits what is left of the outline around a closed line.
+pub(super) fn may_be_left_of(outline: &Extent, line: &Extent) -> bool {
+    let (low, high) = (outline.min.sup(&line.min), outline.max.inf(&line.max));
+    let (shared, size) = ((high - low).map(|side| side.max(0.0)), line.max - line.min);
+    line.grown(BOX_MARGIN).covers(outline) && shared.x * shared.y >= LEAST_LEFT * size.x * size.y
+}
+
+/// Whether an open line is what is left of the outline around a closed line: it runs beside that line, around much of it.
+pub(super) fn is_left_of(outline: &[Point], line: &[Point]) -> bool {
+    if polyline::length(outline) < LEAST_LEFT * polyline::length(line) {
+        return false;
+    }
+    let samples = samples(outline);
+    let runs_beside = |(at, way): &&(Point, Vector)| {
+        let (distance, edge) = nearest(*at, line);
+        distance <= FARTHEST && is_along(*way, edge) && !ring::contains(line, *at)
+    };
+    samples.iter().filter(runs_beside).count() as f64 >= NEAR * samples.len() as f64
+}
+
 /// Whether a closed line follows the outline that it lies in.
 pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
     let (inner, outer) = (Extent::of(line), Extent::of(outline));
@@ -30,14 +53,23 @@ pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
     let samples = samples(line);
     let (mut near, mut along) = (0, 0);
     for (at, way) in &samples {
-        let edges = outline.windows(2).map(|edge| (polyline::distance_to_segment(*at, edge[0], edge[1]), edge));
-        let Some((distance, edge)) = edges.min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
+        let (distance, edge) = nearest(*at, outline);
         near += usize::from(distance <= FARTHEST);
-        let edge = edge[1] - edge[0];
-        along += usize::from(cross(*way, edge).abs() <= LARGEST_TURN * way.norm() * edge.norm());
+        along += usize::from(is_along(*way, edge));
     }
     let share = |count: usize| count as f64 / samples.len() as f64;
     share(near) >= NEAR && share(along) >= ALONG
+}
+
+/// The edge of a line nearest to a place: how far it is, mm, and its way.
+fn nearest(at: Point, line: &[Point]) -> (f64, Vector) {
+    let edges = line.windows(2).map(|edge| (polyline::distance_to_segment(at, edge[0], edge[1]), edge[1] - edge[0]));
+    edges.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, Vector::zeros()))
+}
+
+/// Whether two ways are nearly one, forwards or back.
+fn is_along(way: Vector, edge: Vector) -> bool {
+    cross(way, edge).abs() <= LARGEST_TURN * way.norm() * edge.norm()
 }
 
 /// Places along a line at even distances, each with the way of the line there.
@@ -88,6 +120,25 @@ mod tests {
             let at = [0, 1].map(|axis| (part[axis] - slot[axis]) / 2.0);
             let (slot, part) = (rectangle(at[0], at[1], slot[0], slot[1]), rectangle(0.0, 0.0, part[0], part[1]));
             assert!(!follows(&slot, &part), "{slot:?}");
+        }
+    }
+
+    #[test]
+    fn an_outline_that_lacks_a_side_is_known_by_what_is_left_of_it() {
+        let seam = rectangle(10.0, 10.0, 380.0, 280.0);
+        let points = |places: &[[f64; 2]]| places.iter().map(|&at| Point::from(at)).collect::<Vec<_>>();
+        for (open, is_left) in [
+            // Without a side, with a gap amid a side, with two sides only.
+            (points(&[[400.0, 0.0], [0.0, 0.0], [0.0, 300.0], [400.0, 300.0]]), true),
+            (points(&[[270.0, 0.0], [400.0, 0.0], [400.0, 300.0], [0.0, 300.0], [0.0, 0.0], [130.0, 0.0]]), true),
+            (points(&[[0.0, 300.0], [0.0, 0.0], [400.0, 0.0]]), true),
+            // One side, a line inside, and the sides of the cloth around several parts.
+            (points(&[[0.0, 0.0], [200.0, 0.0], [400.0, 0.0]]), false),
+            (points(&[[390.0, 100.0], [100.0, 100.0], [100.0, 200.0], [390.0, 200.0]]), false),
+            (points(&[[900.0, 0.0], [0.0, 0.0], [0.0, 300.0], [900.0, 300.0]]), false),
+        ] {
+            let found = may_be_left_of(&Extent::of(&open), &Extent::of(&seam)) && is_left_of(&open, &seam);
+            assert_eq!(found, is_left, "{open:?}");
         }
     }
 

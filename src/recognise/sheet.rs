@@ -1,11 +1,12 @@
 //! A drawing whose lines are sorted out: what each is, then whether it is cut.
 
 use super::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
-use super::marks::{Mark, Search};
+use super::marks::{EdgeLine, Mark, Search};
 use super::pens::Use;
 use super::strokes::{self, Stroke};
 use super::{close, frame, letters, marks, nest, seam};
 use crate::analysis::nesting::Nesting;
+use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
 use crate::ir::marker::Label;
@@ -32,8 +33,10 @@ pub(super) struct Sheet {
     pub(super) marks: Vec<Mark>,
     /// Notches that are open strokes between two places of an outline.
     pub(super) strokes: Vec<Stroke>,
-    /// Open lines from the edge of a part that are no notches, each with the outline of that part.
-    pub(super) from_edges: Vec<(usize, usize)>,
+    /// Open lines from the edge of a part, other than notches.
+    pub(super) from_edges: Vec<EdgeLine>,
+    /// Open lines that are what is left of an outline, each with the closed line that they go around.
+    pub(super) remains: Vec<[usize; 2]>,
     /// The pens that draw them.
     pub(super) pens: Vec<Pen>,
     pub(super) texts: Vec<Label>,
@@ -49,8 +52,9 @@ impl Sheet {
     pub(super) fn sort_out(&mut self, job: &Job) {
         let band = BAND.max(ROUNDING * self.unit);
         let frame = if job.lines.all { Frame::None } else { job.profile.hpgl.frame };
-        frame::mark(&mut self.lines, frame, band);
-        close::close_along_frames(&mut self.lines, &mut self.vertices, close::Reach::of(self.unit, job));
+        let reach = close::Reach::of(self.unit, job);
+        frame::mark(&mut self.lines, frame, band, |frame, line| reach.is_edged(frame, line, &self.vertices));
+        close::close_along_frames(&mut self.lines, &mut self.vertices, reach);
         let mut work = Budget::of_a_marker();
         self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
         for i in 0..self.lines.len() {
@@ -60,6 +64,7 @@ impl Sheet {
             }
         }
         let mut work = Budget::of_a_marker();
+        self.find_remains(&mut work);
         self.find_marks(&mut work);
         letters::mark(&mut self.lines, &self.vertices, &mut work);
         self.find_holes(job);
@@ -77,7 +82,7 @@ impl Sheet {
         self.find_parts_of_knives(&mut work);
         let parts = self.indices(|line| line.class == Class::Part);
         self.from_edges = marks::from_edges(self.search(&parts), &mut work);
-        for &(line, _) in &self.from_edges {
+        for &EdgeLine { line, .. } in &self.from_edges {
             self.lines[line].class = Class::FromEdge;
         }
         self.is_cut_short = work.is_spent();
@@ -90,6 +95,40 @@ impl Sheet {
 
     fn search<'a>(&'a self, outlines: &'a [usize]) -> Search<'a> {
         Search { lines: &self.lines, vertices: &self.vertices, unit: self.unit, outlines }
+    }
+
+    /// Finds the open lines that are what is left of an outline: the closed line that they go around is no part, but its
+    /// seam line.
+    fn find_remains(&mut self, work: &mut Budget) {
+        let may_be = |line: &Line| {
+            let is_open = !line.is_closed && line.end - line.first > 2 && line.size() > SMALL_OUTLINE;
+            is_open && line.is_open_question()
+        };
+        let open = self.indices(may_be);
+        let parts = self.indices(|line| line.class == Class::Part);
+        if open.is_empty() {
+            return;
+        }
+        let boxes = Boxes::new(parts.iter().map(|&part| self.lines[part].extent).collect());
+        for line in open {
+            let Line { extent, usage, .. } = self.lines[line];
+            let outline = self.lines[line].points(&self.vertices);
+            for k in boxes.near(extent) {
+                let Line { usage: inner, end, first, .. } = self.lines[parts[k]];
+                // What nobody has looked at is not cut in the place of its outline.
+                let cost = seam::COST * (outline.len() + (end - first) as usize);
+                let is_said = inner == Use::Knife && usage != Use::Knife;
+                if !is_said
+                    && seam::may_be_left_of(&extent, &boxes.all()[k])
+                    && (!work.spend(cost) || seam::is_left_of(&outline, &self.lines[parts[k]].points(&self.vertices)))
+                {
+                    self.remains.push([line, parts[k]]);
+                }
+            }
+        }
+        for &[_, part] in &self.remains {
+            self.lines[part].class = Class::Seam;
+        }
     }
 
     /// Finds the notches that are strokes, on the edges of parts.

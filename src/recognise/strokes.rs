@@ -1,12 +1,10 @@
 //! Notches that are drawn as one open stroke from a place of an outline to another: V, castle and U.
 
-use super::line::{Class, LONGEST_NOTCH, ROUNDING, SHORTEST_NOTCH, is_straight};
-use super::marks::{Candidate, MOUTH, Search, meet};
+use super::line::{Class, ROUNDING, SHORTEST_NOTCH, is_straight};
+use super::marks::{Candidate, Search, meet};
 use crate::geom::budget::Budget;
 use crate::geom::{Point, polyline, ring};
-
-/// Widest mouth of a notch, mm.
-const WIDEST: f64 = 12.0;
+use crate::ir::marker::Notch;
 
 /// An open stroke that is a notch of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,19 +21,19 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     let Search { lines, vertices, unit, .. } = search;
     let may_be = |&i: &usize| {
         let line = &lines[i];
-        !line.is_closed && line.is_open_question() && line.length <= 4.0 * LONGEST_NOTCH
+        !line.is_closed && line.is_open_question() && line.length <= Notch::LONGEST_STROKE
     };
     let mut tips = Vec::new();
     let mut candidates = Vec::new();
     for line in (0..lines.len()).filter(may_be) {
         let places = lines[line].points(vertices);
         let [first, .., last] = places[..] else { continue };
-        if is_straight(lines[line].vertices(vertices)) || first == last || (last - first).norm() > WIDEST {
+        if is_straight(lines[line].vertices(vertices)) || first == last || (last - first).norm() > Notch::WIDEST {
             continue;
         }
         let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
         let deepest = places.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
-        if let Some(&tip) = deepest.filter(|tip| (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&depth(tip))) {
+        if let Some(&tip) = deepest.filter(|tip| (SHORTEST_NOTCH..=Notch::LONGEST).contains(&depth(tip))) {
             candidates.push(Candidate::whole(line, [first, last]));
             tips.push(tip);
         }
@@ -43,7 +41,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     if candidates.is_empty() {
         return Vec::new();
     }
-    meet(&mut candidates, search, MOUTH + ROUNDING * unit, work);
+    meet(&mut candidates, search, Notch::MISS + ROUNDING * unit, work);
     let stroke = |(Candidate { line, on, .. }, tip): (&Candidate, Point)| {
         let both = on[0].iter().filter_map(|&(near, outline)| {
             let other = on[1].iter().find(|(_, other)| *other == outline);

@@ -8,7 +8,7 @@
 //!   outline.
 //! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap.
 //!
-//! A slit that starts up to [`MISS`] inside its edge reaches it: where its own line leads back there. Leaves true:
+//! A slit that starts up to [`Notch::MISS`] inside its edge reaches it: where its own line leads back there. Leaves true:
 //! notches in the order of the file; none without length, and no slit twice, whichever way round.
 
 use std::collections::BTreeSet;
@@ -25,8 +25,6 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "slit", about: "makes notches of short strokes at an outline, and cuts none twice", run };
 
-/// How far from its edge a slit may start, mm, beside the rounding of the file.
-const MISS: f64 = 0.5;
 /// What a slit may miss its edge by and stay as it is: half a unit of the file, and this where there is none, mm.
 const MISS_EPSILON: f64 = 0.01;
 /// Slack where there is no grid, in the place of a unit, mm: files without one are written with two or three decimals.
@@ -39,7 +37,7 @@ const LEAST_ANGLE: f64 = 0.34;
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, .. } = marker;
     let grid = if *unit > 0.0 { *unit } else { NO_GRID };
-    let (near, around) = (Near::on_grid(grid), Near::on_grid(grid + MISS));
+    let (near, around) = (Near::on_grid(grid), Near::on_grid(grid + Notch::MISS));
     let mut search = Search { list, near, around, least_miss: (*unit / 2.0).max(MISS_EPSILON), diagnostics };
     for piece in pieces {
         let contours = piece.contours.iter().zip(0..);
@@ -169,7 +167,7 @@ impl Search<'_> {
             });
         }
         for (notch, missed) in piece.notches.iter_mut().zip(missed) {
-            let back = missed.filter(|&back| back <= MISS + self.near.slack() && notch.depth() > 0.0);
+            let back = missed.filter(|&back| back <= Notch::MISS + self.near.slack() && notch.depth() > 0.0);
             if let Some(back) = back {
                 notch.root -= (notch.tip - notch.root) * (back / notch.depth());
             }
@@ -251,7 +249,7 @@ fn back_to(stroke: &NotchStroke, [a, b]: [Point; 2]) -> Option<f64> {
     }
     let back = cross(edge, stroke.from - a) / across;
     let place = (stroke.from - way * (back / length) - a).dot(&edge) / edge.norm_squared();
-    ((0.0..=1.0).contains(&place) && back >= -length && back <= MISS + ROUNDED).then_some(back)
+    ((0.0..=1.0).contains(&place) && back >= -length && back <= Notch::MISS + ROUNDED).then_some(back)
 }
 
 /// Takes out slits without length and slits that stand twice, whichever way round.

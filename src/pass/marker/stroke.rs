@@ -6,26 +6,22 @@
 //! cut is meant.
 
 use super::pass::MarkerPass;
+use super::search;
 use crate::diagnostic::Diagnostics;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::{Range, Segment, SegmentList};
-use crate::ir::marker::{Contour, Marker, Piece};
+use crate::ir::marker::{Contour, Marker, Notch, Piece};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "stroke", about: "makes notches that are drawn from edge to edge part of their outlines", run };
 
-/// Longest stroke that is a notch, and its widest mouth, mm.
-const LONGEST: f64 = 60.0;
-const WIDEST: f64 = 12.0;
-/// How far from the edge a stroke may end, mm, beside rounding: drawing programs leave it by some units.
-const MISS: f64 = 0.5;
-/// The same by rounding, in units of the file, and without a grid, mm.
+/// Distance by which rounding moves a place: in units of the file, and without a grid in mm.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 const NO_GRID: f64 = 0.01;
 
-fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, drawing, .. } = marker;
     if drawing.is_none() {
         return;
@@ -34,6 +30,9 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
     let mut joining = Joining { list, grid, work: Budget::of_a_marker() };
     for piece in pieces {
         joining.join(piece);
+    }
+    if joining.work.is_spent() {
+        diagnostics.push(search::search_ended("some notches that are strokes from edge to edge are cut by themselves"));
     }
 }
 
@@ -78,9 +77,9 @@ impl Joining<'_> {
         let [start, end] = self.list.ends_of(contour.range);
         let points = || self.list.points(contour.range);
         !contour.closed
-            && (end - start).norm() <= WIDEST
+            && (end - start).norm() <= Notch::WIDEST
             && points().len() > 2
-            && polyline::length(&points()) <= LONGEST
+            && polyline::length(&points()) <= Notch::LONGEST_STROKE
     }
 
     /// Puts the strokes that stand on an outline into it: which ones.
@@ -97,8 +96,7 @@ impl Joining<'_> {
         let mut mouths = self.mouths(&segments, &ranges);
         // The outline starts outside all mouths.
         if let Some(around) = mouths.iter().find(|mouth| mouth.from > mouth.to) {
-            let start = (around.to.0 + 1) % segments.len();
-            segments.rotate_left(start);
+            segments = from_place(&segments, around.to);
             mouths = self.mouths(&segments, &ranges);
         }
         mouths.retain(|mouth| mouth.from < mouth.to);
@@ -121,24 +119,36 @@ impl Joining<'_> {
 
     /// How far from the edge a stroke may end, mm.
     fn reach(&self) -> f64 {
-        MISS + ROUNDING * self.grid
+        Notch::MISS + ROUNDING * self.grid
     }
 
     /// The mouths of those strokes that begin and end on an outline.
     fn mouths(&mut self, outline: &[Segment], strokes: &[(usize, Range)]) -> Vec<Mouth> {
         let mut mouths = Vec::new();
+        let stations: Vec<f64> = std::iter::once(0.0)
+            .chain(outline.iter().scan(0.0, |sum, segment| {
+                *sum += segment.length();
+                Some(*sum)
+            }))
+            .collect();
+        let round = stations[outline.len()];
         for &(contour, range) in strokes {
             let ends = self.list.ends_of(range);
             let [Some(first), Some(last)] = ends.map(|end| self.place(outline, end)) else { continue };
-            let round: f64 = outline.iter().map(Segment::length).sum();
-            let station = |(segment, share): Place| {
-                outline[..segment].iter().map(Segment::length).sum::<f64>() + share * outline[segment].length()
-            };
+            let station = |(segment, share): Place| stations[segment] + share * outline[segment].length();
             let forward = (station(last) - station(first)).rem_euclid(round);
             let is_forward = forward <= round / 2.0;
             let range = if is_forward { range } else { range.reversed() };
             let segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
-            let [from, to] = if is_forward { [first, last] } else { [last, first] };
+            let [mut from, mut to] = if is_forward { [first, last] } else { [last, first] };
+            // The outline starts where it ends.
+            let end = (outline.len() - 1, 1.0);
+            if from == end {
+                from = (0, 0.0);
+            }
+            if to == (0, 0.0) {
+                to = end;
+            }
             mouths.push(Mouth { from, to, contour, segments });
         }
         mouths
@@ -168,6 +178,16 @@ impl Joining<'_> {
         };
         Some((nearest, share))
     }
+}
+
+/// An outline that starts at a place.
+fn from_place(outline: &[Segment], (first, share): Place) -> Vec<Segment> {
+    let Segment { from, to, .. } = outline[first];
+    let at = if share == 1.0 { to } else { from + (to - from) * share };
+    let halves = [Segment { from: at, ..outline[first] }, Segment { to: at, ..outline[first] }];
+    let between = outline[first + 1..].iter().chain(&outline[..first]).copied();
+    let all = std::iter::once(halves[0]).chain(between).chain([halves[1]]);
+    all.filter(|segment| segment.from != segment.to).collect()
 }
 
 /// An outline with strokes in place of the edge over their mouths, which are in order.

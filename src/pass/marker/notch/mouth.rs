@@ -6,11 +6,11 @@
 use std::f64::consts::PI;
 
 use crate::geom::{Point, Vector, angle, cross, polyline};
-use crate::ir::marker::NotchForm;
+use crate::ir::marker::{Notch, NotchForm};
 
 /// Width of mouths, mm: of a V, and of a castle or U.
-const V_MOUTH: [f64; 2] = [1.0, 12.0];
-const MOUTH: [f64; 2] = [1.5, 12.0];
+const V_MOUTH: [f64; 2] = [1.0, Notch::WIDEST];
+const MOUTH: [f64; 2] = [1.5, Notch::WIDEST];
 /// Depth, mm.
 const DEPTH: [f64; 2] = [1.5, 15.0];
 /// How much longer than the other a leg of a V may be.
