@@ -386,7 +386,7 @@ fn joined(lines: Vec<Line>, retraced: &mut Vec<Retraced>) -> Vec<(Named, Chain)>
     let mut unsaid = Vec::new();
     let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
-            Does::Outline => chains_with_spurs(lines, retraced),
+            Does::Outline => chains_with_spurs(&lines, retraced),
             Does::Inner => once(chains(lines), retraced),
             Does::Fine => once(chains(lines), &mut unsaid),
             Does::Drawn | Does::Seam => chains(lines),
