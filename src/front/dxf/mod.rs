@@ -37,6 +37,7 @@ mod syntax;
 mod tally;
 mod text;
 mod told;
+mod tree;
 mod unit;
 mod words;
 

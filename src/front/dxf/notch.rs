@@ -1,5 +1,4 @@
-//! Notches: points on an outline become slits, or ways that the outline itself makes into the part, as the passes know
-//! them.
+//! Notches: the points of notches on an outline become slits, or stretches of the outline itself.
 
 use std::f64::consts::{FRAC_PI_3, PI};
 
@@ -12,22 +11,21 @@ use crate::ir::marker::{Notch, NotchKind, NotchStroke};
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// How far to both sides of a notch the direction of the edge is taken, mm.
+/// Distance to both sides of a notch between which the direction of the edge is taken, mm.
 const BESIDE: f64 = 1.0;
-/// Widths of mouths, and least depth, of notches that outlines make, mm: what is narrower or flatter is a slit.
+/// Least and largest width, and least depth, of a notch in the outline, mm: others become slits.
 pub(super) const MOUTHS: [f64; 2] = [1.0, 12.0];
 pub(super) const LEAST_DEPTH: f64 = 1.5;
-/// How much shorter the mouth may be than the edge that it is cut into, as a part: there the edge bends by a third of a
-/// right angle.
+/// Least length of a mouth, as a part of the edge that it is cut into: there the edge bends by a third of a right angle.
 const STRAIGHT: f64 = 0.98;
 /// Chords of a round bottom.
 const ROUND: usize = 12;
-/// Two notches nearer than this are one, mm.
+/// Distance within which two notches are one, mm.
 const SAME: f64 = 0.1;
-/// How far their unit vectors may differ: six degrees.
+/// Largest difference of the unit vectors of two notches that are one: six degrees.
 const SAME_WAY: f64 = 0.1;
 
-/// A notch as the file says it.
+/// Point of a notch in the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mark {
     pub(super) form: Form,
@@ -35,27 +33,26 @@ pub(super) struct Mark {
     /// mm.
     pub(super) depth: f64,
     pub(super) width: f64,
-    /// Where it points, in either sense.
+    /// Direction, in either sense.
     pub(super) along: Option<Vector>,
     pub(super) span: Span,
 }
 
-/// Why a notch is not cut as the file says.
+/// Reason for which a notch is cut in another way than the file says, or left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Doubt {
-    /// No outline is near.
+    /// Too far from all outlines.
     OffEdge,
-    /// It is deeper than notches are, or than the part is there.
+    /// Deeper than notches are, or than the part is there.
     TooDeep,
-    /// It lies in the mouth of another one, or at the place of one that is cut otherwise.
+    /// In the mouth of another one, or at the place of one of another kind.
     InAnother,
-    /// Nothing is wrong but that it becomes a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar
-    /// that leaves the part.
+    /// Cut as a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar that leaves the part.
     AsSlit,
 }
 
 impl Doubt {
-    /// Whether nothing is cut there.
+    /// Whether the notch is left out.
     pub(super) fn leaves_out(self) -> bool {
         match self {
             Self::OffEdge | Self::TooDeep | Self::InAnother => true,
@@ -64,38 +61,38 @@ impl Doubt {
     }
 }
 
-/// An outline with its notches.
+/// Outline with its notches.
 #[derive(Debug, Default)]
-pub(super) struct Notched {
+pub(super) struct NotchedOutline {
     pub(super) outline: Vec<Vertex>,
     pub(super) slits: Vec<Notch>,
     pub(super) doubts: Vec<(Doubt, Span)>,
 }
 
-/// A notch on its outline.
+/// Site of a notch on its outline.
 #[derive(Debug, Clone, Copy)]
-struct Placed {
+struct Site {
     mark: Mark,
-    /// How far along the outline it is, mm.
+    /// Distance along the outline, mm.
     station: f64,
     root: Point,
     /// Unit vector into the part.
     inwards: Vector,
 }
 
-/// An outline with what is known of it.
+/// Outline with its measures.
 struct Edge<'a> {
     vertices: &'a [Vertex],
-    /// Its places, the first once more at the end, and how far along each is.
+    /// Places, the first once more at the end, and their stations.
     points: Vec<Point>,
     stations: Vec<f64>,
     is_left: bool,
 }
 
 /// Puts notches on a closed outline, whose first vertex is not repeated.
-pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -> Notched {
-    let mut notched = Notched::default();
-    let mut placed: Vec<Placed> = Vec::new();
+pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -> NotchedOutline {
+    let mut notched = NotchedOutline::default();
+    let mut placed: Vec<Site> = Vec::new();
     if !marks.is_empty() {
         let edge = Edge::of(&outline);
         for mark in marks {
@@ -117,7 +114,7 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         notched.doubts.push((Doubt::InAnother, merged));
     }
     if placed.is_empty() {
-        return Notched { outline, ..notched };
+        return NotchedOutline { outline, ..notched };
     }
     let edge = Edge::of(&outline);
     let mouths = edge.mouths(&placed);
@@ -141,11 +138,11 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
     notched
 }
 
-/// Leaves one of the notches at each place of an outline that comes round, in their order along it. Gives those that
-/// ask for something else there than the one that stays.
-fn merge(placed: &mut Vec<Placed>, length: f64) -> Vec<Span> {
+/// Keeps one of the notches at each place of a closed outline, in their order along it. Returns the dropped ones that ask for
+/// another kind of notch than the one that stays.
+fn merge(placed: &mut Vec<Site>, length: f64) -> Vec<Span> {
     let mut lost = Vec::new();
-    let mut is_one = |next: &Placed, before: &Placed, distance: f64| {
+    let mut is_one = |next: &Site, before: &Site, distance: f64| {
         let is_one = distance <= SAME;
         lost.extend((is_one && !next.asks_for_the_same_as(before)).then_some(next.mark.span));
         is_one
@@ -159,16 +156,16 @@ fn merge(placed: &mut Vec<Placed>, length: f64) -> Vec<Span> {
     lost
 }
 
-/// A stretch of an outline that a notch takes.
+/// Mouth of a notch: the stretch of the outline that it replaces.
 #[derive(Debug, Clone, Copy)]
 struct Mouth {
-    notch: Placed,
+    notch: Site,
     /// mm along the outline.
     from: f64,
     to: f64,
 }
 
-/// The places of an outline, the first once more at the end.
+/// Places of an outline, the first once more at the end.
 fn around(outline: &[Vertex]) -> Vec<Point> {
     outline.iter().chain(&outline[..1]).map(|vertex| vertex.at).collect()
 }
@@ -185,13 +182,13 @@ impl<'a> Edge<'a> {
         self.stations[self.stations.len() - 1]
     }
 
-    /// The place so far along, whichever way round.
+    /// Place at a station, which may lie beyond either end.
     fn at(&self, station: f64) -> Point {
         polyline::place(&self.points, &self.stations, station.rem_euclid(self.length()))
     }
 
-    /// Where a mark is on the outline.
-    fn place(&self, mark: &Mark, work: &mut Budget) -> Result<Placed, Doubt> {
+    /// Site of a mark on the outline.
+    fn place(&self, mark: &Mark, work: &mut Budget) -> Result<Site, Doubt> {
         if mark.depth > Notch::LONGEST {
             return Err(Doubt::TooDeep);
         }
@@ -211,15 +208,15 @@ impl<'a> Edge<'a> {
         let way = self.at(station + beside) - self.at(station - beside);
         let inwards = left(way).try_normalize(0.0).unwrap_or(left(b - a) / (b - a).norm());
         let inwards = if self.is_left { inwards } else { -inwards };
-        // An angle that leads out of the part is that of the notch seen from outside; one along the edge is none.
+        // An angle that leads out of the part is that of the notch seen from outside. One along the edge is ignored.
         let along = mark.along.map(|along| if along.dot(&inwards) < 0.0 { -along } else { along });
         let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
-        let placed = Placed { mark: *mark, station, root, inwards };
+        let placed = Site { mark: *mark, station, root, inwards };
         if ring::contains(&self.points[..self.vertices.len()], placed.tip()) { Ok(placed) } else { Err(Doubt::TooDeep) }
     }
 
-    /// Whether the crossbar of a T is as wide as crossbars are, and stays in the part.
-    fn has_room_for_bar(&self, notch: &Placed, work: &mut Budget) -> bool {
+    /// Whether the crossbar of a T has the width of crossbars, and stays in the part.
+    fn has_room_for_bar(&self, notch: &Site, work: &mut Budget) -> bool {
         let [least, most] = MOUTHS;
         let ring = &self.points[..self.vertices.len()];
         (least..=most).contains(&notch.width())
@@ -227,8 +224,8 @@ impl<'a> Edge<'a> {
             && notch.bar().iter().all(|&end| ring::contains(ring, end))
     }
 
-    /// The first vertex that lies in no mouth, where there is one: there the outline begins.
-    fn start(&self, placed: &[Placed]) -> usize {
+    /// First vertex outside all mouths, or else the first one: there the outline begins.
+    fn start(&self, placed: &[Site]) -> usize {
         let length = self.length();
         let mut mouths: Vec<[f64; 2]> = Vec::new();
         for notch in placed.iter().filter(|notch| notch.is_wide()) {
@@ -247,8 +244,8 @@ impl<'a> Edge<'a> {
         (0..self.vertices.len()).find(|&k| is_free(self.stations[k])).unwrap_or(0)
     }
 
-    /// The stretches of the outline that notches take, in its order: none over another's, a corner or the start.
-    fn mouths(&self, placed: &[Placed]) -> Vec<Mouth> {
+    /// Mouths of notches in their order along the outline: apart from each other, from corners and from the start.
+    fn mouths(&self, placed: &[Site]) -> Vec<Mouth> {
         let mut mouths: Vec<Mouth> = Vec::new();
         let [least, most] = MOUTHS;
         for &notch in placed.iter().filter(|notch| notch.is_wide()) {
@@ -263,7 +260,7 @@ impl<'a> Edge<'a> {
         mouths
     }
 
-    /// The outline with these notches.
+    /// Outline with these notches.
     fn with(&self, mouths: &[Mouth]) -> Vec<Vertex> {
         let mut vertices: Vec<Vertex> = Vec::with_capacity(self.vertices.len() + mouths.len() * (ROUND + 2));
         let mut k = 0;
@@ -283,17 +280,17 @@ impl<'a> Edge<'a> {
     }
 }
 
-impl Placed {
+impl Site {
     fn tip(&self) -> Point {
         self.root + self.inwards * self.mark.depth
     }
 
-    /// Width of its mouth or its crossbar, mm: as wide as deep where the file says nothing.
+    /// Width of the mouth or the crossbar, mm; the depth if the file has no width.
     fn width(&self) -> f64 {
         if self.mark.width > 0.0 { self.mark.width } else { self.mark.depth }
     }
 
-    /// Whether the outline itself should make it.
+    /// Whether the notch is a stretch of the outline.
     fn is_wide(&self) -> bool {
         match self.mark.form {
             Form::T => false,
@@ -302,13 +299,13 @@ impl Placed {
         }
     }
 
-    /// Where its mouth begins and ends, mm along the outline.
+    /// Start and end of the mouth, mm along the outline.
     fn ends(&self) -> [f64; 2] {
         let half = self.width() / 2.0;
         [self.station - half, self.station + half]
     }
 
-    /// The way of the outline from one end of the mouth to the other.
+    /// Stretch of the outline from one end of the mouth to the other.
     fn way(&self, [from, to]: [Point; 2]) -> Vec<Point> {
         let down = self.inwards * self.mark.depth;
         let inner = match self.mark.form {
@@ -319,7 +316,7 @@ impl Placed {
         [&[from], &inner[..], &[to]].concat()
     }
 
-    /// A half circle between straight sides, or an arc alone where it is flat.
+    /// Half circle between straight sides, or the arc alone of a flat notch.
     fn round(&self, [from, to]: [Point; 2]) -> Vec<Point> {
         let half = (to - from).norm() / 2.0;
         let along = (to - from) / (2.0 * half);
@@ -334,19 +331,19 @@ impl Placed {
         if depth > half { (0..=ROUND).map(place).collect() } else { (1..ROUND).map(place).collect() }
     }
 
-    /// Both ends of the crossbar of a T.
+    /// Ends of the crossbar of a T.
     fn bar(&self) -> [Point; 2] {
         let half = left(self.inwards) * (self.width() / 2.0);
         [self.tip() - half, self.tip() + half]
     }
 
-    /// Whether two marks of one place are cut alike.
+    /// Whether two notches at one place are alike.
     fn asks_for_the_same_as(&self, other: &Self) -> bool {
         let [own, its] = [self, other].map(|placed| (placed.mark.form, placed.mark.depth, placed.mark.width));
         own == its && (self.inwards - other.inwards).norm() <= SAME_WAY
     }
 
-    /// A straight cut from the edge inwards, with a crossbar or without.
+    /// Straight cut from the edge inwards, with a crossbar or without.
     fn slit(&self, with_bar: bool) -> Notch {
         let (tip, span) = (self.tip(), self.mark.span);
         let [from, to] = self.bar();
@@ -373,7 +370,7 @@ mod tests {
         Mark { form, at: at.into(), depth, width, along: None, span }
     }
 
-    fn notched(is_left: bool, marks: &[Mark]) -> Notched {
+    fn notched(is_left: bool, marks: &[Mark]) -> NotchedOutline {
         cut(square(is_left), marks, &mut Budget::of_a_marker())
     }
 

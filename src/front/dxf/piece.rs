@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::chain::{Chain, REACH, chains};
-use super::curves::{CurvedPieces, Curves, Drafting, Nodes};
+use super::curves::{CurveCounts, Curves, Drafting, Nodes};
 use super::fold::{Fold, Refusal};
 use super::layer::{Does, Form, Layer, Named, OUTLINE};
-use super::notch::{self, Mark, Notched};
+use super::notch::{self, Mark, NotchedOutline};
 use super::outline::{Outline, outlines};
 use super::retrace::{Retraced, once};
 use super::shape::{Dot, Line, Shapes};
@@ -70,7 +70,7 @@ pub(super) struct Making<'o> {
     pub(super) notch_depth: f64,
     pub(super) drafting: Drafting,
     /// Where the pieces got their curves from.
-    pub(super) curved: CurvedPieces,
+    pub(super) curved: CurveCounts,
     pub(super) work: Budget,
     pub(super) tally: Tally,
     /// Lines that run past their own start or go round again.
@@ -243,7 +243,7 @@ impl Making<'_> {
             mark.at = edge.lifted(mark.at, &mut self.work);
         }
         let plain = edge.line;
-        let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
+        let NotchedOutline { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
         for &(doubt, span) in &doubts {
             self.tally.add(Thing::Notch(doubt), span);
         }
@@ -386,7 +386,7 @@ fn joined(lines: Vec<Line>, retraced: &mut Vec<Retraced>) -> Vec<(Named, Chain)>
     let mut unsaid = Vec::new();
     let join = |(layer, lines): (Named, Vec<Chain>)| {
         let lines = match layer.does {
-            Does::Outline => chains_with_spurs(lines, retraced),
+            Does::Outline => chains_with_spurs(&lines, retraced),
             Does::Inner => once(chains(lines), retraced),
             Does::Fine => once(chains(lines), &mut unsaid),
             Does::Drawn | Does::Seam => chains(lines),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::chain::Chain;
 use super::choice::{Asked, Chosen};
-use super::curves::{CurvedPieces, Drafting, Size, lend};
+use super::curves::{CurveCounts, Drafting, Size, lend};
 use super::entity::{Block, Entity, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
@@ -143,7 +143,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let mut making = Making {
         notch_depth: job.profile.dxf.notch_mm,
         drafting: Drafting::of(&asked.author(), job.profile.dxf.curves, job.profile.tolerance(0.0) * Dxf::CHORDS_OFF),
-        curved: CurvedPieces::default(),
+        curved: CurveCounts::default(),
         work: Budget::of_a_marker(),
         tally: Tally::default(),
         retraced: Vec::new(),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::choice::Asked;
-use super::curves::{CurvedFrom, CurvedPieces, Drafting};
+use super::curves::{CurveCount, CurveCounts, Drafting};
 use super::layer::Names;
 use super::piece::Piece;
 use super::shape::Unread;
@@ -14,7 +14,7 @@ use crate::source::Span;
 const LAYERS_SHOWN: usize = 50;
 
 /// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
-pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut Diagnostics) {
+pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Diagnostics) {
     if drafting.is_overfull() {
         let message = "the curves through the curve points (layer 3) have more places than a set of patterns can need";
         let finding = Diagnostic::new(&code::DXF_CURVES, message);
@@ -22,9 +22,9 @@ pub(super) fn say_curves(curved: &CurvedPieces, drafting: &Drafting, out: &mut D
         return;
     }
     let pieces =
-        |from: &CurvedFrom| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
-    let off = |from: &CurvedFrom| format!("up to {:.1} mm off the chords", from.off);
-    let CurvedPieces { fine, laid, missed } = curved;
+        |from: &CurveCount| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
+    let off = |from: &CurveCount| format!("up to {:.1} mm off the chords", from.off);
+    let CurveCounts { fine, laid, missed } = curved;
     if missed.pieces > 0 {
         let message = format!("layer 84 misses vertices of the outline and is not used: {}", pieces(missed));
         let finding = Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(missed.first);

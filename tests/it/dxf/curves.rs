@@ -442,3 +442,110 @@ fn a_reader_that_takes_chords_or_loses_a_notch_is_caught() {
         assert!(broken(&source, &moved, &Job::default()).contains(&"source/notches"), "a moved notch, {with_fine}");
     }
 }
+
+/// The curve through a ring of knots from the first one round to it.
+fn ring_through(knots: &[Place]) -> Vec<Place> {
+    let all = divided(&[knots, knots, knots, &knots[..1]].concat());
+    let starts: Vec<usize> = (0..all.len()).filter(|&k| all[k] == knots[0]).collect();
+    all[starts[1]..starts[2]].to_vec()
+}
+
+/// Whether the curve of the others clearly misses a knot: a curve is within 0.16 mm of these chords.
+fn is_needed(knots: &[Place], k: usize) -> bool {
+    let others = ring_through(&[&knots[k + 1..], &knots[..k]].concat());
+    let chords: Vec<Point> = others.iter().chain(&others[..1]).map(|&place| place.into()).collect();
+    polyline::distance(knots[k].into(), &chords) > 0.2
+}
+
+/// A smooth ring of curve points without a corner, and its curve as `divided` lays it round and round.
+#[derive(Debug, Clone)]
+struct Round {
+    vertices: Vec<Place>,
+    /// Whether a notch is drawn at a vertex.
+    is_notched: Vec<bool>,
+    curve: Vec<Place>,
+}
+
+impl Round {
+    /// A blob of so many knots. Notches stand on some of them, and on places of the curve that become vertices.
+    fn of(random: &mut Rng, count: usize) -> Self {
+        let waves = [2.0, 3.0].map(|times: f64| (times, 30.0 * random.f64() / times, TAU * random.f64()));
+        let knot = |k: usize| {
+            let angle = TAU * (k as f64 + 0.4 * random.f64()) / count as f64;
+            let reach =
+                110.0 + waves.map(|(times, height, start)| height * (times * angle + start).cos()).iter().sum::<f64>();
+            [reach * angle.cos(), reach * angle.sin()]
+        };
+        let knots: Vec<Place> = (0..count).map(knot).collect();
+        let mut round = Self { vertices: Vec::new(), is_notched: Vec::new(), curve: ring_through(&knots) };
+        let share = random.u8(4..12);
+        let mut last = 0;
+        for (k, place) in round.curve.clone().into_iter().enumerate() {
+            let of_knots = knots.iter().position(|knot| *knot == place);
+            // Some notches are apart, and some have neighbours on the same piece of the curve.
+            let is_apart = of_knots.is_some() || k > last + 3 || random.u8(..4) == 0;
+            let is_asked = random.u8(..share) == 0 && is_apart;
+            let is_notched = is_asked && of_knots.is_none_or(|k| is_needed(&knots, k));
+            if of_knots.is_some() || is_notched {
+                round.vertices.push(place);
+                round.is_notched.push(is_notched);
+                last = k;
+            }
+        }
+        round
+    }
+
+    fn write(&self, file: &mut Writer) {
+        file.outline(1, &self.vertices, Drawn::Closed);
+        for (&place, is_notched) in self.vertices.iter().zip(&self.is_notched) {
+            file.point(3, place, [0.0; 2]);
+            if *is_notched {
+                file.point(4, place, [5.0, 0.0]);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ring_of_curve_points_with_notches_is_cut_along_its_curve() {
+    let mut judged = 0;
+    for seed in 0..300 {
+        let mut random = Rng::with_seed(seed);
+        let count = random.usize(12..40);
+        let round = Round::of(&mut random, count);
+        let mut file = Writer::begin();
+        file.block("A");
+        round.write(&mut file);
+        file.point(13, [0.0; 2], [0.0; 2]).end_block();
+        let source = source(file.end(&["UNITS: METRIC", "AUTHOR: ACCUMARK"]));
+        let (marker, _) = as_read(&source, &Job::default());
+        assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "seed {seed}");
+        let cut = points(&marker);
+        // The hole is drawn at the origin.
+        let by = marker.pieces[0].drills[0].at.coords;
+        let moved: Vec<Point> = round.curve.iter().map(|&place| Point::from(place) + by).collect();
+        let worst = apart(&moved, &cut);
+        // Where half of the vertices are notches, several curves go through all of them.
+        let notches = round.is_notched.iter().filter(|is_notched| **is_notched).count();
+        let is_judged = notches > 0 && 2 * notches < round.vertices.len();
+        assert!(worst < 0.01 || !is_judged, "seed {seed}: {worst}");
+        judged += usize::from(is_judged);
+    }
+    assert!(judged > 200, "{judged}");
+}
+
+#[test]
+fn a_hundred_round_pieces_are_read() {
+    let mut random = Rng::with_seed(1);
+    let mut file = Writer::begin();
+    for k in 0..100 {
+        let round = Round::of(&mut random, 40);
+        file.block(&format!("P{k}"));
+        round.write(&mut file);
+        file.text(&format!("PIECE NAME: P{k}")).end_block();
+    }
+    let source = source(file.end(&["UNITS: METRIC", "AUTHOR: ACCUMARK"]));
+    let (marker, found) = as_read(&source, &Job::default());
+    assert_eq!(marker.pieces.len(), 100, "{found:?}");
+    assert_eq!(broken(&source, &marker, &Job::default()), [""; 0]);
+}

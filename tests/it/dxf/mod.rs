@@ -8,6 +8,7 @@ mod habits;
 mod programs;
 mod retrace;
 mod sets;
+mod spurs;
 mod writer;
 
 use std::fs;

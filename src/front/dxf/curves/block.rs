@@ -1,34 +1,35 @@
-//! The curves of a block: fine lines, and nodes through which curves are laid.
+//! Curves of a block: its fine lines, and the nodes through which curves are laid.
 
-use super::curved::{Curved, Origin};
+use super::curve::{Curve, Origin};
 use super::drafting::Drafting;
-use super::fine::Fine;
+use super::fine::FineLine;
 use super::leg::Leg;
 use super::nodes::{Node, Nodes};
-use super::run::{Run, is_curve, lay};
+use super::run::{Run, is_curve};
 use super::spikes;
+use super::split::lay;
 use crate::front::dxf::chain::Chain;
 use crate::front::dxf::fold::Fold;
 use crate::front::dxf::layer::{Layer, Named};
 use crate::geom::budget::Budget;
 
-/// Vertices of the least ring.
+/// Least number of vertices of a ring.
 const LEAST_RING: usize = 3;
 
-/// Signs of where the lines of a block have curves.
+/// Curves of a block: its fine lines and its nodes.
 #[derive(Debug, Default)]
 pub(in crate::front::dxf) struct Curves {
-    fine: Vec<Fine>,
+    fine: Vec<FineLine>,
     nodes: Nodes,
 }
 
 impl Curves {
-    /// For a block: its lines as they are drawn, its points, and its lines once they are joined.
+    /// Curves of a block with these nodes and joined lines, on both sides of its fold.
     pub(in crate::front::dxf) fn of(nodes: Nodes, joined: &[(Named, Chain)], fold: Option<&Fold>) -> Self {
         let fine = joined.iter().filter(|(layer, _)| layer.is_fine());
         let both = |(layer, line): &(Named, Chain)| {
             let lines = fold.map_or_else(|| vec![line.clone()], |fold| fold.unfold(line));
-            lines.into_iter().map(|line| Fine::of(layer.number, line)).collect::<Vec<_>>()
+            lines.into_iter().map(|line| FineLine::of(layer.number, line)).collect::<Vec<_>>()
         };
         let nodes = match fold {
             Some(fold) => nodes.unfolded(fold),
@@ -37,40 +38,41 @@ impl Curves {
         Self { fine: fine.flat_map(both).collect(), nodes }
     }
 
-    /// A line of a layer with its curves.
+    /// Curve of a line on a layer.
     pub(in crate::front::dxf) fn curved(
         &self,
         line: &Chain,
         layer: &Layer,
         drafting: &mut Drafting,
         work: &mut Budget,
-    ) -> Curved {
+    ) -> Curve {
         if !drafting.is_on || self.fine.is_empty() && !self.nodes.has_curves || line.vertices.len() < 2 {
-            return Curved::drawn(line);
+            return Curve::drawn(line);
         }
         let coarse = spikes::without(line);
-        // The usual pair first; of several lines the first in the file.
+        // The usual pair of layers comes first, and of several lines the first in the file.
         let usual = layer.fine();
-        let (own, others): (Vec<&Fine>, Vec<&Fine>) = self.fine.iter().partition(|fine| Some(fine.layer) == usual);
+        let (own, others): (Vec<&FineLine>, Vec<&FineLine>) =
+            self.fine.iter().partition(|fine| Some(fine.layer) == usual);
         if let Some(legs) = own.iter().chain(&others).find_map(|fine| fine.legs(&coarse.line, work)) {
-            return Curved::of(&coarse, legs, Origin::Fine);
+            return Curve::of(&coarse, legs, Origin::Fine);
         }
-        // Fine lines that a few vertices are on are the control polygon of a line that is fine itself.
+        // A fine line with only a few vertices of the line on it is its control polygon: the line is fine itself.
         let vertices = &coarse.line.vertices;
         let held = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.holds(vertex.at, work))).count();
         let is_fine_itself = held > 0 && 2 * held <= vertices.len();
         let about = own.iter().find(|fine| fine.lies_about(&coarse.line)).filter(|_| !is_fine_itself);
         let missed = about.map(|fine| fine.span());
-        let mut curved = match self.laid(&coarse.line, drafting).filter(|_| !is_fine_itself) {
-            Some(legs) => Curved::of(&coarse, legs, Origin::Laid),
-            None => Curved::drawn(line),
+        let mut curved = match self.laid(&coarse.line, drafting, work).filter(|_| !is_fine_itself) {
+            Some(legs) => Curve::of(&coarse, legs, Origin::Laid),
+            None => Curve::drawn(line),
         };
         curved.missed = missed;
         curved
     }
 
-    /// What a curve by the rule has from each vertex of a line on; `None` when it has none.
-    fn laid(&self, line: &Chain, drafting: &mut Drafting) -> Option<Vec<Leg>> {
+    /// Curve by the rule of the CAD system, as one leg a vertex; `None` for a line without curve points.
+    fn laid(&self, line: &Chain, drafting: &mut Drafting, work: &mut Budget) -> Option<Vec<Leg>> {
         if !self.nodes.has_curves {
             return None;
         }
@@ -83,20 +85,18 @@ impl Curves {
         let corners: Vec<usize> = (0..count).filter(|&k| nodes[k] == Node::Corner).collect();
         let mut is_curved = false;
         let Some(&first) = corners.first() else {
-            // Round and round: what is far along the line no longer bends a part of it.
-            let thrice: Vec<usize> = (0..3 * count).map(|k| k % count).collect();
+            let places: Vec<usize> = (0..count).collect();
             let is_ring = count >= LEAST_RING && nodes.iter().any(|node| is_curve(*node));
-            return is_ring
-                .then(|| lay(&Run { line, nodes: &nodes, places: &thrice }, count..2 * count, drafting, &mut legs))?
-                .then_some(legs);
+            let run = Run { line, nodes: &nodes, places: &places, is_ring };
+            return (is_ring && lay(&run, drafting, work, &mut legs)).then_some(legs);
         };
         let ends = corners.iter().copied().skip(1).chain(line.is_closed.then_some(first + count));
         for (start, end) in corners.iter().copied().zip(ends) {
             let places: Vec<usize> = (start..=end).map(|k| k % count).collect();
             let inner = &places[1..places.len() - 1];
             if inner.iter().any(|&k| is_curve(nodes[k])) {
-                let edges = 0..places.len() - 1;
-                is_curved |= lay(&Run { line, nodes: &nodes, places: &places }, edges, drafting, &mut legs);
+                let run = Run { line, nodes: &nodes, places: &places, is_ring: false };
+                is_curved |= lay(&run, drafting, work, &mut legs);
             }
         }
         is_curved.then_some(legs)

@@ -1,27 +1,27 @@
-//! Counts of pieces whose curves their outlines do not have in the file.
+//! Counts of the pieces that are cut along curves, by the origin of these.
 
-use super::curved::{Curved, Origin};
+use super::curve::{Curve, Origin};
 use crate::source::Span;
 
-/// How many pieces are cut along curves that their outlines do not have in the file, by where these are from.
+/// Counts of pieces that are cut along curves instead of the chords of their outlines.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::front::dxf) struct CurvedPieces {
-    pub(in crate::front::dxf) fine: CurvedFrom,
-    pub(in crate::front::dxf) laid: CurvedFrom,
-    /// Pieces with fine lines that miss vertices of their lines, and are not used.
-    pub(in crate::front::dxf) missed: CurvedFrom,
+pub(in crate::front::dxf) struct CurveCounts {
+    pub(in crate::front::dxf) fine: CurveCount,
+    pub(in crate::front::dxf) laid: CurveCount,
+    /// Pieces with fine lines that miss vertices of the outline: those lines are not used.
+    pub(in crate::front::dxf) missed: CurveCount,
 }
 
-/// Pieces with curves from one origin.
+/// Count of pieces with curves from one origin.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::front::dxf) struct CurvedFrom {
+pub(in crate::front::dxf) struct CurveCount {
     pub(in crate::front::dxf) pieces: usize,
-    /// How far the curves leave the chords, mm.
+    /// Largest distance of the curves from the chords, mm.
     pub(in crate::front::dxf) off: f64,
     pub(in crate::front::dxf) first: Span,
 }
 
-impl CurvedFrom {
+impl CurveCount {
     /// Counts the lines of a piece as one.
     fn add(&mut self, those: Self) {
         if those.pieces > 0 {
@@ -32,13 +32,13 @@ impl CurvedFrom {
     }
 }
 
-impl CurvedPieces {
+impl CurveCounts {
     /// Counts a line of a piece.
-    pub(in crate::front::dxf) fn see(&mut self, curved: &Curved) {
+    pub(in crate::front::dxf) fn see(&mut self, curved: &Curve) {
         let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
-        let line = CurvedFrom { pieces: 1, off: curved.off, first };
+        let line = CurveCount { pieces: 1, off: curved.off, first };
         if let Some(first) = curved.missed {
-            self.missed.add(CurvedFrom { pieces: 1, off: 0.0, first });
+            self.missed.add(CurveCount { pieces: 1, off: 0.0, first });
         }
         match curved.origin {
             Origin::Drawn => {}

@@ -1,5 +1,5 @@
-//! Fine lines: layers 84 to 87 have the curves of layers 1, 8, 11 and 14 in small chords. Which belongs to which decides the
-//! geometry, since CAD systems pair the layers otherwise.
+//! Fine lines: layers 84 to 87 have the curves of layers 1, 8, 11 and 14 in small chords. Lines are paired by their geometry,
+//! since CAD systems pair the layers in different ways.
 
 use super::leg::Leg;
 use super::nodes::ON;
@@ -9,29 +9,30 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::source::Span;
 
-/// Places of a fine line at one vertex from which it is followed: it passes a vertex once, or twice at a seam.
+/// Largest number of places of a fine line at one vertex from which it is followed: it passes a vertex once, or twice at a
+/// seam.
 const MOST_STARTS: usize = 4;
 
-/// A fine line, ready to be asked.
+/// Fine line with an index of its edges.
 #[derive(Debug, Clone)]
-pub(super) struct Fine {
+pub(super) struct FineLine {
     pub(super) layer: u16,
     chain: Chain,
-    /// Its places, the first once more at the end: an open line is closed by a chord.
+    /// Places of the line, and the first once more at the end: a chord closes an open line.
     points: Vec<Point>,
     stations: Vec<f64>,
     edges: Boxes,
     extent: Extent,
 }
 
-/// Where a coarse line begins on a fine one, and which way round it goes.
+/// Start of a coarse line on a fine one, and its direction.
 #[derive(Debug, Clone, Copy)]
 struct Start {
     station: f64,
     is_forward: bool,
 }
 
-impl Fine {
+impl FineLine {
     pub(super) fn of(layer: u16, chain: Chain) -> Self {
         let mut points: Vec<Point> = chain.vertices.iter().map(|vertex| vertex.at).collect();
         points.push(points[0]);
@@ -40,12 +41,12 @@ impl Fine {
         Self { layer, chain, stations, edges: Boxes::new(edges), extent, points }
     }
 
-    /// Where it begins in the file.
+    /// Start of the line in the file.
     pub(super) fn span(&self) -> Span {
         self.chain.vertices[0].span
     }
 
-    /// Whether it lies where a line does.
+    /// Whether its box overlaps that of a line.
     pub(super) fn lies_about(&self, line: &Chain) -> bool {
         self.extent.overlaps(&Extent::of(&line.points()))
     }
@@ -54,7 +55,7 @@ impl Fine {
         self.stations[self.stations.len() - 1]
     }
 
-    /// How far along it a place is, mm, each time that it comes there.
+    /// Stations at which the line passes a place, mm.
     fn stations_of(&self, at: Point, work: &mut Budget) -> Vec<f64> {
         if !self.extent.holds(at) || !work.spend(self.edges.cost_at(at)) {
             return Vec::new();
@@ -75,8 +76,8 @@ impl Fine {
         !self.stations_of(at, work).is_empty()
     }
 
-    /// What it has from each vertex of a coarse line to the next one, if it goes through all of them in their order, once
-    /// round and no farther.
+    /// Legs from each vertex of a coarse line to the next one; `None` unless the fine line goes through all of them in their
+    /// order, exactly once round.
     pub(super) fn legs(&self, coarse: &Chain, work: &mut Budget) -> Option<Vec<Leg>> {
         let Chain { vertices, is_closed } = coarse;
         if self.chain.vertices.len() <= vertices.len() {
@@ -100,8 +101,8 @@ impl Fine {
         Some(self.parted(start, &ways))
     }
 
-    /// How far it is along the line from the first vertex of a coarse one to each, mm; `None` where one is not on it, or they
-    /// come in another order.
+    /// Lengths along the line from the first vertex of a coarse one to each of them, mm; `None` where a vertex lies off the
+    /// line, or the order differs.
     fn ways(&self, coarse: &Chain, start: Start, work: &mut Budget) -> Option<Vec<f64>> {
         let length = self.length();
         let (mut at, mut way, mut ways) = (start.station, 0.0, vec![0.0]);
@@ -123,7 +124,7 @@ impl Fine {
         is_round.then_some(ways)
     }
 
-    /// Its vertices in the order in which a coarse line goes, parted where that has its own.
+    /// Vertices in the direction of a coarse line, split at the vertices of that.
     fn parted(&self, start: Start, ways: &[f64]) -> Vec<Leg> {
         let length = self.length();
         let way = |k: usize| {

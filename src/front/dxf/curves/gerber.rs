@@ -1,4 +1,4 @@
-//! The curves of Gerber `AccuMark`: halves of chords are lifted by the tangents at their ends until they are flat.
+//! Curves of Gerber `AccuMark`: the middles of chords are lifted by the tangents at their ends until the chords are flat.
 
 use super::hermite::bowed;
 use super::leg::Stretch;

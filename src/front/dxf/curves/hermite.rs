@@ -3,10 +3,10 @@
 use super::leg::Stretch;
 use crate::geom::{Point, Vector};
 
-/// Chords of one cubic at the most: more come from damaged places.
+/// Largest number of chords of one cubic: more come from damaged places.
 const MOST_CHORDS: f64 = 10_000.0;
 
-/// How many chords keep within `sagitta` mm of a curve whose second derivative over its parameter from 0 to 1 is at most
+/// Number of chords that keep within `sagitta` mm of a curve whose second derivative over its parameter from 0 to 1 is at most
 /// `bend` mm: a chord over a part `h` of it is `bend h^2 / 8` off.
 fn chords(bend: f64, sagitta: f64) -> usize {
     (bend / (8.0 * sagitta)).sqrt().ceil().clamp(1.0, MOST_CHORDS) as usize

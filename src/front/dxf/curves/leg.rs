@@ -1,4 +1,4 @@
-//! Parts of a line with curves: what lies between one vertex and the next.
+//! Parts of a curve between one vertex and the next.
 
 use crate::geom::Point;
 use crate::ir::drawing::Vertex;

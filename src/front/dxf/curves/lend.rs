@@ -1,4 +1,4 @@
-//! Sizes without turn and curve points: the same vertices of another size of the piece have them.
+//! Turn and curve points of sizes that have none: those at the same vertices of another size of the piece.
 
 use std::collections::BTreeMap;
 
@@ -15,8 +15,8 @@ pub(in crate::front::dxf) struct Size<'a> {
     pub(in crate::front::dxf) is_sample: bool,
 }
 
-/// Gives blocks without turn and curve points those of another size of the same piece, whose lines have as many vertices: of
-/// the sample size if that has some, else of the first. Says from which block each has some.
+/// Gives blocks without turn and curve points those of another size of the same piece, whose lines have as many vertices: the
+/// sample size if that has some, else the first. Returns the lender of each block.
 pub(in crate::front::dxf) fn lend(blocks: &mut [Shapes], sizes: &[Size]) -> Vec<Option<usize>> {
     let mut lenders: BTreeMap<&[u8], usize> = BTreeMap::new();
     for (k, size) in sizes.iter().enumerate().filter(|(k, _)| has_dots(&blocks[*k])) {

@@ -4,15 +4,17 @@
 //! Receives the lines of a block, joined and unfolded, with its points. Promises each line as the CAD system draws it: along
 //! the [`fine`] line of layers 84 to 87 that goes through all of its vertices, else along a curve by the [`rule`] of the
 //! system from turn point to turn point, straight where no curve point stands between, as its [`nodes`] say; else as it is.
-//! Never leaves a vertex, but for a point that [`gerber`] adds for the sake of a notch, within a hundredth of a millimetre.
+//! Never leaves a vertex: one that [`gerber`] adds for the sake of a notch lies within a hundredth of a millimetre of the curve,
+//! or is one of its [`knots`].
 
 mod block;
 mod count;
-mod curved;
+mod curve;
 mod drafting;
 mod fine;
 mod gerber;
 mod hermite;
+mod knots;
 mod leg;
 mod lend;
 mod nodes;
@@ -20,9 +22,10 @@ mod rule;
 mod run;
 mod spikes;
 mod spline;
+mod split;
 
 pub(super) use block::Curves;
-pub(super) use count::{CurvedFrom, CurvedPieces};
+pub(super) use count::{CurveCount, CurveCounts};
 pub(super) use drafting::Drafting;
 pub(super) use lend::{Size, lend};
 pub(super) use nodes::Nodes;

@@ -1,4 +1,4 @@
-//! Nodes: how the curve goes through each vertex of a line, as turn points (layer 2), curve points (layer 3) and notches say.
+//! Nodes: the course of the curve through each vertex of a line, as turn points (layer 2), curve points (layer 3) and notches say.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use crate::front::dxf::retrace::retraces;
 use crate::front::dxf::shape::{Dot, Line};
 use crate::geom::{Point, bits};
 
-/// How far from a vertex the point that says its kind may lie, mm: rounding, and less than any two vertices lie apart.
+/// Largest distance from a vertex to the point that tells its kind, mm: rounding, and less than between any two vertices.
 pub(super) const ON: f64 = 0.01;
-/// Places of one cell that are kept: only a damaged file has more within a hundredth of a millimetre.
+/// Largest number of places of one cell that are kept: only a damaged file has more within a hundredth of a millimetre.
 const MOST_AROUND: usize = 16;
 
-/// How a curve goes through a vertex.
+/// Course of a curve through a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Node {
     /// It ends there, and another may begin.
@@ -27,7 +27,7 @@ pub(super) enum Node {
     Passing,
 }
 
-/// Message about a place.
+/// Mark of the file on a place.
 #[derive(Debug, Clone, Copy)]
 enum Sign {
     Turn,
@@ -39,7 +39,7 @@ enum Sign {
     Doubled,
 }
 
-/// All that is said of a place.
+/// Set of the signs of a place.
 #[derive(Debug, Clone, Copy, Default)]
 struct Signs([bool; 5]);
 
@@ -76,7 +76,7 @@ fn cell(at: Point) -> [i64; 2] {
 }
 
 impl Nodes {
-    /// Those of the lines of a block as the file draws them, and of its points.
+    /// Signs of the lines of a block as the file draws them, and of its points.
     pub(in crate::front::dxf) fn of(lines: &[Line], dots: &[Dot]) -> Self {
         let mut nodes = Self::default();
         for dot in dots {
@@ -123,7 +123,7 @@ impl Nodes {
         }
     }
 
-    /// The same with what is on the other side of a fold. A line that ends on the fold goes on there.
+    /// Signs on both sides of a fold. A line that ends on the fold goes on there.
     pub(super) fn unfolded(self, fold: &Fold) -> Self {
         let mut nodes = Self { has_curves: self.has_curves, ..Self::default() };
         for (at, signs) in self.cells.into_values().flatten() {
@@ -136,7 +136,7 @@ impl Nodes {
         nodes
     }
 
-    /// How a curve goes through a vertex.
+    /// Course of a curve through a vertex.
     pub(super) fn at(&self, at: Point) -> Node {
         let [x, y] = cell(at);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));

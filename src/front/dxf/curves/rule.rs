@@ -1,4 +1,4 @@
-//! Rules: which curve a CAD system lays through the curve points of its patterns.
+//! Rules: the curves that CAD systems lay through the curve points of their patterns.
 
 use super::leg::Stretch;
 use super::spline::Ends;
@@ -17,7 +17,7 @@ pub(super) enum Rule {
 /// A CAD system by a word in what the file says of its author, and its rule.
 struct Row {
     word: &'static str,
-    /// As messages name it.
+    /// Name in messages.
     name: &'static str,
     rule: Rule,
 }
@@ -33,7 +33,7 @@ const ROWS: [Row; 7] = [
     Row { word: "MARVELOUS", name: "CLO", rule: Rule::Spline(Ends::Natural) },
 ];
 
-/// The rule that holds where no word is known.
+/// Rule for files of unknown systems.
 const UNKNOWN: Rule = Rule::Spline(Ends::Natural);
 
 /// The rule for a file that was written by a CAD system, and its name if that is known.
@@ -46,7 +46,7 @@ pub(super) fn rule_of(author: &str) -> (Rule, Option<&'static str>) {
 }
 
 impl Rule {
-    /// What lies between each two neighbours of a run of knots; `None` where that takes more than `most` places.
+    /// Places of the curve between each two neighbours of a run of knots; `None` beyond `most` places.
     pub(super) fn spans(self, knots: &[Point], sagitta: f64, most: usize) -> Option<Vec<Stretch>> {
         match self {
             Self::Bisectors => gerber::spans(knots, sagitta, most),
@@ -54,7 +54,7 @@ impl Rule {
         }
     }
 
-    /// Whether a knot that is there for the sake of a notch may lie beside the curve.
+    /// Whether the system adds vertices for the sake of notches, which are no part of its curve.
     pub(super) fn may_pass_notches(self) -> bool {
         self == Self::Bisectors
     }

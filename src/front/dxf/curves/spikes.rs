@@ -1,4 +1,5 @@
-//! Spikes: ways of a line that go out and come straight back. No curve has them: they are taken off and put back.
+//! Spikes: stretches of a line that go out and come straight back. Curves are laid without them: they are taken off and put
+//! back.
 
 use std::collections::BTreeMap;
 
@@ -7,19 +8,19 @@ use crate::front::dxf::chain::Chain;
 use crate::geom::bits;
 use crate::ir::drawing::Vertex;
 
-/// Vertices of the least ring.
+/// Least number of vertices of a ring.
 const LEAST_RING: usize = 3;
 
 /// A line without its spikes.
 #[derive(Debug)]
-pub(super) struct Smoothed {
+pub(super) struct Base {
     pub(super) line: Chain,
-    /// Of each vertex the way out and back to it; mostly none.
+    /// Way out and back from each vertex; empty for most.
     spikes: Vec<Leg>,
 }
 
 /// Takes the spikes off a line.
-pub(super) fn without(line: &Chain) -> Smoothed {
+pub(super) fn without(line: &Chain) -> Base {
     let mut vertices = line.vertices.clone();
     let count = vertices.len();
     // A ring that begins in a spike begins behind it instead: there a place comes once.
@@ -47,14 +48,14 @@ pub(super) fn without(line: &Chain) -> Smoothed {
         }
     }
     if kept.len() < if line.is_closed { LEAST_RING } else { 2 } {
-        return Smoothed { line: line.clone(), spikes: vec![Leg::new(); count] };
+        return Base { line: line.clone(), spikes: vec![Leg::new(); count] };
     }
     let (vertices, spikes) = kept.into_iter().unzip();
-    Smoothed { line: Chain { vertices, is_closed: line.is_closed }, spikes }
+    Base { line: Chain { vertices, is_closed: line.is_closed }, spikes }
 }
 
-impl Smoothed {
-    /// Puts the spikes back where a line has curves from vertex to vertex now.
+impl Base {
+    /// Puts the spikes back between the legs of a curve.
     pub(super) fn put_back(&self, legs: &mut [Leg]) {
         for ((leg, spike), root) in legs.iter_mut().zip(&self.spikes).zip(&self.line.vertices) {
             if spike.is_empty() {

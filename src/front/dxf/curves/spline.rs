@@ -4,12 +4,12 @@ use super::hermite::sprung;
 use super::leg::Stretch;
 use crate::geom::{Point, Vector};
 
-/// How a spline ends.
+/// Condition at the ends of a spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
-    /// Without bend.
+    /// No bend.
     Natural,
-    /// With the bend of the neighbouring knot: the last spans are parabolas.
+    /// The bend of the neighbouring knot: the last spans are parabolas.
     Parabolic,
 }
 

@@ -1,18 +1,18 @@
-//! Lines with their curves, and where places beside their chords are on them.
+//! The curve of a line, and the places on it that belong to places beside its chords.
 
 use super::leg::Leg;
 use super::nodes::ON;
-use super::spikes::Smoothed;
+use super::spikes::Base;
 use crate::front::dxf::chain::Chain;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, polyline};
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Where a line got its curves from.
+/// Origin of the curve of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::front::dxf) enum Origin {
-    /// It has none, or is fine itself.
+    /// The line as it is drawn.
     Drawn,
     /// A line on layers 84 to 87.
     Fine,
@@ -20,28 +20,28 @@ pub(in crate::front::dxf) enum Origin {
     Laid,
 }
 
-/// A line with its curves.
+/// Curve of a line.
 #[derive(Debug)]
-pub(in crate::front::dxf) struct Curved {
+pub(in crate::front::dxf) struct Curve {
     pub(in crate::front::dxf) line: Chain,
     pub(in crate::front::dxf) origin: Origin,
-    /// How far the curves leave the chords of the coarse line, mm.
+    /// Largest distance of the curve from the chords of the coarse line, mm.
     pub(in crate::front::dxf) off: f64,
-    /// Where a fine line begins that lies about it and misses vertices of it.
+    /// Start of a fine line near the line that misses some of its vertices.
     pub(in crate::front::dxf) missed: Option<Span>,
-    /// The coarse line, and what became of each of its edges; empty where they are as they were.
+    /// The coarse line, and the curve over each of its edges; empty for a line as it is drawn.
     coarse: Vec<Point>,
     legs: Vec<Vec<Point>>,
 }
 
-impl Curved {
-    /// A line as it is drawn.
+impl Curve {
+    /// Curve of a line without curves: the line itself.
     pub(super) fn drawn(line: &Chain) -> Self {
         Self { line: line.clone(), origin: Origin::Drawn, off: 0.0, missed: None, coarse: Vec::new(), legs: Vec::new() }
     }
 
-    /// A line that has curves now, from each vertex of the coarse one on, without spikes.
-    pub(super) fn of(coarse: &Smoothed, mut legs: Vec<Leg>, origin: Origin) -> Self {
+    /// Curve over the edges of a coarse line, one leg a vertex; its spikes are put back.
+    pub(super) fn of(coarse: &Base, mut legs: Vec<Leg>, origin: Origin) -> Self {
         let base = &coarse.line;
         let round: Vec<Point> = base.points();
         let way = |k: usize| {
@@ -60,8 +60,8 @@ impl Curved {
         Self { line, origin, off, missed: None, coarse: round, legs: ways }
     }
 
-    /// Where a place beside a chord of the coarse line is on the curve: straight up from the chord. Places that lie beside
-    /// neither chord nor curve stay, and so do those beside the curve.
+    /// Place on the curve straight above a place beside a chord of the coarse line. Other places stay where they are, and so
+    /// do those beside the curve.
     pub(in crate::front::dxf) fn lifted(&self, at: Point, work: &mut Budget) -> Point {
         let vertices: usize = self.legs.iter().map(Vec::len).sum();
         let near = |way: &Vec<Point>| polyline::distance(at, way) <= Dxf::NOTCH_OFF;

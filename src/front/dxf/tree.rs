@@ -1,0 +1,232 @@
+//! Trees of lines: where the ends of open lines meet, which of the lines lead round, and which stand off those.
+
+use std::collections::BTreeMap;
+
+use super::chain::{Chain, REACH};
+use crate::geom::{Point, polyline};
+use crate::ir::drawing::Vertex;
+
+/// Ends that meet in a node of a line that goes on: where more meet, lines branch.
+const PASSING: usize = 2;
+
+/// The end of a line: twice its place among the lines, and one more for its last vertex.
+pub(super) type End = usize;
+
+/// A way along a spur and back.
+#[derive(Debug)]
+pub(super) struct Tour {
+    /// Where it stands.
+    pub(super) root: Vertex,
+    /// Its vertices behind the root, and the root once more.
+    pub(super) way: Vec<Vertex>,
+    /// Its free ends.
+    pub(super) tips: Vec<Point>,
+    /// Its lines.
+    pub(super) lines: Vec<usize>,
+}
+
+impl Tour {
+    /// Along a line and back.
+    pub(super) fn along(vertices: &[Vertex]) -> Self {
+        let last = vertices.len() - 1;
+        let way = vertices[1..].iter().chain(vertices[1..last].iter().rev()).copied();
+        let back = Vertex { at: vertices[0].at, span: vertices[1].span };
+        let way = way.chain([back]).collect();
+        Self { root: vertices[0], way, tips: vec![vertices[last].at], lines: Vec::new() }
+    }
+}
+
+/// Part of a tour that is still to come.
+enum Step {
+    /// A line from one of its ends on, and all that stands off its other end.
+    Out(End),
+    Back(Vec<Vertex>),
+}
+
+/// Open lines as edges between the places where their ends meet.
+pub(super) struct Graph<'a> {
+    lines: &'a [Chain],
+    /// The node of each end of an open line.
+    of_end: Vec<Option<usize>>,
+    /// The ends in each node.
+    ends: Vec<Vec<End>>,
+    /// Whether a line leads round, or from one ring to another: what is left without free ends.
+    is_round: Vec<bool>,
+}
+
+impl<'a> Graph<'a> {
+    pub(super) fn of(lines: &'a [Chain]) -> Self {
+        let cell = |at: Point| [at.x, at.y].map(|value| (value / REACH).floor() as i64);
+        let (of_end, is_round) = (vec![None; 2 * lines.len()], lines.iter().map(|line| !line.is_closed).collect());
+        let mut graph = Self { lines, of_end, ends: Vec::new(), is_round };
+        let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+        let mut places: Vec<Point> = Vec::new();
+        for end in (0..2 * lines.len()).filter(|end| !lines[end / 2].is_closed) {
+            let at = graph.place(end);
+            let [x, y] = cell(at);
+            let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+            let near =
+                around.filter_map(|cell| cells.get(&cell)).flatten().find(|&&node| (places[node] - at).norm() <= REACH);
+            let node = near.copied().unwrap_or_else(|| {
+                places.push(at);
+                graph.ends.push(Vec::new());
+                cells.entry([x, y]).or_default().push(places.len() - 1);
+                places.len() - 1
+            });
+            graph.ends[node].push(end);
+            graph.of_end[end] = Some(node);
+        }
+        graph.take_off_tips();
+        graph
+    }
+
+    /// Finds what leads round: lines with a free end are taken away, again and again.
+    fn take_off_tips(&mut self) {
+        let mut counts: Vec<usize> = self.ends.iter().map(Vec::len).collect();
+        let mut free: Vec<usize> = (0..counts.len()).filter(|&node| counts[node] == 1).collect();
+        while let Some(node) = free.pop() {
+            let Some(&end) = self.ends[node].iter().find(|&&end| self.is_round[end / 2]) else { continue };
+            self.is_round[end / 2] = false;
+            counts[node] = 0;
+            if let Some(other) = self.of_end[end ^ 1] {
+                counts[other] -= 1;
+                free.extend((counts[other] == 1).then_some(other));
+            }
+        }
+    }
+
+    /// Where an end of a line is.
+    pub(super) fn place(&self, end: End) -> Point {
+        let vertices = &self.lines[end / 2].vertices;
+        vertices[if end.is_multiple_of(2) { 0 } else { vertices.len() - 1 }].at
+    }
+
+    /// The ends that meet an end, but for itself.
+    fn others(&self, end: End) -> impl Iterator<Item = End> + '_ {
+        self.of_end[end].into_iter().flat_map(|node| &self.ends[node]).copied().filter(move |&other| other != end)
+    }
+
+    /// Ends of open lines in their order.
+    fn open_ends(&self) -> impl Iterator<Item = End> + '_ {
+        (0..self.of_end.len()).filter(|&end| self.of_end[end].is_some())
+    }
+
+    /// Ways along what stands off lines that lead round.
+    pub(super) fn tours_off_rings(&self) -> Vec<Tour> {
+        let leads_round = |ends: &Vec<End>| ends.iter().any(|end| self.is_round[end / 2]);
+        let is_of_ring: Vec<bool> = self.ends.iter().map(leads_round).collect();
+        let is_root = |end: &End| !self.is_round[end / 2] && self.of_end[*end].is_some_and(|node| is_of_ring[node]);
+        self.open_ends().filter(is_root).map(|end| self.tour(end)).collect()
+    }
+
+    /// Ways along what stands off some of the lines of a tree.
+    pub(super) fn tours_off(&self, trunk: &[usize]) -> Vec<Tour> {
+        let mut is_trunk = vec![false; self.lines.len()];
+        for &line in trunk {
+            is_trunk[line] = true;
+        }
+        let ends = trunk.iter().flat_map(|line| [2 * line, 2 * line + 1]).flat_map(|end| self.others(end));
+        let mut roots: Vec<End> = ends.filter(|end| !is_trunk[end / 2]).collect();
+        roots.sort_unstable();
+        roots.dedup();
+        roots.into_iter().map(|end| self.tour(end)).collect()
+    }
+
+    /// The way along a line from one of its ends, along all that stands off its other end, and back.
+    pub(super) fn tour(&self, root: End) -> Tour {
+        let first = self.from(root)[0];
+        let mut tour = Tour { root: first, way: Vec::new(), tips: Vec::new(), lines: Vec::new() };
+        let mut steps = vec![Step::Out(root)];
+        while let Some(step) = steps.pop() {
+            let end = match step {
+                Step::Out(end) => end,
+                Step::Back(way) => {
+                    tour.way.extend(way);
+                    continue;
+                }
+            };
+            let vertices = self.from(end);
+            let here = tour.way.last().unwrap_or(&first).at;
+            let mut back: Vec<Vertex> = vertices[1..vertices.len() - 1].to_vec();
+            back.reverse();
+            back.push(Vertex { at: here, span: vertices[1].span });
+            steps.push(Step::Back(back));
+            tour.way.extend(&vertices[1..]);
+            tour.lines.push(end / 2);
+            let mut next: Vec<End> = self.others(end ^ 1).collect();
+            if next.is_empty() {
+                tour.tips.push(self.place(end ^ 1));
+            }
+            next.reverse();
+            steps.extend(next.into_iter().map(Step::Out));
+        }
+        tour
+    }
+
+    /// The vertices of a line from one of its ends on.
+    fn from(&self, end: End) -> Vec<Vertex> {
+        let mut vertices = self.lines[end / 2].vertices.clone();
+        if !end.is_multiple_of(2) {
+            vertices.reverse();
+        }
+        vertices
+    }
+
+    /// The lines of each tree with branches that stands off no ring.
+    pub(super) fn trees(&self) -> Vec<Vec<usize>> {
+        let (mut is_seen, mut is_node_seen) = (self.is_round.clone(), vec![false; self.ends.len()]);
+        let mut trees = Vec::new();
+        for first in self.open_ends().map(|end| end / 2) {
+            if std::mem::replace(&mut is_seen[first], true) {
+                continue;
+            }
+            let (mut tree, mut next) = (Vec::new(), vec![first]);
+            let (mut is_branched, mut is_off_ring) = (false, false);
+            while let Some(line) = next.pop() {
+                tree.push(line);
+                for node in [2 * line, 2 * line + 1].into_iter().filter_map(|end| self.of_end[end]) {
+                    if std::mem::replace(&mut is_node_seen[node], true) {
+                        continue;
+                    }
+                    is_branched |= self.ends[node].len() > PASSING;
+                    is_off_ring |= self.ends[node].iter().any(|end| self.is_round[end / 2]);
+                    for other in self.ends[node].iter().map(|end| end / 2) {
+                        next.extend((!std::mem::replace(&mut is_seen[other], true)).then_some(other));
+                    }
+                }
+            }
+            if is_branched && !is_off_ring {
+                tree.sort_unstable();
+                trees.push(tree);
+            }
+        }
+        trees
+    }
+
+    /// The free ends of a tree.
+    pub(super) fn tips(&self, tree: &[usize]) -> Vec<End> {
+        let ends = tree.iter().flat_map(|line| [2 * line, 2 * line + 1]);
+        ends.filter(|&end| self.others(end).next().is_none()).collect()
+    }
+
+    /// The longest way through a tree from one free end to another.
+    pub(super) fn trunk(&self, tree: &[usize]) -> Vec<usize> {
+        let Some(&tip) = self.tips(tree).first() else { return tree.to_vec() };
+        self.longest(self.longest(tip).0).1
+    }
+
+    /// The free end that is farthest along a tree from another one, and the lines that lead there.
+    fn longest(&self, tip: End) -> (End, Vec<usize>) {
+        // Each line that is reached: by which of its ends, from which other one, and how far its other end is, mm.
+        let mut reached: Vec<(End, Option<usize>, f64)> = Vec::new();
+        let mut next: Vec<(End, Option<usize>, f64)> = vec![(tip, None, 0.0)];
+        while let Some((end, from, before)) = next.pop() {
+            let far = before + polyline::length(&self.lines[end / 2].points());
+            reached.push((end, from, far));
+            next.extend(self.others(end ^ 1).map(|other| (other, Some(reached.len() - 1), far)));
+        }
+        let last = (0..reached.len()).max_by(|&a, &b| reached[a].2.total_cmp(&reached[b].2));
+        let lines = std::iter::successors(last, |&k| reached[k].1).map(|k| reached[k].0 / 2);
+        (last.map_or(tip, |k| reached[k].0 ^ 1), lines.collect())
+    }
+}
