@@ -283,5 +283,5 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     } else {
         "no line closes"
     };
-    finding.hint(format!("{drawn}, {why}; `--cut-all` cuts every line"))
+    finding.hint(format!("{drawn}, {why}; `--cut-all` cuts all"))
 }

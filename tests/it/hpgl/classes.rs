@@ -123,7 +123,7 @@ fn what_lies_in_no_part_and_is_not_cut_is_named() {
     check(&(part() + "PU20000,4000;PD21000,4000;"), "1 part*, 1 other line", &[]);
     // An edge that two parts share stands once in the plot: the line around both is one part.
     let divided = rectangle(4000, 4000, 16_000, 12_000) + "PU12000,4000;PD12000,16000;";
-    check(&divided, "1 part*, 1 line from edge", &["drawing/line-from-edge"]);
+    check(&divided, "1 part*, 1 line from edge", &["drawing/divided-part"]);
 }
 
 #[test]
