@@ -3,7 +3,8 @@
 
 use cutc::geom::{Extent, Point};
 use cutc::ir::Marker;
-use cutc::machine::{Job, Selection};
+use cutc::ir::marker::Piece;
+use cutc::machine::{Job, Numbers, Selection, Start};
 use fastrand::Rng;
 
 use super::audit::broken;
@@ -267,5 +268,73 @@ fn a_piece_at_fault_is_named_and_all_others_can_be_cut_without_it() {
         assert_eq!(contours(&marker), contours(&whole), "{fault}");
         // Nobody may leave out what nobody asked to be left out.
         assert!(!broken(&source(text), &marker, &Job::default()).is_empty(), "{fault}");
+    }
+}
+
+/// A job that leaves out what three options say.
+fn selecting([pieces, skip]: [Option<&str>; 2], resume_from: Option<&str>) -> Job {
+    let [pieces, skip] = [pieces, skip].map(|text| text.map(|text| Numbers::parse(text).expect("numbers")));
+    let resume_from = resume_from.map(|text| Start::parse(text).expect("a piece"));
+    Job { selection: Selection { pieces, skip, resume_from }, ..Job::default() }
+}
+
+#[test]
+fn a_piece_is_left_out_by_its_own_numbers_alone() {
+    let text = three(Some(0));
+    let (marker, _) = read(&text, &selecting([None, Some("2,3")], None));
+    assert_eq!(marker.pieces.len(), 4);
+    // The same file with the pocket closed: nothing is at fault in it.
+    let sound = text.replacen(" 70\n0\n", " 70\n1\n", 1);
+    assert_ne!(sound, text);
+    for text in [text, sound] {
+        let refused = |job: &Job, marker: &Marker| !broken(&source(&*text), marker, job).is_empty();
+        for selection in [[None, Some("2,3")], [None, Some("1-3")], [Some("1,4"), None], [Some("1-3"), Some("2-3")]] {
+            assert!(!refused(&selecting(selection, None), &marker), "{selection:?}");
+        }
+        for selection in [[None, Some("1")], [None, Some("2")], [None, Some("3,4")], [Some("1,2,4"), None]] {
+            assert!(refused(&selecting(selection, None), &marker), "{selection:?}");
+        }
+        assert!(refused(&selecting([None; 2], Some("4")), &marker));
+        let asked = selecting([None, Some("2,3")], None);
+        let changes: [fn(&mut Marker); 6] = [
+            |marker| marker.drawing.as_mut().expect("an account").pieces_left_out.clear(),
+            |marker| _ = marker.pieces.remove(1),
+            |marker| (1..4).for_each(|k| marker.pieces[k].number = [3, 1, 2][k - 1]),
+            |marker| marker.pieces.swap(0, 1),
+            |marker| marker.pieces.insert(0, Piece { number: 0, ..Piece::default() }),
+            |marker| {
+                // A sound one under the number of one that is left out.
+                marker.pieces[1].contours = std::mem::take(&mut marker.pieces[0].contours);
+                let [front, pocket] = [0, 1].map(|k| marker.pieces[k].span);
+                (marker.pieces[0].span, marker.pieces[1].span) = (pocket, front);
+            },
+        ];
+        for (k, change) in changes.into_iter().enumerate() {
+            let mut marker = marker.clone();
+            change(&mut marker);
+            assert!(refused(&asked, &marker), "change {k}");
+        }
+    }
+}
+
+#[test]
+fn a_piece_that_insertions_place_is_left_out_by_its_own_numbers_alone() {
+    let placed = |fault: Option<u8>| {
+        let blocks = three(fault);
+        let blocks = blocks.split("  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n").next().expect("blocks").to_owned();
+        let mut inserts = Writer::default();
+        inserts.group(0, "ENDSEC").group(0, "SECTION").group(2, "ENTITIES").text("UNITS: METRIC");
+        for (k, name) in ["BACK", "POCKET", "FRONT", "POCKET"].into_iter().enumerate() {
+            inserts.group(0, "INSERT").group(8, 1).group(2, name).group(10, 300 * k + 10).group(20, 10);
+        }
+        inserts.group(0, "ENDSEC").group(0, "EOF");
+        format!("{blocks}{}", inserts.text_so_far())
+    };
+    let text = placed(Some(0));
+    let (marker, _) = read(&text, &selecting([None, Some("2,4")], None));
+    assert_eq!(marker.contours().count(), 2, "{text}");
+    for (skip, is_right) in [("2,4", true), ("2-4", true), ("2,3", false), ("2", false), ("1,3", false)] {
+        let broken = broken(&source(&*text), &marker, &selecting([None, Some(skip)], None));
+        assert_eq!(broken.is_empty(), is_right, "{skip} {broken:?}");
     }
 }

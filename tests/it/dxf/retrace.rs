@@ -137,3 +137,88 @@ fn a_table_of_places_is_the_same_however_far_its_line_runs_on() {
         assert_eq!(read(&stroke(&ring, rounds, past)), (plain, codes(rounds, past)), "seed {seed}: {rounds}, {past}");
     }
 }
+
+/// A file of one piece with an outline through places, and nothing else.
+fn alone(outline: &[Place]) -> Source {
+    let mut file = Writer::begin();
+    file.block("A").polyline(1, outline, false).end_block();
+    source(file.end(&["UNITS: METRIC"]))
+}
+
+/// The rules that a piece breaks whose outline a file draws in one way, read of a file that draws it in another.
+fn judged(drawn: &[Place], read: &[Place]) -> Vec<&'static str> {
+    let (marker, said) = as_read(&alone(read), &Job::default());
+    assert_eq!(marker.contours().count(), 1, "{said:?} {read:?}");
+    broken(&alone(drawn), &marker, &Job::default())
+}
+
+#[test]
+fn a_round_that_is_cut_twice_is_caught() {
+    for seed in 0..30 {
+        let mut random = Rng::with_seed(seed);
+        let ring = ring(&mut random);
+        for (rounds, past) in [(1, 0.0), (1, 6.0), (2, 0.0), (3, 4.0)] {
+            let source = alone(&stroke(&ring, rounds, past));
+            let (mut marker, _) = as_read(&source, &Job::default());
+            assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "seed {seed}");
+            let contour = marker.pieces[0].contours[0];
+            let once: Vec<_> = marker.list.vertices(contour.range).collect();
+            // From its start, and from there the whole round again or a stretch of it.
+            for again in [once.len() - 1, 1] {
+                let way = || once.iter().copied().chain(once[1..=again].iter().copied());
+                let (points, spans): (Vec<_>, Vec<_>) = way().unzip();
+                let range = marker.list.append_line(&points, &spans).expect("a line");
+                marker.pieces[0].contours[0] = Contour { range, ..contour };
+                let broken = broken(&source, &marker, &Job::default());
+                assert!(broken.contains(&"source/length"), "seed {seed}: {rounds}, {past}, {again}: {broken:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stretch_that_was_taken_for_a_second_round_is_missed() {
+    for seed in 0..60 {
+        let mut random = Rng::with_seed(seed);
+        let ring = ring(&mut random);
+        let once = stroke(&ring, 1, 0.0);
+        assert_eq!(judged(&once, &once), [""; 0], "seed {seed}");
+        let k = random.usize(1..ring.len());
+        let caught = |drawn: &[Place], what: &str| {
+            let broken = judged(drawn, &once);
+            assert!(!broken.is_empty(), "seed {seed}, {what}, {k}: {drawn:?}");
+        };
+        // A second round beside the first at one corner, and one that leaves a corner out.
+        let mut beside = stroke(&ring, 2, 0.0);
+        beside[ring.len() + k] = ring[k].map(|at| at * if random.bool() { 1.01 } else { 0.99 });
+        caught(&beside, "beside");
+        let mut shorter = stroke(&ring, 2, 0.0);
+        shorter.remove(ring.len() + k);
+        caught(&shorter, "shorter");
+        // A stretch past the start that leaves the outline, by little and straight through the piece.
+        let mut leaving = once.clone();
+        let [a, b] = [ring[0], ring[1]];
+        leaving.push([0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * 0.1));
+        let across = [a[1] - b[1], b[0] - a[0]].map(|step| 0.3 * step / (b[0] - a[0]).hypot(b[1] - a[1]));
+        leaving.push([0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * 0.2 + across[axis]));
+        caught(&leaving, "leaving");
+        let across = [&once[..], &[ring[k].map(|at| at * 0.9)]].concat();
+        caught(&across, "across");
+        // Another lobe that comes back to the same start.
+        let lobe = [[ring[0][0] + 40.0, 15.0], [ring[0][0] + 40.0, -15.0], ring[0]];
+        caught(&[&once[..], &lobe].concat(), "lobe");
+        // A way back along the outline, a stretch and the whole of it.
+        let back: Vec<Place> = once.iter().rev().skip(1).copied().collect();
+        caught(&[&once[..], &back].concat(), "back");
+        caught(&[&once[..], &back[..1]].concat(), "back a stretch");
+    }
+}
+
+#[test]
+fn rounds_beyond_what_one_outline_goes_are_no_repetition() {
+    let mut random = Rng::with_seed(4);
+    let ring = ring(&mut random);
+    let once = stroke(&ring, 1, 0.0);
+    assert_eq!(judged(&stroke(&ring, 4, 0.0), &once), [""; 0]);
+    assert!(!judged(&stroke(&ring, 6, 0.0), &once).is_empty());
+}

@@ -7,7 +7,8 @@ use cutc::front::by_name;
 use cutc::geom::{Point, ring};
 use cutc::ir::Marker;
 use cutc::ir::marker::OutlineNotch;
-use cutc::machine::Job;
+use cutc::machine::plot::{Inner, Lines, PenUse};
+use cutc::machine::{Job, Numbers};
 use cutc::pipeline;
 use cutc::verify::{PlotCuts, plot_audit};
 
@@ -162,11 +163,14 @@ fn outlines_that_end_at_the_frame_are_closed_along_it_and_lines_across_the_cloth
 
 /// Reads one plot and judges it by the bytes of another, as if the reader had missed what only the other draws.
 fn missed(text: &str, all: &str) -> Vec<&'static str> {
-    let job = Job::default();
+    missed_by(text, all, &Job::default())
+}
+
+fn missed_by(text: &str, all: &str, job: &Job) -> Vec<&'static str> {
     let [part, whole] = [text, all].map(|text| source(format!("IN;SP1;{text}PU;SP0;")));
     let mut said = Diagnostics::default();
-    let marker = pipeline::marker_of(by_name("hpgl").expect("a dialect"), &part, &job, &mut said);
-    judged(&whole, &marker, &job)
+    let marker = pipeline::marker_of(by_name("hpgl").expect("a dialect"), &part, job, &mut said);
+    judged(&whole, &marker, job)
 }
 
 #[test]
@@ -188,12 +192,100 @@ fn a_reader_that_cuts_a_seam_line_for_its_outline_or_loses_a_notch_is_caught() {
 }
 
 #[test]
+fn a_seam_line_cut_for_its_outline_is_caught_however_wide_the_gap_and_whatever_gaps_are_closed() {
+    let seam = rectangle(800, 800, 15_200, 11_200);
+    let other = rectangle(20_400, 400, 16_000, 12_000);
+    for gap in [61, 120, 600, 2000, 4100] {
+        let open = format!("PU{},400;PD16400,400,16400,12400,400,12400,400,400;", 400 + gap);
+        assert_eq!(missed(&format!("{seam}{other}"), &format!("{open}{seam}{other}")), ["source/outermost"], "{gap}");
+    }
+    // The widest gap that may be closed is as wide as the seam is deep.
+    let mut job = Job::default();
+    for close_mm in [0.0, 1.5, 5.0, 10.0] {
+        job.profile.drawing.close_mm = close_mm;
+        for (x, gap) in [(400, 0), (400, 30), (760, 0), (785, 0), (785, 30)] {
+            let (right, top) = (17_600 - x - 800, 13_600 - x - 800);
+            let outline = format!("PU{},{x};PD{right},{x},{right},{top},{x},{top},{x},{x};", x + gap);
+            let all = format!("{outline}{seam}{other}");
+            assert_eq!(
+                missed_by(&format!("{seam}{other}"), &all, &job),
+                ["source/outermost"],
+                "{close_mm} mm, {x}, {gap}"
+            );
+            let whole = format!("{outline}{other}");
+            assert_eq!(missed_by(&whole, &whole, &job), [""; 0], "{close_mm} mm, {x}, {gap}");
+        }
+    }
+}
+
+#[test]
+fn an_outline_of_two_strokes_is_cut_though_the_shorter_one_bulges() {
+    let hole = rectangle(4000, 4000, 2000, 1600);
+    let text = format!("PU2400,400;PD16400,400,16400,12400,400,12400,400,400;PU400,400;PD1400,0,2400,400;{hole}");
+    let lines = Lines { inner: Some(Inner::All), ..Lines::default() };
+    let (marker, _) = found(&text, &Job { lines, ..Job::default() });
+    assert_eq!(areas(&marker).len(), 2);
+}
+
+/// Jobs without a word about pens and with one, in the profile or as an option.
+fn jobs_of_pens() -> [Job; 3] {
+    let mut jobs = [(); 3].map(|()| Job::default());
+    jobs[1].lines.pens = Numbers::parse("1").ok();
+    jobs[2].profile.hpgl.pens.insert("1".to_owned(), PenUse::Knife);
+    jobs
+}
+
+#[test]
 fn a_line_that_closes_an_outline_where_nothing_is_drawn_is_caught() {
-    let text = format!("IN;SP1;{}PU;SP0;", rectangle(400, 400, 16_000, 12_000));
-    let source = source(text);
+    // A frame of 500 mm by 300 mm, a part in it, and another rectangle.
+    let drawn = [rectangle(0, 0, 20_000, 12_000), rectangle(400, 400, 8000, 6000), rectangle(9000, 400, 8000, 6000)];
+    let source = source(format!("IN;SP1;{}PU;SP0;", drawn.concat()));
+    let all = |closed: &[[f64; 2]]| -> Vec<Vec<&str>> {
+        let judge = |job: &Job| {
+            let mut marker = as_read(&source, job);
+            let account = marker.drawing.as_mut().expect("a plot has an account");
+            account.aside.moved.closed.push(closed.iter().copied().map(Point::from).collect());
+            judged(&source, &marker, job)
+        };
+        jobs_of_pens().iter().map(judge).collect()
+    };
+    let wrong: [&[[f64; 2]]; 10] = [
+        &[[50.0, 50.0], [90.0, 50.0]],
+        // From side to side of the frame, across the cloth, and by way of a corner.
+        &[[0.0, 100.0], [500.0, 100.0]],
+        &[[200.0, 0.0], [200.0, 300.0]],
+        &[[0.0, 0.5], [499.5, 300.0]],
+        &[[0.0, 100.0], [100.0, 0.0]],
+        &[[0.0, 100.0], [0.0, 300.0], [500.0, 100.0]],
+        // In line with a side, beyond the corner.
+        &[[450.0, 0.0], [550.0, 0.0]],
+        &[[520.0, 300.0], [540.0, 300.0]],
+        // Beside it by more than the limit.
+        &[[100.0, 1.6], [200.0, 1.6]],
+        &[[50.0, 50.0], [51.6, 50.0]],
+    ];
+    for closed in wrong {
+        assert_eq!(all(closed), [["source/outermost"]; 3], "{closed:?}");
+    }
+    let right: [&[[f64; 2]]; 5] = [
+        &[[50.0, 50.0], [51.4, 50.0]],
+        &[[100.0, 0.0], [200.0, 0.0]],
+        &[[100.0, 1.4], [200.0, -1.4]],
+        &[[0.0, 100.0], [0.0, 0.0], [200.0, 0.0]],
+        &[[500.0, 20.0], [500.0, 300.0], [20.0, 300.0]],
+    ];
+    for closed in right {
+        assert_eq!(all(closed), [[""; 0]; 3], "{closed:?}");
+    }
+}
+
+#[test]
+fn a_rectangle_without_a_corner_draws_nothing_there() {
+    // The corner is less than a hundredth of the frame.
+    let text = "PU0,0;PD20000,0,20000,10800,19000,12000,0,12000,0,0;";
+    let source = source(format!("IN;SP1;{text}{}PU;SP0;", rectangle(400, 400, 8000, 6000)));
     let mut marker = as_read(&source, &Job::default());
-    assert_eq!(judged(&source, &marker, &Job::default()), [] as [&str; 0]);
-    let closed = &mut marker.drawing.as_mut().expect("a plot has an account").aside.moved.closed;
-    closed.push([[50.0, 50.0], [90.0, 50.0]].map(Point::from).to_vec());
+    let closed = [[500.0, 272.0], [500.0, 300.0], [478.0, 300.0]].map(Point::from).to_vec();
+    marker.drawing.as_mut().expect("a plot has an account").aside.moved.closed.push(closed);
     assert_eq!(judged(&source, &marker, &Job::default()), ["source/outermost"]);
 }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::{Bend, Bow, lent};
 use super::cuts::{Cuts, Mark, Place};
+use super::left_out::wrongly;
 use super::lines::{MEETS, Measure, Round, paths};
 use super::lookup::Lookup;
 use super::places::CutPlaces;
@@ -63,9 +64,7 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
     let all = || sheets.blocks.iter().zip(&lent).map(|(block, lent)| cuts_of(block, lent)).collect::<Vec<Cuts>>();
     let are_apart = job.patterns.sizes.is_none() && sheets.has_places() && sheets.met(&all()) == Some((0, true));
     let are_cut = sheets.are_cut(job, are_apart).into_iter().zip(&lent);
-    // Somebody must have asked for pieces to be left out.
-    let may_leave_out = !job.selection.is_all();
-    let is_left_out = |block: &Sheet| may_leave_out && read.blocks_left_out.contains(&block.number);
+    let is_left_out = |block: &Sheet| read.blocks_left_out.contains(&block.number);
     let mut of_blocks: Vec<Cuts> = sheets
         .blocks
         .iter()
@@ -84,12 +83,16 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
     let row = Row { of_all: &of_blocks, read, has_bows: of_blocks.iter().any(|cuts| !cuts.bows.is_empty()), sagitta };
     let placed = sheets.placed(&of_blocks).map(|placed| (placed, 0.0));
     let is_in_a_row = placed.is_none() || sheets.met(&of_blocks).is_some_and(|(met, _)| met > 0);
-    let mut cloths: Vec<(Cuts, f64)> =
-        placed.into_iter().chain(is_in_a_row.then(|| sheets.in_a_row(&row, job))).collect();
-    if !may_leave_out {
-        for (cuts, _) in &mut cloths {
-            cuts.faults += read.blocks_left_out.len();
-        }
+    // Somebody must have asked for pieces to be left out.
+    let mut cloths = Vec::new();
+    if let Some((mut placed, off)) = placed {
+        placed.faults += wrongly(sheets.inserted(), &sheets.blocks, read, &job.selection);
+        cloths.push((placed, off));
+    }
+    if is_in_a_row {
+        let (mut laid, off) = sheets.in_a_row(&row, job);
+        laid.faults += wrongly(sheets.one_behind_the_other(job), &sheets.blocks, read, &job.selection);
+        cloths.push((laid, off));
     }
     cloths
 }
@@ -208,6 +211,18 @@ impl<'a> Sheets<'a> {
     /// How often each block is cut.
     fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
         self.of_each("QUANTITY").into_iter().map(|told| quantity(told.unwrap_or_default(), job)).collect()
+    }
+
+    /// The block of each piece that lies in a row, in their order.
+    fn one_behind_the_other(&self, job: &Job) -> impl Iterator<Item = usize> {
+        let times = self.wanted(job).into_iter().map(|count| count.iter().map(|&count| count as usize).sum());
+        times.enumerate().flat_map(|(k, times): (usize, usize)| std::iter::repeat_n(k, times))
+    }
+
+    /// The block of each insertion, in their order.
+    fn inserted(&self) -> impl Iterator<Item = usize> + '_ {
+        let inserts = self.loose.items.iter().filter(|item| item.kind == b"INSERT");
+        inserts.filter_map(|insert| self.block(insert))
     }
 
     /// What is said of each block under a key: by an attribute of its insertion, or by a text in it.

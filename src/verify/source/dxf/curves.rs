@@ -1,7 +1,7 @@
 //! Curves of a block, found anew: which fine lines (layers 84 to 87) stand for coarse ones, and which edges of others may bow
 //! because curve points (layer 3) stand on them. It follows no line and lays no curve.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::again::once;
 use super::lines::{MEETS, Measure, Path, Stroke, clusters, paths, strokes};
@@ -164,35 +164,45 @@ fn held(paths: &[Path], places: &[Point]) -> usize {
     places.iter().filter(|at| is_on(**at)).count()
 }
 
+/// The two ends of each open line, one behind the other.
+fn open_ends(paths: &[Path]) -> Vec<(usize, Point)> {
+    let open = paths.iter().enumerate().filter(|(_, path)| !path.is_closed);
+    open.flat_map(|(k, path)| [path.points.first(), path.points.last()].into_iter().flatten().map(move |at| (k, *at)))
+        .collect()
+}
+
 /// The ends of open lines that no other end meets.
 fn free_ends(paths: &[Path]) -> Vec<(usize, Point)> {
-    let ends: Vec<(usize, Point)> = paths
-        .iter()
-        .enumerate()
-        .filter(|(_, path)| !path.is_closed)
-        .flat_map(|(k, path)| [path.points.first(), path.points.last()].into_iter().flatten().map(move |at| (k, *at)))
-        .collect();
+    let ends = open_ends(paths);
     let lookup = Lookup::of(ends.iter().map(|end| end.1), MEETS);
-    ends.iter().filter(|(_, at)| lookup.near(*at).count() < 2).copied().collect()
+    ends.iter().filter(|(_, at)| lookup.near(*at).nth(1).is_none()).copied().collect()
 }
 
 /// Which lines stand off others that belong to them: those that are left over where a ring remains once lines with a free end
 /// are taken away, again and again.
 pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
+    let ends = open_ends(paths);
+    let lookup = Lookup::of(ends.iter().map(|end| end.1), MEETS);
     let mut is_twig = vec![false; paths.len()];
-    let mut left: Vec<usize> = (0..paths.len()).collect();
-    loop {
-        let rest: Vec<Path> = left.iter().map(|&k| paths[k].clone()).collect();
-        let free: BTreeSet<usize> = free_ends(&rest).into_iter().map(|end| left[end.0]).collect();
-        if free.is_empty() {
-            break;
+    // The ends that rely on each end: they are free once its line is gone, unless they find another.
+    let mut held: Vec<Vec<usize>> = vec![Vec::new(); ends.len()];
+    let mut asked: Vec<usize> = (0..ends.len()).collect();
+    while let Some(end) = asked.pop() {
+        let (path, at) = ends[end];
+        if is_twig[path] {
+            continue;
         }
-        for &k in &free {
-            is_twig[k] = true;
+        let holder = lookup.near(at).find(|&other| other != end && !is_twig[ends[other].0]);
+        if let Some(other) = holder {
+            held[other].push(end);
+            continue;
         }
-        left.retain(|k| !free.contains(k));
+        is_twig[path] = true;
+        for own in [end & !1, end | 1] {
+            asked.append(&mut held[own]);
+        }
     }
-    if left.is_empty() { vec![false; paths.len()] } else { is_twig }
+    if is_twig.iter().all(|&is_twig| is_twig) { vec![false; paths.len()] } else { is_twig }
 }
 
 /// Which groups of lines stand on edges of others: single open lines, one end of which is on an edge and the other is not.
@@ -253,4 +263,49 @@ pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[V
         is_alike.then(|| [on(2), on(3)])
     };
     blocks.iter().map(|block| of_block(block).unwrap_or_default()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same by its definition: round by round.
+    fn by_rounds(paths: &[Path]) -> Vec<bool> {
+        let mut left: Vec<usize> = (0..paths.len()).collect();
+        loop {
+            let rest: Vec<Path> = left.iter().map(|&k| paths[k].clone()).collect();
+            let free: Vec<usize> = free_ends(&rest).into_iter().map(|end| left[end.0]).collect();
+            if free.is_empty() {
+                break;
+            }
+            left.retain(|k| !free.contains(k));
+        }
+        (0..paths.len()).map(|k| !left.is_empty() && !left.contains(&k)).collect()
+    }
+
+    #[test]
+    fn lines_are_twigs_that_peeling_round_by_round_takes_away() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut counts = [0; 2];
+        for _ in 0..400 {
+            let mut place = || Point::new(f64::from(random.u8(0..4)), f64::from(random.u8(0..4)));
+            let mut paths: Vec<Path> = (0..12).map(|_| Path::straight([place(), place()])).collect();
+            paths[0].is_closed = random.bool();
+            let found = twigs(&paths);
+            assert_eq!(found, by_rounds(&paths), "{paths:?}");
+            for is_twig in found {
+                counts[usize::from(is_twig)] += 1;
+            }
+        }
+        assert!(counts.iter().all(|&count| count > 400), "{counts:?}");
+    }
+
+    #[test]
+    fn a_ring_with_a_tail_of_a_hundred_thousand_lines_has_that_many_twigs() {
+        let at = |k: u32| Point::new(f64::from(k), 0.0);
+        let ring = [at(0), Point::new(0.0, 9.0), Point::new(9.0, 9.0), at(0)];
+        let mut paths: Vec<Path> = ring.windows(2).map(|ends| Path::straight([ends[0], ends[1]])).collect();
+        paths.extend((0..100_000).map(|k| Path::straight([at(k), at(k + 1)])));
+        assert_eq!(twigs(&paths).iter().filter(|&&is_twig| is_twig).count(), 100_000);
+    }
 }

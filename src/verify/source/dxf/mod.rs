@@ -6,6 +6,7 @@ mod cloth;
 mod compare;
 mod curves;
 mod cuts;
+mod left_out;
 mod lines;
 mod lookup;
 mod places;

@@ -2,7 +2,7 @@
 
 use crate::geom::Point;
 use crate::ir::Marker;
-use crate::ir::marker::{Contour, Notch};
+use crate::ir::marker::{Contour, Notch, Piece};
 
 /// Where a marker cuts, as it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,18 @@ pub struct CutPlaces {
     pub(super) left_out: Vec<u32>,
     /// Blocks whose pieces cannot be cut and are left out.
     pub(super) blocks_left_out: Vec<u32>,
+    /// The pieces in their order.
+    pub(super) pieces: Vec<PieceRead>,
+}
+
+/// A piece as it was read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PieceRead {
+    /// By which it is selected.
+    pub(super) number: u32,
+    pub(super) block: u32,
+    /// Whether nothing of it is cut.
+    pub(super) is_bare: bool,
 }
 
 impl CutPlaces {
@@ -23,12 +35,18 @@ impl CutPlaces {
             let mut line: Vec<(Point, u32)> =
                 marker.list.vertices(contour.range).map(|(at, span)| (at, span.block)).collect();
             // What leads to the first place of a closed one is told by its last.
-            if let (true, Some(last)) = (contour.closed, line.last().copied()) {
-                line[0] = last;
+            if let (true, Some(&(_, block))) = (contour.closed, line.last()) {
+                line[0].1 = block;
             }
             line
         };
+        let piece = |piece: &Piece| PieceRead {
+            number: piece.number,
+            block: piece.span.block,
+            is_bare: piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty(),
+        };
         Self {
+            pieces: marker.pieces.iter().map(piece).collect(),
             contours: marker.contours().map(line).collect(),
             notches: marker.pieces.iter().flat_map(|piece| piece.notches.iter().copied()).collect(),
             holes: marker.pieces.iter().flat_map(|piece| &piece.drills).map(|d| (d.at, d.span.block)).collect(),

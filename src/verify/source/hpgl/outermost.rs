@@ -1,8 +1,8 @@
 //! Whether the right lines of a plot are cut, judged by its strokes alone: no line is cut in the place of the outline around
 //! it, and no stroke from edge to edge of a part is left out.
 //!
-//! It knows less than the reader and is stricter where it knows: lines of several strokes are not judged, and neither are
-//! plots whose pens somebody gave a meaning, since pens are no shapes.
+//! It knows less than the reader and is stricter where it knows. Lines of several strokes are not judged. Where somebody
+//! gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
 
 use std::cell::RefCell;
 
@@ -21,8 +21,12 @@ const LEAST_SIZE: f64 = 30.0;
 const GAP_SHARE: f64 = 0.08;
 /// Mean width of an outline at least, mm: less is a line out and back.
 const LEAST_WIDTH: f64 = 4.0;
-/// How far the boxes of a stroke and of the cut made of it may differ, mm, beside the gap that was closed.
+/// How far parts may stand over the frame that they touch, mm.
 const SAME_BOX: f64 = 0.5;
+/// How far an outline may be drawn from its cut where the tolerance is less, mm: programs end lines so far beside their start.
+const LEAST_OFF: f64 = 0.2;
+/// Places of a line along a frame that are looked at, less one.
+const STEPS: usize = 16;
 /// Rounding of gaps, mm.
 const CLOSE_EPSILON: f64 = 1e-6;
 /// Share by which a frame may be smaller than its box.
@@ -60,17 +64,19 @@ impl PlotCuts {
 pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
     let mut outermost = Worst::new("source/outermost", "lines", Some(0.0));
     let mut strokes = Worst::new("source/strokes", "strokes", Some(0.0));
+    let drawn = super::strokes(bytes, &job.profile);
+    let judging = Judging::new(&drawn, read, job);
+    let mut wrong = judging.made_up();
+    let mut lost = Vec::new();
     if job.lines.pens.is_none() && job.profile.hpgl.pens.is_empty() {
-        let drawn = super::strokes(bytes, &job.profile);
-        let judging = Judging::new(&drawn, read, job);
-        let mut wrong = judging.in_uncut_outlines();
-        wrong.extend(judging.made_up());
-        for (point, count) in wrong.into_iter().zip(1..) {
-            outermost.see(f64::from(count), || at(0.0, point, 0));
-        }
-        for (point, count) in judging.lost_strokes().into_iter().zip(1..) {
-            strokes.see(f64::from(count), || at(0.0, point, 0));
-        }
+        wrong.extend(judging.in_uncut_outlines());
+        lost = judging.lost_strokes();
+    }
+    for (point, count) in wrong.into_iter().zip(1..) {
+        outermost.see(f64::from(count), || at(0.0, point, 0));
+    }
+    for (point, count) in lost.into_iter().zip(1..) {
+        strokes.see(f64::from(count), || at(0.0, point, 0));
     }
     vec![outermost.finding(), strokes.finding()]
 }
@@ -93,7 +99,7 @@ impl<'a> Judging<'a> {
     /// Where a line is cut inside an outline that is not.
     fn in_uncut_outlines(&self) -> Vec<Point> {
         let drawn = self.drawn;
-        let outlines: Vec<&[Point]> = drawn.iter().map(|stroke| &stroke[..]).filter(|s| self.goes_around(s)).collect();
+        let outlines: Vec<&[Point]> = drawn.iter().map(|stroke| &stroke[..]).filter(|s| goes_around(s)).collect();
         let size = |stroke: &&[Point]| ring::area(stroke).abs();
         let largest = outlines.iter().map(size).fold(0.0, f64::max);
         let mut found = Vec::new();
@@ -106,40 +112,36 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Where a line closes an outline that is neither short nor drawn by a rectangle.
+    /// Where a line closes an outline over more than a gap and not along the edge of a rectangle.
     fn made_up(&self) -> Vec<Point> {
         let close = self.job.profile.drawing.close_mm + CLOSE_EPSILON;
-        let is_rectangle = |stroke: &&Vec<Point>| self.goes_around(stroke) && is_own_box(stroke);
-        let frames: Vec<Extent> = self.drawn.iter().filter(is_rectangle).map(|stroke| Extent::of(stroke)).collect();
-        let is_on = |frame: &Extent, place: &Point| {
-            let sides = [place.x - frame.min.x, frame.max.x - place.x, place.y - frame.min.y, frame.max.y - place.y];
-            sides.iter().any(|off| off.abs() <= close)
-        };
-        let is_drawn = |places: &[Point]| frames.iter().any(|frame| places.iter().all(|place| is_on(frame, place)));
-        let closed = self.cuts.closed.iter().filter(|places| polyline::length(places) > close && !is_drawn(places));
-        closed.map(|places| places[0]).collect()
-    }
-
-    /// Whether a stroke is large and comes back nearly to where it starts.
-    fn goes_around(&self, stroke: &[Point]) -> bool {
-        let (width, height) = Extent::of(stroke).size();
-        if stroke.len() < 3 || width.max(height) < LEAST_SIZE {
-            return false;
+        let is_long = |places: &&Vec<Point>| polyline::length(places) > close;
+        let closed: Vec<&Vec<Point>> = self.cuts.closed.iter().filter(is_long).collect();
+        if closed.is_empty() {
+            return Vec::new();
         }
-        let (length, gap) = (polyline::length(stroke), (stroke[stroke.len() - 1] - stroke[0]).norm());
-        gap <= self.job.profile.drawing.close_mm.min(GAP_SHARE * length)
-            && ring::area(stroke).abs() >= LEAST_WIDTH / 2.0 * length
+        let is_frame = |stroke: &&Vec<Point>| gap(stroke) <= close && goes_around(stroke) && is_own_box(stroke);
+        let frames: Vec<&Vec<Point>> = self.drawn.iter().filter(is_frame).collect();
+        let is_drawn = |places: &[Point]| frames.iter().any(|frame| runs_along(frame, places, close));
+        closed.into_iter().filter(|places| !is_drawn(places)).map(|places| places[0]).collect()
     }
 
-    /// Whether some cut has the box of a stroke.
+    /// Whether some cut has the box of a stroke, or goes along all of it and on.
     fn is_cut(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
-        let reach = SAME_BOX + self.job.profile.drawing.close_mm;
+        let reach = self.job.profile.tolerance(self.job.profile.hpgl.unit.mm()).max(LEAST_OFF);
         let boxes = self.boxes.all();
-        self.boxes.near(extent).any(|k| {
+        let has_box = |k: usize| {
             let corners = [boxes[k].min - extent.min, boxes[k].max - extent.max];
             corners.iter().all(|corner| corner.amax() <= reach)
-        })
+        };
+        let follows = |k: usize| {
+            let points = &self.cuts.contours[k];
+            boxes[k].grown(reach).covers(&extent)
+                && self.work.borrow_mut().spend(stroke.len().saturating_mul(points.len()))
+                && stroke.iter().all(|&place| polyline::distance(place, points) <= reach)
+        };
+        self.boxes.near(extent).any(has_box) || self.boxes.near(extent).any(follows)
     }
 
     /// Where the first line is cut that lies in an outline which is not, unless that is a frame or lies in a part itself.
@@ -213,6 +215,36 @@ impl<'a> Judging<'a> {
             ends.iter().all(is_near) && ring::contains(points, tip)
         })
     }
+}
+
+/// Whether a stroke is large and comes back nearly to where it starts.
+fn goes_around(stroke: &[Point]) -> bool {
+    let (width, height) = Extent::of(stroke).size();
+    if stroke.len() < 3 || width.max(height) < LEAST_SIZE {
+        return false;
+    }
+    let length = polyline::length(stroke);
+    gap(stroke) <= GAP_SHARE * length && ring::area(stroke).abs() >= LEAST_WIDTH / 2.0 * length
+}
+
+/// Distance from the end of a stroke to its start, mm.
+fn gap(stroke: &[Point]) -> f64 {
+    (stroke[stroke.len() - 1] - stroke[0]).norm()
+}
+
+/// Whether each edge of a line runs along one side of a rectangle, where that is drawn.
+fn runs_along(rectangle: &[Point], line: &[Point], reach: f64) -> bool {
+    let Extent { min, max } = Extent::of(rectangle);
+    let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+    let is_on = |side: usize, ends: &[Point]| {
+        let [from, to] = [corners[side], corners[(side + 1) % 4]];
+        ends.iter().all(|&end| polyline::distance_to_segment(end, from, to) <= reach)
+    };
+    let is_drawn = |ends: &[Point]| {
+        let place = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 / STEPS as f64);
+        (0..=STEPS).all(|k| polyline::distance(place(k), rectangle) <= reach)
+    };
+    line.windows(2).all(|ends| (0..4).any(|side| is_on(side, ends)) && is_drawn(ends))
 }
 
 /// Whether a stroke is its own box.

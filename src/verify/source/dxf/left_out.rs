@@ -1,0 +1,33 @@
+//! Blocks that are left out: each piece of them must have a number that the selection of the job leaves out. The numbers are
+//! counted here, in the order in which the file lays its blocks.
+
+use super::places::{CutPlaces, PieceRead};
+use super::tags::Sheet;
+use crate::machine::Selection;
+
+/// How many pieces are left out that the selection has, or that are not where the file lays their blocks: `order` names the
+/// block of each piece, once for each time that it is laid.
+pub(super) fn wrongly(
+    order: impl Iterator<Item = usize>,
+    blocks: &[Sheet],
+    read: &CutPlaces,
+    selection: &Selection,
+) -> usize {
+    let is_left_out = |block: &Sheet| read.blocks_left_out.contains(&block.number);
+    let mut pieces = read.pieces.iter().zip(1..).peekable();
+    let mut wrong = 0;
+    for k in order {
+        let (first, behind) = (blocks[k].number, blocks.get(k + 1).map_or(u32::MAX, |next| next.number));
+        if is_left_out(&blocks[k]) {
+            // A block that cannot be cut is one piece.
+            let is_left = |(piece, number): &(&PieceRead, u32)| {
+                piece.is_bare && piece.block == first && piece.number == *number && !selection.has(*number)
+            };
+            wrong += usize::from(pieces.next_if(is_left).is_none());
+        } else {
+            while pieces.next_if(|(piece, _)| !piece.is_bare && (first..behind).contains(&piece.block)).is_some() {}
+        }
+    }
+    // What stands in no block comes last, and all of it is cut.
+    wrong + pieces.filter(|(piece, _)| piece.is_bare).count()
+}
