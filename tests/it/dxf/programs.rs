@@ -296,11 +296,13 @@ fn a_piece_is_left_out_by_its_own_numbers_alone() {
         }
         assert!(refused(&selecting([None; 2], Some("4")), &marker));
         let asked = selecting([None, Some("2,3")], None);
-        let changes: [fn(&mut Marker); 6] = [
+        let changes: [fn(&mut Marker); 8] = [
             |marker| marker.drawing.as_mut().expect("an account").pieces_left_out.clear(),
             |marker| _ = marker.pieces.remove(1),
             |marker| (1..4).for_each(|k| marker.pieces[k].number = [3, 1, 2][k - 1]),
             |marker| marker.pieces.swap(0, 1),
+            |marker| marker.pieces[1].span = marker.pieces[3].span,
+            |marker| marker.pieces.push(Piece { number: 5, ..Piece::default() }),
             |marker| marker.pieces.insert(0, Piece { number: 0, ..Piece::default() }),
             |marker| {
                 // A sound one under the number of one that is left out.
@@ -314,6 +316,11 @@ fn a_piece_is_left_out_by_its_own_numbers_alone() {
             change(&mut marker);
             assert!(refused(&asked, &marker), "change {k}");
         }
+        // A piece more, of which nothing is cut, moves the numbers on.
+        let mut moved = marker.clone();
+        moved.pieces.insert(1, Piece { span: moved.pieces[0].span, ..Piece::default() });
+        moved.pieces.iter_mut().zip(1..).for_each(|(piece, number)| piece.number = number);
+        assert!(refused(&selecting([None, Some("3,4")], None), &moved));
     }
 }
 

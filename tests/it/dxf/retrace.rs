@@ -215,6 +215,36 @@ fn a_stretch_that_was_taken_for_a_second_round_is_missed() {
 }
 
 #[test]
+fn a_round_that_lacks_a_tip_of_another_is_no_repetition() {
+    for seed in 0..20 {
+        let plain = stroke(&ring(&mut Rng::with_seed(seed)), 1, 0.0);
+        // Amid the last edge, a quarter of a millimetre high, so that the lengths differ by less than they may.
+        let [a, b] = [plain[plain.len() - 2], plain[plain.len() - 1]];
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let at = |[a, b]: [Place; 2], station: f64, off: f64| {
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            let along = [0, 1].map(|axis| (b[axis] - a[axis]) / length);
+            [a[0] + along[0] * station - along[1] * off, a[1] + along[1] * station + along[0] * off]
+        };
+        let tip = |ends: [Place; 2], station: f64, [half, off]: [f64; 2]| {
+            [(-half, 0.0), (0.0, off), (half, 0.0)].map(|(beside, off)| at(ends, station + beside, off))
+        };
+        let mut tipped = plain.clone();
+        tipped.splice(plain.len() - 1..plain.len() - 1, tip([a, b], length / 2.0, [0.03, 0.25]));
+        assert_eq!(judged(&tipped, &tipped), [""; 0], "seed {seed}");
+        for [first, second] in [[&plain, &tipped], [&tipped, &plain]] {
+            let drawn = [&first[..], &second[1..]].concat();
+            assert!(!judged(&drawn, first).is_empty(), "seed {seed}: {drawn:?}");
+        }
+        // A tip of a stretch past the start: hardly farther off than a repetition may be, and hardly longer.
+        let ends = [plain[0], plain[1]];
+        let past = |off: f64| [&plain[..], &tip(ends, 5.0, [0.25, off]), &[at(ends, 10.0, 0.0)]].concat();
+        assert_eq!(judged(&past(0.09), &plain), [""; 0], "seed {seed}");
+        assert!(!judged(&past(0.104), &plain).is_empty(), "seed {seed}");
+    }
+}
+
+#[test]
 fn rounds_beyond_what_one_outline_goes_are_no_repetition() {
     let mut random = Rng::with_seed(4);
     let ring = ring(&mut random);

@@ -221,7 +221,8 @@ fn a_seam_line_cut_for_its_outline_is_caught_however_wide_the_gap_and_whatever_g
 #[test]
 fn an_outline_of_two_strokes_is_cut_though_the_shorter_one_bulges() {
     let hole = rectangle(4000, 4000, 2000, 1600);
-    let text = format!("PU2400,400;PD16400,400,16400,12400,400,12400,400,400;PU400,400;PD1400,0,2400,400;{hole}");
+    let text =
+        format!("PU16400,2400;PD16400,12400,400,12400,400,400,16400,400;PU16400,400;PD16800,1400,16400,2400;{hole}");
     let lines = Lines { inner: Some(Inner::All), ..Lines::default() };
     let (marker, _) = found(&text, &Job { lines, ..Job::default() });
     assert_eq!(areas(&marker).len(), 2);
