@@ -118,6 +118,9 @@ impl Joining<'_> {
         graph.put_dead_ends_aside();
         graph.link();
         let mut chains = graph.chains;
+        if self.close <= self.reach {
+            return chains; // what is nearer is joined
+        }
         let is_free = |end: &End| chains.links[*end].is_none() && !self.nearly_closes(end / 2);
         let free: Vec<End> = ends.into_iter().filter(is_free).collect();
         for pair in bridge::find(self.drawing, &chains, &self.near_pairs(&free, self.close)) {
