@@ -17,7 +17,7 @@ pub(super) fn place(drawing: &Drawing, end: End) -> Point {
     drawing.vertices[if end.is_multiple_of(2) { stroke.first } else { stroke.end - 1 } as usize].at
 }
 
-/// What continues what.
+/// Links between the ends of strokes, and the chains that they make.
 #[derive(Debug)]
 pub(super) struct Chains {
     /// Of each end the one that continues it.
@@ -27,7 +27,7 @@ pub(super) struct Chains {
 }
 
 impl Chains {
-    /// Each of so many strokes by itself.
+    /// Chains of one stroke each.
     pub(super) fn alone(strokes: usize) -> Self {
         Self { links: vec![None; 2 * strokes], far: (0..2 * strokes).map(other).collect() }
     }

@@ -103,7 +103,7 @@ impl Joining<'_> {
         }
     }
 
-    /// What continues what; strokes are added where gaps are bridged.
+    /// Chains of the strokes; a stroke is added where a gap is bridged.
     fn chains(&mut self) -> Chains {
         let frame = self.frame();
         let open = |k: &usize| {

@@ -92,7 +92,7 @@ pub(super) enum Closing {
     Retraced,
     /// A straight line closes a gap of so many mm.
     Gap(f64),
-    /// Straight lines close gaps between its strokes, of up to so many mm.
+    /// Bridges close the gaps between its strokes: straight lines of up to so many mm.
     Bridged(f64),
     /// The edge of the frame closes it, along so many mm.
     Edge(f64),

@@ -6,9 +6,10 @@
 //! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it. Never
 //! knows the dialect.
 //!
-//! `join` makes lines (`chains`) of strokes, over the gaps that `bridge` finds, `close` closes them; `sheet` sorts them out, and asks the others: `frame` finds the frames,
-//! `nest` what lies in what, `marks` and `strokes` the notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when
-//! each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
+//! `join` makes lines (`chains`) of strokes, over the gaps that `bridge` finds, `close` closes them; `sheet` sorts
+//! them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `marks` and `strokes` the
+//! notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when each is cut,
+//! `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
 mod bridge;
 mod chains;

@@ -115,7 +115,7 @@ impl Sheet {
             let outline = self.lines[line].points(&self.vertices);
             for k in boxes.near(extent) {
                 let Line { usage: inner, end, first, .. } = self.lines[parts[k]];
-                // What nobody has looked at is not cut in the place of its outline.
+                // A part that the budget leaves unsearched counts as a seam line: too small a part can't be mended.
                 let cost = seam::COST * (outline.len() + (end - first) as usize);
                 let is_said = inner == Use::Knife && usage != Use::Knife;
                 if !is_said

@@ -4,7 +4,7 @@
 const ETX: u8 = 3;
 /// Longest text that a label has, bytes: a longer one has lost its terminator and would swallow what is drawn.
 const LONGEST: usize = 1024;
-/// Fewest pen-down places of an outline. A text that holds a move and so many has lost its terminator.
+/// Fewest pen-down places of an outline: a text that holds a move and as many places has lost its terminator.
 const OUTLINE: usize = 3;
 
 /// The terminator in force.

@@ -467,7 +467,7 @@ struct Round {
 }
 
 impl Round {
-    /// A blob of so many knots. Notches stand on some of them, and on places of the curve that become vertices.
+    /// A blob of `count` knots, with notches on some of them and on vertices between them.
     fn of(random: &mut Rng, count: usize) -> Self {
         let waves = [2.0, 3.0].map(|times: f64| (times, 30.0 * random.f64() / times, TAU * random.f64()));
         let knot = |k: usize| {

@@ -8,6 +8,7 @@ use cutc::machine::{Job, Numbers, Selection, Start};
 use fastrand::Rng;
 
 use super::audit::broken;
+use super::spurs::written;
 use super::writer::{Drawn, Place, Writer};
 use super::{as_read, source};
 use crate::support::room::{DONE, FAULTY, Room};
@@ -69,17 +70,7 @@ fn a_line_that_stands_off_an_outline_is_a_slit_however_the_outline_is_drawn() {
         if random.bool() {
             parts.push(vec![spur[1], spur[0]]); // there and back
         }
-        random.shuffle(&mut parts);
-        let mut file = Writer::begin();
-        file.block("A");
-        for part in &mut parts {
-            if random.bool() {
-                part.reverse();
-            }
-            file.polyline(1, part, false);
-        }
-        file.end_block();
-        let text = file.end(&["UNITS: METRIC"]);
+        let text = written(&mut random, parts);
         let (marker, found) = read(&text, &Job::default());
         assert!(found.is_empty(), "seed {seed}: {found:?} {text}");
         assert_eq!(ring(&contours(&marker)[0]), ring(&contours(&wanted)[0]), "seed {seed}");

@@ -131,7 +131,7 @@ impl Figure {
 }
 
 /// A file of lines in any order, each either way round.
-fn written(random: &mut Rng, mut parts: Vec<Vec<Place>>) -> String {
+pub(super) fn written(random: &mut Rng, mut parts: Vec<Vec<Place>>) -> String {
     random.shuffle(&mut parts);
     let mut file = Writer::begin();
     file.block("A");

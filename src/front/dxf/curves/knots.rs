@@ -194,7 +194,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What the curve misses around a vertex.
+    /// Vertices around one that the curve misses.
     fn around(&mut self, i: usize) -> Option<Vec<Miss>> {
         let count = self.run.places.len();
         let is_knot = |k: &usize| self.is_knot[k % count];
@@ -221,7 +221,7 @@ impl<'a> Search<'a> {
         self.work.spend(knots.len() + places).then_some(spans)
     }
 
-    /// What some spans of a curve through knots miss.
+    /// Vertices that some spans of a curve through knots miss.
     fn misses(&mut self, knots: &[usize], spans: &[Stretch], seen: Range<usize>) -> Option<Vec<Miss>> {
         let count = self.run.places.len();
         let mut misses = Vec::new();

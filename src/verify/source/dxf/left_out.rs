@@ -28,6 +28,6 @@ pub(super) fn wrongly(
             while pieces.next_if(|(piece, _)| !piece.is_bare && (first..behind).contains(&piece.block)).is_some() {}
         }
     }
-    // What stands in no block comes last, and all of it is cut.
+    // Pieces in no block come last, and all of them are cut.
     wrong + pieces.filter(|(piece, _)| piece.is_bare).count()
 }
