@@ -98,7 +98,7 @@ struct Plotted {
     #[arg(long, value_name = "LINES", value_enum)]
     inner: Option<choices::Inner>,
 
-    /// Cut every line as it is drawn, letters and seam lines too; with --cut-pens every line of these pens
+    /// Cut every line but a frame, letters and seam lines too; with --cut-pens every line of these pens
     #[arg(long)]
     cut_all: bool,
 }

@@ -4,6 +4,7 @@
 
 pub mod code;
 mod json;
+pub mod pieces;
 mod text;
 
 pub use code::{Code, Fault, Harm, Severity};

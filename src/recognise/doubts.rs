@@ -8,12 +8,10 @@ use super::marks::EdgeLine;
 use super::pens::Use;
 use super::piece::owners;
 use super::sheet::Sheet;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
 use crate::machine::CLOSE_MOST_MM;
 use crate::units::number::fixed;
 
-/// Pieces that a message names.
-const SHOWN: usize = 8;
 /// Parts with a seam line for each part without one, at least, and in all: fewer say nothing about the others.
 const MANY: usize = 3;
 /// Decimals of lengths, mm.
@@ -40,16 +38,6 @@ fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
     numbers.sort_unstable();
     numbers.dedup();
     numbers
-}
-
-/// Pieces in a few words: their numbers, or how many there are.
-fn words(numbers: &[u32]) -> String {
-    let shown: Vec<String> = numbers.iter().take(SHOWN).map(u32::to_string).collect();
-    let noun = if numbers.len() == 1 { "piece" } else { "pieces" };
-    match numbers.len().saturating_sub(SHOWN) {
-        0 => format!("{noun} {}", shown.join(", ")),
-        more => format!("{noun} {} and {more} more", shown.join(", ")),
-    }
 }
 
 /// Outlines with a gap around closed lines, each with how many of those it holds.
@@ -107,7 +95,7 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             n => (format!("{n} parts"), "have"),
         };
         let numbers = numbers(owners, &without);
-        let message = format!("{parts} {verb} no seam line, {}, while {} parts have one", words(&numbers), with.len());
+        let message = format!("{parts} {verb} no seam line, {}, while {} parts have one", pieces::listed(&numbers), with.len());
         let found = finding(&code::DRAWING_NO_SEAM, message, &sheet.lines[first], sheet);
         out.push(
             found.about(numbers).hint(
@@ -117,7 +105,7 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     }
 }
 
-/// Outlines that were closed.
+/// Outlines that were closed, and other lines that are cut.
 fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     for is_edge in [false, true] {
         let length = |i: usize| match sheet.lines[i].closing {
@@ -130,20 +118,23 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             | Closing::Retraced
             | Closing::Open(_) => None,
         };
-        let closed: Vec<usize> =
-            owners.iter().copied().filter(|&i| sheet.lines[i].is_cut && length(i).is_some()).collect();
+        let closed = sheet.indices(|line| line.is_cut && line.is_closed);
+        let closed: Vec<usize> = closed.into_iter().filter(|&i| length(i).is_some()).collect();
         let Some(&first) = closed.first() else { continue };
         let longest = fixed(closed.iter().filter_map(|&i| length(i)).fold(0.0, f64::max), DECIMALS);
+        let are_outlines = closed.iter().all(|i| owners.binary_search(i).is_ok());
+        let [one, several] = if are_outlines { ["an outline", "outlines"] } else { ["a line", "lines"] };
         let (outlines, stop) = match closed.len() {
-            1 => ("an outline".to_owned(), "stops"),
-            n => (format!("{n} outlines"), "stop"),
+            1 => (one.to_owned(), "stops"),
+            n => (format!("{n} {several}"), "stop"),
         };
-        let numbers = numbers(owners, &closed);
-        let pieces = words(&numbers);
+        let parts: Vec<usize> = closed.iter().map(|&i| sheet.part_around(i).unwrap_or(i)).collect();
+        let numbers = numbers(owners, &parts);
+        let of = pieces::listed(&numbers);
         let message = if is_edge {
-            format!("{outlines} {stop} at the edge of the frame, {pieces}: closed along it, by up to {longest} mm")
+            format!("{outlines} {stop} at the edge of the frame, {of}: closed along it, by up to {longest} mm")
         } else {
-            format!("{outlines} {stop} before the start, {pieces}: closed straight, by up to {longest} mm")
+            format!("{outlines} {stop} before the start, {of}: closed straight, by up to {longest} mm")
         };
         let found = finding(&code::DRAWING_CLOSED, message, &sheet.lines[first], sheet);
         out.push(
@@ -184,7 +175,7 @@ fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
         let length = fixed(edges.iter().map(|edge| sheet.lines[edge.line].length).fold(0.0, f64::max), DECIMALS);
         let parts: Vec<usize> = edges.iter().map(|edge| edge.outline).collect();
         let numbers = numbers(owners, &parts);
-        let message = format!("not cut: {begin} of {}; {longest} {length} mm long", words(&numbers));
+        let message = format!("not cut: {begin} of {}; {longest} {length} mm long", pieces::listed(&numbers));
         out.push(finding(code, message, &sheet.lines[first.line], sheet).about(numbers).hint(hint));
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     }
     inner_lines(sheet, job, out);
     lines_outside(sheet, out);
-    frames(sheet, out);
+    frames(sheet, job, out);
 }
 
 /// Several lines: how many, and how long in all.
@@ -147,10 +147,10 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     }
 }
 
-/// Frames that may be a part with cut-outs.
-fn frames(sheet: &Sheet, out: &mut Diagnostics) {
+/// Frames that may be a part with cut-outs, or that somebody may miss who asks for every line.
+fn frames(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let parts = sheet.indices(|line| line.class == Class::Part).len();
-    if parts >= SURE_PARTS {
+    if parts >= SURE_PARTS && !job.lines.all {
         return;
     }
     if let Some(frame) = sheet.lines.iter().rfind(|line| line.class == Class::Frame) {
@@ -162,7 +162,8 @@ fn frames(sheet: &Sheet, out: &mut Diagnostics) {
             if parts == 1 { "" } else { "s" }
         );
         let found = finding(&code::DRAWING_FRAME, message, frame, sheet);
-        out.push(found.hint("if it is a part, `--set hpgl.frame=none`"));
+        let hint = if job.lines.all { "to cut it too" } else { "if it is a part" };
+        out.push(found.hint(format!("{hint}, `--set hpgl.frame=none`")));
     }
 }
 

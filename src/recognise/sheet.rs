@@ -11,7 +11,7 @@ use crate::geom::budget::Budget;
 use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
 use crate::ir::marker::Label;
 use crate::machine::Job;
-use crate::machine::plot::{Frame, Inner};
+use crate::machine::plot::Inner;
 
 /// Lines that touch may lie so far in one another, mm, or a diagonal of the unit: each was rounded by itself.
 const BAND: f64 = 0.2;
@@ -51,9 +51,8 @@ impl Sheet {
     /// Finds what every line is.
     pub(super) fn sort_out(&mut self, job: &Job) {
         let band = BAND.max(ROUNDING * self.unit);
-        let frame = if job.lines.all { Frame::None } else { job.profile.hpgl.frame };
         let reach = close::Reach::of(self.unit, job);
-        frame::mark(&mut self.lines, frame, band, |frame, line| reach.is_edged(frame, line, &self.vertices));
+        frame::mark(&mut self.lines, job.profile.hpgl.frame, band, |frame, line| reach.is_edged(frame, line, &self.vertices));
         close::close_along_frames(&mut self.lines, &mut self.vertices, reach);
         let mut work = Budget::of_a_marker();
         self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
@@ -231,7 +230,9 @@ impl Sheet {
                 Use::Drawn => line.class == Class::Notch,
                 Use::Ignore => false,
             };
-            self.lines[i].is_cut = may_be && (by_rule || job.lines.all);
+            // A frame that is cut would make cut-outs of all parts.
+            let by_option = job.lines.all && line.class != Class::Frame;
+            self.lines[i].is_cut = may_be && (by_rule || by_option);
         }
         // A notch is cut with its outline.
         for stroke in &self.strokes {

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Reads nests as drawing programs write them and compares what is found with what the maker knows.
 
-    python3 tests/bench/drawings.py target/debug/cutc MAKER [--seeds N] [--pieces N] [--every N]
+    python3 tests/bench/drawings.py target/release/cutc MAKER [--seeds N] [--pieces N] [--every N] [--compile]
 
 MAKER is a program that prints a nest: it takes --dialect, --drawn, --seed, --gap, --pieces, --truth FILE and the flags
 below. Parts, seam lines, notches by kind, area and the metres that are cut must be as in its truth; the metres are
-compared with those of the same nest without the flags that change only how outlines are closed.
+compared with those of the same nest without the flags that change only how outlines are closed. With `--compile` each
+nest must give a verified program, too.
 """
 
 import argparse
@@ -37,6 +38,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--pieces", default="40")
     parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--compile", action="store_true")
     options = parser.parse_args()
     plots = itertools.product(["hpgl"], combinations(PLOT_FLAGS))
     cuts = itertools.product(["g71", "inch"], combinations(CUT_FLAGS))
@@ -63,12 +65,23 @@ def made(options, folder, case):
     with open(path, "wb") as out:
         subprocess.run(command, stdout=out, check=True)
     run = subprocess.run([options.cutc, "info", "--format", "json", path], capture_output=True, text=True)
+    refused = compiled(options, path) if options.compile else ""
     with open(path + ".json", encoding="utf-8") as file:
         truth = json.load(file)
     os.remove(path)
     os.remove(path + ".json")
     found = json.loads(run.stdout) if run.stdout.startswith("{") else {}
-    return truth, found, run.stderr
+    return truth, found, run.stderr, refused
+
+
+def compiled(options, path):
+    """What a compile of a file says that gives no program."""
+    run = subprocess.run([options.cutc, "compile", "-q", path, "-o", path + ".csv"], capture_output=True, text=True)
+    if run.returncode == 0:
+        os.remove(path + ".csv")
+        os.remove(path + ".csv.meta.json")
+        return ""
+    return " ".join(line.strip() for line in run.stderr.splitlines()[:2]) or f"exit code {run.returncode}"
 
 
 def plain(flags):
@@ -83,10 +96,10 @@ def plain(flags):
 
 def faults_of(options, folder, case):
     dialect, flags, gap, seed = case
-    truth, found, stderr = made(options, folder, case)
+    truth, found, stderr, refused = made(options, folder, case)
     if not found:
         return [stderr.strip().splitlines()[0] if stderr.strip() else "nothing is said"]
-    faults = []
+    faults = [refused] if refused else []
 
     def compare(what, value, expected, within=0):
         if abs(value - expected) > within:
@@ -101,7 +114,7 @@ def faults_of(options, folder, case):
     compare("seam lines", sum(row["count"] for row in seams), truth["seam_lines"])
     compare("seam lines cut", sum(row["count"] for row in seams if row["cut"]), 0)
     if plain(flags) != flags:
-        _, alone, _ = made(options, folder, (dialect, plain(flags), gap, seed))
+        _, alone, _, _ = made(options, folder, (dialect, plain(flags), gap, seed))
         # A gap that is closed straight and an end that is rounded change a length by less than a millimetre each.
         compare("cut m", found["cut_m"], alone["cut_m"], 0.001 * truth["pieces"])
         compare("area m2", found["area_m2"] or 0.0, alone["area_m2"], 0.0005 * alone["area_m2"])

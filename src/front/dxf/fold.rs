@@ -7,6 +7,9 @@ use crate::ir::drawing::Vertex;
 /// Vertices of a chain from fold to fold that has an inside.
 const LEAST_HALF: usize = 3;
 
+/// Least share of one side of a whole piece in the other: less of it is no second half, but a fold line beside its edge.
+const LEAST_SIDE: f64 = 0.1;
+
 /// A fold line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fold {
@@ -38,6 +41,8 @@ impl Axis {
 pub(super) enum Refusal {
     /// It lies on both sides: both halves are drawn.
     Across,
+    /// It lies on both sides, on one of them hardly.
+    Lopsided,
     /// Not one of its edges lies on the fold.
     Beside,
     /// Several of its edges do, with others between them.
@@ -108,14 +113,21 @@ impl Fold {
     }
 
     fn is_across(&self, line: &Chain) -> bool {
-        let offsets = || line.vertices.iter().map(|vertex| self.drawn.offset(vertex.at));
-        offsets().any(|offset| offset > REACH) && offsets().any(|offset| offset < -REACH)
+        self.sides(line)[0] > REACH
+    }
+
+    /// How far a line goes away from the fold to both sides, mm, to the nearer one first.
+    fn sides(&self, line: &Chain) -> [f64; 2] {
+        let offsets = line.vertices.iter().map(|vertex| self.drawn.offset(vertex.at));
+        let [left, right] = offsets.fold([0.0, 0.0_f64], |[left, right], off| [left.max(off), right.max(-off)]);
+        [left.min(right), left.max(right)]
     }
 
     /// The whole of an outline of which half is drawn; it may be open where the fold is.
     pub(super) fn unfold_outline(&self, outline: &Chain) -> Result<Chain, Refusal> {
         if self.is_across(outline) {
-            return Err(Refusal::Across);
+            let [less, more] = self.sides(outline);
+            return Err(if less < LEAST_SIDE * more { Refusal::Lopsided } else { Refusal::Across });
         }
         let halves: Vec<Vec<Vertex>> =
             self.halves(outline).into_iter().filter(|half| half.len() >= LEAST_HALF).collect();
@@ -290,7 +302,8 @@ mod tests {
     #[test]
     fn an_outline_that_is_no_half_is_not_unfolded() {
         let refused = |places: &[[f64; 2]]| fold().unfold_outline(&line(places, true)).err();
-        assert_eq!(refused(&[[0.0, -5.0], [100.0, -5.0], [50.0, 50.0]]), Some(Refusal::Across));
+        assert_eq!(refused(&[[0.0, -9.0], [100.0, -9.0], [50.0, 50.0]]), Some(Refusal::Across));
+        assert_eq!(refused(&[[0.0, -1.0], [100.0, -1.0], [100.0, 50.0], [0.0, 50.0]]), Some(Refusal::Lopsided));
         assert_eq!(refused(&[[0.0, 5.0], [100.0, 5.0], [50.0, 50.0]]), Some(Refusal::Beside));
         let twice = [[0.0, 0.0], [20.0, 0.0], [30.0, 9.0], [40.0, 0.0], [100.0, 0.0], [100.0, 50.0], [0.0, 50.0]];
         assert_eq!(refused(&twice), Some(Refusal::Several));

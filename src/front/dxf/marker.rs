@@ -36,7 +36,8 @@ fn piece(laid: &Laid, number: u32, list: &mut SegmentList, account: &mut Account
         return made;
     }
     made.drills.extend(piece.drills.iter().map(|&(at, span)| Drill { at: motion.place(at), tool: DRILL, span }));
-    account.notches_left_out.extend(&piece.left_out);
+    let left_out = piece.doubts.iter().filter(|doubt| doubt.leaves_out());
+    account.notches_left_out.extend(left_out.map(|doubt| doubt.span));
     made.notches.extend(piece.slits.iter().map(|slit| moved_notch(slit, motion)));
     let inner = piece.inner.iter().map(|line| (CUT_OUT, line));
     for (layer, line) in inner.chain([(OUTLINE, &piece.outline)]) {

@@ -16,6 +16,7 @@ mod arc;
 mod chain;
 mod choice;
 mod curves;
+mod doubts;
 mod entity;
 mod fold;
 mod group;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_3, PI};
 
+use super::doubts::{Doubt, Reason};
 use super::layer::Form;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, Vector, left, polyline, ring};
@@ -38,26 +39,9 @@ pub(super) struct Mark {
     pub(super) span: Span,
 }
 
-/// Reason for which a notch is cut in another way than the file says, or left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Doubt {
-    /// Too far from all outlines.
-    OffEdge,
-    /// Deeper than notches are, or than the part is there.
-    TooDeep,
-    /// In the mouth of another one, or at the place of one of another kind.
-    InAnother,
-    /// Cut as a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar that leaves the part.
-    AsSlit,
-}
-
-impl Doubt {
-    /// Whether the notch is left out.
-    pub(super) fn leaves_out(self) -> bool {
-        match self {
-            Self::OffEdge | Self::TooDeep | Self::InAnother => true,
-            Self::AsSlit => false,
-        }
+impl Mark {
+    fn doubt(&self, reason: Reason) -> Doubt {
+        Doubt { reason, mm: self.depth, span: self.span }
     }
 }
 
@@ -66,7 +50,7 @@ impl Doubt {
 pub(super) struct NotchedOutline {
     pub(super) outline: Vec<Vertex>,
     pub(super) slits: Vec<Notch>,
-    pub(super) doubts: Vec<(Doubt, Span)>,
+    pub(super) doubts: Vec<Doubt>,
 }
 
 /// Site of a notch on its outline.
@@ -98,7 +82,7 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         for mark in marks {
             match edge.place(mark, work) {
                 Ok(found) => placed.push(found),
-                Err(doubt) => notched.doubts.push((doubt, mark.span)),
+                Err((reason, mm)) => notched.doubts.push(Doubt { reason, mm, span: mark.span }),
             }
         }
         let start = edge.start(&placed);
@@ -110,9 +94,7 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
     }
     placed.sort_by(|a, b| a.station.total_cmp(&b.station));
     let length = polyline::length(&around(&outline));
-    for merged in merge(&mut placed, length) {
-        notched.doubts.push((Doubt::InAnother, merged));
-    }
+    notched.doubts.extend(merge(&mut placed, length).iter().map(|merged| merged.doubt(Reason::InAnother)));
     if placed.is_empty() {
         return NotchedOutline { outline, ..notched };
     }
@@ -126,11 +108,11 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         match taken.peek().filter(|mouth| mouth.from <= notch.station) {
             // Its own mouth, or that of another in which it would be cut a second time: its mirrored half is another, too.
             Some(mouth) if mouth.notch.mark.span == mark.span && mouth.notch.station == notch.station => {}
-            Some(_) => notched.doubts.push((Doubt::InAnother, mark.span)),
+            Some(_) => notched.doubts.push(mark.doubt(Reason::InAnother)),
             None => {
                 notched.slits.push(notch.slit(is_bar));
                 let is_otherwise = notch.is_wide() || mark.form == Form::T && !is_bar;
-                notched.doubts.extend(is_otherwise.then_some((Doubt::AsSlit, mark.span)));
+                notched.doubts.extend(is_otherwise.then(|| mark.doubt(Reason::AsSlit)));
             }
         }
     }
@@ -140,11 +122,11 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
 
 /// Keeps one of the notches at each place of a closed outline, in their order along it. Returns the dropped ones that ask for
 /// another kind of notch than the one that stays.
-fn merge(placed: &mut Vec<Site>, length: f64) -> Vec<Span> {
+fn merge(placed: &mut Vec<Site>, length: f64) -> Vec<Mark> {
     let mut lost = Vec::new();
     let mut is_one = |next: &Site, before: &Site, distance: f64| {
         let is_one = distance <= SAME;
-        lost.extend((is_one && !next.asks_for_the_same_as(before)).then_some(next.mark.span));
+        lost.extend((is_one && !next.asks_for_the_same_as(before)).then_some(next.mark));
         is_one
     };
     placed.dedup_by(|next, before| is_one(next, before, next.station - before.station));
@@ -187,19 +169,20 @@ impl<'a> Edge<'a> {
         polyline::place(&self.points, &self.stations, station.rem_euclid(self.length()))
     }
 
-    /// Site of a mark on the outline.
-    fn place(&self, mark: &Mark, work: &mut Budget) -> Result<Site, Doubt> {
+    /// Site of a mark on the outline; otherwise why it has none, with the measure of that, mm.
+    fn place(&self, mark: &Mark, work: &mut Budget) -> Result<Site, (Reason, f64)> {
         if mark.depth > Notch::LONGEST {
-            return Err(Doubt::TooDeep);
+            return Err((Reason::TooDeep, mark.depth));
         }
         if !work.spend(2 * self.points.len()) {
-            return Err(Doubt::OffEdge); // the file is refused anyway
+            return Err((Reason::OffEdge, Dxf::NOTCH_OFF)); // the file is refused anyway
         }
         let distance = |k: usize| polyline::distance_to_segment(mark.at, self.points[k], self.points[k + 1]);
         let nearest = (0..self.vertices.len()).map(|k| (distance(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, k)) = nearest.filter(|(distance, _)| *distance <= Dxf::NOTCH_OFF) else {
-            return Err(Doubt::OffEdge);
-        };
+        let (off, k) = nearest.expect("an outline has an edge");
+        if off > Dxf::NOTCH_OFF {
+            return Err((Reason::OffEdge, off));
+        }
         let [a, b] = [self.points[k], self.points[k + 1]];
         let foot = polyline::foot(mark.at, a, b);
         let station = self.stations[k] + foot * (b - a).norm();
@@ -212,7 +195,8 @@ impl<'a> Edge<'a> {
         let along = mark.along.map(|along| if along.dot(&inwards) < 0.0 { -along } else { along });
         let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
         let placed = Site { mark: *mark, station, root, inwards };
-        if ring::contains(&self.points[..self.vertices.len()], placed.tip()) { Ok(placed) } else { Err(Doubt::TooDeep) }
+        let is_inside = ring::contains(&self.points[..self.vertices.len()], placed.tip());
+        if is_inside { Ok(placed) } else { Err((Reason::TooDeep, mark.depth)) }
     }
 
     /// Whether the crossbar of a T has the width of crossbars, and stays in the part.
@@ -413,25 +397,25 @@ mod tests {
     fn what_cannot_be_cut_so_is_a_slit_or_is_left_out() {
         let doubts = |marks: &[Mark]| {
             let found = notched(true, marks);
-            (found.slits.len(), found.doubts.iter().map(|doubt| doubt.0).collect::<Vec<_>>())
+            (found.slits.len(), found.doubts.iter().map(|doubt| doubt.reason).collect::<Vec<_>>())
         };
-        assert_eq!(doubts(&[mark(Form::Plain, [0.0, 0.0], [5.0, 4.0])]), (1, vec![Doubt::AsSlit]));
-        assert_eq!(doubts(&[mark(Form::Castle, [50.0, 0.0], [5.0, 14.0])]), (1, vec![Doubt::AsSlit]));
-        assert_eq!(doubts(&[mark(Form::Plain, [50.0, 5.0], [5.0, 0.0])]), (0, vec![Doubt::OffEdge]));
-        assert_eq!(doubts(&[mark(Form::Plain, [50.0, 0.0], [16.0, 0.0])]), (0, vec![Doubt::TooDeep]));
+        assert_eq!(doubts(&[mark(Form::Plain, [0.0, 0.0], [5.0, 4.0])]), (1, vec![Reason::AsSlit]));
+        assert_eq!(doubts(&[mark(Form::Castle, [50.0, 0.0], [5.0, 14.0])]), (1, vec![Reason::AsSlit]));
+        assert_eq!(doubts(&[mark(Form::Plain, [50.0, 5.0], [5.0, 0.0])]), (0, vec![Reason::OffEdge]));
+        assert_eq!(doubts(&[mark(Form::Plain, [50.0, 0.0], [16.0, 0.0])]), (0, vec![Reason::TooDeep]));
         let beside = [mark(Form::U, [50.0, 0.0], [5.0, 4.0]), mark(Form::Plain, [51.0, 0.0], [5.0, 0.0])];
-        assert_eq!(doubts(&beside), (0, vec![Doubt::InAnother]));
+        assert_eq!(doubts(&beside), (0, vec![Reason::InAnother]));
         let other = [mark(Form::Plain, [50.0, 0.0], [5.0, 0.0]), mark(Form::Plain, [50.05, 0.0], [5.0, 4.0])];
-        assert_eq!(doubts(&other), (1, vec![Doubt::InAnother]));
+        assert_eq!(doubts(&other), (1, vec![Reason::InAnother]));
         for width in [0.5, 13.0, 500.0] {
-            assert_eq!(doubts(&[mark(Form::T, [50.0, 0.0], [5.0, width])]), (1, vec![Doubt::AsSlit]), "{width}");
+            assert_eq!(doubts(&[mark(Form::T, [50.0, 0.0], [5.0, width])]), (1, vec![Reason::AsSlit]), "{width}");
         }
-        assert_eq!(doubts(&[mark(Form::T, [3.0, 0.0], [5.0, 10.0])]), (1, vec![Doubt::AsSlit]));
+        assert_eq!(doubts(&[mark(Form::T, [3.0, 0.0], [5.0, 10.0])]), (1, vec![Reason::AsSlit]));
         let twice = [mark(Form::Plain, [50.0, 0.0], [5.0, 0.0]), mark(Form::Plain, [50.05, 0.0], [5.0, 0.0])];
         assert_eq!(doubts(&twice), (1, vec![]));
         let around = [mark(Form::Plain, [0.02, 0.0], [5.0, 0.0]), mark(Form::Plain, [0.0, 0.02], [5.0, 0.0])];
         assert_eq!(doubts(&around).0, 1, "one of them is at the end of the outline");
         let over = [mark(Form::U, [50.0, 0.0], [5.0, 4.0]), mark(Form::U, [53.0, 0.0], [5.0, 4.0])];
-        assert_eq!(doubts(&over), (1, vec![Doubt::AsSlit]));
+        assert_eq!(doubts(&over), (1, vec![Reason::AsSlit]));
     }
 }

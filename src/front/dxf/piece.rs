@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::chain::{Chain, REACH, chains};
 use super::curves::{CurveCounts, Curves, Drafting, Nodes};
+use super::doubts::Doubt;
 use super::fold::{Fold, Refusal};
 use super::layer::{Does, Form, Layer, Named, OUTLINE};
 use super::notch::{self, Mark, NotchedOutline};
@@ -28,8 +29,8 @@ pub(super) struct Piece {
     /// Its outline with the notches that it makes.
     pub(super) outline: Chain,
     pub(super) slits: Vec<Notch>,
-    /// Notches that are told and not cut.
-    pub(super) left_out: Vec<Span>,
+    /// Notches that are left out, or cut in another way.
+    pub(super) doubts: Vec<Doubt>,
     pub(super) drills: Vec<(Point, Span)>,
     /// Lines that are cut inside it.
     pub(super) inner: Vec<Chain>,
@@ -49,7 +50,7 @@ impl Piece {
             plain: none(),
             outline: none(),
             slits: Vec::new(),
-            left_out: Vec::new(),
+            doubts: Vec::new(),
             drills: Vec::new(),
             inner: Vec::new(),
             drawn: Vec::new(),
@@ -184,6 +185,7 @@ impl Making<'_> {
             (_, []) => None,
             ([_], &[fold]) => match fold.unfold_outline(first) {
                 Ok(whole) => return vec![Some((whole, Some(fold)))],
+                Err(Refusal::Lopsided) => Some("the fold line (layer 6) lies just inside of an edge of the outline"),
                 Err(Refusal::Across) => {
                     self.tally.add(Thing::FoldAcross, first.vertices[0].span);
                     None
@@ -244,10 +246,6 @@ impl Making<'_> {
         }
         let plain = edge.line;
         let NotchedOutline { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
-        for &(doubt, span) in &doubts {
-            self.tally.add(Thing::Notch(doubt), span);
-        }
-        let left_out = doubts.iter().filter(|(doubt, _)| doubt.leaves_out()).map(|&(_, span)| span).collect();
         let (mut inner, mut drawn) = (Vec::new(), Vec::new());
         for (layer, line) in content.lines {
             match layer.does {
@@ -274,7 +272,7 @@ impl Making<'_> {
         let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };
         let (labels, faults) = (content.labels, Vec::new());
-        Piece { span: content.span, plain, outline, slits, left_out, drills, inner, drawn, labels, faults }
+        Piece { span: content.span, plain, outline, slits, doubts, drills, inner, drawn, labels, faults }
     }
 
     /// The notches and holes that points ask for, on both sides of a fold.

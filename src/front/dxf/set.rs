@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::chain::Chain;
 use super::choice::{Asked, Chosen};
 use super::curves::{CurveCounts, Drafting, Size, lend};
+use super::doubts;
 use super::entity::{Block, Entity, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
@@ -315,6 +316,7 @@ impl Set {
             return;
         }
         self.say_faults(asked, out);
+        self.say_doubts(asked, out);
         if out.has_errors() {
             return;
         }
@@ -345,6 +347,18 @@ impl Set {
                 out,
             );
         }
+    }
+
+    /// Says which notches are left out or cut in another way, with the numbers of their pieces.
+    fn say_doubts(&self, asked: &Asked, out: &mut Diagnostics) {
+        let mut pieces: BTreeMap<u32, (&Piece, Vec<u32>)> = BTreeMap::new();
+        for (laid, number) in self.laid().into_iter().zip(1..) {
+            if !laid.piece.doubts.is_empty() && asked.job.selection.has(number) {
+                pieces.entry(laid.piece.span.start).or_insert((laid.piece, Vec::new())).1.push(number);
+            }
+        }
+        let each = pieces.values();
+        doubts::say(each.flat_map(|(piece, of)| piece.doubts.iter().map(move |doubt| (doubt, &of[..]))), out);
     }
 
     /// Says why pieces cannot be cut, with their numbers, unless they are left out.

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::notch::Doubt;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
 /// What is not done, beside what entities are not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Thing {
-    Notch(Doubt),
     /// A cut-out or a hole lies in no outline.
     Outside,
     /// A block has something to cut and no outline.
@@ -75,12 +73,7 @@ struct Row {
 
 #[rustfmt::skip] // a table: a row a thing; a test holds its measures against those of the reader
 fn row(thing: Thing) -> Row {
-    let left_out = &code::DXF_NOTCH_LEFT_OUT;
     match thing {
-        Thing::Notch(Doubt::OffEdge) => Row { code: left_out, one: "a notch lies more than 1 mm from the outline and is not cut", many: "notches lie more than 1 mm from the outline and are not cut", hint: "it may mark a seam line: cut it by hand if it is missing" },
-        Thing::Notch(Doubt::TooDeep) => Row { code: left_out, one: "a notch is deeper than 15 mm or than its part is there, and is not cut", many: "notches are deeper than 15 mm or than their part is there, and are not cut", hint: "look at the depth (group 30) and at the unit of the file" },
-        Thing::Notch(Doubt::InAnother) => Row { code: left_out, one: "a notch lies in the mouth of another one or at its place and is not cut", many: "notches lie in the mouths of others or at their places and are not cut", hint: "one of both is enough: see which in the picture (-t svg)" },
-        Thing::Notch(Doubt::AsSlit) => Row { code: &code::DXF_NOTCH_AS_SLIT, one: "a notch is too small or wide, at a corner or beside another one: cut as a slit", many: "notches are too small or wide, at corners or beside others: cut as slits", hint: "a slit marks the same place" },
         Thing::Outside => Row { code: &code::DXF_OUTSIDE, one: "a cut-out or a hole lies outside of its outline, and is cut all the same", many: "cut-outs or holes lie outside of their outlines, and are cut all the same", hint: "see in the picture (-t svg) where the knife goes" },
         Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "what has no outline on layer 1 asks for cuts; nothing of it is cut", many: "blocks without an outline on layer 1 ask for cuts; nothing of them is cut", hint: "count the pieces with `cutc info`" },
         Thing::StrokeOfNotch => Row { code: &code::DXF_STROKE, one: "a line on a layer of notches (4, 80 to 83) is not cut", many: "lines on layers of notches (4, 80 to 83) are not cut", hint: "let the CAD system export notches as points, or draw them into the outline" },
@@ -114,13 +107,7 @@ mod tests {
     fn what_is_told_of_measures_is_what_they_are() {
         let mm = |value: f64| format!("{value} mm");
         let says = |text: &str, value: f64| assert!(text.contains(&mm(value)), "{} in: {text}", mm(value));
-        for text in [row(Thing::Notch(Doubt::OffEdge)).one, row(Thing::Notch(Doubt::OffEdge)).many] {
-            says(text, Dxf::NOTCH_OFF);
-        }
-        let too_deep = row(Thing::Notch(Doubt::TooDeep));
-        for text in [too_deep.one, too_deep.many, code::DXF_NOTCH_LEFT_OUT.about] {
-            says(text, Notch::LONGEST);
-        }
+        says(code::DXF_NOTCH_LEFT_OUT.about, Notch::LONGEST);
         let [least, most] = MOUTHS;
         for value in [least, most, LEAST_DEPTH] {
             says(code::DXF_NOTCH_AS_SLIT.about, value);

@@ -78,6 +78,8 @@ pub(super) enum Tail {
     Numbers,
     /// A text up to the terminator of labels.
     Text,
+    /// A text in quotes, or up to that terminator.
+    Display,
     /// A byte that becomes that terminator.
     Terminator,
     /// A byte.
@@ -94,7 +96,8 @@ impl Instruction {
     /// What stands behind its mnemonic.
     pub(super) fn tail(self) -> Tail {
         match self {
-            Self::Label | Self::Buffer | Self::Display => Tail::Text,
+            Self::Label | Self::Buffer => Tail::Text,
+            Self::Display => Tail::Display,
             Self::Terminator => Tail::Terminator,
             Self::Symbol => Tail::Character,
             Self::Comment => Tail::Quoted,

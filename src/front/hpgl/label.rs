@@ -67,27 +67,31 @@ fn holds_outline(text: &[u8]) -> bool {
     down >= OUTLINE
 }
 
-/// Where the file goes on behind the quoted text of CO or MG: a quote within it stands twice. One without its second quote,
-/// or without any, ends with its line or at a semicolon.
+/// Where the file goes on behind the quoted text of CO or MG. One without its second quote, or without any, ends with its
+/// line or at a semicolon.
 pub(super) fn quoted(bytes: &[u8], at: usize) -> usize {
-    let line =
-        |from: usize| bytes[from..].iter().position(|byte| b";\r\n".contains(byte)).map_or(bytes.len(), |n| from + n);
+    in_quotes(bytes, at).unwrap_or_else(|| {
+        let rest = &bytes[at..];
+        at + rest.iter().position(|byte| b";\r\n".contains(byte)).unwrap_or(rest.len())
+    })
+}
+
+/// Where the file goes on behind a text in quotes: a quote within it stands twice. `None` without both of its quotes.
+pub(super) fn in_quotes(bytes: &[u8], at: usize) -> Option<usize> {
     let at = at + bytes[at..].iter().take_while(|byte| **byte == b' ').count();
-    match bytes.get(at) {
-        Some(b'"') => {
-            let end = bytes.len().min(at + 1 + LONGEST);
-            let mut next = at + 1;
-            while let Some(length) = memchr::memchr(b'"', &bytes[next.min(end)..end]) {
-                next += length + 1;
-                if bytes.get(next) != Some(&b'"') {
-                    return next;
-                }
-                next += 1;
-            }
-            line(at)
-        }
-        _ => line(at),
+    if bytes.get(at) != Some(&b'"') {
+        return None;
     }
+    let end = bytes.len().min(at + 1 + LONGEST);
+    let mut next = at + 1;
+    while let Some(length) = memchr::memchr(b'"', &bytes[next.min(end)..end]) {
+        next += length + 1;
+        if bytes.get(next) != Some(&b'"') {
+            return Some(next);
+        }
+        next += 1;
+    }
+    None
 }
 
 #[cfg(test)]

@@ -229,7 +229,11 @@ impl Lowering<'_> {
                     self.write(text);
                 }
             }
-            Instruction::Display => _ = self.text(span),
+            Instruction::Display => {
+                if self.reader.display().1 {
+                    self.tally.open_label(span);
+                }
+            }
             Instruction::Comment => self.reader.quoted(),
             _ => self.direction(),
         }

@@ -207,6 +207,18 @@ impl<'a> Reader<'a> {
         self.at = label::quoted(self.bytes, self.at);
     }
 
+    /// WD: the place of its text, and whether its terminator is missing. Programs write it in quotes, or as that of a label.
+    pub(super) fn display(&mut self) -> (Span, bool) {
+        let start = self.at;
+        match label::in_quotes(self.bytes, start) {
+            Some(next) if self.bytes.get(next).is_none_or(|byte| b";\r\n\x03".contains(byte)) => {
+                self.at = next;
+                (self.span(start), false)
+            }
+            Some(_) | None => self.text(),
+        }
+    }
+
     /// SM: a character, unless the instruction ends.
     fn character(&mut self) {
         self.at += usize::from(self.bytes.get(self.at).is_some_and(|byte| *byte != b';'));
@@ -257,6 +269,7 @@ impl<'a> Reader<'a> {
     pub(super) fn pass_over(&mut self, tail: Tail) -> Option<Flaw> {
         match tail {
             Tail::Text => _ = self.text(),
+            Tail::Display => _ = self.display(),
             Tail::Terminator => self.define_terminator(),
             Tail::Quoted => self.quoted(),
             Tail::Character => self.character(),

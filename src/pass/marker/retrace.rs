@@ -5,7 +5,7 @@
 //! true: such a contour ends where it starts, and keeps its start and direction.
 
 use super::pass::MarkerPass;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
 use crate::geom::Point;
 use crate::geom::closing::{self, Retrace};
 use crate::ir::list::Segment;
@@ -17,8 +17,6 @@ use crate::units::number::fixed;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "retrace", about: "leaves out what runs past the start of an outline or round again", run };
 
-/// Pieces that a message names.
-const SHOWN: usize = 8;
 /// Decimals of lengths in messages, mm.
 const DECIMALS: u32 = 1;
 
@@ -75,18 +73,8 @@ impl Found {
     fn say(&self, code: &'static Code, diagnostics: &mut Diagnostics, how: impl Fn(f64) -> String) {
         let Some(first) = self.first else { return };
         let (outlines, verb) = if self.count == 1 { ("outline", "runs") } else { ("outlines", "run") };
-        let shown: Vec<String> = self.pieces.iter().take(SHOWN).map(u32::to_string).collect();
-        let more = match self.pieces.len().saturating_sub(SHOWN) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let noun = if self.pieces.len() == 1 { "piece" } else { "pieces" };
-        let message = format!(
-            "{} {outlines} {verb} {}, {noun} {}{more}: cut once",
-            self.count,
-            how(self.worst),
-            shown.join(", ")
-        );
+        let message =
+            format!("{} {outlines} {verb} {}, {}: cut once", self.count, how(self.worst), pieces::listed(&self.pieces));
         diagnostics.push(Diagnostic::new(code, message).at(first));
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Passes may cut once what the file cuts twice: a slit that is written there and back becomes one cut, and of two that
 //! are the same one goes. So a stroke whose block is gone is no loss while another one of its piece cuts between the same
-//! two places.
+//! two places, or while the file draws it again, along a line whose block is there.
 
 use rayon::prelude::*;
 
@@ -20,6 +20,8 @@ const DIAGONAL: f64 = std::f64::consts::SQRT_2;
 const NO_GRID: f64 = 0.01;
 /// Steps out and back that are shorter may be left out, mm.
 const SHORTEST_STEP: f64 = 1.0;
+/// Distance within which a line that is drawn again lies on itself, mm.
+const AGAIN: f64 = 0.15;
 /// Places of a stroke are looked at so far from each other, mm.
 const SAMPLE: f64 = 0.2;
 
@@ -126,8 +128,8 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     }
     let mut blocks: Vec<u32> = strokes(cut).map(|stroke| stroke.block).collect();
     blocks.sort_unstable();
-    let mut lost: Vec<KnifeStroke> =
-        strokes(read).filter(|stroke| blocks.binary_search(&stroke.block).is_err()).collect();
+    let is_there = |stroke: &KnifeStroke| blocks.binary_search(&stroke.block).is_ok();
+    let mut lost: Vec<KnifeStroke> = strokes(read).filter(|stroke| !is_there(stroke)).collect();
     if lost.is_empty() {
         return lost;
     }
@@ -145,6 +147,11 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
         let is_step = stroke.length() < SHORTEST_STEP && is_twice(stroke);
         stroke.is_hole() || !stroke.is_near(&still, if is_step { SHORTEST_STEP } else { reach })
     });
+    // A notch may stand in the place of the edge that is drawn twice.
+    if !lost.is_empty() {
+        let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
+        lost.retain(|stroke| stroke.is_hole() || !stroke.is_near(&there, AGAIN));
+    }
     lost.dedup_by_key(|stroke| stroke.block); // the chords of an arc are one block
     lost
 }

@@ -18,10 +18,15 @@ use crate::verifier::case;
 const DAMAGES: usize = 10_000;
 const SMALL: usize = 4096;
 
-/// Every file that is read without errors, with its marker as read.
+/// Every cut file, with its marker as read.
 fn sources() -> Vec<(Source, Marker)> {
+    sources_of(&["iso", "markers"], "iso")
+}
+
+/// Every file of some folders, which are of one dialect, with its marker as read.
+fn sources_of(folders: &[&str], dialect: &str) -> Vec<(Source, Marker)> {
     let mut paths = Vec::new();
-    for folder in ["iso", "markers"] {
+    for folder in folders {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(folder);
         paths.extend(fs::read_dir(root).expect("readable").map(|entry| entry.expect("readable").path()));
     }
@@ -31,7 +36,7 @@ fn sources() -> Vec<(Source, Marker)> {
         let source = Source::new(name, fs::read(path).expect("readable")).expect("fixtures are small");
         let mut diagnostics = Diagnostics::default();
         let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
-        assert_eq!(input.dialect.name, "iso", "{}", source.name());
+        assert_eq!(input.dialect.name, dialect, "{}", source.name());
         let marker = cutc::pipeline::marker_of(input.dialect, &source, &Job::default(), &mut diagnostics);
         (source, marker)
     };
@@ -55,8 +60,8 @@ fn the_scan_finds_what_the_reader_finds_in_every_cut_file() {
 }
 
 #[test]
-fn the_passes_lose_nothing_of_any_cut_file() {
-    for (source, read) in sources() {
+fn the_passes_lose_nothing_of_any_cut_file_or_plot() {
+    for (source, read) in sources().into_iter().chain(sources_of(&["hpgl"], "hpgl")) {
         let mut diagnostics = Diagnostics::default();
         let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
         if !diagnostics.has_errors() {

@@ -95,6 +95,7 @@ impl Scan<'_> {
                 let pen = self.number();
                 self.pen.is_away = pen.is_none_or(|pen| pen == 0.0);
             }
+            b"WD" if self.is_quoted_alone() => _ = self.quote(),
             b"LB" | b"BL" | b"WD" => {
                 let window = &self.bytes[self.at..self.bytes.len().min(self.at + LABEL_BYTES)];
                 match memchr::memchr(self.terminator, window) {
@@ -122,6 +123,14 @@ impl Scan<'_> {
                 self.frame(mnemonic, &numbers);
             }
         }
+    }
+
+    /// Whether nothing stands behind a text between quotes.
+    fn is_quoted_alone(&mut self) -> bool {
+        let start = self.at;
+        let is_alone = self.quote() && matches!(self.bytes.get(self.at), None | Some(&(b';' | b'\r' | b'\n' | ETX)));
+        self.at = start;
+        is_alone
     }
 
     /// A text between quotes, which stand twice within it; `false` where none stands, or only one quote.

@@ -1,0 +1,27 @@
+//! Lists of pieces in messages.
+
+/// Pieces that a message names at the most.
+const SHOWN: usize = 8;
+
+/// Pieces by their numbers, in a few words: `piece 4`, `pieces 1, 3`, and of many the first and how many more there are.
+pub fn listed(numbers: &[u32]) -> String {
+    let shown: Vec<String> = numbers.iter().take(SHOWN).map(u32::to_string).collect();
+    let noun = if numbers.len() == 1 { "piece" } else { "pieces" };
+    match numbers.len().saturating_sub(SHOWN) {
+        0 => format!("{noun} {}", shown.join(", ")),
+        more => format!("{noun} {} and {more} more", shown.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_pieces_are_counted() {
+        assert_eq!(listed(&[4]), "piece 4");
+        assert_eq!(listed(&[1, 3]), "pieces 1, 3");
+        let all: Vec<u32> = (1..=10).collect();
+        assert_eq!(listed(&all), "pieces 1, 2, 3, 4, 5, 6, 7, 8 and 2 more");
+    }
+}

@@ -1,0 +1,109 @@
+//! Notches that are cut in another way than the file says, or left out: each kind reported once, with its pieces.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
+use crate::ir::marker::Notch;
+use crate::source::Span;
+use crate::units::number::fixed;
+
+/// Decimals of lengths in messages, mm.
+const DECIMALS: u32 = 1;
+
+/// Reason for which a notch is cut in another way than the file says, or left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Reason {
+    /// Too far from all outlines.
+    OffEdge,
+    /// Deeper than notches are, or than the part is there.
+    TooDeep,
+    /// In the mouth of another one, or at the place of one of another kind.
+    InAnother,
+    /// Cut as a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar that leaves the part.
+    AsSlit,
+}
+
+/// Notch that is not cut as the file says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Doubt {
+    pub(super) reason: Reason,
+    /// Distance from the edge where that is the reason, else the depth of the notch, mm.
+    pub(super) mm: f64,
+    pub(super) span: Span,
+}
+
+impl Doubt {
+    /// Whether the notch is left out.
+    pub(super) fn leaves_out(&self) -> bool {
+        match self.reason {
+            Reason::OffEdge | Reason::TooDeep | Reason::InAnother => true,
+            Reason::AsSlit => false,
+        }
+    }
+}
+
+/// Reports the doubts about the notches of pieces, which come with the numbers of their pieces: of each kind once.
+pub(super) fn say<'a>(doubts: impl Iterator<Item = (&'a Doubt, &'a [u32])>, out: &mut Diagnostics) {
+    let mut kinds: BTreeMap<Reason, (Vec<&Doubt>, Vec<u32>)> = BTreeMap::new();
+    for (doubt, numbers) in doubts {
+        let (of_kind, of_pieces) = kinds.entry(doubt.reason).or_default();
+        of_kind.push(doubt);
+        of_pieces.extend(numbers);
+    }
+    for (reason, (doubts, mut numbers)) in kinds {
+        numbers.sort_unstable();
+        numbers.dedup();
+        let worst = doubts.iter().map(|doubt| doubt.mm).fold(0.0, f64::max);
+        let (notches, one) = match doubts.len() {
+            1 => (format!("a notch of {}", pieces::listed(&numbers)), true),
+            count => (format!("{count} notches of {}", pieces::listed(&numbers)), false),
+        };
+        let Words { code, message, hint } = words(reason, &notches, &fixed(worst, DECIMALS), one);
+        out.push(Diagnostic::new(code, message).at(doubts[0].span).about(numbers).hint(hint));
+    }
+}
+
+/// How a doubt is told.
+struct Words {
+    code: &'static Code,
+    message: String,
+    hint: &'static str,
+}
+
+fn words(reason: Reason, notches: &str, mm: &str, is_one: bool) -> Words {
+    let verb = |one, several| if is_one { one } else { several };
+    let (code, message, hint) = match reason {
+        Reason::OffEdge => (
+            &code::DXF_NOTCH_LEFT_OUT,
+            format!("{notches} {} {mm} mm from the outline: not cut", verb("lies", "lie up to")),
+            "it may mark a seam line: cut it by hand if it is missing",
+        ),
+        Reason::TooDeep => (
+            &code::DXF_NOTCH_LEFT_OUT,
+            format!(
+                "{notches} {} {mm} mm deep, more than {} mm or than the part is there: not cut",
+                verb("is", "are up to"),
+                Notch::LONGEST
+            ),
+            "look at the depth (group 30) and at the unit of the file",
+        ),
+        Reason::InAnother => (
+            &code::DXF_NOTCH_LEFT_OUT,
+            format!(
+                "{notches} {}: not cut",
+                verb("lies in the mouth of another one or at its place", "lie in mouths of others or at their places")
+            ),
+            "one of both is enough: see which in the picture (-t svg)",
+        ),
+        Reason::AsSlit => (
+            &code::DXF_NOTCH_AS_SLIT,
+            format!(
+                "{notches} {}: cut {}",
+                verb("is too small or wide, at a corner or beside another", "are too small or wide, at corners or beside others"),
+                verb("as a slit", "as slits")
+            ),
+            "a slit marks the same place",
+        ),
+    };
+    Words { code, message, hint }
+}
