@@ -75,7 +75,7 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) fresh: f64,
     /// How much of them a blade on its way had cut before, mm.
     pub(in crate::verify) passed: f64,
-    /// How much of the line is then still uncut, mm.
+    /// Share of the line that is then still uncut.
     left: f64,
     /// Whether it cuts all that was left of the line.
     pub(in crate::verify) is_last: bool,
@@ -169,7 +169,8 @@ impl Tracer<'_> {
         for trial in trials {
             trial.fresh = coverage.fresh(trial.line, &trial.stretches);
             let uncut = self.reference.lines[trial.line].length() - coverage.length(trial.line);
-            trial.left = (uncut - trial.fresh - 2.0 * self.reference.tolerance).max(0.0);
+            let left = (uncut - trial.fresh - 2.0 * self.reference.tolerance).max(0.0);
+            trial.left = left / self.reference.lines[trial.line].length();
             trial.is_last = uncut > self.max_uncut && uncut - trial.fresh <= self.max_uncut;
         }
     }
