@@ -24,6 +24,8 @@ pub(in crate::verify) struct Coverage<'a> {
     cut: Vec<Stretches>,
     /// What of that was cut by a blade on its way, and not by one that only plunged.
     ways: Vec<Stretches>,
+    /// What of it lay on a plunged blade itself, not only as near to it as a cut may be off.
+    cores: Vec<Stretches>,
 }
 
 /// Disjoint stretches of the stations of a line, in order.
@@ -67,7 +69,7 @@ impl<'a> Coverage<'a> {
     /// Nothing is cut yet.
     pub(in crate::verify) fn new(reference: &'a Reference) -> Self {
         let none = vec![Stretches::NONE; reference.lines.len()];
-        Self { reference, cut: none.clone(), ways: none }
+        Self { reference, cut: none.clone(), ways: none.clone(), cores: none }
     }
 
     /// How much of the stretches was not cut before, mm.
@@ -80,6 +82,19 @@ impl<'a> Coverage<'a> {
     pub(in crate::verify) fn passed(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
         let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
         parts.map(|[a, b]| covered(self.ways[line].all(), a, b)).sum()
+    }
+
+    /// How much of a stretch no blade has passed and none has lain on, mm; where both have, that counts twice.
+    pub(in crate::verify) fn untouched(&self, line: usize, stretch: [f64; 2]) -> f64 {
+        let covered = |[a, b]: [f64; 2]| covered(self.ways[line].all(), a, b) + covered(self.cores[line].all(), a, b);
+        self.on_line(line, stretch).into_iter().map(|part| (part[1] - part[0]) - covered(part)).sum()
+    }
+
+    /// Marks a stretch as one that lay on a plunged blade.
+    pub(in crate::verify) fn add_core(&mut self, line: usize, stretch: [f64; 2]) {
+        for part in self.on_line(line, stretch) {
+            self.cores[line].merge(part);
+        }
     }
 
     /// How much of a line was cut, mm.

@@ -75,6 +75,8 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) fresh: f64,
     /// How much of them a blade on its way had cut before, mm.
     pub(in crate::verify) passed: f64,
+    /// How much of its core no blade had passed or lain on before, mm.
+    pub(in crate::verify) untouched: f64,
     /// Share of the line that is then still uncut.
     left: f64,
     /// Whether it cuts all that was left of the line.
@@ -148,15 +150,18 @@ impl Tracer<'_> {
             trials = candidates.iter().map(|candidate| self.follow(cut, candidate)).collect();
             self.weigh(&mut trials, coverage);
         }
+        // What a plunged blade lies over it was meant for, however little was left of that; others it crosses.
+        let is_crossed = |trial: &Trial| trial.is_across(cut, &self.reference.lines[trial.line]);
+        let lies_over = |trial: &Trial| !trial.stretches.is_empty() && !is_crossed(trial);
+        if cut.is_plunge_cut() && trials.iter().any(lies_over) {
+            trials.retain(lies_over);
+        }
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
-        let is_crossed = |trial: &Trial| cut.is_plunge_cut() && trial.is_across(cut, &self.reference.lines[trial.line]);
         trials.into_iter().min_by(|a, b| {
             let by_name = self.is_named(b.line, trace.block).cmp(&self.is_named(a.line, trace.block));
-            is_crossed(a)
-                .cmp(&is_crossed(b))
-                .then(by_name)
+            by_name
                 .then(a.left.total_cmp(&b.left))
                 .then(b.fresh.total_cmp(&a.fresh))
                 .then(a.worst.0.total_cmp(&b.worst.0))
@@ -241,6 +246,7 @@ impl Tracer<'_> {
             stretches: Vec::new(),
             fresh: 0.0,
             passed: 0.0,
+            untouched: 0.0,
             left: 0.0,
             is_last: false,
             worst: (0.0, cut.body),
@@ -303,6 +309,7 @@ impl Tracer<'_> {
             stretches: if over.is_some() { vec![whole] } else { stretches },
             fresh: 0.0,
             passed: 0.0,
+            untouched: 0.0,
             left: 0.0,
             is_last: false,
             worst: (0.0, cut.body),
