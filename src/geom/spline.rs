@@ -11,6 +11,9 @@ pub fn clamped_knots<const K: usize>(breaks: &[f64]) -> Vec<f64> {
     knots
 }
 
+/// Length of a span of a slice that is none: rounding of where it is cut.
+pub const SLICE_EPSILON: f64 = 1e-9;
+
 /// Number of control values of a spline of order `K` over `breaks`.
 pub fn control_count<const K: usize>(breaks: &[f64]) -> usize {
     breaks.len() + K - 2
@@ -121,6 +124,26 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         Self { breaks: ends.to_vec(), pieces: vec![piece] }
     }
 
+    /// The curve from one parameter to a greater one, which become 0 and their distance. Spans shorter than
+    /// [`SLICE_EPSILON`] at its ends join their neighbours.
+    pub fn slice(&self, [from, to]: [f64; 2]) -> Self {
+        let inner = |at: &f64| *at > from + SLICE_EPSILON && *at < to - SLICE_EPSILON;
+        let first = self.breaks.partition_point(|&at| at <= from + SLICE_EPSILON).clamp(1, self.pieces.len()) - 1;
+        let breaks: Vec<f64> = std::iter::once(from)
+            .chain(self.breaks.iter().copied().filter(inner))
+            .chain([to])
+            .map(|at| at - from)
+            .collect();
+        let mut pieces = self.pieces[first..first + breaks.len() - 1].to_vec();
+        // Taylor's series about the new start of the first one.
+        let mut factorial = 1.0;
+        for (k, row) in self.derivatives_on::<K>(first, from).into_iter().enumerate() {
+            factorial *= k.max(1) as f64;
+            pieces[0][k] = row.map(|v| v / factorial);
+        }
+        Self { breaks, pieces }
+    }
+
     /// Where the polynomials meet, ends included.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
@@ -197,6 +220,24 @@ mod tests {
             let after = curve.derivatives_on::<5>(s, meet);
             for (b, a) in before.iter().zip(after) {
                 assert!((b[0] - a[0]).abs() < 1e-7 * (1.0 + a[0].abs()));
+            }
+        }
+    }
+
+    #[test]
+    fn a_slice_is_the_curve_between_two_places() {
+        let control: Vec<[f64; 1]> = (0..control_count::<6>(&BREAKS)).map(|i| [(i as f64 * 1.7).sin()]).collect();
+        let curve = Piecewise::<6, 1>::from_control(BREAKS.to_vec(), &control);
+        for [from, to] in [[0.0, 2.0], [0.05, 0.07], [0.05, 1.0], [0.1, 0.6], [0.1 - 1e-12, 0.6 + 1e-12], [1.95, 2.0]] {
+            let slice = curve.slice([from, to]);
+            assert!((slice.breaks()[slice.breaks().len() - 1] - (to - from)).abs() < 1e-15);
+            assert!(slice.breaks().windows(2).all(|w| w[1] - w[0] > SLICE_EPSILON), "{:?}", slice.breaks());
+            for k in 0..=20 {
+                let x = (to - from) * f64::from(k) / 20.0;
+                let (there, here) = (curve.derivatives::<4>(from + x), slice.derivatives::<4>(x));
+                for (a, b) in there.iter().zip(here) {
+                    assert!((a[0] - b[0]).abs() < 1e-7 * (1.0 + a[0].abs()), "{from} {to} {x}");
+                }
             }
         }
     }

@@ -11,8 +11,8 @@ use crate::machine::Job;
 use crate::machine::kinematics::Move;
 use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
+use crate::plan::spline::{self, Curve, LEAD, Smooth, has_room, smooth};
 use crate::plan::spline::{Blocks, Extended};
-use crate::plan::spline::{Curve, LEAD, Smooth, has_room, smooth};
 use crate::plan::spline::{JUNCTION_SHARES, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
@@ -96,7 +96,7 @@ const STRAIGHT_SHARE: f64 = 0.9;
 /// Part of the tolerance that is left where the path lies as far beside the plunged blade as it may: rows have decimals.
 const RESERVE_SHARE: f64 = 0.03;
 /// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
-const NARROWER: [f64; 2] = [0.4, 0.15];
+pub(super) const NARROWER: [f64; 2] = [0.4, 0.15];
 /// Most laps before the start and behind the end of a ring.
 const LEADS: u32 = 4;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
@@ -109,7 +109,7 @@ const SEAM_STEP: f64 = 1.0;
 const PERIOD_EPSILON: f64 = 1e-9;
 
 /// A run that is being solved.
-struct Order<'a> {
+pub(super) struct Order<'a> {
     run: &'a Run,
     job: &'a Job,
     blocks: Blocks,
@@ -118,44 +118,57 @@ struct Order<'a> {
 
 /// Solves one run.
 pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
-    let knife = &job.profile.knife;
-    let extended = extended(run, tolerance, knife.width_mm);
-    let Extended { points, blocks, feeds, .. } = &extended;
-    let stations = polyline::stations(points);
-    let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
-    let order = Order { run, job, blocks: Blocks::new(&stations, blocks), bounds };
+    let extended = extended(run, tolerance, job.profile.knife.width_mm);
+    let Extended { points, junctions, .. } = &extended;
+    let order = Order::new(run, &extended, job);
     let ends = [points[0], points[points.len() - 1]];
-    let straight_share = if extended.junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] };
-    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, straight_share * tolerance);
-    if is_straight && order.bounds.feed.constant().is_some() {
+    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, straight_share(junctions) * tolerance);
+    if is_straight && order.has_one_feed() {
         return order.straight(ends);
     }
     let smooth = if is_straight {
-        Smooth { curve: Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
+        Smooth { curve: straight_curve(extended.end, ends), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
-        let mut shares = JUNCTION_SHARES.iter().filter(|_| !extended.junctions.is_empty());
-        let nearer = |&share: &f64| order.smoothed(&band().with_junctions(&extended.junctions, share)).ok();
-        // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
-        shares.find_map(nearer).map_or_else(|| order.smoothed(&band()), Ok)?
+        smoothed(&band, junctions).map_err(|tight| order.too_tight(tolerance, tight))?
     };
     let (mut cut, mut beside) = order.curved(&extended, &smooth)?;
-    let most = match run.shape {
-        Shape::Ring => f64::INFINITY,
-        Shape::Open => Deviation::placed(run, knife, tolerance).map_or(tolerance, |deviation| deviation.most),
-    };
-    let most = most - RESERVE_SHARE * tolerance;
+    let most = order.most_beside(tolerance);
     for share in NARROWER {
         if beside > most {
-            let smooth = order.smoothed(&ToleranceBand::plain(points.clone(), share * tolerance))?;
+            let smooth = smooth_plain(points, share * tolerance);
+            let smooth = smooth.map_err(|tight| order.too_tight(share * tolerance, tight))?;
             (cut, beside) = order.curved(&extended, &smooth)?;
         }
     }
     Ok(cut)
 }
 
+/// Part of the tolerance within which a polyline counts as straight that crosses other cuts about some of its chords.
+pub(super) fn straight_share(junctions: &[bool]) -> f64 {
+    if junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] }
+}
+
+/// The curve of a straight run, over its length.
+pub(super) fn straight_curve(length: f64, ends: [Point; 2]) -> Curve {
+    Curve::line([0.0, length], ends.map(|point| [point.x, point.y]))
+}
+
+/// The smoothest curve in a band, nearer to its chords about junctions. Where all that is too tight it keeps to its band, and
+/// the verifier measures whether the cuts cross.
+pub(super) fn smoothed(band: &dyn Fn() -> ToleranceBand, junctions: &[bool]) -> Result<Smooth, spline::TooTight> {
+    let mut shares = JUNCTION_SHARES.iter().filter(|_| !junctions.is_empty());
+    let nearer = |&share: &f64| smooth(&band().with_junctions(junctions, share)).ok();
+    shares.find_map(nearer).map_or_else(|| smooth(&band()), Ok)
+}
+
+/// The smoothest curve in the plain neighbourhood of a polyline.
+pub(super) fn smooth_plain(points: &[Point], tolerance: f64) -> Result<Smooth, spline::TooTight> {
+    smooth(&ToleranceBand::plain(points.to_vec(), tolerance))
+}
+
 /// A run with its overlaps; a ring goes as far round as closing its curve takes.
-fn extended(run: &Run, tolerance: f64, width: f64) -> Extended {
+pub(super) fn extended(run: &Run, tolerance: f64, width: f64) -> Extended {
     let most = f64::from(LEADS) * polyline::length(&run.points);
     let mut lead = LEAD;
     loop {
@@ -198,9 +211,34 @@ fn reaching(curve: &Curve, place: [[f64; 2]; 2], end: f64) -> Result<f64, OpenSe
     if missing <= WAY_EPSILON { Ok(end) } else { Err(OpenSeam { missing }) }
 }
 
-impl Order<'_> {
+impl<'a> Order<'a> {
+    /// A run with its overlaps on a machine.
+    pub(super) fn new(run: &'a Run, Extended { points, blocks, feeds, .. }: &Extended, job: &'a Job) -> Self {
+        let stations = polyline::stations(points);
+        let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
+        Self { run, job, blocks: Blocks::new(&stations, blocks), bounds }
+    }
+
+    /// Whether its tip may be as fast everywhere.
+    pub(super) fn has_one_feed(&self) -> bool {
+        self.bounds.feed.constant().is_some()
+    }
+
+    /// How far its polyline may lie beside the plunged blade, mm.
+    pub(super) fn most_beside(&self, tolerance: f64) -> f64 {
+        let Self { run, job, .. } = self;
+        let most = match run.shape {
+            Shape::Ring => f64::INFINITY,
+            Shape::Open => {
+                let deviation = Deviation::placed(run, &job.profile.knife, tolerance);
+                deviation.map_or(tolerance, |deviation| deviation.most)
+            }
+        };
+        most - RESERVE_SHARE * tolerance
+    }
+
     /// A straight run in closed form: the tightest axis decides. It is certified by its greatest derivatives.
-    fn straight(&self, [first, last]: [Point; 2]) -> Result<Cut, Diagnostic> {
+    pub(super) fn straight(&self, [first, last]: [Point; 2]) -> Result<Cut, Diagnostic> {
         let Self { run, job, blocks, bounds } = self;
         let knife = &job.profile.knife;
         let whole = (last - first).norm();
@@ -238,16 +276,13 @@ impl Order<'_> {
         Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, sagitta: 0.0, shares })
     }
 
-    /// The smoothest curve in a band.
-    fn smoothed(&self, band: &ToleranceBand) -> Result<Smooth, Diagnostic> {
-        smooth(band).map_err(|e| {
-            let (within, least) = (fixed(band.tolerance(), 4), fixed(e.deviation, 4));
-            self.refuse(&code::PLAN_SMOOTH, &format!("no smooth curve inside {within} mm (least deviation {least} mm)"))
-        })
+    fn too_tight(&self, tolerance: f64, tight: spline::TooTight) -> Diagnostic {
+        let (within, least) = (fixed(tolerance, 4), fixed(tight.deviation, 4));
+        self.refuse(&code::PLAN_SMOOTH, &format!("no smooth curve inside {within} mm (least deviation {least} mm)"))
     }
 
     /// The run along a smooth curve; and how far its polyline then lies beside the plunged blade, mm.
-    fn curved(&self, extended: &Extended, smooth: &Smooth) -> Result<(Cut, f64), Diagnostic> {
+    pub(super) fn curved(&self, extended: &Extended, smooth: &Smooth) -> Result<(Cut, f64), Diagnostic> {
         let Self { run, job, .. } = self;
         let Smooth { curve, sagitta } = smooth;
         let (entry, end) = match run.shape {

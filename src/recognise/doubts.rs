@@ -95,7 +95,8 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             n => (format!("{n} parts"), "have"),
         };
         let numbers = numbers(owners, &without);
-        let message = format!("{parts} {verb} no seam line, {}, while {} parts have one", pieces::listed(&numbers), with.len());
+        let message =
+            format!("{parts} {verb} no seam line, {}, while {} parts have one", pieces::listed(&numbers), with.len());
         let found = finding(&code::DRAWING_NO_SEAM, message, &sheet.lines[first], sheet);
         out.push(
             found.about(numbers).hint(

@@ -52,7 +52,9 @@ impl Sheet {
     pub(super) fn sort_out(&mut self, job: &Job) {
         let band = BAND.max(ROUNDING * self.unit);
         let reach = close::Reach::of(self.unit, job);
-        frame::mark(&mut self.lines, job.profile.hpgl.frame, band, |frame, line| reach.is_edged(frame, line, &self.vertices));
+        frame::mark(&mut self.lines, job.profile.hpgl.frame, band, |frame, line| {
+            reach.is_edged(frame, line, &self.vertices)
+        });
         close::close_along_frames(&mut self.lines, &mut self.vertices, reach);
         let mut work = Budget::of_a_marker();
         self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);

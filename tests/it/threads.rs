@@ -1,5 +1,5 @@
-//! Threads: where a ring closes its end runs over its start, so that no thread of cloth is left between the two. Measured by
-//! points and distances on the rows of the program.
+//! Threads: where a ring closes, and where the knife is lifted amid a line, the end of one cut meets the start of the next, so
+//! that no thread of cloth is left between the two. Measured by points and distances on the rows of the program.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -47,14 +47,19 @@ fn source(points: &[[f64; 2]], (head, unit): (&str, f64)) -> Source {
     Source::new("ring.cut", (text + "M15*M0*").into_bytes()).expect("small")
 }
 
-/// The tips of each stretch that is cut in one.
-fn strokes(program: &str, radius: f64) -> Vec<Vec<[f64; 2]>> {
+/// What the blade cuts in one: its heel where it plunges, then the way of its tip.
+fn strokes(program: &str, [tip, heel]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let mut strokes: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     for line in program.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
         let fields: Vec<f64> = line.split(',').take(5).map(|field| field.parse().expect("a number")).collect();
         let (sine, cosine) = fields[3].to_radians().sin_cos();
         match (fields[4] == 1.0, strokes.last_mut()) {
-            (true, Some(stroke)) => stroke.push([fields[1] + radius * cosine, fields[2] + radius * sine]),
+            (true, Some(stroke)) => {
+                if stroke.is_empty() {
+                    stroke.push([fields[1] - heel * cosine, fields[2] - heel * sine]);
+                }
+                stroke.push([fields[1] + tip * cosine, fields[2] + tip * sine]);
+            }
             (false, Some(stroke)) if !stroke.is_empty() => strokes.push(Vec::new()),
             _ => {}
         }
@@ -90,24 +95,49 @@ fn first<'a>(stroke: impl Iterator<Item = &'a [f64; 2]>, length: f64) -> Vec<[f6
     found
 }
 
+/// Distance of two lines of two points each.
+fn between(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> f64 {
+    let side = |[from, to]: [[f64; 2]; 2], at: [f64; 2]| {
+        (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
+    };
+    let parts = |line, ends: [[f64; 2]; 2]| side(line, ends[0]) * side(line, ends[1]) < 0.0;
+    if parts(a, b) && parts(b, a) {
+        return 0.0;
+    }
+    [beside(a[0], b), beside(a[1], b), beside(b[0], a), beside(b[1], a)].into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// What the blade cuts of a contour.
+fn cut(points: &[[f64; 2]], unit: (&str, f64), job: &Job, case: usize) -> Vec<Vec<[f64; 2]>> {
+    let source = source(points, unit);
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+    let order = Order { from: None, target, verify: true };
+    let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
+    assert!(compiled.is_some(), "case {case}: {}", render(&found, &source));
+    let program = String::from_utf8(out.into_inner()).expect("ASCII");
+    let knife = &job.profile.knife;
+    strokes(&program, [knife.radius(), knife.width_mm - knife.radius()])
+}
+
+fn follow(case: usize) -> Follow {
+    if case.is_multiple_of(2) { Follow::Tangent } else { Follow::Chord }
+}
+
 #[test]
 fn the_end_of_a_ring_runs_over_its_start() {
     let mut random = ChaCha8Rng::seed_from_u64(45);
     let mut measured = 0;
     for case in 0..90 {
         let unit = UNITS[case % UNITS.len()];
-        let source = source(&outline(&mut random, unit.1), unit);
+        let points = outline(&mut random, unit.1);
         let mut job = Job::default();
-        job.profile.knife.follow = if case % 2 == 0 { Follow::Tangent } else { Follow::Chord };
-        let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
-        let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
-        let order = Order { from: None, target, verify: true };
-        let compiled = pipeline::compile(&source, &job, order, &mut out, &mut found).expect("memory takes everything");
-        assert!(compiled.is_some(), "case {case}: {}", render(&found, &source));
-        let program = String::from_utf8(out.into_inner()).expect("ASCII");
-        let strokes = strokes(&program, job.profile.knife.radius());
+        job.profile.knife.follow = follow(case);
+        let strokes = cut(&points, unit, &job, case);
         let [stroke] = &strokes[..] else { continue };
-        let (tail, head) = (first(stroke.iter().rev(), TAIL), first(stroke.iter(), HEAD));
+        // The heel plunges behind the start.
+        let tips = &stroke[1..];
+        let (tail, head) = (first(tips.iter().rev(), TAIL), first(tips.iter(), HEAD));
         let off = |&point: &[f64; 2]| {
             head.windows(2).map(|ends| beside(point, [ends[0], ends[1]])).fold(f64::INFINITY, f64::min)
         };
@@ -116,4 +146,31 @@ fn the_end_of_a_ring_runs_over_its_start() {
         measured += 1;
     }
     assert!(measured >= 80, "only {measured} were cut in one stroke");
+}
+
+#[test]
+fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
+    let mut random = ChaCha8Rng::seed_from_u64(451);
+    let mut lifts = 0;
+    for case in 0..90 {
+        let unit = UNITS[case % UNITS.len()];
+        let points = outline(&mut random, unit.1);
+        let mut job = Job::default();
+        job.profile.knife.follow = follow(case);
+        job.profile.knife.max_down_mm = Some(random.random_range(30.0..100.0));
+        let strokes = cut(&points, unit, &job, case);
+        if strokes.len() < 2 || strokes.iter().any(|stroke| stroke.len() < 3) {
+            continue; // in one stroke, or by plunges
+        }
+        for (k, stroke) in strokes.iter().enumerate() {
+            let next = &strokes[(k + 1) % strokes.len()];
+            let (tail, head) = (first(stroke.iter().rev(), HEAD), first(next.iter(), 2.0 * job.profile.knife.width_mm));
+            let lines = |points: &[[f64; 2]]| points.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<_>>();
+            let apart = lines(&tail).into_iter().flat_map(|a| lines(&head).into_iter().map(move |b| between(a, b)));
+            let least = apart.fold(f64::INFINITY, f64::min);
+            assert!(least <= NONE, "case {case}, lift {k}: {least} mm between a cut and the next one");
+            lifts += 1;
+        }
+    }
+    assert!(lifts >= 150, "only {lifts} lifts");
 }

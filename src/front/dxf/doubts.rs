@@ -99,7 +99,10 @@ fn words(reason: Reason, notches: &str, mm: &str, is_one: bool) -> Words {
             &code::DXF_NOTCH_AS_SLIT,
             format!(
                 "{notches} {}: cut {}",
-                verb("is too small or wide, at a corner or beside another", "are too small or wide, at corners or beside others"),
+                verb(
+                    "is too small or wide, at a corner or beside another",
+                    "are too small or wide, at corners or beside others"
+                ),
                 verb("as a slit", "as slits")
             ),
             "a slit marks the same place",

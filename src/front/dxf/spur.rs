@@ -20,7 +20,7 @@ pub(super) fn chains_with_spurs(lines: &[Chain], retraced: &mut Vec<Retraced>) -
     let of =
         |wanted: &dyn Fn(usize) -> bool| (0..lines.len()).filter(|&k| wanted(k)).map(|k| lines[k].clone()).collect();
     let mut joined = once(chains(of(&|k| !is_apart[k])), retraced);
-    let edges = Edges::of(&joined);
+    let edges = Edges::of(joined.iter().filter(|chain| chain.is_closed));
     let mut is_trunk = vec![false; lines.len()];
     for tree in &trees {
         let standing: Vec<usize> =
@@ -48,7 +48,7 @@ struct Foot {
     share: f64,
 }
 
-/// Index of the edges of outlines.
+/// Index of the edges of outlines, closed ones and halves that end at a fold.
 struct Edges {
     /// Ring, vertex and ends of each.
     all: Vec<(usize, usize, [Point; 2])>,
@@ -58,15 +58,16 @@ struct Edges {
 }
 
 impl Edges {
-    /// Edges of the closed ones among some chains.
-    fn of(rings: &[Chain]) -> Self {
-        let mut all = Vec::new();
-        for (ring, chain) in rings.iter().enumerate().filter(|(_, chain)| chain.is_closed) {
+    /// Edges of some chains.
+    fn of<'a>(rings: impl Iterator<Item = &'a Chain>) -> Self {
+        let (mut all, mut counts) = (Vec::new(), Vec::new());
+        for (ring, chain) in rings.enumerate() {
+            counts.push(chain.vertices.len());
             let points = chain.points();
             all.extend(points.windows(2).enumerate().map(|(k, ends)| (ring, k, [ends[0], ends[1]])));
         }
         let boxes = Boxes::new(all.iter().map(|(_, _, [a, b])| Extent::between(*a, *b).grown(REACH)).collect());
-        Self { all, counts: rings.iter().map(|chain| chain.vertices.len()).collect(), boxes }
+        Self { all, counts, boxes }
     }
 
     /// Place on the nearest outline within reach.
@@ -84,10 +85,16 @@ impl Edges {
     }
 }
 
-/// Outlines with spurs, and with open lines that stand on one of their edges; lines that stand nowhere stay as they are.
+/// Outlines with spurs, and with open lines that stand on one of their edges; lines that stand nowhere stay as they are. Without
+/// a closed outline the longest line counts as one: it may be half of one, which ends at a fold.
 fn attached(chains: Vec<Chain>, tours: Vec<Tour>, lines: &[Chain]) -> Vec<Chain> {
-    let (rings, open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.is_closed);
-    let edges = Edges::of(&rings);
+    let (mut rings, mut open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.is_closed);
+    if rings.is_empty() {
+        let length = |k: &usize| polyline::length(&open[*k].points());
+        let longest = (0..open.len()).max_by(|a, b| length(a).total_cmp(&length(b)).then(b.cmp(a)));
+        rings.extend(longest.map(|longest| open.remove(longest)));
+    }
+    let edges = Edges::of(rings.iter());
     let (mut left, mut standing): (Vec<Chain>, Vec<(Foot, Tour)>) = Default::default();
     for mut line in open {
         let ends = [line.vertices[0].at, line.vertices[line.vertices.len() - 1].at];
@@ -119,7 +126,7 @@ fn attached(chains: Vec<Chain>, tours: Vec<Tour>, lines: &[Chain]) -> Vec<Chain>
                 go_along(&mut vertices, if foot.share > 0.0 { tour.root } else { vertex }, tour);
             }
         }
-        whole.push(Chain { vertices, is_closed: true });
+        whole.push(Chain { vertices, is_closed: chain.is_closed });
     }
     whole.into_iter().chain(left).collect()
 }

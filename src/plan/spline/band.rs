@@ -81,11 +81,6 @@ impl ToleranceBand {
         band
     }
 
-    /// Permitted deviation, mm.
-    pub(in crate::plan) fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
     /// Length of the polyline, mm.
     pub(super) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]

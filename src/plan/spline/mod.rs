@@ -11,4 +11,4 @@ mod smooth;
 
 pub(super) use band::{JUNCTION_SHARES, ToleranceBand};
 pub(super) use extended::{Blocks, Extended, LEAD};
-pub(super) use smooth::{Curve, Smooth, has_room, smooth};
+pub(super) use smooth::{Curve, Smooth, TooTight, has_room, smooth};

@@ -205,19 +205,24 @@ pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
     if is_twig.iter().all(|&is_twig| is_twig) { vec![false; paths.len()] } else { is_twig }
 }
 
-/// Which groups of lines stand on edges of others: single open lines, one end of which is on an edge and the other is not.
+/// Groups of lines that stand on edges of others: single open lines, one end of which is on an edge and the other is not.
+/// Where all are open the longest one is half of an outline, which ends at a fold.
 pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
     let is_open = |paths: &Vec<Path>| twigs(paths).iter().all(|is_twig| !is_twig) && !free_ends(paths).is_empty();
-    let edges: Vec<[Point; 2]> = clusters
-        .iter()
-        .filter(|paths| !is_open(paths))
-        .flatten()
+    let length = |k: &usize| -> f64 {
+        clusters[*k].iter().flat_map(|path| (0..path.curves.len()).map(|edge| path.length(edge))).sum()
+    };
+    let longest = (0..clusters.len()).max_by(|a, b| length(a).total_cmp(&length(b)));
+    let half = longest.filter(|_| clusters.iter().all(is_open));
+    let edges: Vec<[Point; 2]> = (0..clusters.len())
+        .filter(|&k| half == Some(k) || !is_open(&clusters[k]))
+        .flat_map(|k| &clusters[k])
         .flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k)).collect::<Vec<_>>())
         .collect();
     let boxes = Boxes::new(edges.iter().map(|[a, b]| Extent::between(*a, *b).grown(MEETS)).collect());
     let is_on = |at: Point| boxes.at(at).any(|k| polyline::distance_to_segment(at, edges[k][0], edges[k][1]) <= MEETS);
     let stands = |paths: &Vec<Path>| is_open(paths) && free_ends(paths).iter().filter(|end| is_on(end.1)).count() == 1;
-    clusters.iter().map(stands).collect()
+    clusters.iter().enumerate().map(|(k, paths)| half != Some(k) && stands(paths)).collect()
 }
 
 /// Fine lines, with the chord that closes them where the coarse ones are closed.

@@ -1,0 +1,228 @@
+//! Runs that are lifted amid a line and go on along it: their curves are stretches of one.
+//!
+//! The end of one run and the start of the next lie over the same stretch of the contour. Smoothed by themselves, each inside
+//! the band, they would run beside each other there, and a thread of cloth would stay between the two cuts.
+
+use super::run::{self, Cut, NARROWER, Order};
+use super::spline::{Extended, Smooth, ToleranceBand};
+use crate::diagnostic::Diagnostic;
+use crate::geom::{Point, polyline};
+use crate::ir::list::Joint;
+use crate::ir::toolpath::{End, Run, Shape, Side};
+use crate::machine::Job;
+
+/// Places that are nearer to each other are one, mm: rounding.
+const SAME_EPSILON: f64 = 1e-6;
+
+/// Solves the runs of one contour, in order. Those whose common line is too tight for one curve are solved each by itself.
+pub(super) fn solve(runs: &[&Run], tolerance: f64, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
+    let mut cuts: Vec<Option<Cut>> = runs.iter().map(|_| None).collect();
+    let mut refused = Vec::new();
+    for group in groups(runs) {
+        let of_group: Vec<&Run> = group.iter().map(|&k| runs[k]).collect();
+        let is_line = group.len() > 1 || overlap(of_group[0], of_group[0]).is_some();
+        let of_line = if is_line { Line::of(&of_group, tolerance, job).cuts(tolerance, job) } else { None };
+        if let Some(of_line) = of_line {
+            group.into_iter().zip(of_line).for_each(|(k, cut)| cuts[k] = Some(cut));
+            continue;
+        }
+        for k in group {
+            match run::solve(runs[k], tolerance, job) {
+                Ok(cut) => cuts[k] = Some(cut),
+                Err(diagnostic) => refused.push(diagnostic),
+            }
+        }
+    }
+    if refused.is_empty() { Ok(cuts.into_iter().flatten().collect()) } else { Err(refused) }
+}
+
+/// The runs of a contour by their places, together and in order where each goes on along the stretch over which the one before
+/// ends. The last one may go on over the first.
+fn groups(runs: &[&Run]) -> Vec<Vec<usize>> {
+    let count = runs.len();
+    if count == 0 {
+        return Vec::new();
+    }
+    let goes_on: Vec<bool> = (0..count).map(|k| overlap(runs[k], runs[(k + 1) % count]).is_some()).collect();
+    if goes_on.iter().all(|&goes_on| goes_on) {
+        return vec![(0..count).collect()];
+    }
+    let starts = (0..count).filter(|&k| !goes_on[(k + count - 1) % count]);
+    let group = |start: usize| {
+        let behind = (start..start + count).take_while(|k| goes_on[k % count]);
+        std::iter::once(start).chain(behind.map(|k| (k + 1) % count)).collect()
+    };
+    starts.map(group).collect()
+}
+
+/// The stretch over which two runs lie.
+#[derive(Debug, Clone, Copy)]
+struct Overlap {
+    /// The chord of the first run on which the second one begins.
+    chord: usize,
+    /// mm.
+    length: f64,
+}
+
+/// The stretch over which a run ends and another one begins; `None` where it does not go on along it.
+fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
+    let is_lifted = |end: End| end.bare && end.side == Side::Contour;
+    let are_alike = before.shape == Shape::Open
+        && behind.shape == Shape::Open
+        && [before.turned, behind.turned] == [false; 2]
+        && [before.front, behind.heel] == [0.0; 2]
+        && before.orientation == behind.orientation;
+    if !are_alike || !is_lifted(before.ends[1]) || !is_lifted(behind.ends[0]) {
+        return None;
+    }
+    let (points, first) = (&before.points, behind.points[0]);
+    let mut length = 0.0;
+    for chord in (0..points.len() - 1).rev() {
+        let [from, to] = [points[chord], points[chord + 1]];
+        if polyline::distance_to_segment(first, from, to) <= SAME_EPSILON {
+            length += (to - first).norm();
+            let is_along = length > SAME_EPSILON && goes_along(&points[chord + 1..], &behind.points);
+            return is_along.then_some(Overlap { chord, length });
+        }
+        length += (to - from).norm();
+    }
+    None
+}
+
+/// Whether the places at the end of a run are those behind the first one of another, up to the last, which lies amid a chord,
+/// and that one goes on.
+fn goes_along(end: &[Point], start: &[Point]) -> bool {
+    let (last, inner) = end.split_last().expect("a chord has an end");
+    start.len() > end.len()
+        && (start[start.len() - 1] - last).norm() > SAME_EPSILON
+        && inner.iter().zip(&start[1..]).all(|(a, b)| (a - b).norm() <= SAME_EPSILON)
+        && polyline::distance_to_segment(*last, start[end.len() - 1], start[end.len()]) <= SAME_EPSILON
+}
+
+/// The line of several runs.
+struct Line<'a> {
+    points: Vec<Point>,
+    junctions: Vec<bool>,
+    parts: Vec<Part<'a>>,
+    /// The lap that the runs go round, when the last one ends over the first: a ring.
+    ring: Option<Run>,
+}
+
+/// A run and where it lies on its line.
+struct Part<'a> {
+    run: &'a Run,
+    extended: Extended,
+    /// Station at which it begins, mm.
+    start: f64,
+}
+
+impl<'a> Line<'a> {
+    fn of(runs: &[&'a Run], tolerance: f64, job: &Job) -> Self {
+        let width = job.profile.knife.width_mm;
+        let mut line = Self { points: Vec::new(), junctions: Vec::new(), parts: Vec::new(), ring: None };
+        let has_junctions = runs.iter().any(|run| !run.junctions.is_empty());
+        let mut end = 0.0;
+        for (k, &run) in runs.iter().enumerate() {
+            let extended = run::extended(run, tolerance, width);
+            let mut junctions = extended.junctions.clone();
+            junctions.resize(if has_junctions { extended.points.len() - 1 } else { 0 }, false);
+            let overlap = k.checked_sub(1).and_then(|before| overlap(runs[before], run));
+            let (start, known) = match (overlap, k.checked_sub(1)) {
+                (Some(Overlap { chord, length }), Some(before)) => {
+                    (end - length, runs[before].points.len() - 1 - chord)
+                }
+                _ => (0.0, 0),
+            };
+            // The last place of the run before lies amid a chord of this one.
+            line.points.pop();
+            line.junctions.pop();
+            line.points.extend(&extended.points[known..]);
+            line.junctions.extend(&junctions[known.saturating_sub(1).min(junctions.len())..]);
+            end = start + extended.end;
+            line.parts.push(Part { run, extended, start });
+        }
+        line.ring = line.lap();
+        line
+    }
+
+    /// The ring that the runs go round.
+    fn lap(&self) -> Option<Run> {
+        let [first, last] = [&self.parts[0], &self.parts[self.parts.len() - 1]];
+        let Overlap { chord, length } = overlap(last.run, first.run)?;
+        let chord = self.points.len() - (last.run.points.len() - chord);
+        let start = self.points[0];
+        // The run may begin at a vertex.
+        let last = chord + usize::from((self.points[chord] - start).norm() > SAME_EPSILON);
+        let points: Vec<Point> = self.points[..last].iter().copied().chain([start]).collect();
+        let (count, run) = (points.len() - 1, first.run);
+        Some(Run {
+            points,
+            spans: vec![run.spans[0]; count],
+            joints: vec![Joint::default(); count + 1],
+            feeds: vec![f64::INFINITY; count],
+            junctions: self.junctions[..count.min(self.junctions.len())].to_vec(),
+            shape: Shape::Ring,
+            front: length,
+            heel: 0.0,
+            ..run.clone()
+        })
+    }
+
+    /// The cuts of its runs; `None` where no curve along all of it was found or one of them cannot be cut along that.
+    fn cuts(&self, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
+        let ends = [self.points[0], self.points[self.points.len() - 1]];
+        let length = polyline::length(&self.points);
+        if self.ring.is_none() && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+        {
+            let at = |station: f64| ends[0] + (ends[1] - ends[0]) * (station / length);
+            let smooth = Smooth { curve: run::straight_curve(length, ends), sagitta: 0.0 };
+            let cut = |part: &Part| {
+                let order = Order::new(part.run, &part.extended, job);
+                if order.has_one_feed() {
+                    return order.straight([part.start, part.start + part.extended.end].map(at)).ok();
+                }
+                Some(order.curved(&part.extended, &part.stretch_of(&smooth, 0.0)).ok()?.0)
+            };
+            return self.parts.iter().map(cut).collect();
+        }
+        let (first, smooth) = self.smooth(tolerance, job)?;
+        self.along(&smooth, first, tolerance, job).or_else(|| {
+            let plain = |share: f64| {
+                let smooth = run::smooth_plain(&self.points, share * tolerance).ok()?;
+                self.along(&smooth, 0.0, tolerance, job)
+            };
+            NARROWER.into_iter().filter(|_| self.ring.is_none()).find_map(plain)
+        })
+    }
+
+    /// A smooth curve along the line, and the parameter at which the line begins.
+    fn smooth(&self, tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
+        let Some(ring) = &self.ring else {
+            let band = || ToleranceBand::new(self.points.clone(), tolerance, &job.profile);
+            return Some((0.0, run::smoothed(&band, &self.junctions).ok()?));
+        };
+        let extended = run::extended(ring, tolerance, job.profile.knife.width_mm);
+        let lap = extended.lap(ring);
+        let band = || ToleranceBand::new(extended.points.clone(), tolerance, &job.profile).with_lap(lap);
+        Some((extended.start, run::smoothed(&band, &extended.junctions).ok()?))
+    }
+
+    /// The cuts of its runs along a curve on which the line begins at a parameter; `None` where a blade would plunge too far
+    /// beside its line.
+    fn along(&self, smooth: &Smooth, first: f64, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
+        let cut = |part: &Part| {
+            let order = Order::new(part.run, &part.extended, job);
+            let (cut, beside) = order.curved(&part.extended, &part.stretch_of(smooth, first)).ok()?;
+            (beside <= order.most_beside(tolerance)).then_some(cut)
+        };
+        self.parts.iter().map(cut).collect()
+    }
+}
+
+impl Part<'_> {
+    /// The stretch of its line's curve that is its own, where the line begins at a parameter.
+    fn stretch_of(&self, smooth: &Smooth, first: f64) -> Smooth {
+        let from = first + self.start;
+        Smooth { curve: smooth.curve.slice([from, from + self.extended.end]), sagitta: smooth.sagitta }
+    }
+}
