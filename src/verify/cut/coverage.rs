@@ -24,7 +24,7 @@ pub(in crate::verify) struct Coverage<'a> {
     cut: Vec<Stretches>,
     /// What of that was cut by a blade on its way, and not by one that only plunged.
     ways: Vec<Stretches>,
-    /// What of it lay on a plunged blade itself, not only as near to it as a cut may be off.
+    /// Stretches that lay on a plunged blade itself, not only within the tolerance of one.
     cores: Vec<Stretches>,
 }
 
@@ -84,15 +84,17 @@ impl<'a> Coverage<'a> {
         parts.map(|[a, b]| covered(self.ways[line].all(), a, b)).sum()
     }
 
-    /// How much of a stretch no blade has passed and none has lain on, mm; where both have, that counts twice.
-    pub(in crate::verify) fn untouched(&self, line: usize, stretch: [f64; 2]) -> f64 {
+    /// Length of stretches that no blade has passed or lain on, mm. What both have done is subtracted twice: the check gets
+    /// stricter.
+    pub(in crate::verify) fn untouched(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
         let covered = |[a, b]: [f64; 2]| covered(self.ways[line].all(), a, b) + covered(self.cores[line].all(), a, b);
-        self.on_line(line, stretch).into_iter().map(|part| (part[1] - part[0]) - covered(part)).sum()
+        let parts = stretches.iter().flat_map(|stretch| self.on_line(line, *stretch));
+        parts.map(|part| (part[1] - part[0]) - covered(part)).sum()
     }
 
-    /// Marks a stretch as one that lay on a plunged blade.
-    pub(in crate::verify) fn add_core(&mut self, line: usize, stretch: [f64; 2]) {
-        for part in self.on_line(line, stretch) {
+    /// Marks stretches as such that lay on a plunged blade.
+    pub(in crate::verify) fn add_cores(&mut self, line: usize, stretches: &[[f64; 2]]) {
+        for part in stretches.iter().flat_map(|stretch| self.on_line(line, *stretch)).collect::<Vec<_>>() {
             self.cores[line].merge(part);
         }
     }

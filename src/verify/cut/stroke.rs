@@ -192,10 +192,8 @@ impl<'a> Judge<'a> {
         let first = &stroke.rows()[0];
         let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
         best.passed = done.coverage.passed(best.line, &best.stretches);
-        if cut.is_plunge_cut() {
-            best.untouched = done.coverage.untouched(best.line, best.core);
-            done.coverage.add_core(best.line, best.core);
-        }
+        best.untouched = done.coverage.untouched(best.line, &best.thin);
+        done.coverage.add_cores(best.line, &best.thin);
         done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
         done.coverage.add(best.line, &best.stretches, cut.is_plunge_cut());
         done.joints.see(&cut.points, self.reference.lines[best.line].cut.index);
@@ -251,7 +249,7 @@ impl<'a> Judge<'a> {
     /// How much of a line a stroke cuts twice, mm. A plunge cut may be longer than what was left.
     fn twice(&self, cut: &Cut, trial: &Trial) -> f64 {
         let all = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>();
-        // A plunge may lie on what others came as near to as a cut may be off.
+        // A plunge may repeat a stretch that earlier plunges only passed within the tolerance: no blade has lain on it.
         let is_new = |length: f64| length >= self.reference.tolerance;
         if !is_new(trial.fresh) && !is_new(trial.untouched) && !trial.is_last {
             // A stroke that cuts nothing new counts with its overlaps.

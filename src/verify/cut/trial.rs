@@ -75,7 +75,9 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) fresh: f64,
     /// How much of them a blade on its way had cut before, mm.
     pub(in crate::verify) passed: f64,
-    /// How much of its core no blade had passed or lain on before, mm.
+    /// What of it lies on a plunged blade itself; of a cut with a way nothing.
+    pub(in crate::verify) thin: Vec<[f64; 2]>,
+    /// Length of that which no blade had passed or lain on before, mm.
     pub(in crate::verify) untouched: f64,
     /// Share of the line that is then still uncut.
     left: f64,
@@ -150,7 +152,8 @@ impl Tracer<'_> {
             trials = candidates.iter().map(|candidate| self.follow(cut, candidate)).collect();
             self.weigh(&mut trials, coverage);
         }
-        // What a plunged blade lies over it was meant for, however little was left of that; others it crosses.
+        // A plunge is meant for a line that its blade lies over, however little of that is uncut. Lines that it crosses count
+        // only without such a line.
         let is_crossed = |trial: &Trial| trial.is_across(cut, &self.reference.lines[trial.line]);
         let lies_over = |trial: &Trial| !trial.stretches.is_empty() && !is_crossed(trial);
         if cut.is_plunge_cut() && trials.iter().any(lies_over) {
@@ -246,6 +249,7 @@ impl Tracer<'_> {
             stretches: Vec::new(),
             fresh: 0.0,
             passed: 0.0,
+            thin: Vec::new(),
             untouched: 0.0,
             left: 0.0,
             is_last: false,
@@ -300,8 +304,9 @@ impl Tracer<'_> {
         // Where the line lies on the blade itself, from the first place to the last.
         let thin = Near { beside: self.near().beyond + ON_SHARE * self.reference.tolerance, ..self.near() };
         let [low, high] = if over.is_some() { whole } else { longest };
-        let on = covered(line, blade, station, thin).into_iter().filter(|[a, b]| *a >= low && *b <= high);
-        let core = on.reduce(|[a, _], [_, b]| [a, b]);
+        let mut on = covered(line, blade, station, thin);
+        on.retain(|[a, b]| *a >= low && *b <= high);
+        let core = on.iter().copied().reduce(|[a, _], [_, b]| [a, b]);
         let Lain { feet, held, reach } = if over.is_some() { lain } else { Lain::new(line, cut, longest) };
         let mut trial = Trial {
             line: index,
@@ -309,6 +314,7 @@ impl Tracer<'_> {
             stretches: if over.is_some() { vec![whole] } else { stretches },
             fresh: 0.0,
             passed: 0.0,
+            thin: on,
             untouched: 0.0,
             left: 0.0,
             is_last: false,

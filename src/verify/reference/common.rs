@@ -109,7 +109,7 @@ impl Common {
             (0..ring.len()).find(|&i| ring[i].cut.is_some() && ring[(i + ring.len() - 1) % ring.len()].cut.is_none());
         let mut ring = ring.to_vec();
         ring.rotate_left(start.unwrap_or(0));
-        let mut spared = spared(&ring).into_iter();
+        let mut spared = spared(&ring);
         let mut cuts: Vec<(u32, Sighting)> = Vec::new();
         // A cut that leaves the edge and comes back to it leaves what lies between.
         let mut left: Vec<(usize, f64, Sighting)> = Vec::new();
@@ -121,7 +121,7 @@ impl Common {
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
-                    let stands = self.stands(&edge, slits, reference, grid, distance);
+                    let stands = self.stands(edge, slits, reference, grid, distance);
                     if stands.is_empty() {
                         let length = edge.iter().map(|chord| (chord.ends[1] - chord.ends[0]).norm()).sum();
                         left.push((cuts.len(), length, sighting(from, stretch.block)));

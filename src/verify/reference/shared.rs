@@ -126,18 +126,10 @@ pub(super) fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 
     (high - low > SAME).then_some([low, high])
 }
 
-/// The spared stretches of a contour, joined, each with its blocks.
-pub(super) fn spared(ring: &[Drawn]) -> Vec<Vec<Drawn>> {
-    let mut found: Vec<Vec<Drawn>> = Vec::new();
-    for stretch in ring.iter().filter(|stretch| stretch.cut.is_none()) {
-        let goes_on =
-            |last: &Vec<Drawn>| last.last().is_some_and(|last| (last.ends[1] - stretch.ends[0]).norm() <= SAME);
-        match found.last_mut().filter(|last| goes_on(last)) {
-            Some(last) => last.push(*stretch),
-            None => found.push(vec![*stretch]),
-        }
-    }
-    found
+/// The spared stretches of a contour, those that follow each other joined.
+pub(super) fn spared(ring: &[Drawn]) -> impl Iterator<Item = &[Drawn]> {
+    let all = ring.chunk_by(|a, b| a.cut.is_none() && b.cut.is_none());
+    all.filter(|stretches| stretches[0].cut.is_none())
 }
 
 #[cfg(test)]

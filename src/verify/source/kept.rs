@@ -1,9 +1,9 @@
-//! Whether what was read is still there behind the passes: every block that cuts or drills something in the marker as it
+//! Whether what was read is still there behind the passes: every place that the file cuts or drills in the marker as it
 //! was read does so in the marker that is cut, or a pass has lost it.
 //!
 //! Passes may cut once what the file cuts twice: a slit that is written there and back becomes one cut, and of two that
-//! are the same one goes. So a stroke whose block is gone is no loss while another one of its piece cuts between the same
-//! two places, or while the file draws it again, along a line whose block is there.
+//! are the same one goes. So a stroke whose place is gone is no loss while another one of its piece cuts between the same
+//! two places, or while the file draws it again, along a line that is there.
 
 use rayon::prelude::*;
 
@@ -12,6 +12,7 @@ use crate::ir::finding::Sighting;
 use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
+use crate::source::Span;
 use crate::verify::worst::Worst;
 
 /// How far rounding moves one place against another, in units of the file: its diagonal.
@@ -22,11 +23,26 @@ const NO_GRID: f64 = 0.01;
 const SHORTEST_STEP: f64 = 1.0;
 /// Distance within which a line that is drawn again lies on itself, mm.
 const AGAIN: f64 = 0.15;
+/// Widest mouth of a notch that takes the place of such a line, mm.
+const MOUTH: f64 = 12.5;
 /// Places of a stroke are looked at so far from each other, mm.
 const SAMPLE: f64 = 0.2;
 
-/// Block of a place to which nothing is cut.
-const NO_BLOCK: u32 = 0;
+/// What of the file cuts or drills something: a block may hold many places, each at a byte of its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Cause {
+    block: u32,
+    byte: u32,
+}
+
+impl Cause {
+    /// That of a place to which nothing is cut.
+    const NONE: Self = Self { block: 0, byte: 0 };
+
+    fn of(span: Span) -> Self {
+        Self { block: span.block, byte: span.start }
+    }
+}
 
 /// All that a marker cuts or drills, to be compared with what passes make of it: two dozen bytes a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -46,9 +62,9 @@ type Ends = [[u64; 2]; 2];
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct KeptPlace {
     at: Point,
-    /// The block that cuts from the place before to this one, or that drills here when both are the same; [`NO_BLOCK`]
-    /// where a line begins.
-    block: u32,
+    /// What cuts from the place before to this one, or drills here when both are the same; [`Cause::NONE`] where a line
+    /// begins.
+    cause: Cause,
 }
 
 /// A cut from one place to another; a hole goes from its place to the same.
@@ -56,7 +72,7 @@ struct KeptPlace {
 struct KnifeStroke {
     from: Point,
     to: Point,
-    block: u32,
+    cause: Cause,
 }
 
 impl KnifeStroke {
@@ -72,15 +88,21 @@ impl KnifeStroke {
 
     /// Whether each place of it lies so near to one of some others, mm.
     fn is_near(&self, others: &[Self], reach: f64) -> bool {
+        self.away(others, reach) == 0.0
+    }
+
+    /// Length of it that lies farther than that from all of some others, mm.
+    fn away(&self, others: &[Self], reach: f64) -> f64 {
         let middle = self.from + (self.to - self.from) / 2.0;
         let around = reach + self.length() / 2.0;
         let near = others.iter().filter(|other| polyline::distance_to_segment(middle, other.from, other.to) <= around);
         let near: Vec<&Self> = near.collect();
         let steps = (self.length() / SAMPLE).ceil().max(1.0);
-        (0..=steps as usize).all(|k| {
-            let at = self.from + (self.to - self.from) * (k as f64 / steps);
-            near.iter().any(|other| polyline::distance_to_segment(at, other.from, other.to) <= reach)
-        })
+        let is_away = |k: &usize| {
+            let at = self.from + (self.to - self.from) * (*k as f64 / steps);
+            near.iter().all(|other| polyline::distance_to_segment(at, other.from, other.to) > reach)
+        };
+        (0..=steps as usize).filter(is_away).count() as f64 / (steps + 1.0) * self.length()
     }
 
     fn is_hole(&self) -> bool {
@@ -93,32 +115,32 @@ fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<KeptPlace>) {
     let first = places.len();
     let begin = |places: &mut Vec<KeptPlace>, at: Point| {
         if places[first..].last().is_none_or(|last| last.at != at) {
-            places.push(KeptPlace { at, block: NO_BLOCK });
+            places.push(KeptPlace { at, cause: Cause::NONE });
         }
     };
-    let mut add = |KnifeStroke { from, to, block }: KnifeStroke| {
+    let mut add = |KnifeStroke { from, to, cause }: KnifeStroke| {
         begin(places, from);
-        places.push(KeptPlace { at: to, block });
+        places.push(KeptPlace { at: to, cause });
     };
     for drill in &piece.drills {
-        add(KnifeStroke { from: drill.at, to: drill.at, block: drill.span.block });
+        add(KnifeStroke { from: drill.at, to: drill.at, cause: Cause::of(drill.span) });
     }
     // What has no length cuts nothing, here and below.
     for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
-        add(KnifeStroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
+        add(KnifeStroke { from: stroke.from, to: stroke.to, cause: Cause::of(stroke.span) });
     }
     for contour in &piece.contours {
         let (points, spans) = (marker.list.points(contour.range), marker.list.spans(contour.range));
         begin(places, points[0]);
         let ways = points.windows(2).zip(spans.iter()).filter(|(ends, _)| ends[0] != ends[1]);
-        places.extend(ways.map(|(ends, span)| KeptPlace { at: ends[1], block: span.block }));
+        places.extend(ways.map(|(ends, span)| KeptPlace { at: ends[1], cause: Cause::of(*span) }));
     }
 }
 
-/// What a block of the file cuts or drills: what has none is from no file.
+/// What the file cuts or drills.
 fn strokes(places: &[KeptPlace]) -> impl Iterator<Item = KnifeStroke> {
-    let all = places.windows(2).map(|w| KnifeStroke { from: w[0].at, to: w[1].at, block: w[1].block });
-    all.filter(|stroke| stroke.block != NO_BLOCK)
+    let all = places.windows(2).map(|w| KnifeStroke { from: w[0].at, to: w[1].at, cause: w[1].cause });
+    all.filter(|stroke| stroke.cause.block != Cause::NONE.block)
 }
 
 /// What is done in the places of a piece and no more in those of the piece as it is cut.
@@ -126,9 +148,9 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     if read == cut {
         return Vec::new(); // as of nearly all
     }
-    let mut blocks: Vec<u32> = strokes(cut).map(|stroke| stroke.block).collect();
-    blocks.sort_unstable();
-    let is_there = |stroke: &KnifeStroke| blocks.binary_search(&stroke.block).is_ok();
+    let mut bytes: Vec<u32> = strokes(cut).map(|stroke| stroke.cause.byte).collect();
+    bytes.sort_unstable();
+    let is_there = |stroke: &KnifeStroke| bytes.binary_search(&stroke.cause.byte).is_ok();
     let mut lost: Vec<KnifeStroke> = strokes(read).filter(|stroke| !is_there(stroke)).collect();
     if lost.is_empty() {
         return lost;
@@ -139,21 +161,31 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     let still: Vec<KnifeStroke> = if lost.is_empty() { Vec::new() } else { strokes(cut).collect() };
     // Out and straight back in a row, to the bit.
     let mut back_and_forth: Vec<Ends> = Vec::new();
-    let ways = read.windows(3).filter(|w| bits(w[0].at) == bits(w[2].at) && w[1].block != NO_BLOCK);
-    back_and_forth.extend(ways.map(|w| KnifeStroke { from: w[0].at, to: w[1].at, block: w[1].block }.ends()));
+    let ways = read.windows(3).filter(|w| bits(w[0].at) == bits(w[2].at) && w[1].cause != Cause::NONE);
+    back_and_forth.extend(ways.map(|w| KnifeStroke { from: w[0].at, to: w[1].at, cause: w[1].cause }.ends()));
     back_and_forth.sort_unstable();
     let is_twice = |stroke: &KnifeStroke| back_and_forth.binary_search(&stroke.ends()).is_ok();
     lost.retain(|stroke| {
         let is_step = stroke.length() < SHORTEST_STEP && is_twice(stroke);
         stroke.is_hole() || !stroke.is_near(&still, if is_step { SHORTEST_STEP } else { reach })
     });
-    // A notch may stand in the place of the edge that is drawn twice.
     if !lost.is_empty() {
         let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
-        lost.retain(|stroke| stroke.is_hole() || !stroke.is_near(&there, AGAIN));
+        lost = lost
+            .chunk_by(|a, b| a.to == b.from)
+            .filter(|line| !stands_in_for(line, &there, &still, reach))
+            .flatten()
+            .copied()
+            .collect();
     }
-    lost.dedup_by_key(|stroke| stroke.block); // the chords of an arc are one block
+    lost.dedup_by_key(|stroke| stroke.cause.byte); // the chords of an arc are one place of the file
     lost
+}
+
+/// Whether a notch stands in the place of a line that the file draws again: no more of it than a mouth is not cut.
+fn stands_in_for(line: &[KnifeStroke], there: &[KnifeStroke], still: &[KnifeStroke], reach: f64) -> bool {
+    line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
+        && line.iter().map(|stroke| stroke.away(still, reach)).sum::<f64>() <= MOUTH
 }
 
 impl Works {
@@ -195,7 +227,7 @@ impl Works {
         let lost: Vec<Vec<KnifeStroke>> = read.into_par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
-            worst.see(f64::from(count), || Sighting { time: None, line: None, point: lost.to, block: lost.block });
+            worst.see(f64::from(count), || Sighting { time: None, line: None, point: lost.to, block: lost.cause.block });
         }
         worst.finding()
     }

@@ -96,6 +96,23 @@ fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chose
     assert!(Works::of(&twice).kept(&read, &Job::default().profile).holds());
 }
 
+#[test]
+fn half_of_an_outline_that_is_drawn_twice_is_missed() {
+    let name = "notch-stroke-on-an-outline-drawn-twice.plt";
+    let plots = sources_of(&["hpgl"], "hpgl");
+    let (source, read) = plots.iter().find(|(source, _)| source.name() == name).expect("a fixture");
+    let (job, mut said) = (Job::default(), Diagnostics::default());
+    let mut marker = pipeline::read(source, None, &job, &mut said).expect("it is read").marker;
+    let works = Works::of(read);
+    assert!(works.kept(&marker, &job.profile).holds());
+    let outline = marker.pieces[0].contours.iter_mut().find(|contour| contour.closed).expect("an outline");
+    // A chord in the place of two sides.
+    let mut cursor = marker.list.cursor(&mut outline.range);
+    assert!(cursor.advance());
+    assert!(cursor.remove());
+    assert!(!works.kept(&marker, &job.profile).holds());
+}
+
 /// A job that ignores some codes.
 fn ignoring(names: &[&str]) -> Job {
     let mut job = Job::default();
