@@ -150,6 +150,8 @@ codes! {
     ISO_TRAILER_PIECE = warning(Spares, Shape, "iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.", "Labels that belong to no piece may come from another marker: then the list was copied to the wrong file. Nothing of it is cut.");
     /// M14 before any place.
     ISO_NO_POSITION = warning(Spoils, Text, "iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.", "The first cut may start at the corner of the table instead of its place. Look at the first contour in the picture (-t svg) before you cut.");
+    /// X Y M14 in one block.
+    ISO_KNIFE_IN_MOVE = error(Text, "iso/knife-in-move", "A code behind the place of its block lowers or lifts the knife.", "Some controllers move before they obey such a code, others behind it: the knife would cut on its way to the contour, or leave its last side uncut. Write the move and the code as two blocks, or the code before the place: X100Y100*M14*.");
     /// A drill between M14 and M15.
     ISO_DRILL_KNIFE_DOWN = error(Text, "iso/drill-knife-down", "A drill code stands where the knife is down; an M15 may be missing.", "A drill would come down beside a standing blade. Look at the blocks before it: where the outline ends there must be an M15.\n  X100Y0*M15*X50Y50M43*");
     /// No contour, slit or drill.
@@ -265,7 +267,7 @@ codes! {
     /// Something to cut that is not read.
     DXF_UNREAD_CUT = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
     /// A unit that nobody knows.
-    DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH, or its header names a unit in which no patterns are drawn.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
+    DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC, CM nor ENGLISH, or its header names a unit in which no patterns are drawn.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
     /// A text that is not read.
     DXF_TEXT = error(Text, "dxf/text", "A text of a DXF file that says a size, a quantity or the unit is in parts of more than 250 bytes, or has codes of its letters amid the value.", "A size that is lost is cut with every other one, and a unit that is lost makes all pieces too small. Let the CAD system write such texts as TEXT, one for each.");
     /// Texts that contradict each other.
@@ -288,6 +290,8 @@ codes! {
     DXF_NO_UNIT = warning(Spoils, Shape, "dxf/no-unit", "A DXF file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm.", "Patterns in inches would be 25 times too small. Compare the extent that is printed with the pieces, then say the unit.\n  cutc compile pattern.dxf --set dxf.unit=inch");
     /// A whole piece with a fold line.
     DXF_FOLD_ACROSS = warning(Spoils, Shape, "dxf/fold-across", "A piece is drawn on both sides of its fold line (layer 6), so it is taken for a whole one.", "Half pieces end at their fold line. One that goes on across it is whole already, or its line is wrong. Look at the picture (-t svg) before you cut.");
+    /// A piece of other sizes only.
+    DXF_SIZE_MISSING = warning(Spares, Shape, "dxf/size-missing", "A piece of a set has none of the sizes that are cut, and is not cut.", "A set holds each piece in its sizes, and those of one size are a garment. A piece that is there in other sizes only would be missing: some CAD systems name sizes of accessories otherwise. Name all that are wanted.\n  cutc compile pattern.dxf --size 38,40");
     /// A notch that is not cut.
     DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one or at its place.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
     /// A notch that becomes a slit.

@@ -1,12 +1,15 @@
 //! The closing of a line: how a line comes back to where it starts, and the ring that results.
 //!
 //! Drawing programs close an outline in several ways. Its last place is its first; or it stops a little before; or it runs
-//! on past its start, along its own head, since other software lays an overcut there; or it goes round twice in one stroke.
+//! on past its start, since other software lays an overcut there: along its own head, or straight on where that turns; or it
+//! goes round twice in one stroke.
 
-use crate::geom::{Point, cross, polyline};
+use crate::geom::{Point, cross, polyline, ring};
 
 /// Longest stretch that counts as an overcut of other software, mm, as the crow flies: longer ones are lines of their own.
 pub const LONGEST_PAST: f64 = 100.0;
+/// Longest overcut that goes straight on from the start of an outline, where that turns, mm.
+pub const LONGEST_STRAIGHT: f64 = 10.0;
 /// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
 /// places miss the head by that.
 pub const LEAST_REACH: f64 = 0.1;
@@ -54,7 +57,7 @@ pub fn retrace(count: usize, at: impl Fn(usize) -> Point, reach: f64) -> Option<
     if (end - first).amax() > LONGEST_PAST {
         return None;
     }
-    line.returns().take(MOST_RETURNS).find_map(|last| line.followed(last))
+    line.returns().take(MOST_RETURNS).find_map(|last| line.followed(last).or_else(|| line.straight_on(last)))
 }
 
 struct Line<F> {
@@ -125,6 +128,24 @@ impl<F: Fn(usize) -> Point> Line<F> {
         let past = if is_at_start { 0.0 } else { (length - whole * round).max(0.0) };
         let has_more = whole > 0.0 || past > self.reach || (self.at)(ring) == start;
         has_more.then_some(Retrace { last, rounds: 1 + whole as usize, past })
+    }
+
+    /// The line as a ring that ends behind a place, if all behind it goes straight on past the start and out of the ring.
+    fn straight_on(&self, last: usize) -> Option<Retrace> {
+        let (count, start, before) = (last + 1, (self.at)(0), (self.at)(last));
+        let along = (start - before).try_normalize(self.reach)?;
+        let past = |at: Point| along.dot(&(at - start));
+        let end = (self.at)(self.count - 1);
+        let is_on_ray = |k: usize| {
+            let at = (self.at)(k);
+            past(at) >= -self.reach && cross(along, at - start).abs() <= self.reach
+        };
+        let is_overcut = (self.reach..=LONGEST_STRAIGHT).contains(&past(end)) && (count..self.count).all(is_on_ray);
+        if count < LEAST_SEGMENTS || !is_overcut || self.is_flat(count) {
+            return None;
+        }
+        let ring: Vec<Point> = (0..count).map(&self.at).collect();
+        (!ring::contains(&ring, end)).then_some(Retrace { last, rounds: 1, past: past(end) })
     }
 
     /// Whether the ring of the first places encloses nothing.
@@ -219,6 +240,13 @@ mod tests {
     }
 
     #[test]
+    fn a_line_that_runs_straight_past_a_corner_is_a_ring() {
+        check(&[A, B, C, D, A, [0.0, -3.0]], Some((3, 1, 3.0)));
+        check(&[A, B, C, D, [0.0, -3.0]], Some((3, 1, 3.0)));
+        check(&[A, B, C, D, [0.0, -1.0], [0.1, -6.0]], Some((3, 1, 6.0)));
+    }
+
+    #[test]
     fn a_line_that_goes_round_again_is_a_ring() {
         check(&[A, B, C, D, A, B, C, D, A], Some((3, 2, 0.0)));
         check(&[A, B, C, D, A, B, C, D, A, B, C, D, A], Some((3, 3, 0.0)));
@@ -235,6 +263,10 @@ mod tests {
         check(&[A, B, A, [5.0, 0.0]], None);
         check(&[A, B, C, D, [0.0, 1.0]], None);
         check(&[A, B, C, D, A, [0.0, 5.0]], None);
+        check(&[A, B, C, D, A, [0.0, -15.0]], None);
+        check(&[A, B, C, D, A, [3.0, -5.0]], None);
+        // Straight on into the ring, where that has a bay: a slit.
+        check(&[[50.0, 10.0], A, D, C, B, [50.0, 10.0], [45.0, 11.0]], None);
         check(&[A, B, C, D, A, B, [100.0, 5.0], [95.0, 5.0]], None);
     }
 }

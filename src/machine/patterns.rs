@@ -11,7 +11,7 @@ use crate::units::MM_PER_INCH;
 /// The keys `dxf.*`.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "dxf.unit", takes: Takes::Word(words::<PatternUnit>), about: "Unit of pattern DXF. \"auto\" believes the text UNITS: METRIC (mm) or ENGLISH (inch); without one\nit is mm, with a warning." },
+    Key { name: "dxf.unit", takes: Takes::Word(words::<PatternUnit>), about: "Unit of pattern DXF. \"auto\" believes the text UNITS: METRIC (mm), CM or ENGLISH (inch); without one\nit is mm, with a warning." },
     Key { name: "dxf.quantity", takes: Takes::Word(words::<Quantity>), about: "How often a piece of a pattern DXF is cut: \"file\" = as the text QUANTITY says, 1,1 = once as it is\ndrawn and once mirrored; \"one\" = once as it is drawn." },
     Key { name: "dxf.curves", takes: Takes::Word(words::<Curves>), about: "Curves of a pattern DXF whose outlines have a few points of them: \"auto\" = as layers 84 to 87 draw\nthem, else as the CAD system lays them; \"points\" = straight from point to point." },
     Key { name: "dxf.gap_mm", takes: Takes::Number(from(0.0, 1000.0)), about: "Room between the pieces of a pattern DXF, which lie in a row unless the file places them." },
@@ -48,6 +48,8 @@ impl Dxf {
     pub const NOTCH_OFF: f64 = 1.0;
     /// Longest stretch that an outline runs past its own start, mm, as the crow flies: the overcut of another cutter.
     pub const OVERRUN: f64 = 100.0;
+    /// Longest such stretch that goes straight on where the outline turns at its start, mm.
+    pub const PAST_CORNER: f64 = 10.0;
     /// Farthest that such a stretch, or another round, lies from the first round, mm.
     pub const RETRACE_OFF: f64 = 0.1;
     /// Most rounds that an outline goes in one stroke and is still one outline.
@@ -69,6 +71,8 @@ pub enum PatternUnit {
     Auto,
     /// Millimetres.
     Mm,
+    /// Centimetres.
+    Cm,
     /// Inches.
     Inch,
 }
@@ -79,6 +83,7 @@ impl PatternUnit {
         match self {
             Self::Auto => None,
             Self::Mm => Some(1.0),
+            Self::Cm => Some(10.0),
             Self::Inch => Some(MM_PER_INCH),
         }
     }

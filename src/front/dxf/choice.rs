@@ -1,6 +1,6 @@
 //! Which blocks are cut: those of the sizes that are asked for, and how often each.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::tally::{Tally, Thing};
 use super::text::{Facts, Said};
@@ -106,6 +106,29 @@ impl<'a> Chosen<'a> {
             (None, _) | (_, None) => true,
             (Some(sizes), Some(size)) => sizes.contains(&size),
         }
+    }
+
+    /// Tells which pieces have none of the sizes that are cut, of blocks with these texts.
+    pub(super) fn say_missing(&self, facts: &[Facts], out: &mut Diagnostics) {
+        let mut pieces: BTreeMap<String, (bool, Span)> = BTreeMap::new();
+        let facts = if self.sizes.is_some() { facts } else { &[] };
+        for facts in facts {
+            if let Some(span) = facts.name.first {
+                let name = self.labels.text(self.source.slice(span)).trim().to_owned();
+                pieces.entry(name).or_insert((false, span)).0 |= self.has(facts);
+            }
+        }
+        let missing: Vec<(&String, Span)> =
+            pieces.iter().filter(|(_, (is_cut, _))| !is_cut).map(|(name, &(_, span))| (name, span)).collect();
+        let Some(&(_, first)) = missing.first() else { return };
+        let names: Vec<&str> = missing.iter().take(SHOWN).map(|(name, _)| name.as_str()).collect();
+        let (are, dots) = (
+            if missing.len() == 1 { "1 piece is".to_owned() } else { format!("{} pieces are", missing.len()) },
+            if missing.len() > SHOWN { ", ..." } else { "" },
+        );
+        let message = format!("{are} not cut, since there is none{}: {}{dots}", self.told(), names.join(", "));
+        let finding = Diagnostic::new(&code::DXF_SIZE_MISSING, message).at(first);
+        out.push(finding.hint("see its sizes with `cutc info --size all`, and name those that are cut with `--size`"));
     }
 
     /// The sizes that are cut, as they are told; empty when all are.

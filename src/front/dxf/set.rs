@@ -141,6 +141,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let facts: Vec<Facts> = own.enumerate().map(|(k, own)| if is_cut(k) { own } else { Facts::default() }).collect();
     let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
     let chosen = Chosen::of(&asked, &facts, placing.parts(&boxes), out);
+    chosen.say_missing(&facts, out);
     let mut making = Making {
         notch_depth: job.profile.dxf.notch_mm,
         drafting: Drafting::of(&asked.author(), job.profile.dxf.curves, job.profile.tolerance(0.0) * Dxf::CHORDS_OFF),

@@ -66,7 +66,7 @@ pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked
 
 /// The finding that a file is a plain drawing on these layers.
 pub(super) fn plain(names: &Names) -> Diagnostic {
-    let names = names.all();
+    let names: Vec<&String> = names.all().iter().filter(|name| !name.is_empty()).collect();
     let word = if names.len() == 1 { "layer" } else { "layers" };
     let mut shown = String::new();
     for name in names {

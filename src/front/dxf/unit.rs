@@ -12,7 +12,7 @@ const UNITS: [(i64, f64); 7] =
 /// The number that names none.
 const NO_UNIT: i64 = 0;
 /// What to do where nobody knows which it is.
-const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm` or `--set dxf.unit=inch`";
+const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
 /// Cuts of a file, mm, beyond which its unit is doubted, and of one line: no cloth is so long, nor is the outline of a part.
 const LONGEST: f64 = 1e6;
@@ -93,7 +93,9 @@ pub(super) fn doubt(largest: f64, Asked { job, .. }: &Asked, out: &mut Diagnosti
     if job.profile.dxf.unit.mm().is_none() && (0.0..SMALLEST).contains(&largest) {
         let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");
         let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message);
-        out.push(finding.hint("METRIC may stand over cm or inches; `--set dxf.unit=mm` says that it is mm"));
+        out.push(
+            finding.hint("METRIC may stand over cm or inches: `--set dxf.unit=cm`; `--set dxf.unit=mm` if it is mm"),
+        );
     }
 }
 
@@ -101,6 +103,7 @@ pub(super) fn doubt(largest: f64, Asked { job, .. }: &Asked, out: &mut Diagnosti
 fn unit_of(text: &[u8]) -> Option<f64> {
     match text.to_ascii_uppercase().as_slice() {
         b"METRIC" | b"METRISCH" | b"METRICO" | b"METRIQUE" | b"MM" | b"MILLIMETERS" | b"MILLIMETRES" => Some(1.0),
+        b"CM" | b"CENTIMETERS" | b"CENTIMETRES" => Some(10.0),
         b"ENGLISH" | b"INCH" | b"INCHES" | b"IN" | b"IMPERIAL" => Some(MM_PER_INCH),
         _ => None,
     }

@@ -85,7 +85,7 @@ impl<'a> Blocks<'a> {
     /// The next block; `None` at the end.
     pub(super) fn next(&mut self) -> Option<Block> {
         if let Some((code, span)) = self.next_code() {
-            let words = Words { codes: std::iter::once(code).collect(), point: None };
+            let words = Words { codes: std::iter::once(code).collect(), ahead: 1, point: None };
             return Some(Block { span, words: Ok(words) });
         }
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
@@ -262,6 +262,7 @@ fn remedy(byte: Option<u8>) -> &'static str {
         Some(b'A'..=b'Z') => "a block end `*` may be missing before it",
         Some(b'a'..=b'z') => "codes are capital letters; a text stands behind M31 or M20 in a block of its own",
         Some(b'0'..=b'9' | b'+' | b'-' | b'.') => "a letter may be missing before this number, or a digit was doubled",
+        Some(b',') => "decimals stand behind a point, if a number has any: export the file so",
         Some(b'!'..=b'~') => "take it away, or export the file again; only texts behind M31 and M20 have such signs",
         Some(_) => "the file may be damaged, or a text stands where M31 or M20 is missing; export it again",
     }

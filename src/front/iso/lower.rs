@@ -8,7 +8,7 @@ use super::block::Blocks;
 use super::draft::{Draft, LabelId};
 use super::label;
 use super::meaning::{Meaning, meaning, name, whole};
-use super::syntax::{Code, Point};
+use super::syntax::{Code, Point, Words};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
@@ -110,7 +110,10 @@ impl Lowering<'_> {
                 let Some(block) = self.blocks.next() else { break };
                 last = block.span;
                 match block.words {
-                    Ok(words) => self.obey(&words.codes, words.point, block.span),
+                    Ok(words) => {
+                        self.see_order(&words, block.span);
+                        self.obey(&words.codes, words.point, block.span)
+                    }
                     Err(fault) => {
                         self.damaged = true;
                         self.out.push(fault);
@@ -230,12 +233,27 @@ impl Lowering<'_> {
     }
 
     /// Obeys the codes of a block, then its move; labels and drills belong to the place where the block ends. (A knife
-    /// code that shares a block with a move acts before it, says the vendor; no file seen has one.)
+    /// code that stands before the place of its block acts before the move, says the vendor; no file seen has one.)
     fn obey(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> ControlFlow<()> {
         let asked = self.obey_codes(codes, point, span);
         self.obey_place(&asked, point, span);
         // What shares the block of the end is obeyed, too.
         if asked.ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Refuses a code behind the place of its block that lowers or lifts the knife: controllers differ in whether it then moves
+    /// first.
+    fn see_order(&mut self, words: &Words, span: Span) {
+        let is_down = self.knife.is_down();
+        let acts =
+            |code: &&Code| meaning(**code) == (if is_down { Meaning::Up } else { Meaning::Down }) && self.obeys(**code);
+        if words.point.is_some()
+            && let Some(&code) = words.codes[words.ahead..].iter().find(acts)
+        {
+            let message = format!("{} stands behind the place of its block: before or after the move?", name(code));
+            let finding = Diagnostic::new(&code::ISO_KNIFE_IN_MOVE, message).at(span);
+            self.out.push(finding.hint("let the CAD write the move and the knife code as two blocks"));
+        }
     }
 
     /// Obeys the codes of a block, but for what they ask for at its place.
@@ -337,7 +355,7 @@ impl Lowering<'_> {
 
     fn down(&mut self, span: Span) {
         if self.place.contains(&None) && !self.damaged {
-            let message = "the knife goes down before the file gave X and Y; what is missing is taken as 0";
+            let message = "the knife goes down before any X and Y; what is missing is taken as 0";
             let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
             self.out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
         }

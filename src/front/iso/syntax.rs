@@ -61,6 +61,8 @@ impl<'a> ParseError<&'a [u8]> for Fault<'a> {
 pub(super) struct Words {
     /// Its codes in the order of the file.
     pub(super) codes: ArrayVec<Code, MOST_CODES>,
+    /// Number of codes before its place.
+    pub(super) ahead: usize,
     /// Its place.
     pub(super) point: Option<Point>,
 }
@@ -91,6 +93,7 @@ pub(super) struct Code {
 pub(super) fn block(i: &[u8]) -> Out<'_, Words> {
     let mut words = Words::default();
     let i = codes(i, &mut words)?;
+    words.ahead = words.codes.len();
     let (i, point) = opt(point).parse(i)?;
     words.point = point;
     let i = codes(i, &mut words)?;
@@ -317,7 +320,11 @@ mod tests {
             for text in ends.map(|end| format!("{letter}{number}{end}")) {
                 let Some((rest, code)) = plain_code(text.as_bytes()) else { continue };
                 let (left, words) = block(text.as_bytes()).expect("a block");
-                assert_eq!((rest, words), (left, Words { codes: [code].into_iter().collect(), point: None }), "{text}");
+                assert_eq!(
+                    (rest, words),
+                    (left, Words { codes: [code].into_iter().collect(), ahead: 1, point: None }),
+                    "{text}"
+                );
             }
         }
         assert!(plain_code(b"M14*X56789*").is_some() && plain_code(b"Q*").is_some());

@@ -30,7 +30,9 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
             let Some(found) = closing::retrace(points.len(), |k| points[k], reach) else { continue };
             let Retrace { last, rounds, past: length } = found;
             let mut ring: Vec<Segment> =
-                marker.list.walk(contour.range).map(|(_, segment)| segment).take(last + 1).collect();
+                marker.list.walk(contour.range).map(|(_, segment)| segment).take(last + 2).collect();
+            let behind = ring[ring.len() - 1].span;
+            ring.truncate(last + 1);
             let start = points[0];
             if let Some(closing) = ring.last_mut() {
                 closing.to = start;
@@ -38,10 +40,10 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
             let Some(range) = marker.list.append(ring.clone()) else { continue };
             (contour.range, contour.closed) = (range, true);
             if length > 0.0 {
-                past.add(piece.number, length, ring[0].span);
+                past.add(piece.number, length, behind);
             }
             if rounds > 1 {
-                again.add(piece.number, rounds as f64, ring[0].span);
+                again.add(piece.number, rounds as f64, behind);
             }
         }
     }

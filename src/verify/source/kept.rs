@@ -25,6 +25,9 @@ const SHORTEST_STEP: f64 = 1.0;
 const AGAIN: f64 = 0.15;
 /// Widest mouth of a notch that takes the place of such a line, mm.
 const MOUTH: f64 = 12.5;
+/// Longest overcut that goes straight on from the start of an outline, mm, and the cosine of its greatest turn there.
+const OVERCUT: f64 = 10.2;
+const STRAIGHT_ON: f64 = 0.998;
 /// Places of a stroke are looked at so far from each other, mm.
 const SAMPLE: f64 = 0.2;
 
@@ -170,6 +173,10 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
         stroke.is_hole() || !stroke.is_near(&still, if is_step { SHORTEST_STEP } else { reach })
     });
     if !lost.is_empty() {
+        let overcuts = overcuts(read);
+        lost.retain(|stroke| !overcuts.contains(&stroke.cause.byte));
+    }
+    if !lost.is_empty() {
         let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
         lost = lost
             .chunk_by(|a, b| a.to == b.from)
@@ -180,6 +187,19 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     }
     lost.dedup_by_key(|stroke| stroke.cause.byte); // the chords of an arc are one place of the file
     lost
+}
+
+/// The last strokes of lines that come back to their start and go straight on from there, by their bytes: overcuts that other
+/// software has drawn.
+fn overcuts(read: &[KeptPlace]) -> Vec<u32> {
+    let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
+    let overcut = |line: &[KeptPlace]| {
+        let [start, .., before, from, to] = line else { return None };
+        let [way, over] = [from.at - before.at, to.at - from.at];
+        let is_overcut = over.norm() <= OVERCUT && way.dot(&over) >= STRAIGHT_ON * way.norm() * over.norm();
+        (is_overcut && (from.at - start.at).norm() <= AGAIN).then_some(to.cause.byte)
+    };
+    lines.filter_map(overcut).collect()
 }
 
 /// Whether a notch stands in the place of a line that the file draws again: no more of it than a mouth is not cut.
@@ -227,7 +247,12 @@ impl Works {
         let lost: Vec<Vec<KnifeStroke>> = read.into_par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
-            worst.see(f64::from(count), || Sighting { time: None, line: None, point: lost.to, block: lost.cause.block });
+            worst.see(f64::from(count), || Sighting {
+                time: None,
+                line: None,
+                point: lost.to,
+                block: lost.cause.block,
+            });
         }
         worst.finding()
     }

@@ -1,11 +1,12 @@
 //! Lines that go along themselves again behind their start, found anew: the overcut of another cutter, and further rounds.
-//! A line is walked from its first place. Where it comes back there, all of it behind must be where it was as far from its start.
+//! A line is walked from its first place. Where it comes back there, all of it behind must be where it was as far from its
+//! start, or go straight on out of the ring.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::lines::{MEETS, Path, Round};
-use crate::geom::{Point, cross, polyline};
+use crate::geom::{Point, cross, polyline, ring};
 use crate::machine::patterns::Dxf;
 
 /// How far two walks along one line may be apart in length: in millimetres, and as a part of them.
@@ -169,8 +170,23 @@ impl Legs {
         let returns = (1..self.all.len()).filter(comes_back).filter(|k| !self.is_flat(*k)).take(MOST_RETURNS);
         returns.into_iter().find(|&k| {
             let round = self.stations[k] + (self.stations[k + 1] - self.stations[k]) * self.all[k].share(start);
-            self.goes_again(k, round)
+            self.goes_again(k, round) || self.goes_straight_on(k)
         })
+    }
+
+    /// Whether all behind a stretch that comes back to the start goes straight on from there, out of the ring.
+    fn goes_straight_on(&self, last: usize) -> bool {
+        let (start, behind) = (self.start(), &self.all[last..]);
+        let Some(along) = (start - behind[0].ends[0]).try_normalize(Dxf::RETRACE_OFF) else { return false };
+        let is_on_ray = |at: Point| {
+            let way = at - start;
+            along.dot(&way) >= -Dxf::RETRACE_OFF && cross(along, way).abs() <= Dxf::RETRACE_OFF
+        };
+        let end = behind[behind.len() - 1].ends[1];
+        let ring: Vec<Point> = self.all[..=last].iter().map(|leg| leg.ends[0]).collect();
+        (Dxf::RETRACE_OFF..=Dxf::PAST_CORNER).contains(&(end - start).norm())
+            && behind.iter().all(|leg| leg.curve.is_none() && is_on_ray(leg.ends[1]))
+            && !ring::contains(&ring, end)
     }
 
     /// Whether what the walk encloses up to a stretch is nothing.

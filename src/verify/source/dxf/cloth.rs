@@ -106,16 +106,13 @@ impl<'a> Sheets<'a> {
         }
         let mut sheets = Self { blocks, loose, names, unit: 1.0 };
         sheets.unit = job.profile.dxf.unit.mm().unwrap_or_else(|| {
-            let is_inch = |text: &[u8]| text.first().is_some_and(|first| b"EIei".contains(first));
             let unit = sheets.says("UNITS");
             match (unit, of_header) {
-                (Some(unit), _) => {
-                    if is_inch(unit) {
-                        MM_PER_INCH
-                    } else {
-                        1.0
-                    }
-                }
+                (Some(unit), _) => match unit.first() {
+                    Some(b'E' | b'I' | b'e' | b'i') => MM_PER_INCH,
+                    Some(b'C' | b'c') => 10.0,
+                    Some(_) | None => 1.0,
+                },
                 (None, Some(number)) => {
                     let unit = UNITS.iter().find(|unit| unit.0 == number).map_or(1.0, |unit| unit.1);
                     if sheets.is_too_long_in(unit) { 1.0 } else { unit }
