@@ -10,6 +10,10 @@ use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
     let is_spare = |steps: &[Step], i: usize| {
         let [Step::PlungeCut(before), Step::PlungeCut(cut)] = &steps[i - 1..=i] else { return false };
+        // A line from corner to corner is cut by itself, even one that goes back beside another one.
+        if cut.ends.iter().all(|end| end.side != Side::Contour) {
+            return false;
+        }
         let before = Blade::of(before, around);
         // Of one that ends at a corner the overlap there is asked for, which two others may not give.
         let is_amid = || cut.ends.iter().all(|end| end.side == Side::Contour);

@@ -7,8 +7,9 @@ use super::follow::Foot;
 use crate::geom::{Point, polyline};
 use crate::verify::reference::line::Line;
 
-/// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
-pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
+/// Distance at which the tip's way passes the vertices between the stations of places `i - 1` and `i`, mm. Inside a bend it may
+/// come by a vertex a little before or behind these places: that is looked for where the distance is more than allowed.
+pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize, allowed: f64) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let chord = feet[i].chord;
     if feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord) {
@@ -23,7 +24,23 @@ pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
         Sagitta::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
         Sagitta::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
     };
-    let away = |vertex: usize| polyline::distance_to_segment(line.point(vertex), points[i - 1], points[i]);
+    let away = |vertex: usize| {
+        let distance = |k: usize| polyline::distance_to_segment(line.point(vertex), points[k - 1], points[k]);
+        let here = distance(i);
+        if here <= allowed {
+            return here;
+        }
+        // On from there as long as it comes nearer.
+        let nearest = |steps: &mut dyn Iterator<Item = usize>| {
+            let nearer = steps.map(distance).scan(here, |last, next| {
+                let is_nearer = next < *last;
+                *last = next;
+                is_nearer.then_some(next)
+            });
+            nearer.fold(here, f64::min)
+        };
+        nearest(&mut (cut.body + 1..i).rev()).min(nearest(&mut (i + 1..points.len())))
+    };
     line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - sagitta(i).max(sagitta(i - 1))
 }
 

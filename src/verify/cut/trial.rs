@@ -347,7 +347,7 @@ impl Tracer<'_> {
             let mut joined = i > first && off <= allowed;
             let is_over = trial.over.is_some_and(|over| over.ends[0] < i && i <= over.ends[1]);
             if joined && !is_over {
-                let skipped = skipped(line, cut, &trial.feet, i);
+                let skipped = skipped(line, cut, &trial.feet, i, allowed);
                 trial.note(skipped, i);
                 joined = skipped <= allowed;
             }
