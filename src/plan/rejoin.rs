@@ -3,8 +3,8 @@
 //! The end of one run and the start of the next lie over the same stretch of the contour. Smoothed by themselves, each inside
 //! the band, they would run beside each other there, and a thread of cloth would stay between the two cuts.
 
-use super::run::{self, Cut, NARROWER, Order};
-use super::spline::{Extended, Smooth, ToleranceBand};
+use super::run::{self, Curved, Cut, Order};
+use super::spline::{Extended, Smooth, ToleranceBand, smooth};
 use crate::diagnostic::Diagnostic;
 use crate::geom::{Point, polyline};
 use crate::ir::list::Joint;
@@ -13,6 +13,10 @@ use crate::machine::Job;
 
 /// Places that are nearer to each other are one, mm: rounding.
 const SAME_EPSILON: f64 = 1e-6;
+/// Shares of the tolerance that are tried where blades plunge, when all of it would let the curve turn from one.
+const NARROWER: [f64; 3] = [0.4, 0.15, 0.05];
+/// Part of the greatest heading that a curve may turn from a plunged blade more than its line does.
+const LEAD_SHARE: f64 = 0.9;
 
 /// Solves the runs of one contour, in order. Those whose common line is too tight for one curve are solved each by itself.
 pub(super) fn solve(runs: &[&Run], tolerance: f64, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
@@ -181,42 +185,84 @@ impl<'a> Line<'a> {
                 if order.has_one_feed() {
                     return order.straight([part.start, part.start + part.extended.end].map(at)).ok();
                 }
-                Some(order.curved(&part.extended, &part.stretch_of(&smooth, 0.0)).ok()?.0)
+                Some(order.curved(&part.extended, &part.stretch_of(&smooth, 0.0)).ok()?.cut)
             };
             return self.parts.iter().map(cut).collect();
         }
-        let (first, smooth) = self.smooth(tolerance, job)?;
-        self.along(&smooth, first, tolerance, job).or_else(|| {
-            let plain = |share: f64| {
-                let smooth = run::smooth_plain(&self.points, share * tolerance).ok()?;
-                self.along(&smooth, 0.0, tolerance, job)
-            };
-            NARROWER.into_iter().filter(|_| self.ring.is_none()).find_map(plain)
-        })
+        let mut askew: Vec<bool> = vec![false; self.parts.len()];
+        for share in std::iter::once(1.0).chain(NARROWER) {
+            let (first, smooth) = self.smooth(share, &askew, tolerance, job)?;
+            let cuts = self.along(&smooth, first, tolerance, job);
+            if cuts.iter().all(Option::is_some) {
+                return cuts.into_iter().collect();
+            }
+            askew.iter_mut().zip(&cuts).for_each(|(askew, cut)| *askew |= cut.is_none());
+        }
+        None
     }
 
-    /// A smooth curve along the line, and the parameter at which the line begins.
-    fn smooth(&self, tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
-        let Some(ring) = &self.ring else {
-            let band = || ToleranceBand::new(self.points.clone(), tolerance, &job.profile);
-            return Some((0.0, run::smoothed(&band, &self.junctions).ok()?));
+    /// The chords of a polyline, all of the line or its ring, under the blade where some of the parts begin.
+    fn under_plunges(&self, points: &[Point], of: &[bool], width: f64) -> Vec<bool> {
+        let stations = polyline::stations(points);
+        let length = stations[stations.len() - 1];
+        let lap = if self.ring.is_some() { length } else { f64::INFINITY };
+        let starts = self.parts.iter().zip(of).filter(|(_, is_meant)| **is_meant).map(|(part, _)| part.start % lap);
+        let plunges: Vec<[f64; 2]> = starts.flat_map(|at| [[at, at + width], [at - lap, at - lap + width]]).collect();
+        let is_under = |ends: &[f64]| plunges.iter().any(|[low, high]| *low < ends[1] && ends[0] < *high);
+        stations.windows(2).map(is_under).collect()
+    }
+
+    /// A smooth curve along the line, with a share of the tolerance where the blade is askew at the start of a part, and the
+    /// parameter at which the line begins.
+    fn smooth(&self, share: f64, askew: &[bool], tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
+        let width = job.profile.knife.width_mm;
+        let narrow = |points: &[Point]| self.under_plunges(points, askew, width);
+        let ring = self.ring.clone().map(|ring| match share {
+            1.0 => ring,
+            _ => Run { junctions: narrow(&ring.points), ..ring },
+        });
+        let extended = ring.as_ref().map(|ring| (run::extended(ring, tolerance, width), ring));
+        let (points, first, lap) = match &extended {
+            Some((extended, ring)) => (&extended.points, extended.start, extended.lap(ring)),
+            None => (&self.points, 0.0, None),
         };
-        let extended = run::extended(ring, tolerance, job.profile.knife.width_mm);
-        let lap = extended.lap(ring);
-        let band = || ToleranceBand::new(extended.points.clone(), tolerance, &job.profile).with_lap(lap);
-        Some((extended.start, run::smoothed(&band, &extended.junctions).ok()?))
+        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let junctions = match &extended {
+            Some((extended, _)) => extended.junctions.clone(),
+            None if share < 1.0 => narrow(points),
+            None => self.junctions.clone(),
+        };
+        let smooth = if share < 1.0 {
+            smooth(&band().with_junctions(&junctions, share))
+        } else {
+            run::smoothed(&band, &junctions)
+        };
+        Some((first, smooth.ok()?))
     }
 
-    /// The cuts of its runs along a curve on which the line begins at a parameter; `None` where a blade would plunge too far
-    /// beside its line.
-    fn along(&self, smooth: &Smooth, first: f64, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
+    /// The cuts of its runs along a curve on which the line begins at a parameter; `None` of each whose blade would plunge too
+    /// far beside its line, or askew to the curve where the line is straight.
+    fn along(&self, smooth: &Smooth, first: f64, tolerance: f64, job: &Job) -> Vec<Option<Cut>> {
+        let slack = LEAD_SHARE * job.profile.verify.max_heading_deg.to_radians();
+        let band = ToleranceBand::new(self.points.clone(), tolerance, &job.profile);
         let cut = |part: &Part| {
             let order = Order::new(part.run, &part.extended, job);
-            let (cut, beside) = order.curved(&part.extended, &part.stretch_of(smooth, first)).ok()?;
-            (beside <= order.most_beside(tolerance)).then_some(cut)
+            let Curved { cut, beside, lead } = order.curved(&part.extended, &part.stretch_of(smooth, first)).ok()?;
+            let width = job.profile.knife.width_mm;
+            let ends = [part.start, part.start + width.min(part.extended.end)];
+            let turned = turned(&part.extended, width) + ends.map(|station| band.bow_at(station)).iter().sum::<f64>();
+            (beside <= order.most_beside(tolerance) && lead <= turned + slack).then_some(cut)
         };
         self.parts.iter().map(cut).collect()
     }
+}
+
+/// How far a line turns under a blade that plunges at its start, rad.
+fn turned(extended: &Extended, width: f64) -> f64 {
+    let under = extended.stations().take_while(|(_, station)| *station < width).count();
+    let points = &extended.points;
+    let inner = 1..under.min(points.len() - 1);
+    inner.map(|k| polyline::turn_at(points[k - 1], points[k], points[k + 1]).abs()).sum()
 }
 
 impl Part<'_> {

@@ -96,7 +96,7 @@ const STRAIGHT_SHARE: f64 = 0.9;
 /// Part of the tolerance that is left where the path lies as far beside the plunged blade as it may: rows have decimals.
 const RESERVE_SHARE: f64 = 0.03;
 /// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
-pub(super) const NARROWER: [f64; 2] = [0.4, 0.15];
+const NARROWER: [f64; 2] = [0.4, 0.15];
 /// Most laps before the start and behind the end of a ring.
 const LEADS: u32 = 4;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
@@ -126,22 +126,22 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     if is_straight && order.has_one_feed() {
         return order.straight(ends);
     }
-    let smooth = if is_straight {
+    let found = if is_straight {
         Smooth { curve: straight_curve(extended.end, ends), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
         smoothed(&band, junctions).map_err(|tight| order.too_tight(tolerance, tight))?
     };
-    let (mut cut, mut beside) = order.curved(&extended, &smooth)?;
+    let mut curved = order.curved(&extended, &found)?;
     let most = order.most_beside(tolerance);
     for share in NARROWER {
-        if beside > most {
-            let smooth = smooth_plain(points, share * tolerance);
-            let smooth = smooth.map_err(|tight| order.too_tight(share * tolerance, tight))?;
-            (cut, beside) = order.curved(&extended, &smooth)?;
+        if curved.beside > most {
+            let found = smooth(&ToleranceBand::plain(points.clone(), share * tolerance));
+            let found = found.map_err(|tight| order.too_tight(share * tolerance, tight))?;
+            curved = order.curved(&extended, &found)?;
         }
     }
-    Ok(cut)
+    Ok(curved.cut)
 }
 
 /// Part of the tolerance within which a polyline counts as straight that crosses other cuts about some of its chords.
@@ -162,9 +162,13 @@ pub(super) fn smoothed(band: &dyn Fn() -> ToleranceBand, junctions: &[bool]) -> 
     shares.find_map(nearer).map_or_else(|| smooth(&band()), Ok)
 }
 
-/// The smoothest curve in the plain neighbourhood of a polyline.
-pub(super) fn smooth_plain(points: &[Point], tolerance: f64) -> Result<Smooth, spline::TooTight> {
-    smooth(&ToleranceBand::plain(points.to_vec(), tolerance))
+/// A run along a smooth curve.
+pub(super) struct Curved {
+    pub(super) cut: Cut,
+    /// How far its polyline lies beside the plunged blade, mm.
+    pub(super) beside: f64,
+    /// How far the curve turns from the plunged blade, rad.
+    pub(super) lead: f64,
 }
 
 /// A run with its overlaps; a ring goes as far round as closing its curve takes.
@@ -281,8 +285,8 @@ impl<'a> Order<'a> {
         self.refuse(&code::PLAN_SMOOTH, &format!("no smooth curve inside {within} mm (least deviation {least} mm)"))
     }
 
-    /// The run along a smooth curve; and how far its polyline then lies beside the plunged blade, mm.
-    pub(super) fn curved(&self, extended: &Extended, smooth: &Smooth) -> Result<(Cut, f64), Diagnostic> {
+    /// The run along a smooth curve.
+    pub(super) fn curved(&self, extended: &Extended, smooth: &Smooth) -> Result<Curved, Diagnostic> {
         let Self { run, job, .. } = self;
         let Smooth { curve, sagitta } = smooth;
         let (entry, end) = match run.shape {
@@ -309,7 +313,7 @@ impl<'a> Order<'a> {
         let under = extended.stations().take_while(|(_, station)| *station < way.from);
         let beside = under.map(|(point, _)| polyline::distance_to_segment(point, plunged[0], plunged[1]));
         let beside = beside.fold(0.0, f64::max);
-        Ok((Cut { sagitta: *sagitta, ..self.along(&way)? }, beside))
+        Ok(Curved { cut: Cut { sagitta: *sagitta, ..self.along(&way)? }, beside, lead: way.lead().abs() })
     }
 
     /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its

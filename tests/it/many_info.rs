@@ -167,11 +167,13 @@ fn programs_of_a_folder_are_judged_by_the_files_they_were_made_from() {
     let room = folders();
     room.expect("compile in/a in/parts.cut -o flat -t csv,svg", DONE);
     room.expect("compile in -o out -t gcode,csv,json", FAULTY);
-    let (stdout, stderr) = room.expect("verify out --source in -q", DONE);
+    let (stdout, stderr) = room.expect("verify out/**/*.{csv,ngc} --source in -q", DONE);
     assert_eq!((stdout.as_str(), stderr.as_str()), ("6 files, 6 done\n", ""));
-    let (stdout, _) = room.expect("verify out --source in", DONE);
+    // One file of the folder has no program, since it is faulty.
+    let (stdout, stderr) = room.expect("verify out --source in", FAULTY);
     assert_eq!(stdout.matches("PASS").count(), 6, "{stdout}");
-    assert!(stdout.ends_with("6 files, 6 done\n") && !stdout.contains(".json"), "{stdout}");
+    assert!(stdout.ends_with("7 files, 6 done, 1 failed\n") && !stdout.contains(".json"), "{stdout}");
+    assert!(stderr.contains("no program was made from `in/"), "{stderr}");
 
     let program = String::from_utf8(room.read("out/parts.csv")).expect("text");
     let lines: Vec<&str> = program.lines().collect();
@@ -186,6 +188,38 @@ fn programs_of_a_folder_are_judged_by_the_files_they_were_made_from() {
     let of = |name: &str| verdicts.as_array().and_then(|all| all.iter().find(|one| one["program"] == name)).cloned();
     assert_eq!(of("out/parts.csv").expect("judged")["verdict"], "fail");
     assert_eq!(of("out/parts.ngc").expect("judged")["verdict"], "pass");
+}
+
+#[test]
+fn a_folder_lacks_no_program_no_provenance_and_has_none_in_the_place_of_another() {
+    let room = folders();
+    room.expect("compile in/a -o out", DONE);
+    room.expect("verify out --source in/a", DONE);
+    let exchange = |a: &str, b: &str| {
+        for end in ["csv", "csv.meta.json"] {
+            let [a, b] = [a, b].map(|name| room.at(&format!("out/{name}.{end}")));
+            let aside = room.at("aside");
+            fs::rename(&a, &aside)
+                .and_then(|()| fs::rename(&b, &a))
+                .and_then(|()| fs::rename(&aside, &b))
+                .expect("there");
+        }
+    };
+    let names: Vec<String> = fs::read_dir(room.at("in/a"))
+        .expect("readable")
+        .map(|entry| entry.expect("readable").path().file_stem().expect("a name").to_string_lossy().into_owned())
+        .collect();
+    let [first, second, ..] = &names[..] else { panic!("{names:?}") };
+    exchange(first, second);
+    let (_, stderr) = room.expect("verify out --source in/a", FAULTY);
+    assert_eq!(stderr.matches("and has the name of the program of").count(), 2, "{stderr}");
+    exchange(first, second);
+    fs::remove_file(room.at(&format!("out/{first}.csv.meta.json"))).expect("there");
+    let (_, stderr) = room.expect("verify out --source in/a", FAULTY);
+    assert!(stderr.contains("does not say what it was made from"), "{stderr}");
+    fs::remove_file(room.at(&format!("out/{first}.csv"))).expect("there");
+    let (_, stderr) = room.expect("verify out --source in/a", FAULTY);
+    assert!(stderr.contains("no program was made from"), "{stderr}");
 }
 
 #[test]
@@ -204,6 +238,7 @@ fn several_programs_are_judged_by_one_file_or_refused_by_name() {
         let (_, stderr) = room.expect(&format!("verify {arguments} --source in/a"), code);
         assert!(stderr.contains("no `circle.csv.meta.json`") && stderr.contains("hint: "), "{stderr}");
     }
-    let (_, stderr) = room.expect("verify in --source in", USAGE);
-    assert!(stderr.contains("no files to work on") && stderr.contains(".meta.json"), "{stderr}");
+    let (_, stderr) = room.expect("verify in --source in", FAULTY);
+    assert!(stderr.contains("not a program: `in/a/square.csv`"), "{stderr}");
+    assert!(stderr.contains("no program was made from `in/parts.cut`"), "{stderr}");
 }

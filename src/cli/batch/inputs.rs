@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use globset::{GlobBuilder, GlobMatcher};
 use walkdir::{DirEntry, WalkDir};
 
+use crate::back::{Proof, TARGETS};
 use crate::cli::files::{STDIN, is_dash, is_meta, meta};
 use crate::cli::finished::failure;
 use crate::cli::provenance;
@@ -75,10 +76,10 @@ pub(in crate::cli) fn find(
     find_sought(arguments, Sought { belongs: &belongs, may: &is_of_others, hint })
 }
 
-/// Finds the programs that some arguments mean: in folders those whose provenance names a target that is judged, by a
-/// pattern all but provenances and what is made by other targets.
+/// Finds the programs that some arguments mean: in folders those whose provenance names a target that is judged, or that have
+/// none and the extension of one; by a pattern all but provenances and what is made by other targets.
 pub(in crate::cli) fn find_programs(arguments: &[PathBuf]) -> anyhow::Result<Inputs> {
-    let belongs = |path: &Path| provenance::is_judged(path) == Some(true);
+    let belongs = |path: &Path| provenance::is_judged(path).unwrap_or_else(|| is_named_as_program(path));
     let may = |path: &Path| provenance::is_judged(path) != Some(false) && !is_meta(path);
     let hint = "programs are told by the `.meta.json` beside them; name others by a pattern, as in `'out/**/*.csv'`";
     find_sought(arguments, Sought { belongs: &belongs, may: &may, hint })
@@ -119,6 +120,18 @@ fn find_sought(arguments: &[PathBuf], sought: Sought) -> anyhow::Result<Inputs> 
     let mut known = BTreeSet::new();
     inputs.retain(|input| known.insert(input.path.canonicalize().unwrap_or_else(|_| input.path.clone())));
     Ok(Inputs::Many(inputs))
+}
+
+/// Whether a file in a folder looks like a program of a machine's motion, by its extension. A rewritten cutter file looks like
+/// any other.
+fn is_named_as_program(path: &Path) -> bool {
+    let Some(extension) = path.extension() else { return false };
+    let moves = |proof: Proof| match proof {
+        Proof::Setpoints | Proof::Positions => true,
+        Proof::Marker | Proof::None => false,
+    };
+    let mut known = TARGETS.iter().filter(|target| moves(target.proof)).map(|target| target.extension);
+    known.any(|known| extension.eq_ignore_ascii_case(known))
 }
 
 /// Whether a file in a folder looks like a cutter file, by its extension.
@@ -247,8 +260,9 @@ mod tests {
             Inputs::One(path) => panic!("{}", path.display()),
             Inputs::Many(inputs) => inputs.iter().map(Input::key).collect::<Vec<_>>(),
         };
-        assert_eq!(found(""), ["a.csv", "c.ngc"]);
-        assert_eq!(found("*"), ["a.csv", "c.ngc", "e.csv"]);
+        fs::write(room.path().join("f.cut"), "").expect("writable");
+        assert_eq!(found(""), ["a.csv", "c.ngc", "e.csv"]);
+        assert_eq!(found("*.csv"), ["a.csv", "e.csv"]);
         assert!(find_programs(&[room.path().join("*.svg")]).expect_err("pictures").to_string().contains(".meta.json"));
     }
 

@@ -1,10 +1,11 @@
 //! Many programs, each against the file that it was made from, or all against one.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::arguments::Arguments;
 use super::one::{Judged, Program};
-use crate::cli::batch::{Batch, Columns, Input, Outcome, Row, State, Telling};
+use crate::cli::batch::{self, Batch, Columns, Input, Inputs, Outcome, Row, State, Telling};
 use crate::cli::choices::Format;
 use crate::cli::finished::{Console, Finished, Stdout, failure, say};
 use crate::cli::options::counted;
@@ -21,7 +22,52 @@ enum Sources<'a> {
     /// All by one file.
     File(Source),
     /// Each by its own, somewhere in a folder.
-    Folder(&'a Path),
+    Folder(SourceFolder<'a>),
+}
+
+/// A folder of cutter files.
+struct SourceFolder<'a> {
+    folder: &'a Path,
+    /// Its cutter files.
+    files: Vec<Input>,
+}
+
+impl SourceFolder<'_> {
+    fn of(folder: &Path) -> SourceFolder<'_> {
+        let files = match batch::find(&[folder.to_owned()], batch::is_cutter_file, "") {
+            Ok(Inputs::Many(files)) => files,
+            // A folder without cutter files: each program tells what it lacks.
+            Ok(Inputs::One(_)) | Err(_) => Vec::new(),
+        };
+        SourceFolder { folder, files }
+    }
+
+    /// The cutter files that none of some programs was made from.
+    fn without_program(&self, programs: &[Input]) -> Vec<Input> {
+        let is_of = |path: PathBuf| path.canonicalize().unwrap_or(path);
+        let made: BTreeSet<PathBuf> =
+            programs.iter().filter_map(|program| source_in(self.folder, program).ok()).map(is_of).collect();
+        self.files.iter().filter(|file| !made.contains(&is_of(file.path.clone()))).cloned().collect()
+    }
+
+    /// Refuses a program that was made from one file and has the name of another one's program.
+    fn refuse_exchanged(&self, program: &Input, source: &Path) -> anyhow::Result<()> {
+        let is_named_after = |file: &Path| file.file_stem() == program.path.file_stem();
+        let same_place = |file: &&Input| file.path.parent() == source.parent();
+        let other = self.files.iter().filter(same_place).find(|file| is_named_after(&file.path));
+        match other.filter(|_| !is_named_after(source)) {
+            None => Ok(()),
+            Some(other) => Err(failure(
+                format!(
+                    "`{}` was made from `{}`, and has the name of the program of `{}`",
+                    program.path.display(),
+                    source.display(),
+                    other.path.display()
+                ),
+                "have two programs changed places? give each its name, or compile the folder anew",
+            )),
+        }
+    }
 }
 
 /// A source that is owned only when no other program has it.
@@ -43,8 +89,9 @@ impl Sources<'_> {
     fn of(&self, input: &Input) -> anyhow::Result<Shared<'_>> {
         match self {
             Self::File(source) => Ok(Shared::All(source)),
-            Self::Folder(folder) => {
-                let path = source_in(folder, input)?;
+            Self::Folder(sources) => {
+                let path = source_in(sources.folder, input)?;
+                sources.refuse_exchanged(input, &path)?;
                 if !path.exists() {
                     return Err(failure(
                         format!("there is no `{}`, which `{}` was made from", path.display(), input.path.display()),
@@ -65,21 +112,36 @@ pub(super) fn run(
     console: &mut Console,
 ) -> anyhow::Result<Finished> {
     let Arguments { source, messages, format, .. } = arguments;
-    let sources = if source.is_dir() { Sources::Folder(source) } else { Sources::File(files::read(source)?) };
+    let sources =
+        if source.is_dir() { Sources::Folder(SourceFolder::of(source)) } else { Sources::File(files::read(source)?) };
     let job = match arguments.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
     let is_json = *format == Format::Json;
     let telling = Telling { columns: Columns::Judged, quiet: messages.quiet, json: is_json };
-    let work = |_, input: &Input| {
+    // A folder holds all programs of the other one; a pattern may name some of them.
+    let missing = match &sources {
+        Sources::Folder(sources) if arguments.programs.iter().any(|named| named.is_dir()) => {
+            sources.without_program(programs)
+        }
+        Sources::Folder(_) | Sources::File(_) => Vec::new(),
+    };
+    let inputs = [programs, &missing].concat();
+    let work = |place: usize, input: &Input| {
         let failed = |error: anyhow::Error| {
             let json = is_json.then(|| verdict::json_of(&input.path, None));
             Outcome { json, ..Outcome::failed(input, &error) }
         };
+        if place >= programs.len() {
+            return failed(failure(
+                format!("no program was made from `{}`", input.path.display()),
+                "compile it; or name the programs that are judged by a pattern, as in `'out/*.csv'`",
+            ));
+        }
         arguments.outcome(input, &sources, &job).unwrap_or_else(failed)
     };
-    let mut finished = Batch { inputs: programs, threads, telling }.run(console, work).finished(telling);
+    let mut finished = Batch { inputs: &inputs, threads, telling }.run(console, work).finished(telling);
     if !is_json {
         // The verdicts are what is asked for.
         finished.stdout = Stdout::Text(std::mem::take(&mut finished.stderr));

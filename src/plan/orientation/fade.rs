@@ -56,6 +56,11 @@ impl Fade {
         fade
     }
 
+    /// The lead at the plunge, rad.
+    pub(super) fn lead(&self) -> f64 {
+        self.lead
+    }
+
     /// What is left of the lead at a parameter, rad, and its derivatives up to the third; `None` when nothing is.
     pub(super) fn at(&self, curve: &Curve, u: f64, [s1, s2, s3]: Pace) -> Option<[f64; 4]> {
         if u >= self.to || self.lead == 0.0 {

@@ -90,6 +90,11 @@ impl<'a> Way<'a> {
         Ok(way)
     }
 
+    /// How far the tangent is ahead of the blade where that plunges as a chord, rad.
+    pub(in crate::plan) fn lead(&self) -> f64 {
+        self.fade.as_ref().map_or(0.0, Fade::lead)
+    }
+
     /// Moves the start to the first point at distance `width` from the curve's own start, and remembers how far the
     /// tangent there is ahead of the chord.
     fn enter_as_chord(&mut self, width: f64) {

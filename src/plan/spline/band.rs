@@ -5,7 +5,7 @@
 //! everywhere else it is the plain neighbourhood of the chord.
 
 use super::lap::Lap;
-use crate::geom::{Point, Vector, left, polyline};
+use crate::geom::{Point, Vector, left, polyline, spline};
 use crate::machine::MachineProfile;
 use crate::machine::profile::Fit;
 
@@ -81,6 +81,12 @@ impl ToleranceBand {
         band
     }
 
+    /// How far the curve that a chord stands for turns from it at the ends, by its sagitta, rad: a parabola's 4 h / L.
+    pub(in crate::plan) fn bow_at(&self, station: f64) -> f64 {
+        let chord = spline::span(&self.stations, station);
+        4.0 * self.sagittas[chord].norm() / (self.stations[chord + 1] - self.stations[chord])
+    }
+
     /// Length of the polyline, mm.
     pub(super) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
@@ -89,7 +95,7 @@ impl ToleranceBand {
     /// The chord on which station `u` lies.
     #[cfg(test)]
     pub(super) fn chord(&self, u: f64) -> usize {
-        crate::geom::spline::span(&self.stations, u)
+        spline::span(&self.stations, u)
     }
 
     /// What counts as on the path at station `u`: with x the fraction of the chord, the arc stands 4 x (1 - x) of the
