@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::files;
-use super::finished::say;
+use super::finished::{failure, say};
 use super::options::{file_name, typed};
 use super::report::pretty;
 use crate::back::{Proof, TARGETS};
@@ -151,9 +151,27 @@ fn told(program: &Path, key: &str) -> Option<String> {
 }
 
 /// What a program says in its provenance that it does beside the drawing; `None` when that says nothing of it.
-pub(super) fn declared(meta: &Path) -> Option<Vec<Declaration>> {
-    let meta: serde_json::Value = serde_json::from_slice(&fs::read(meta).ok()?).ok()?;
-    serde_json::from_value(meta.get("declared")?.clone()).ok()
+///
+/// # Errors
+///
+/// The provenance is no JSON, what it declares cannot be read, or a magnitude is no length.
+pub(super) fn declared(path: &Path) -> anyhow::Result<Option<Vec<Declaration>>> {
+    let Ok(bytes) = fs::read(path) else { return Ok(None) };
+    let path = path.display();
+    let hint = "take back the file that was written with the program, or compile it anew";
+    let meta: serde_json::Value = serde_json::from_slice(&bytes)
+        .map_err(|_| failure(format!("`{path}` is no JSON: nobody knows what the program was made from"), hint))?;
+    let Some(told) = meta.get("declared") else { return Ok(None) };
+    let told: Vec<Declaration> = serde_json::from_value(told.clone())
+        .map_err(|error| failure(format!("what the program declares cannot be read: {error}, in `{path}`"), hint))?;
+    let is_length = |mm: f64| mm.is_finite() && mm >= 0.0;
+    match told.iter().find(|entry| !is_length(entry.magnitude_mm)) {
+        None => Ok(Some(told)),
+        Some(entry) => {
+            let magnitude = entry.magnitude_mm;
+            Err(failure(format!("the program declares a magnitude of {magnitude} mm, in `{path}`"), hint))
+        }
+    }
 }
 
 /// What the provenance of a program, if there is one, says against judging it by this source and profile: warnings.
@@ -161,10 +179,7 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
     let mut said = String::new();
     let Ok(bytes) = fs::read(path) else { return said };
     let path = path.display();
-    let Ok(meta) = serde_json::from_slice::<serde_json::Value>(&bytes) else {
-        say(&mut said, format_args!("warning: `{path}` is no JSON: nobody knows what the program was made from"));
-        return said;
-    };
+    let Ok(meta) = serde_json::from_slice::<serde_json::Value>(&bytes) else { return said };
     let differs = |key: &str, digest: &str| meta[key].as_str().is_some_and(|told| told != digest);
     if fs::File::open(program).and_then(blake3_of).is_ok_and(|digest| differs("program_blake3", &digest)) {
         say(
@@ -172,15 +187,6 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
             format_args!(
                 "warning: the program is not the one that was compiled: its bytes are others\n  --> {path}\n  \
                  = hint: it was edited by hand or sent on changed; what the file beside it declares is applied all the same"
-            ),
-        );
-    }
-    if meta.get("declared").is_some_and(|told| serde_json::from_value::<Vec<Declaration>>(told.clone()).is_err()) {
-        say(
-            &mut said,
-            format_args!(
-                "warning: what the program declares cannot be read\n  --> {path}\n  \
-                 = hint: it is held to the bounds that hold for every program (`cutc manual verification`)"
             ),
         );
     }

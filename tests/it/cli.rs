@@ -474,8 +474,23 @@ fn a_program_is_judged_by_the_source_and_profile_it_was_made_from() {
     let slower = "verify circle.csv --source circle.cut --set axes.x.speed_mm_s=10";
     let (stdout, stderr) = room.expect(slower, FAULTY);
     assert!(stdout.contains("FAIL  verify/speed-x") && stderr.contains("another machine profile"), "{stdout}{stderr}");
+    let told = String::from_utf8(room.read("circle.csv.meta.json")).expect("text");
+    let entry = |magnitude: &str| {
+        format!(r#"{{"kind": "lift", "cut": 0, "from_mm": 1, "to_mm": 1, "magnitude_mm": {magnitude}}}"#)
+    };
+    for (declared, said) in [
+        ("[1]".to_owned(), "cannot be read"),
+        (format!("[{}]", entry("\"much\"")), "cannot be read"),
+        (format!("[{}]", entry("-1")), "declares a magnitude of -1 mm"),
+    ] {
+        let mut meta: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+        meta["declared"] = serde_json::from_str(&declared).expect("JSON");
+        room.write("circle.csv.meta.json", meta.to_string().as_bytes());
+        let (_, stderr) = room.expect("verify circle.csv --source circle.cut", FAULTY);
+        assert!(stderr.contains(said), "{declared}: {stderr}");
+    }
     room.write("circle.csv.meta.json", b"{");
-    let (_, stderr) = room.expect("verify circle.csv --source circle.cut", DONE);
+    let (_, stderr) = room.expect("verify circle.csv --source circle.cut", FAULTY);
     assert!(stderr.contains("is no JSON"), "{stderr}");
 }
 

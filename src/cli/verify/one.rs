@@ -77,7 +77,10 @@ impl Arguments {
         let Program { path, file } = program;
         let mut diagnostics = Diagnostics::default();
         let meta = self.meta.clone().unwrap_or_else(|| files::meta(path));
-        let declared = provenance::declared(&meta).map(Declared::new);
+        let declared = match provenance::declared(&meta) {
+            Ok(declared) => declared.map(Declared::new),
+            Err(fault) => return Ok(Judged { verdict: None, said: format!("error: {fault:#}\n") }),
+        };
         let verdict =
             pipeline::judge_program(file, source, self.reading.from, job, declared.as_ref(), &mut diagnostics)
                 .map_err(|error| cannot_read(path, &error))?;

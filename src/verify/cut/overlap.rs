@@ -3,6 +3,7 @@
 use super::body::Cut;
 use super::stroke::Judge;
 use super::trial::Trial;
+use crate::geom::{Point, polyline};
 use crate::ir::declaration::Kind;
 use crate::ir::finding::Sighting;
 use crate::verify::worst::Worst;
@@ -20,10 +21,19 @@ impl Judge<'_> {
         let line = &self.reference.lines[trial.line];
         // Within the tolerance of both its ends a line shows neither.
         let is_short = line.length() <= 2.0 * self.tracer.allowed;
-        if trial.laps || line.ring || line.cut.is_bare || is_short {
+        if line.cut.is_bare || is_short {
             return;
         }
         let knife = self.knife;
+        if trial.laps {
+            let missing = knife.front_overlap_mm.min(line.length()) - lapped(cut, line.length());
+            if missing > self.tracer.allowed {
+                overlap.see(missing, || seen(cut.points.len() - 1));
+            }
+        }
+        if trial.laps || line.ring {
+            return;
+        }
         let asked = [
             knife.heel_overlap_mm.min(knife.corner_heel_overlap_mm),
             knife.front_overlap_mm.min(knife.corner_front_overlap_mm),
@@ -47,11 +57,13 @@ impl Judge<'_> {
                 (line.point(line.chords()), line.direction(line.chords() - 1))
             };
             let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, line, [station; 2]));
+            // The heel of a blade that plunges on a curve would leave that.
+            let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
+            let has_cause = is_curved || self.has_neighbour(end, asked[i] + knife.clearance_mm);
+            let told = if has_cause { told } else { 0.0 };
             // So near to an end of its line a cut may also be lifted, or begin, amid that.
             let is_lift = self.tracer.declared.is_some_and(|told| told.has(Kind::Lift, line, [station; 2]));
             let is_told = is_lift || self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
-            // The heel of a blade that plunges on a curve would leave that.
-            let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
             let may = is_told
                 || is_curved && self.tracer.declared.is_none()
                 || self.overcut.leads_into_part([end, end + along * (asked[i] + knife.clearance_mm)]);
@@ -60,4 +72,33 @@ impl Judge<'_> {
             }
         }
     }
+
+    /// Whether anything but what meets there is drawn so near to the end of a line, mm, that it may be in the way of an
+    /// overlap.
+    fn has_neighbour(&self, end: Point, reach: f64) -> bool {
+        let reach = reach + self.tracer.allowed + self.reference.band;
+        let meets = |ends: [Point; 2]| ends.iter().any(|at| (at - end).norm() <= self.tracer.allowed);
+        let is_near = |line: usize, chord: usize| {
+            let ends = self.reference.lines[line].ends(chord);
+            !meets(ends) && polyline::distance_to_segment(end, ends[0], ends[1]) <= reach
+        };
+        let near = self.tracer.grid.near(end, reach);
+        near.into_iter().any(|run| run.chords().any(|chord| is_near(run.line(), chord)))
+    }
+}
+
+/// How far the tip goes on over its own start once it has gone round a ring of that length, mm.
+fn lapped(cut: &Cut, length: f64) -> f64 {
+    let (start, last) = (cut.points[cut.body], cut.points.len() - 1);
+    let end = cut.stations[last];
+    let on_way = |k: usize| {
+        let [from, to] = [cut.points[k], cut.points[k + 1]];
+        let share = polyline::foot(start, from, to).clamp(0.0, 1.0);
+        let station = cut.stations[k] + (cut.stations[k + 1] - cut.stations[k]) * share;
+        ((from + (to - from) * share - start).norm(), station)
+    };
+    // The second half of the way round.
+    let behind = (cut.body..last).rev().take_while(|&k| cut.stations[k] - cut.stations[cut.body] >= length / 2.0);
+    let nearest = behind.map(on_way).min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.map_or(0.0, |(_, station)| end - station)
 }

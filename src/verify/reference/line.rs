@@ -185,7 +185,7 @@ impl<'a> Line<'a> {
     }
 
     /// The two ends of a chord.
-    fn ends(&self, chord: usize) -> [Point; 2] {
+    pub(in crate::verify) fn ends(&self, chord: usize) -> [Point; 2] {
         let [from, to] = self.points[chord..chord + 2] else { unreachable!("a chord has two ends") };
         [from, to]
     }

@@ -2,6 +2,7 @@
 //! limits of the machine, so that nothing else refuses it.
 
 mod nibbles;
+mod overlaps;
 mod program;
 
 use std::f64::consts::TAU;
