@@ -5,6 +5,9 @@ const SHOWN: usize = 8;
 
 /// Pieces by their numbers, in a few words: `piece 4`, `pieces 1, 3`, and of many the first and how many more there are.
 pub fn listed(numbers: &[u32]) -> String {
+    if numbers.is_empty() {
+        return "no piece".to_owned();
+    }
     let shown: Vec<String> = numbers.iter().take(SHOWN).map(u32::to_string).collect();
     let noun = if numbers.len() == 1 { "piece" } else { "pieces" };
     match numbers.len().saturating_sub(SHOWN) {
@@ -19,6 +22,7 @@ mod tests {
 
     #[test]
     fn many_pieces_are_counted() {
+        assert_eq!(listed(&[]), "no piece");
         assert_eq!(listed(&[4]), "piece 4");
         assert_eq!(listed(&[1, 3]), "pieces 1, 3");
         let all: Vec<u32> = (1..=10).collect();

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
 use crate::ir::marker::Notch;
+use crate::machine::patterns::Dxf;
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -15,8 +16,10 @@ const DECIMALS: u32 = 1;
 pub(super) enum Reason {
     /// Too far from all outlines.
     OffEdge,
-    /// Deeper than notches are, or than the part is there.
+    /// Deeper than notches are.
     TooDeep,
+    /// Deeper than the part is there.
+    LeavesPart,
     /// In the mouth of another one, or at the place of one of another kind.
     InAnother,
     /// Cut as a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar that leaves the part.
@@ -36,7 +39,7 @@ impl Doubt {
     /// Whether the notch is left out.
     pub(super) fn leaves_out(&self) -> bool {
         match self.reason {
-            Reason::OffEdge | Reason::TooDeep | Reason::InAnother => true,
+            Reason::OffEdge | Reason::TooDeep | Reason::LeavesPart | Reason::InAnother => true,
             Reason::AsSlit => false,
         }
     }
@@ -75,17 +78,22 @@ fn words(reason: Reason, notches: &str, mm: &str, is_one: bool) -> Words {
     let (code, message, hint) = match reason {
         Reason::OffEdge => (
             &code::DXF_NOTCH_LEFT_OUT,
-            format!("{notches} {} {mm} mm from the outline: not cut", verb("lies", "lie up to")),
+            format!(
+                "{notches} {} {mm} mm from the outline, more than {} mm: not cut",
+                verb("lies", "lie up to"),
+                Dxf::NOTCH_OFF
+            ),
             "it may mark a seam line: cut it by hand if it is missing",
         ),
         Reason::TooDeep => (
             &code::DXF_NOTCH_LEFT_OUT,
-            format!(
-                "{notches} {} {mm} mm deep, more than {} mm or than the part is there: not cut",
-                verb("is", "are up to"),
-                Notch::LONGEST
-            ),
+            format!("{notches} {} {mm} mm deep, more than {} mm: not cut", verb("is", "are up to"), Notch::LONGEST),
             "look at the depth (group 30) and at the unit of the file",
+        ),
+        Reason::LeavesPart => (
+            &code::DXF_NOTCH_LEFT_OUT,
+            format!("{notches} {} {mm} mm deep and would leave the part: not cut", verb("is", "are up to")),
+            "look at the depth (group 30) and at the place of the notch",
         ),
         Reason::InAnother => (
             &code::DXF_NOTCH_LEFT_OUT,

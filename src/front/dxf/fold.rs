@@ -7,7 +7,8 @@ use crate::ir::drawing::Vertex;
 /// Vertices of a chain from fold to fold that has an inside.
 const LEAST_HALF: usize = 3;
 
-/// Least share of one side of a whole piece in the other: less of it is no second half, but a fold line beside its edge.
+/// Least ratio of the narrower side to the wider one, beside the fold of a whole piece. Below it the fold line was meant to
+/// lie on the edge.
 const LEAST_SIDE: f64 = 0.1;
 
 /// A fold line.
@@ -41,7 +42,7 @@ impl Axis {
 pub(super) enum Refusal {
     /// It lies on both sides: both halves are drawn.
     Across,
-    /// It lies on both sides, on one of them hardly.
+    /// It lies on both sides, but less than [`LEAST_SIDE`] of it on one.
     Lopsided,
     /// Not one of its edges lies on the fold.
     Beside,

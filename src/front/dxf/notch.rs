@@ -15,7 +15,7 @@ use crate::source::Span;
 /// Distance to both sides of a notch between which the direction of the edge is taken, mm.
 const BESIDE: f64 = 1.0;
 /// Least and largest width, and least depth, of a notch in the outline, mm: others become slits.
-pub(super) const MOUTHS: [f64; 2] = [1.0, 12.0];
+pub(super) const MOUTHS: [f64; 2] = [1.0, Notch::WIDEST];
 pub(super) const LEAST_DEPTH: f64 = 1.5;
 /// Least length of a mouth, as a part of the edge that it is cut into: there the edge bends by a third of a right angle.
 const STRAIGHT: f64 = 0.98;
@@ -196,7 +196,7 @@ impl<'a> Edge<'a> {
         let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
         let placed = Site { mark: *mark, station, root, inwards };
         let is_inside = ring::contains(&self.points[..self.vertices.len()], placed.tip());
-        if is_inside { Ok(placed) } else { Err((Reason::TooDeep, mark.depth)) }
+        if is_inside { Ok(placed) } else { Err((Reason::LeavesPart, mark.depth)) }
     }
 
     /// Whether the crossbar of a T has the width of crossbars, and stays in the part.

@@ -26,7 +26,7 @@ pub(super) struct Tour {
 }
 
 impl Tour {
-    /// Along a line and back.
+    /// Tour along a line and back.
     pub(super) fn along(vertices: &[Vertex]) -> Self {
         let last = vertices.len() - 1;
         let way = vertices[1..].iter().chain(vertices[1..last].iter().rev()).copied();
@@ -41,6 +41,17 @@ enum Step {
     /// A line from one of its ends on, and all that stands off its other end.
     Out(End),
     Back(Vec<Vertex>),
+}
+
+/// Line that is reached from a free end of its tree.
+#[derive(Debug, Clone, Copy)]
+struct Reached {
+    /// Its end by which it is reached.
+    end: End,
+    /// Place of the line before it among those that are reached.
+    from: Option<usize>,
+    /// Distance of its other end, mm along the lines.
+    far: f64,
 }
 
 /// Open lines as edges between the places where their ends meet.
@@ -217,16 +228,16 @@ impl<'a> Graph<'a> {
 
     /// The free end that is farthest along a tree from another one, and the lines that lead there.
     fn longest(&self, tip: End) -> (End, Vec<usize>) {
-        // Each line that is reached: by which of its ends, from which other one, and how far its other end is, mm.
-        let mut reached: Vec<(End, Option<usize>, f64)> = Vec::new();
-        let mut next: Vec<(End, Option<usize>, f64)> = vec![(tip, None, 0.0)];
-        while let Some((end, from, before)) = next.pop() {
-            let far = before + polyline::length(&self.lines[end / 2].points());
-            reached.push((end, from, far));
-            next.extend(self.others(end ^ 1).map(|other| (other, Some(reached.len() - 1), far)));
+        let mut reached: Vec<Reached> = Vec::new();
+        let mut next = vec![Reached { end: tip, from: None, far: 0.0 }];
+        while let Some(Reached { end, from, far }) = next.pop() {
+            let far = far + polyline::length(&self.lines[end / 2].points());
+            reached.push(Reached { end, from, far });
+            let from = Some(reached.len() - 1);
+            next.extend(self.others(end ^ 1).map(|end| Reached { end, from, far }));
         }
-        let last = (0..reached.len()).max_by(|&a, &b| reached[a].2.total_cmp(&reached[b].2));
-        let lines = std::iter::successors(last, |&k| reached[k].1).map(|k| reached[k].0 / 2);
-        (last.map_or(tip, |k| reached[k].0 ^ 1), lines.collect())
+        let last = (0..reached.len()).max_by(|&a, &b| reached[a].far.total_cmp(&reached[b].far));
+        let lines = std::iter::successors(last, |&k| reached[k].from).map(|k| reached[k].end / 2);
+        (last.map_or(tip, |k| reached[k].end ^ 1), lines.collect())
     }
 }

@@ -230,7 +230,7 @@ impl Lowering<'_> {
                 }
             }
             Instruction::Display => {
-                if self.reader.display().1 {
+                if self.reader.display() {
                     self.tally.open_label(span);
                 }
             }

@@ -207,15 +207,15 @@ impl<'a> Reader<'a> {
         self.at = label::quoted(self.bytes, self.at);
     }
 
-    /// WD: the place of its text, and whether its terminator is missing. Programs write it in quotes, or as that of a label.
-    pub(super) fn display(&mut self) -> (Span, bool) {
-        let start = self.at;
-        match label::in_quotes(self.bytes, start) {
+    /// Passes over the text of WD, which programs write in quotes, or as that of a label. Returns whether its terminator is
+    /// missing.
+    pub(super) fn display(&mut self) -> bool {
+        match label::in_quotes(self.bytes, self.at) {
             Some(next) if self.bytes.get(next).is_none_or(|byte| b";\r\n\x03".contains(byte)) => {
                 self.at = next;
-                (self.span(start), false)
+                false
             }
-            Some(_) | None => self.text(),
+            Some(_) | None => self.text().1,
         }
     }
 

@@ -26,7 +26,10 @@ impl Judge<'_> {
         }
         let knife = self.knife;
         if trial.laps {
-            let missing = knife.front_overlap_mm.min(line.length()) - lapped(cut, line.length());
+            // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.
+            let [start, end] = trial.reach;
+            let lapped = lapped(cut, line.length()).max((end - start).abs() - line.length());
+            let missing = knife.front_overlap_mm.min(line.length()) - lapped;
             if missing > self.tracer.allowed {
                 overlap.see(missing, || seen(cut.points.len() - 1));
             }

@@ -12,7 +12,7 @@ use crate::ir::marker::{Notch, NotchForm};
 const V_MOUTH: [f64; 2] = [1.0, Notch::WIDEST];
 const MOUTH: [f64; 2] = [1.5, Notch::WIDEST];
 /// Depth, mm.
-const DEPTH: [f64; 2] = [1.5, 15.0];
+const DEPTH: [f64; 2] = [1.5, Notch::LONGEST];
 /// How much longer than the other a leg of a V may be.
 const LEG_RATIO: f64 = 1.25;
 /// Tangent of how far the axis of a V or castle may lean from the square to its mouth: 60 degrees, as in the notches of

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::{Bend, Bow, lent};
 use super::cuts::{Cuts, Mark, Place};
-use super::left_out::wrongly;
+use super::left_out::wrong_count;
 use super::lines::{MEETS, Measure, Round, paths};
 use super::lookup::Lookup;
 use super::places::CutPlaces;
@@ -86,12 +86,12 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
     // Somebody must have asked for pieces to be left out.
     let mut cloths = Vec::new();
     if let Some((mut placed, off)) = placed {
-        placed.faults += wrongly(sheets.inserted(), &sheets.blocks, read, &job.selection);
+        placed.faults += wrong_count(sheets.inserted(), &sheets.blocks, read, &job.selection);
         cloths.push((placed, off));
     }
     if is_in_a_row {
         let (mut laid, off) = sheets.in_a_row(&row, job);
-        laid.faults += wrongly(sheets.one_behind_the_other(job), &sheets.blocks, read, &job.selection);
+        laid.faults += wrong_count(sheets.one_behind_the_other(job), &sheets.blocks, read, &job.selection);
         cloths.push((laid, off));
     }
     cloths

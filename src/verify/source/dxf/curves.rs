@@ -178,28 +178,28 @@ fn free_ends(paths: &[Path]) -> Vec<(usize, Point)> {
     ends.iter().filter(|(_, at)| lookup.near(*at).nth(1).is_none()).copied().collect()
 }
 
-/// Which lines stand off others that belong to them: those that are left over where a ring remains once lines with a free end
-/// are taken away, again and again.
+/// Lines that stand off others that belong to them: those that are taken away, again and again, as lines with a free end, where
+/// a ring remains.
 pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
     let ends = open_ends(paths);
     let lookup = Lookup::of(ends.iter().map(|end| end.1), MEETS);
     let mut is_twig = vec![false; paths.len()];
     // The ends that rely on each end: they are free once its line is gone, unless they find another.
-    let mut held: Vec<Vec<usize>> = vec![Vec::new(); ends.len()];
-    let mut asked: Vec<usize> = (0..ends.len()).collect();
-    while let Some(end) = asked.pop() {
+    let mut dependents: Vec<Vec<usize>> = vec![Vec::new(); ends.len()];
+    let mut queue: Vec<usize> = (0..ends.len()).collect();
+    while let Some(end) = queue.pop() {
         let (path, at) = ends[end];
         if is_twig[path] {
             continue;
         }
         let holder = lookup.near(at).find(|&other| other != end && !is_twig[ends[other].0]);
         if let Some(other) = holder {
-            held[other].push(end);
+            dependents[other].push(end);
             continue;
         }
         is_twig[path] = true;
         for own in [end & !1, end | 1] {
-            asked.append(&mut held[own]);
+            queue.append(&mut dependents[own]);
         }
     }
     if is_twig.iter().all(|&is_twig| is_twig) { vec![false; paths.len()] } else { is_twig }
@@ -274,7 +274,7 @@ pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[V
 mod tests {
     use super::*;
 
-    /// The same by its definition: round by round.
+    /// Twigs by their definition, found round by round: reference for the test.
     fn by_rounds(paths: &[Path]) -> Vec<bool> {
         let mut left: Vec<usize> = (0..paths.len()).collect();
         loop {

@@ -1,13 +1,13 @@
 //! Blocks that are left out: each piece of them must have a number that the selection of the job leaves out. The numbers are
 //! counted here, in the order in which the file lays its blocks.
 
-use super::places::{CutPlaces, PieceRead};
+use super::places::{CutPlaces, SourcePiece};
 use super::tags::Sheet;
 use crate::machine::Selection;
 
-/// How many pieces are left out that the selection has, or that are not where the file lays their blocks: `order` names the
-/// block of each piece, once for each time that it is laid.
-pub(super) fn wrongly(
+/// Number of pieces that are left out without cause: the selection has them, or the file lays their block elsewhere. `order`
+/// gives the block of each laid piece.
+pub(super) fn wrong_count(
     order: impl Iterator<Item = usize>,
     blocks: &[Sheet],
     read: &CutPlaces,
@@ -20,7 +20,7 @@ pub(super) fn wrongly(
         let (first, behind) = (blocks[k].number, blocks.get(k + 1).map_or(u32::MAX, |next| next.number));
         if is_left_out(&blocks[k]) {
             // A block that cannot be cut is one piece.
-            let is_left = |(piece, number): &(&PieceRead, u32)| {
+            let is_left = |(piece, number): &(&SourcePiece, u32)| {
                 piece.is_bare && piece.block == first && piece.number == *number && !selection.has(*number)
             };
             wrong += usize::from(pieces.next_if(is_left).is_none());

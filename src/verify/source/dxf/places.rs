@@ -15,13 +15,13 @@ pub struct CutPlaces {
     /// Blocks whose pieces cannot be cut and are left out.
     pub(super) blocks_left_out: Vec<u32>,
     /// The pieces in their order.
-    pub(super) pieces: Vec<PieceRead>,
+    pub(super) pieces: Vec<SourcePiece>,
 }
 
-/// A piece as it was read.
+/// Piece as it was read.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PieceRead {
-    /// By which it is selected.
+pub(super) struct SourcePiece {
+    /// Number by which the selection names it.
     pub(super) number: u32,
     pub(super) block: u32,
     /// Whether nothing of it is cut.
@@ -40,7 +40,7 @@ impl CutPlaces {
             }
             line
         };
-        let piece = |piece: &Piece| PieceRead {
+        let piece = |piece: &Piece| SourcePiece {
             number: piece.number,
             block: piece.span.block,
             is_bare: piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty(),
