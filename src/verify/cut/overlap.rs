@@ -30,8 +30,9 @@ impl Judge<'_> {
             let [start, end] = trial.reach;
             let lapped = lapped(cut, line.length()).max((end - start).abs() - line.length());
             let missing = knife.front_overlap_mm.min(line.length()) - lapped;
-            if missing > self.tracer.allowed {
-                overlap.see(missing, || seen(cut.points.len() - 1));
+            // Its start and its end may both be off along it.
+            if missing > 2.0 * self.tracer.allowed {
+                overlap.see(missing - self.tracer.allowed, || seen(cut.points.len() - 1));
             }
         }
         if trial.laps || line.ring {
