@@ -126,6 +126,7 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
 
     /// The curve from one parameter to a greater one, which become 0 and their distance. Spans shorter than
     /// [`SLICE_EPSILON`] at its ends join their neighbours.
+    #[must_use]
     pub fn slice(&self, [from, to]: [f64; 2]) -> Self {
         let inner = |at: &f64| *at > from + SLICE_EPSILON && *at < to - SLICE_EPSILON;
         let first = self.breaks.partition_point(|&at| at <= from + SLICE_EPSILON).clamp(1, self.pieces.len()) - 1;
