@@ -87,8 +87,9 @@ pub(super) struct Reading {
 struct Plotted {
     /// The pens that are knives, as in `--cut-pens 4`; what others draw is not cut, but for notches on cut edges
     ///
-    /// Cuts their outermost closed lines and the closed lines inside these that are no seam lines. Overrides `hpgl.pens` of
-    /// the profile, but for pens that it ignores. `cutc info` and `-t svg` show what lines were taken for.
+    /// Cuts their outermost closed lines and the closed lines inside these that are no seam lines. Overrides
+    /// `hpgl.pens` of the profile, but for pens that it ignores. `cutc info` and `-t svg` show what lines were taken
+    /// for.
     #[arg(long, value_name = "NUMBERS", value_parser = pens)]
     cut_pens: Option<Numbers>,
 
@@ -98,7 +99,7 @@ struct Plotted {
     #[arg(long, value_name = "LINES", value_enum)]
     inner: Option<choices::Inner>,
 
-    /// Cut every line but a frame, letters and seam lines too; with --cut-pens every line of these pens
+    /// Cut every line, letters and seam lines too, but no frame; with --cut-pens only the lines of these pens
     #[arg(long)]
     cut_all: bool,
 }
@@ -174,9 +175,9 @@ pub(super) struct Choice {
 
     /// Follow cloth that wanders on its conveyor: the line of its centre, as `cutc track -t centre` writes it
     ///
-    /// Every place is moved across by as much as the centre of the cloth is off the middle when the conveyor is at its X; lines
-    /// are parted so that they follow within a part of the tolerance. `cutc flow` has the front of the marker come first
-    /// (`flow.rulers_mm`).
+    /// Every place is moved across by as much as the centre of the cloth is off the middle when the conveyor is at its
+    /// X; lines are parted so that they follow within a part of the tolerance. `cutc flow` has the front of the marker
+    /// come first (`flow.rulers_mm`).
     #[arg(long, value_name = "FILE")]
     centre: Option<PathBuf>,
 }

@@ -1,58 +1,126 @@
 //! Bridges: short straight lines between the strokes of an outline that nearly meet.
 //!
-//! Ends up to `drawing.close_mm` apart that have no other end near them are bridged where the strokes then go around something
-//! and come back. A dashed line has more gap than that, and stays as it is.
+//! Ends up to `drawing.close_mm` apart, each the nearest of the other, are bridged where the strokes then go around
+//! something and come back. A dashed line has more gap than that, and stays as it is. Where another line begins beside
+//! a bridge and leads inwards, the ring may be that of two outlines together, and stays open.
 
-use super::chains::{Chains, End, place};
+use super::chains::{Chains, End, other, place};
 use super::line::SMALL_OUTLINE;
-use crate::geom::{Extent, polyline};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Drawing;
+use crate::ir::marker::Notch;
 
 /// Share of an outline that its bridges take at the most: the gaps of dashed lines take a fifth and more.
 const MOST_BRIDGED: f64 = 0.05;
+/// Ends near one that are compared: more are the middle of a star.
+const MOST_ENDS: usize = 64;
+/// Distances that differ by less are equal, mm: less than any unit of a file.
+const EQUAL_EPSILON: f64 = 1e-6;
 
-/// Bridges among pairs of ends of chains that have no other end near them.
-pub(super) fn find(drawing: &Drawing, chains: &Chains, pairs: &[[End; 2]]) -> Vec<[End; 2]> {
-    let mut across = vec![None; chains.links.len()];
-    for &[a, b] in pairs.iter().filter(|[a, b]| chains.far(*a) != *b) {
-        (across[a], across[b]) = (Some(b), Some(a));
-    }
-    let mut found = Vec::new();
-    let mut seen = vec![false; across.len()];
-    for &end in pairs.iter().flatten() {
-        let ring = ring(end, chains, &across, &mut seen);
-        found.extend(ring.filter(|ring| goes_around(drawing, chains, ring)).into_iter().flatten());
-    }
-    found
+/// Ends of strokes that nothing continues, and how far apart bridges may lead.
+pub(super) struct Gaps<'a> {
+    pub(super) drawing: &'a Drawing,
+    pub(super) chains: &'a Chains,
+    /// In ascending order.
+    pub(super) ends: &'a [End],
+    /// Longest bridge, mm.
+    pub(super) close: f64,
 }
 
-/// The bridges of the ring that leads on from an end, if one does: each from an end to the one across from it.
-fn ring(first: End, chains: &Chains, across: &[Option<End>], seen: &mut [bool]) -> Option<Vec<[End; 2]>> {
-    let mut bridges = Vec::new();
-    let mut at = first;
-    loop {
-        let next = across[at].filter(|_| !std::mem::replace(&mut seen[at], true))?;
-        seen[next] = true;
-        bridges.push([at, next]);
-        at = chains.far(next);
-        if at == first {
-            return Some(bridges);
+impl Gaps<'_> {
+    /// The bridges, each from an end to another.
+    pub(super) fn bridges(&self) -> Vec<[End; 2]> {
+        let at = |end: &End| place(self.drawing, *end);
+        let boxes = Boxes::new(self.ends.iter().map(|end| Extent::between(at(end), at(end))).collect());
+        let nearest: Vec<Option<usize>> = (0..self.ends.len()).map(|k| self.nearest(k, &boxes)).collect();
+        let mut across = vec![None; self.chains.links.len()];
+        for (k, near) in nearest.iter().enumerate() {
+            if let Some(near) = near.filter(|&near| nearest[near] == Some(k))
+                && self.chains.far(self.ends[k]) != self.ends[near]
+            {
+                across[self.ends[k]] = Some(self.ends[near]);
+            }
         }
+        let mut found = Vec::new();
+        let mut seen = vec![false; across.len()];
+        for &end in self.ends {
+            if let Some(ring) = self.ring(end, &across, &mut seen).filter(|ring| self.goes_around(ring, &boxes)) {
+                found.extend(ring);
+            }
+        }
+        found
     }
-}
 
-/// Whether a ring is as large as an outline, and drawn for the most part.
-fn goes_around(drawing: &Drawing, chains: &Chains, bridges: &[[End; 2]]) -> bool {
-    let (mut extent, mut drawn, mut bridged) = (Extent::EMPTY, 0.0, 0.0);
-    for &[from, to] in bridges {
-        bridged += (place(drawing, from) - place(drawing, to)).norm();
-        for stroke in chains.from(to) {
-            let places = &drawing.vertices[drawing.strokes[stroke / 2].range()];
-            let points: Vec<_> = places.iter().map(|vertex| vertex.at).collect();
-            extent.join(&Extent::of(&points));
-            drawn += polyline::length(&points);
+    /// The ends within reach of one, of the same pen and of other strokes, by their places among the ends.
+    fn near<'b>(&'b self, k: usize, boxes: &'b Boxes) -> impl Iterator<Item = (f64, usize)> + 'b {
+        let pen = |end: End| self.drawing.strokes[end / 2].pen;
+        let (end, at) = (self.ends[k], place(self.drawing, self.ends[k]));
+        let reach = Extent::between(at, at).grown(self.close);
+        let is_few = boxes.cost_near(&reach) <= MOST_ENDS;
+        let near = is_few.then(|| boxes.near(reach)).into_iter().flatten();
+        let others = near.filter(move |&near| {
+            self.ends[near] != end && self.ends[near] != other(end) && pen(self.ends[near]) == pen(end)
+        });
+        let apart = others.map(move |near| ((place(self.drawing, self.ends[near]) - at).norm(), near));
+        apart.filter(|(distance, _)| *distance <= self.close)
+    }
+
+    /// The end that is nearer to one than all others.
+    fn nearest(&self, k: usize, boxes: &Boxes) -> Option<usize> {
+        let (distance, nearest) = self.near(k, boxes).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let is_other = |(apart, near): (f64, usize)| near != nearest && apart <= distance + EQUAL_EPSILON;
+        (!self.near(k, boxes).any(is_other)).then_some(nearest)
+    }
+
+    /// The bridges of the ring that leads on from an end, if one does and none of it was seen before.
+    fn ring(&self, first: End, across: &[Option<End>], seen: &mut [bool]) -> Option<Vec<[End; 2]>> {
+        let mut bridges = Vec::new();
+        let mut at = first;
+        loop {
+            let next = across[at]?;
+            if seen[at] {
+                return None;
+            }
+            (seen[at], seen[next]) = (true, true);
+            bridges.push([at, next]);
+            at = self.chains.far(next);
+            if at == first {
+                return Some(bridges);
+            }
         }
     }
-    let (width, height) = extent.size();
-    width.max(height) > SMALL_OUTLINE && bridged <= MOST_BRIDGED * drawn
+
+    /// Whether a ring is as large as an outline, drawn for the most part, and one outline alone.
+    fn goes_around(&self, bridges: &[[End; 2]], boxes: &Boxes) -> bool {
+        let (mut places, mut bridged) = (Vec::new(), 0.0);
+        for &[from, to] in bridges {
+            bridged += (place(self.drawing, from) - place(self.drawing, to)).norm();
+            self.chains.from(to).for_each(|end| places.extend(self.places(end)));
+        }
+        let drawn = polyline::length(&places) - bridged;
+        let (width, height) = Extent::of(&places).size();
+        if width.max(height) <= SMALL_OUTLINE || bridged > MOST_BRIDGED * drawn {
+            return false;
+        }
+        places.extend(places.first().copied());
+        let mut own: Vec<End> = bridges.iter().flatten().copied().collect();
+        own.sort_unstable();
+        let in_ring = |end: End| own.binary_search(&end).is_ok();
+        let leads_in = |k: usize| {
+            let end = self.ends[k];
+            let is_long = || polyline::length(&self.places(end)) > Notch::LONGEST;
+            !in_ring(end) && is_long() && ring::contains(&places, place(self.drawing, end))
+        };
+        let index = |end: End| self.ends.binary_search(&end).ok();
+        let near = bridges.iter().flatten().filter_map(|&end| index(end)).flat_map(|k| self.near(k, boxes));
+        !near.into_iter().any(|(_, k)| leads_in(k))
+    }
+
+    /// The places of a stroke from an end on.
+    fn places(&self, end: End) -> Vec<Point> {
+        let stroke = &self.drawing.vertices[self.drawing.strokes[end / 2].range()];
+        let places = stroke.iter().map(|vertex| vertex.at);
+        if end.is_multiple_of(2) { places.collect() } else { places.rev().collect() }
+    }
 }

@@ -20,9 +20,9 @@ pub(super) fn place(drawing: &Drawing, end: End) -> Point {
 /// Links between the ends of strokes, and the chains that they make.
 #[derive(Debug)]
 pub(super) struct Chains {
-    /// Of each end the one that continues it.
+    /// The end that continues each end, where one does.
     pub(super) links: Vec<Option<End>>,
-    /// Of each end of a chain of linked strokes the other one.
+    /// The other end of the chain, for each end of a chain of linked strokes; of no use for other ends.
     far: Vec<End>,
 }
 

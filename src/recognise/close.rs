@@ -1,20 +1,19 @@
-//! Lines that close in another way than by their last place: they run past their start or go round again, they stop a little
-//! before it, or they end at the edge of the cloth, which only the frame draws.
+//! Lines that close in another way than by their last place: they run past their start or go round again, they stop a
+//! little before it, or they end at the edge of the cloth, which only the frame draws.
 //!
-//! A line with a wider gap stays open and still holds what lies in it: a seam line is no part because the outline around it
-//! has a fault.
+//! A line with a wider gap stays open and still holds what lies in it: a seam line is no part because the outline
+//! around it has a fault.
 
 use arrayvec::ArrayVec;
 
 use super::line::{Class, Closing, Line, SMALL_OUTLINE};
-use super::pens::Use;
 use crate::geom::closing;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
 use crate::machine::Job;
 
-/// Share of its length that the gap of a line takes at the most, if it goes around something: a tenth of a square of straight
-/// sides is less than half of one side.
+/// Share of its length that the gap of a line takes at the most, if it goes around something: a tenth of a square of
+/// straight sides is less than half of one side.
 const WIDEST_OPEN: f64 = 0.1;
 /// Places of a line at least that goes around something.
 const LEAST_PLACES: usize = 3;
@@ -44,7 +43,7 @@ impl Reach {
 /// Finds how each line closes, and adds the rings to the vertices.
 pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
     for line in lines.iter_mut() {
-        if line.usage == Use::Ignore || line.size() <= SMALL_OUTLINE {
+        if line.is_set_aside() || line.size() <= SMALL_OUTLINE {
             continue;
         }
         let drawn = line.as_drawn(vertices);
@@ -66,7 +65,8 @@ pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach
     }
 }
 
-/// Closes lines whose ends lie on the same side of a frame, or on two sides that meet: the frame draws the rest of them.
+/// Closes lines whose ends lie on the same side of a frame, or on two sides that meet: the frame draws the rest of
+/// them.
 pub(super) fn close_along_frames(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
     let frames: Vec<Extent> = lines.iter().filter(|line| line.class == Class::Frame).map(|line| line.extent).collect();
     if frames.is_empty() {
@@ -74,7 +74,7 @@ pub(super) fn close_along_frames(lines: &mut [Line], vertices: &mut Vec<Vertex>,
     }
     for line in lines.iter_mut() {
         let is_open = matches!(line.closing, Closing::Drawn | Closing::Open(_)) && !line.is_closed;
-        if line.usage == Use::Ignore || !is_open || line.class != Class::Other || line.size() <= SMALL_OUTLINE {
+        if !is_open || line.class != Class::Other || line.size() <= SMALL_OUTLINE {
             continue;
         }
         let drawn = line.as_drawn(vertices);
@@ -97,8 +97,8 @@ fn drawn_is_wide(ring: &Line, reach: Reach) -> bool {
     ring.is_closed && ring.area > ring.length * reach.close.max(reach.retraced)
 }
 
-/// The corners on the way along a frame between two places on it: none, or one. `None` when a place lies elsewhere or the two
-/// lie on sides that do not meet.
+/// The corners on the way along a frame between two places on it: none, or one. `None` when a place lies elsewhere or
+/// the two lie on sides that do not meet.
 pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<ArrayVec<Point, 1>> {
     let sides = ends.map(|at| {
         let off = [at.x - frame.min.x, frame.max.x - at.x, at.y - frame.min.y, frame.max.y - at.y];

@@ -1,14 +1,16 @@
-//! Doubts about parts, by the numbers of their pieces: outlines that were closed or stay open, parts without a seam line, and
-//! lines that begin on an outline and are not cut.
+//! Doubts about parts, by the numbers of their pieces: outlines that were closed or stay open, parts without a seam
+//! line, and lines that begin on an outline and are not cut.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::line::{Class, Closing, Line, SIGN};
-use super::marks::EdgeLine;
+use super::marks::{EdgeLine, Lie};
 use super::pens::Use;
 use super::piece::owners;
+use super::remains::Remains;
 use super::sheet::Sheet;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
+use crate::geom::Point;
 use crate::machine::CLOSE_MOST_MM;
 use crate::units::number::fixed;
 
@@ -16,6 +18,9 @@ use crate::units::number::fixed;
 const MANY: usize = 3;
 /// Decimals of lengths, mm.
 const DECIMALS: u32 = 1;
+/// The step in which `drawing.close_mm` is named, mm, and the rounding of a gap that is a multiple of it, in steps.
+const CLOSE_STEP: f64 = 0.1;
+const CLOSE_EPSILON: f64 = 1e-6;
 
 /// Tells every doubt about parts.
 pub(super) fn all(sheet: &Sheet, out: &mut Diagnostics) {
@@ -41,21 +46,49 @@ fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
 }
 
 /// Outlines with a gap around closed lines, each with how many of those it holds.
-pub(super) fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
-    let is_held = |line: &Line| line.is_closed && line.size() >= SIGN && line.class != Class::Ignored;
+fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
+    let is_held = |line: &Line| line.is_closed && line.size() >= SIGN && !line.is_set_aside();
     let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i);
-    let holders = sheet.indices(is_held).into_iter().filter_map(outer);
+    let is_told = |&i: &usize| sheet.lines[i].usage != Use::Drawn && sheet.lines[i].class != Class::Frame;
+    let holders = sheet.indices(is_held).into_iter().filter_map(outer).filter(is_told);
+    // A part is missing where one was taken for a seam line, whatever the pen of the line around it.
+    let remains = sheet.remains.iter().filter(|remains| remains.lines.len() == 1).map(|remains| remains.lines[0]);
     let mut held = BTreeMap::new();
-    for outline in holders.chain(sheet.remains.iter().map(|[outline, _]| *outline)) {
+    for outline in holders.chain(remains) {
         *held.entry(outline).or_insert(0) += 1;
     }
-    let is_left = |line: &Line| !line.is_closed && !line.is_cut && line.usage != Use::Drawn;
-    held.retain(|&i, _| is_left(&sheet.lines[i]) && sheet.lines[i].class != Class::Frame);
+    held.retain(|&i, _| !sheet.lines[i].is_closed && !sheet.lines[i].is_cut);
     held
 }
 
-/// Says how many outlines have a gap around closed lines.
+/// Outlines of several strokes that are not whole.
+fn broken_outlines(sheet: &Sheet) -> impl Iterator<Item = &Remains> {
+    let is_left = |remains: &&Remains| remains.lines.len() > 1 && !sheet.lines[remains.inner].is_cut;
+    sheet.remains.iter().filter(is_left)
+}
+
+/// The open lines that are told as outlines around closed lines.
+pub(super) fn told(sheet: &Sheet) -> BTreeSet<usize> {
+    let broken = broken_outlines(sheet).flat_map(|remains| remains.lines.iter().copied());
+    open_outlines(sheet).into_keys().chain(broken).collect()
+}
+
+/// Says how many outlines have a gap around closed lines, and how many in several strokes are not whole.
 fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
+    let broken: Vec<&Remains> = broken_outlines(sheet).collect();
+    if let Some(first) = broken.first() {
+        let message = match broken.len() {
+            1 => format!(
+                "an outline in {} strokes does not close: not cut, and neither is the closed line in it",
+                first.lines.len()
+            ),
+            n => format!("{n} outlines in strokes do not close: not cut, and neither are the {n} closed lines in them"),
+        };
+        let found = finding(&code::DRAWING_OPEN_PART, message, &sheet.lines[first.lines[0]], sheet);
+        out.push(found.hint(
+            "let the CAD draw each outline as one closed line; if they are none, `--cut-pens` leaves their pen out",
+        ));
+    }
     let open = open_outlines(sheet);
     let Some((&first, _)) = open.first_key_value() else { return };
     let gap = |&i: &usize| {
@@ -63,17 +96,20 @@ fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
         (drawn[drawn.len() - 1].at - drawn[0].at).norm()
     };
     let lines: usize = open.values().sum();
-    let widest = fixed(open.keys().map(gap).fold(0.0, f64::max), DECIMALS);
+    let widest = open.keys().map(gap).fold(0.0, f64::max);
+    let shown = fixed(widest, DECIMALS);
     let (outlines, around) = match open.len() {
-        1 => (format!("an outline has a gap of {widest} mm"), "in it"),
-        n => (format!("{n} outlines have gaps of up to {widest} mm"), "in them"),
+        1 => (format!("an outline has a gap of {shown} mm"), "in it"),
+        n => (format!("{n} outlines have gaps of up to {shown} mm"), "in them"),
     };
     let lines = if lines == 1 { "is the closed line".to_owned() } else { format!("are the {lines} closed lines") };
     let message = format!("{outlines}: not cut, and neither {lines} {around}");
     let found = finding(&code::DRAWING_OPEN_PART, message, &sheet.lines[first], sheet);
-    let may_close = open.keys().all(|i| gap(i) <= CLOSE_MOST_MM);
-    out.push(found.hint(if may_close {
-        format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={widest}`")
+    // Rounded up: the gap itself must be within it.
+    let close = (widest / CLOSE_STEP - CLOSE_EPSILON).ceil() * CLOSE_STEP;
+    out.push(found.hint(if close <= CLOSE_MOST_MM {
+        let close = fixed(close, DECIMALS);
+        format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={close}`")
     } else {
         "let the CAD close it; if it is the edge of the cloth, leave its pen out (`--cut-pens`)".to_owned()
     }));
@@ -106,38 +142,67 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     }
 }
 
-/// Outlines that were closed, and other lines that are cut.
+/// How lines were closed, as far as it is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Closed {
+    /// They stop before their start.
+    Gap,
+    /// Their strokes do not meet.
+    Bridged,
+    /// They stop at the edge of the frame.
+    Edge,
+}
+
+/// How a line was closed, over how many mm, and where that begins.
+fn closing(line: &Line, sheet: &Sheet) -> Option<(Closed, f64, Point)> {
+    let drawn = line.as_drawn(&sheet.vertices);
+    let last = drawn[drawn.len() - 1].at;
+    match line.closing {
+        Closing::Gap(mm) => Some((Closed::Gap, mm, last)),
+        Closing::Bridged(mm, at) => Some((Closed::Bridged, mm, at)),
+        Closing::Edge(mm) => Some((Closed::Edge, mm, last)),
+        Closing::Drawn | Closing::Retraced | Closing::Open(_) => None,
+    }
+}
+
+/// Outlines that were closed, and other lines that are cut: each kind once, at the widest gap.
 fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
-    for is_edge in [false, true] {
-        let length = |i: usize| match sheet.lines[i].closing {
-            Closing::Gap(mm) | Closing::Bridged(mm) if !is_edge => Some(mm),
-            Closing::Edge(mm) if is_edge => Some(mm),
-            Closing::Gap(_)
-            | Closing::Bridged(_)
-            | Closing::Edge(_)
-            | Closing::Drawn
-            | Closing::Retraced
-            | Closing::Open(_) => None,
+    let cut = sheet.indices(|line| line.is_cut && line.is_closed);
+    let closings = cut.into_iter().filter_map(|i| Some((i, closing(&sheet.lines[i], sheet)?)));
+    let closings: Vec<(usize, (Closed, f64, Point))> = closings.collect();
+    for kind in [Closed::Gap, Closed::Bridged, Closed::Edge] {
+        let closed: Vec<&(usize, (Closed, f64, Point))> = closings.iter().filter(|(_, how)| how.0 == kind).collect();
+        let Some(&&(widest, (_, length, at))) =
+            closed.iter().max_by(|a, b| a.1.1.total_cmp(&b.1.1).then(b.0.cmp(&a.0)))
+        else {
+            continue;
         };
-        let closed = sheet.indices(|line| line.is_cut && line.is_closed);
-        let closed: Vec<usize> = closed.into_iter().filter(|&i| length(i).is_some()).collect();
-        let Some(&first) = closed.first() else { continue };
-        let longest = fixed(closed.iter().filter_map(|&i| length(i)).fold(0.0, f64::max), DECIMALS);
-        let are_outlines = closed.iter().all(|i| owners.binary_search(i).is_ok());
+        let are_outlines = closed.iter().all(|(i, _)| owners.binary_search(i).is_ok());
         let [one, several] = if are_outlines { ["an outline", "outlines"] } else { ["a line", "lines"] };
-        let (outlines, stop) = match closed.len() {
-            1 => (one.to_owned(), "stops"),
-            n => (format!("{n} {several}"), "stop"),
+        let (outlines, is_one) = match closed.len() {
+            1 => (one.to_owned(), true),
+            n => (format!("{n} {several}"), false),
         };
-        let parts: Vec<usize> = closed.iter().map(|&i| sheet.part_around(i).unwrap_or(i)).collect();
+        let parts: Vec<usize> = closed.iter().map(|&&(i, _)| sheet.part_around(i).unwrap_or(i)).collect();
         let numbers = numbers(owners, &parts);
         let of = pieces::listed(&numbers);
-        let message = if is_edge {
-            format!("{outlines} {stop} at the edge of the frame, {of}: closed along it, by up to {longest} mm")
-        } else {
-            format!("{outlines} {stop} before the start, {of}: closed straight, by up to {longest} mm")
+        let stop = if is_one { "stops" } else { "stop" };
+        let length = fixed(length, DECIMALS);
+        let message = match kind {
+            Closed::Gap => format!("{outlines} {stop} before the start, {of}: closed straight, by up to {length} mm"),
+            Closed::Bridged => {
+                let have = if is_one { "has gaps between its strokes" } else { "have gaps between their strokes" };
+                format!("{outlines} {have}, {of}: closed straight, by up to {length} mm")
+            }
+            Closed::Edge => {
+                format!("{outlines} {stop} at the edge of the frame, {of}: closed along it, by up to {length} mm")
+            }
         };
-        let found = finding(&code::DRAWING_CLOSED, message, &sheet.lines[first], sheet);
+        let line = &sheet.lines[widest];
+        let vertices = line.as_drawn(&sheet.vertices);
+        let span =
+            vertices.iter().skip(1).find(|vertex| vertex.at == at).map_or(line.span(&sheet.vertices), |v| v.span);
+        let found = Diagnostic::new(&code::DRAWING_CLOSED, message).at(span).on_cloth(at);
         out.push(
             found
                 .about(numbers)
@@ -146,32 +211,38 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     }
 }
 
-/// Lines that begin on the outline of a part and are not cut.
+/// Lines that begin on the outline of a part and are not cut, and small closed ones that stand on it.
 fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
-    let is_left = |edge: &&EdgeLine| {
-        let Line { is_cut, usage, .. } = sheet.lines[edge.line];
-        !is_cut && usage != Use::Drawn && sheet.lines[edge.outline].is_cut
+    let is_left = |line: usize, outline: usize| {
+        let Line { is_cut, usage, .. } = sheet.lines[line];
+        !is_cut && usage != Use::Drawn && sheet.lines[outline].is_cut
     };
-    let (dividing, others): (Vec<&EdgeLine>, Vec<&EdgeLine>) =
-        sheet.from_edges.iter().filter(is_left).partition(|edge| edge.divides);
-    for (edges, code, does, hint) in [
+    for (lie, code, does, hint) in [
         (
-            dividing,
+            Lie::Divides,
             &code::DRAWING_DIVIDED_PART,
-            ["goes from edge to edge", "go from edge to edge"],
-            "if it divides a part in two, let the CAD draw both parts; `--cut-all` cuts every line",
+            ["one open line goes from edge to edge", "open lines go from edge to edge"],
+            "if it divides a part in two, let the CAD draw both parts; `--cut-all` cuts every line but a frame",
         ),
         (
-            others,
+            Lie::Ends,
             &code::DRAWING_LINE_FROM_EDGE,
-            ["ends at the outline", "end at the outline"],
-            "notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts every line",
+            ["one open line ends at the outline", "open lines end at the outline"],
+            "notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts all but a frame",
+        ),
+        (
+            Lie::Stands,
+            &code::DRAWING_LINE_FROM_EDGE,
+            ["one small closed line stands on the outline", "small closed lines stand on the outline"],
+            "if they are notches, let the CAD draw each as an open stroke from edge to edge of its mouth",
         ),
     ] {
+        let of_kind = |edge: &&EdgeLine| edge.lie == lie && is_left(edge.line, edge.outline);
+        let edges: Vec<&EdgeLine> = sheet.from_edges.iter().filter(of_kind).collect();
         let Some(first) = edges.first() else { continue };
         let (begin, longest) = match edges.len() {
-            1 => (format!("one open line {}", does[0]), "it is"),
-            n => (format!("{n} open lines {}", does[1]), "the longest is"),
+            1 => (does[0].to_owned(), "it is"),
+            n => (format!("{n} {}", does[1]), "the longest is"),
         };
         let length = fixed(edges.iter().map(|edge| sheet.lines[edge.line].length).fold(0.0, f64::max), DECIMALS);
         let parts: Vec<usize> = edges.iter().map(|edge| edge.outline).collect();

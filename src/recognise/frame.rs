@@ -1,34 +1,48 @@
 //! The frame of a marker: a rectangle around all parts, drawn like them.
 
+use super::close::Reach;
 use super::line::{Class, Line, SMALL_OUTLINE};
 use super::nest::middle;
+use super::seam;
 use crate::geom::Extent;
 use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::ir::drawing::Vertex;
 use crate::machine::plot::Frame;
 
-/// Share of a frame that the closed lines in it fill at least: less, and it is a part with cut-outs. What is taken for a
-/// part by mistake is named; what is taken for a frame by mistake is cut inside.
+/// Share of a frame that the closed lines in it fill at least: less, and it is a part with cut-outs. What is taken for
+/// a part by mistake is named; what is taken for a frame by mistake is cut inside.
 const LEAST_FILL: f64 = 0.5;
 /// How far past a frame the seam lines of its parts are drawn at the most, mm.
 const HEM: f64 = 60.0;
 /// Frames in frames that are looked for: the paper, and the cloth on it.
 const MOST_FRAMES: usize = 3;
 
-/// Boxes that are looked at for one that holds another.
+/// Boxes around a corner that are looked at for one that holds another, and open lines that a frame closes.
 const MOST_HOLDERS: usize = 64;
+/// Largest mark on the hem of a part, mm, and its largest area, as a share of that of the seam line: a loop, a button
+/// stand.
+const LARGEST_MARK: f64 = 100.0;
+const MARK_SHARE: f64 = 0.1;
 
-/// Marks the frames among the lines. A rectangle around one closed line alone is a part; `is_edged` tells an open line that a
-/// rectangle would close along its edge, which is as good as a closed one.
-pub(super) fn mark(lines: &mut [Line], how: Frame, slack: f64, is_edged: impl Fn(&Extent, &Line) -> bool) {
+/// What is asked of frames.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) how: Frame,
+    /// How far lines that touch may lie in one another, mm.
+    pub(super) band: f64,
+    /// How far apart two places may be that a line closes over.
+    pub(super) reach: Reach,
+}
+
+/// Marks the frames among the lines. A rectangle around one closed line alone is a part, and so is one around its seam
+/// line and small marks. An open line that a rectangle would close along its edge, from inside, is as good as a closed
+/// one.
+pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], asked: Asked, work: &mut Budget) {
     let is_large = |line: &Line| line.may_hold() && line.size() > SMALL_OUTLINE;
     let mut order: Vec<usize> = (0..lines.len()).filter(|&i| is_large(&lines[i])).collect();
     order.sort_by(|&a, &b| lines[b].area.total_cmp(&lines[a].area).then(a.cmp(&b)));
-    // A hem may be drawn past the corner of its part, and so past the frame.
-    let holds = |lines: &[Line], outer: usize, inner: &[usize]| {
-        let reach = lines[outer].extent.grown(slack);
-        inner.iter().all(|&i| reach.holds(middle(&lines[i].extent)) && reach.grown(HEM).covers(&lines[i].extent))
-    };
-    match how {
+    match asked.how {
         Frame::None => {}
         Frame::Outermost => {
             if let Some(&first) = order.first() {
@@ -36,38 +50,86 @@ pub(super) fn mark(lines: &mut [Line], how: Frame, slack: f64, is_edged: impl Fn
             }
         }
         Frame::Auto => {
-            let may_be = |k: &usize| lines[order[*k]].is_rectangle(slack) && holds(lines, order[*k], &order[k + 1..]);
-            let count = (0..order.len().min(MOST_FRAMES)).take_while(may_be).count();
-            let is_around_several = |&count: &usize| {
-                let (frames, inner) = order.split_at(count);
-                let frame = &lines[frames[count - 1]];
-                let edged = beside(lines, inner, |line| is_edged(&frame.extent, line));
-                let filled = outermost_area(lines, inner) + edged.iter().map(|&i| lines[i].area).sum::<f64>();
-                let are_several = match inner {
-                    [largest, others @ ..] => {
-                        !edged.is_empty() || !others.is_empty() && !holds(lines, *largest, others)
-                    }
-                    [] => edged.len() > 1,
-                };
-                are_several && filled >= LEAST_FILL * frame.area
-            };
-            let count = (1..=count).rev().find(is_around_several).unwrap_or(0);
+            let count = Frames { lines, vertices, asked }.count(&order, work);
             order[..count].iter().for_each(|&frame| lines[frame].class = Class::Frame);
         }
     }
 }
 
-/// Large open lines of a kind that lie beside all closed ones and beside each other: what lies in another is a line of it.
-fn beside(lines: &[Line], closed: &[usize], is: impl Fn(&Line) -> bool) -> Vec<usize> {
-    let may_be = |line: &Line| !line.is_closed && line.is_open_question() && line.size() > SMALL_OUTLINE && is(line);
-    let mut found: Vec<usize> = Vec::new();
-    for i in (0..lines.len()).filter(|&i| may_be(&lines[i])) {
-        let meets = |&other: &usize| lines[other].extent.overlaps(&lines[i].extent);
-        if found.len() < MOST_HOLDERS && !closed.iter().any(meets) && !found.iter().any(meets) {
-            found.push(i);
-        }
+/// The lines among which frames are looked for.
+struct Frames<'a> {
+    lines: &'a [Line],
+    vertices: &'a [Vertex],
+    asked: Asked,
+}
+
+impl Frames<'_> {
+    /// How many of the large lines, the largest first, are frames.
+    fn count(&self, order: &[usize], work: &mut Budget) -> usize {
+        let may_be =
+            |k: &usize| self.lines[order[*k]].is_rectangle(self.asked.band) && self.holds(order[*k], &order[k + 1..]);
+        let count = (0..order.len().min(MOST_FRAMES)).take_while(may_be).count();
+        (1..=count).rev().find(|&count| self.is_around_several(order, count, work)).unwrap_or(0)
     }
-    found
+
+    /// Whether lines lie in another. A hem may be drawn past the corner of its part, and so past the frame.
+    fn holds(&self, outer: usize, inner: &[usize]) -> bool {
+        let reach = self.lines[outer].extent.grown(self.asked.band);
+        let lies_in = |extent: &Extent| reach.holds(middle(extent)) && reach.grown(HEM).covers(extent);
+        inner.iter().all(|&i| lies_in(&self.lines[i].extent))
+    }
+
+    /// Whether the last of some frames holds two parts or more that fill much of it.
+    fn is_around_several(&self, order: &[usize], count: usize, work: &mut Budget) -> bool {
+        let (frames, inner) = order.split_at(count);
+        let frame = &self.lines[frames[count - 1]];
+        let edged = self.beside(frame, inner, work);
+        let filled = outermost_area(self.lines, inner) + edged.iter().map(|&i| self.lines[i].area).sum::<f64>();
+        let are_several = match inner {
+            [largest, others @ ..] => {
+                let several = !edged.is_empty() || !others.is_empty() && !self.holds(*largest, others);
+                several && !self.is_part(frame, *largest, others, &edged, work)
+            }
+            [] => edged.len() > 1,
+        };
+        are_several && filled >= LEAST_FILL * frame.area
+    }
+
+    /// Whether a rectangle is a part: one line in it is its seam line, and all others in it are lines of that or small
+    /// marks.
+    fn is_part(&self, frame: &Line, largest: usize, others: &[usize], edged: &[usize], work: &mut Budget) -> bool {
+        let is_small = |line: &Line| line.size() <= LARGEST_MARK && line.area <= MARK_SHARE * self.lines[largest].area;
+        let is_mark = |&i: &usize| is_small(&self.lines[i]) || self.holds(largest, &[i]);
+        let [outline, line] = [frame, &self.lines[largest]].map(|line| line.points(self.vertices));
+        others.iter().chain(edged).all(is_mark)
+            && work.spend(seam::COST * outline.len())
+            && seam::follows(&line, &outline)
+    }
+
+    /// Large open lines that a frame would close from inside. They lie beside all closed ones and beside each other:
+    /// what lies in another is a line of it.
+    fn beside(&self, frame: &Line, closed: &[usize], work: &mut Budget) -> Vec<usize> {
+        let Asked { band, reach, .. } = self.asked;
+        let within = frame.extent.grown(band);
+        let may_be = |line: &Line| {
+            let is_open = !line.is_closed && line.is_open_question() && line.size() > SMALL_OUTLINE;
+            is_open && within.covers(&line.extent) && reach.is_edged(&frame.extent, line, self.vertices)
+        };
+        let boxes = Boxes::new(closed.iter().map(|&i| self.lines[i].extent).collect());
+        let mut found: Vec<usize> = Vec::new();
+        for i in (0..self.lines.len()).filter(|&i| may_be(&self.lines[i])) {
+            let extent = self.lines[i].extent;
+            if found.len() == MOST_HOLDERS || !work.spend(boxes.cost_near(&extent)) {
+                break;
+            }
+            let meets = |other: &Extent| other.overlaps(&extent);
+            let lies_alone = !boxes.near(extent).any(|k| meets(&boxes.all()[k]));
+            if lies_alone && !found.iter().any(|&other| meets(&self.lines[other].extent)) {
+                found.push(i);
+            }
+        }
+        found
+    }
 }
 
 /// The area of the closed lines whose box lies in that of no other, nearly: what they cover together.

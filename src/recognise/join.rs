@@ -1,26 +1,30 @@
-//! Strokes that continue each other become one line: plots lift the pen inside an outline, some write every line by itself,
-//! in any direction, and outlines end a unit or a few from where they start.
+//! Strokes that continue each other become one line: plots lift the pen inside an outline, some write every line by
+//! itself, in any direction, and outlines end a unit or a few from where they start.
 //!
 //! Ends of one pen that meet to the bit are at one place, and so are two that lie within reach of each other and of no
-//! third. Where two ends are left at a place once lines that lead nowhere are put aside, they continue each other; where
-//! more are, a line that comes back to the place closes, and else the two that go straightest continue each other. A line
-//! that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its neighbours end in
-//! the same places.
+//! third. Where two ends are left at a place once lines that lead nowhere are put aside, they continue each other;
+//! where more are, a line that comes back to the place closes, and else the two that go straightest continue each
+//! other. A line that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its
+//! neighbours end in the same places.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::bridge;
+use super::again;
+use super::bridge::Gaps;
 use super::chains::{Chains, End, other, place};
 use super::close::along;
-use super::line::{Closing, Line, SMALL_OUTLINE};
+use super::line::{Class, Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::pens::{self, Use};
 use crate::geom::closing;
 use crate::geom::{Extent, Point, Vector, angle, bits, polyline};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
+use crate::ir::marker::Notch;
 use crate::machine::Job;
+use crate::source::Span;
 
-/// Farthest that two ends may miss each other along an axis, in units of the file and in mm: plots of several CAD systems
-/// end their outlines 0.025 to 0.1 mm from where they start. Four units, and half a one for what fractions round to.
+/// Farthest that two ends may miss each other along an axis, in units of the file and in mm: plots of several CAD
+/// systems end their outlines 0.025 to 0.1 mm from where they start. Four units, and half a one for what fractions
+/// round to.
 const REACH_UNITS: f64 = 4.5;
 const REACH: f64 = 0.2;
 /// Places of a stroke that is a rectangle.
@@ -41,13 +45,10 @@ type Cell = (u16, [i64; 2]);
 /// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
 pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
     let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
-    let mut joining = Joining {
-        reach: if drawing.unit > 0.0 { (REACH_UNITS * drawing.unit).min(REACH) } else { REACH },
-        close: job.profile.drawing.close_mm,
-        strokes: drawing.strokes.len(),
-        drawing,
-        moved: Moved::default(),
-    };
+    let reach = if drawing.unit > 0.0 { (REACH_UNITS * drawing.unit).min(REACH) } else { REACH };
+    let close = job.profile.drawing.close_mm;
+    let again = again::take(drawing, &uses, close.max(reach));
+    let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
     joining.close_alone();
     let chains = joining.chains();
     let strokes = std::mem::take(&mut joining.drawing.strokes);
@@ -64,14 +65,18 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
         };
         let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
         let mut line = Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage);
-        let bridges = chains
-            .from(start)
-            .filter(|end| end / 2 >= joining.strokes)
-            .map(|end| polyline::length(&joining.moved.closed[end / 2 - joining.strokes]));
-        if let Some(longest) = bridges.max_by(f64::total_cmp) {
-            line.closing = Closing::Bridged(longest);
+        let bridges = chains.from(start).filter(|end| end / 2 >= joining.strokes);
+        let bridges = bridges.map(|end| &joining.moved.closed[end / 2 - joining.strokes]);
+        let longest = bridges.map(|bridge| (polyline::length(bridge), bridge[0])).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((length, at)) = longest {
+            line.closing = Closing::Bridged(length, at);
         }
         lines.push(line);
+    }
+    for stroke in again {
+        let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
+        let line = Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage);
+        lines.push(Line { class: Class::Again, ..line });
     }
     (lines, joining.moved)
 }
@@ -123,7 +128,8 @@ impl Joining<'_> {
         }
         let is_free = |end: &End| chains.links[*end].is_none() && !self.nearly_closes(end / 2);
         let free: Vec<End> = ends.into_iter().filter(is_free).collect();
-        for pair in bridge::find(self.drawing, &chains, &self.near_pairs(&free, self.close)) {
+        let gaps = Gaps { drawing: self.drawing, chains: &chains, ends: &free, close: self.close };
+        for pair in gaps.bridges() {
             self.bridge(pair);
             chains.join_over(pair);
         }
@@ -133,9 +139,8 @@ impl Joining<'_> {
     /// Adds the straight stroke from an end to another.
     fn bridge(&mut self, [from, to]: [End; 2]) {
         let ends = [from, to].map(|end| place(self.drawing, end));
-        let span = self.drawing.vertices[self.drawing.strokes[to / 2].first as usize + 1].span;
         let (first, pen) = (self.drawing.vertices.len() as u32, self.drawing.strokes[from / 2].pen);
-        self.drawing.vertices.extend(ends.map(|at| Vertex { at, span }));
+        self.drawing.vertices.extend(ends.map(|at| Vertex { at, span: Span::default() }));
         self.drawing.strokes.push(PenStroke { first, end: first + 2, pen });
         self.moved.closed.push(ends.to_vec());
     }
@@ -150,7 +155,18 @@ impl Joining<'_> {
     fn nearly_closes(&self, stroke: usize) -> bool {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let [first, .., last] = vertices else { return false };
-        (last.at - first.at).amax() <= self.close && vertices.iter().any(|at| (at.at - first.at).amax() > SMALL_OUTLINE)
+        (last.at - first.at).norm() <= self.close && vertices.iter().any(|at| (at.at - first.at).amax() > SMALL_OUTLINE)
+    }
+
+    /// Whether a stroke may be a notch by itself: it has a mouth and a tip.
+    fn is_notch(&self, stroke: usize) -> bool {
+        let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
+        let [first, _, .., last] = vertices else { return false };
+        let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
+        let is_deep = |at: &Point| polyline::distance_to_segment(*at, first.at, last.at) >= SHORTEST_NOTCH;
+        (last.at - first.at).norm() <= Notch::WIDEST
+            && polyline::length(&places) <= Notch::LONGEST_STROKE
+            && places.iter().any(is_deep)
     }
 
     /// The largest rectangle that one stroke draws.
@@ -198,8 +214,8 @@ impl Joining<'_> {
         (0..cells.len()).filter_map(pair).map(|pair| pair.map(|k| cells[k].1)).collect()
     }
 
-    /// Of each of some ends, sorted by their cells, the only other one within reach, as an index; nothing when there are
-    /// more, and the other end of the same stroke does not count.
+    /// Of each of some ends, sorted by their cells, the only other one within reach, as an index; nothing when there
+    /// are more, and the other end of the same stroke does not count.
     fn only_near(&self, cells: &[(Cell, End)], reach: f64) -> Vec<Option<usize>> {
         let cell = |k: usize| cells.get(k).map(|(cell, _)| *cell);
         // Where the cells below and beside an end begin, in the three columns around it: they go on as the ends do.
@@ -364,7 +380,11 @@ impl<'a, 'b> Graph<'a, 'b> {
             }
         }
         for k in 0..self.nodes.len() {
-            if let [a, b] = self.open(k, true)[..] {
+            // Two notches whose mouths touch stay two.
+            let are_notches = |ends: [End; 2]| ends.iter().all(|end| self.joining.is_notch(end / 2));
+            if let [a, b] = self.open(k, true)[..]
+                && !are_notches([a, b])
+            {
                 self.chains.join([a, b]);
             }
         }

@@ -19,6 +19,7 @@ pub(super) enum Class {
     Letter,
     Frame,
     Other,
+    Again,
     Ignored,
 }
 
@@ -33,7 +34,9 @@ pub(super) enum Cut {
     Inner,
     /// When seam lines are asked for, too.
     All,
-    /// Only when every line is asked for.
+    /// When every line is asked for.
+    Every,
+    /// Not even then.
     Never,
 }
 
@@ -48,21 +51,22 @@ pub(super) struct Rule {
     pub(super) cut: Cut,
 }
 
-/// What lines are taken for, and whether they are then cut: a wrong cut inside a part cannot be mended, one that is missing
-/// can. They are shown in this order.
+/// What lines are taken for, and whether they are then cut: a wrong cut inside a part cannot be mended, one that is
+/// missing can. They are shown in this order.
 #[rustfmt::skip] // a table: one row a class
-pub(super) const RULES: [Rule; 12] = [
+pub(super) const RULES: [Rule; 13] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
     Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards, or from edge to edge", cut: Cut::Always },
     Rule { class: Class::Hole, name: "hole", about: "a closed square or circle up to hpgl.drill_max_mm, drilled", cut: Cut::Always },
     Rule { class: Class::Inner, name: "inner line", about: "a closed line inside a part that is not its seam line", cut: Cut::Inner },
     Rule { class: Class::Seam, name: "seam line", about: "a closed line that follows the outline around it from inside", cut: Cut::All },
-    Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Never },
+    Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Every },
     Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
-    Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Never },
-    Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Never },
+    Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Every },
+    Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Every },
     Rule { class: Class::Frame, name: "frame", about: "a rectangle around all parts", cut: Cut::Never },
-    Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Never },
+    Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Every },
+    Rule { class: Class::Again, name: "drawn again", about: "a line with the places of one before it", cut: Cut::Never },
     Rule { class: Class::Ignored, name: "ignored pen", about: "a line of a pen that does not matter", cut: Cut::Never },
 ];
 
@@ -92,8 +96,8 @@ pub(super) enum Closing {
     Retraced,
     /// A straight line closes a gap of so many mm.
     Gap(f64),
-    /// Bridges close the gaps between its strokes: straight lines of up to so many mm.
-    Bridged(f64),
+    /// Straight lines close the gaps between its strokes: the longest has so many mm and begins at a place.
+    Bridged(f64, Point),
     /// The edge of the frame closes it, along so many mm.
     Edge(f64),
     /// It nearly encloses something, and a gap of so many mm stays open.
@@ -103,8 +107,8 @@ pub(super) enum Closing {
 /// A line with its measures.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
-    /// Its places among the vertices, the last one excluded: those of the ring where it closes in another way than by its
-    /// last place.
+    /// Its places among the vertices, the last one excluded: those of the ring where it closes in another way than by
+    /// its last place.
     pub(super) first: u32,
     pub(super) end: u32,
     /// Its places as it is drawn, in the same way.
@@ -191,7 +195,12 @@ impl Line {
     /// Whether it goes around something, with a gap or without one.
     pub(super) fn may_hold(&self) -> bool {
         let goes_around = self.is_closed || matches!(self.closing, Closing::Open(_));
-        goes_around && self.class != Class::Ignored && self.class != Class::Frame
+        goes_around && !self.is_set_aside() && self.class != Class::Frame
+    }
+
+    /// Whether it does not matter: its pen is ignored, or it is drawn again.
+    pub(super) fn is_set_aside(&self) -> bool {
+        matches!(self.class, Class::Ignored | Class::Again)
     }
 
     /// Whether it is its own box, but for rounding.

@@ -15,6 +15,8 @@ use crate::ir::marker::Notch;
 const TOUCH: f64 = 0.1;
 /// How far from an outline a stroke as long as a notch ends and is named, mm: it may be a notch that misses its edge.
 const NEAR: f64 = 2.0;
+/// Where lines are looked at that may divide a part, as shares of their length.
+const PROBES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Outlines that meet at one place, at the most.
 const MEETING: usize = 4;
 
@@ -73,8 +75,8 @@ fn stroke(vertices: &[Vertex]) -> Option<Stroke> {
     Some((place, [first, tip.at])).filter(|stroke| is_notch(stroke.1))
 }
 
-/// The legs of a line that may be notches: two slits that face each other across the common edge of two parts and were drawn
-/// or joined as one line.
+/// The legs of a line that may be notches: two slits that face each other across the common edge of two parts and were
+/// drawn or joined as one line.
 fn legs(vertices: &[Vertex]) -> Option<[Stroke; 2]> {
     let (first, last) = (vertices[0].at, vertices[vertices.len() - 1].at);
     let legs = match vertices {
@@ -227,17 +229,29 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     bars
 }
 
-/// An open line that starts or ends on an outline.
+/// How a line lies at an outline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lie {
+    /// An open line starts or ends on it.
+    Ends,
+    /// An open line goes from it to itself through the inside, longer than a notch: it divides the part.
+    Divides,
+    /// An open line goes along it.
+    Along,
+    /// A small closed line has an edge on it.
+    Stands,
+}
+
+/// A line at an outline that was taken for no notch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeLine {
     pub(super) line: usize,
     pub(super) outline: usize,
-    /// Whether it goes from that outline to the same one, and is longer than a notch: it divides the part.
-    pub(super) divides: bool,
+    pub(super) lie: Lie,
 }
 
-/// Open lines that were taken for nothing else and start or end on an outline; of strokes as long as a notch those, too, that
-/// nearly do.
+/// Open lines that were taken for nothing else and start or end on an outline; of strokes as long as a notch those,
+/// too, that nearly do.
 pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
     let is_open = |line: &Line| !line.is_closed && line.is_open_question();
@@ -256,14 +270,57 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     }
     candidates.extend(short);
     candidates.sort_unstable_by_key(|candidate| candidate.line);
-    let edge_line = |Candidate { line, on, .. }: &Candidate| {
+    let mut edge_line = |Candidate { line, on, .. }: &Candidate| {
         let of = |on: &ArrayVec<(f64, usize), MEETING>| {
             on.iter().map(|&(_, outline)| outline).collect::<ArrayVec<_, MEETING>>()
         };
         let [starts, ends] = [of(&on[0]), of(&on[1])];
         let both = starts.iter().find(|outline| ends.contains(outline));
         let outline = *both.or(starts.first()).or(ends.first())?;
-        Some(EdgeLine { line: *line, outline, divides: both.is_some() && lines[*line].length > Notch::LONGEST_STROKE })
+        let lie = if both.is_some() { lie(*line, outline, search, work)? } else { Lie::Ends };
+        Some(EdgeLine { line: *line, outline, lie })
     };
-    candidates.iter().filter_map(edge_line).collect()
+    let mut found: Vec<EdgeLine> = candidates.iter().filter_map(&mut edge_line).collect();
+    found.extend(standing(search, work));
+    found
+}
+
+/// How a line lies whose ends both lie on an outline; `None` when it goes around outside.
+fn lie(line: usize, outline: usize, Search { lines, vertices, unit, .. }: Search, work: &mut Budget) -> Option<Lie> {
+    let places = lines[line].points(vertices);
+    let longest = if is_straight(lines[line].vertices(vertices)) { Notch::LONGEST } else { Notch::LONGEST_STROKE };
+    let outline = lines[outline].points(vertices);
+    if lines[line].length <= longest || !work.spend(2 * PROBES.len() * outline.len()) {
+        return Some(Lie::Ends);
+    }
+    let stations = polyline::stations(&places);
+    let probes = PROBES.map(|share| polyline::place(&places, &stations, share * lines[line].length));
+    let is_off = |at: &Point| polyline::distance(*at, &outline) > TOUCH + ROUNDING * unit;
+    if probes.iter().any(is_off) {
+        probes.iter().any(|at| is_off(at) && ring::contains(&outline, *at)).then_some(Lie::Divides)
+    } else {
+        Some(Lie::Along)
+    }
+}
+
+/// Small closed lines with an edge on an outline: notches that somebody closed, or signs.
+fn standing(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
+    let Search { lines, vertices, unit, .. } = search;
+    let mut candidates = Vec::new();
+    for line in (0..lines.len()).filter(|&i| lines[i].class == Class::Sign) {
+        let edges = lines[line].vertices(vertices).windows(2);
+        let edges = edges.filter(|ends| (ends[1].at - ends[0].at).norm() >= SHORTEST_NOTCH);
+        candidates.extend(edges.map(|ends| Candidate::whole(line, [ends[0].at, ends[1].at])));
+    }
+    if candidates.is_empty() {
+        return Vec::new();
+    }
+    meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
+    let stands = |Candidate { line, on, .. }: &Candidate| {
+        let (_, outline) = *on[0].iter().find(|(_, outline)| on[1].iter().any(|(_, other)| other == outline))?;
+        Some(EdgeLine { line: *line, outline, lie: Lie::Stands })
+    };
+    let mut found: Vec<EdgeLine> = candidates.iter().filter_map(stands).collect();
+    found.dedup_by_key(|edge| edge.line);
+    found
 }

@@ -3,14 +3,16 @@
 //! Receives strokes and texts with the names of their pens, whatever dialect they came from. Promises a marker like
 //! that of a cut file - parts with their notches, equal places equal to the bit, texts never cut - and an account of
 //! every line: what it was taken for, and whether it is cut. Wrong cuts inside a part cannot be mended and a cut that
-//! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it. Never
-//! knows the dialect.
+//! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
+//! Never knows the dialect.
 //!
-//! `join` makes lines (`chains`) of strokes, over the gaps that `bridge` finds, `close` closes them; `sheet` sorts
-//! them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `marks` and `strokes` the
-//! notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when each is cut,
-//! `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
+//! `again` puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, over the gaps that
+//! `bridge` finds, `close` closes them; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest`
+//! what lies in what, `remains` the outlines that are not whole, `marks` and `strokes` the notches, `letters` and
+//! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for.
+//! `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
+mod again;
 mod bridge;
 mod chains;
 mod close;
@@ -23,6 +25,7 @@ mod marks;
 mod nest;
 mod pens;
 mod piece;
+mod remains;
 mod say;
 mod seam;
 mod sheet;

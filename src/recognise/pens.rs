@@ -5,7 +5,7 @@ use crate::machine::Job;
 use crate::machine::plot::PenUse;
 
 /// What the lines of a pen stand for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Use {
     /// Nobody says: their shapes do.
     Unsaid,

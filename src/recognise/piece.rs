@@ -124,7 +124,7 @@ impl<'a> Making<'a> {
         let all = &self.sheet.vertices;
         // The retraced part of a line is left out by a pass, as in every dialect.
         let vertices = match line.closing {
-            Closing::Drawn | Closing::Bridged(_) | Closing::Gap(_) | Closing::Edge(_) => line.vertices(all),
+            Closing::Drawn | Closing::Bridged(..) | Closing::Gap(_) | Closing::Edge(_) => line.vertices(all),
             Closing::Retraced | Closing::Open(_) => line.as_drawn(all),
         };
         let (points, spans): (Vec<Point>, Vec<_>) = vertices.iter().map(|vertex| (vertex.at, vertex.span)).unzip();

@@ -1,10 +1,11 @@
-//! What is doubtful in a drawing, in words: each thing once, with how many lines it concerns and what to type.
+//! Doubts about a drawing, in words: each once, with how many lines it concerns and what to type.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use super::doubts::{self, finding};
 use super::line::{Class, Line, SMALL_OUTLINE};
+use super::marks::Lie;
 use super::pens::Use;
 use super::sheet::Sheet;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -54,6 +55,17 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     inner_lines(sheet, job, out);
     lines_outside(sheet, out);
     frames(sheet, job, out);
+    drawn_again(sheet, out);
+}
+
+/// Lines that are drawn twice and cut once.
+fn drawn_again(sheet: &Sheet, out: &mut Diagnostics) {
+    let again: Vec<&Line> = sheet.lines.iter().filter(|line| line.class == Class::Again).collect();
+    let Some(first) = again.first() else { return };
+    let (are, each) = if again.len() == 1 { ("is", "it is") } else { ("are", "each is") };
+    let message = format!("{} {are} drawn again, place by place: {each} taken once", counted(&again, "line"));
+    let found = finding(&code::DRAWING_AGAIN, message, first, sheet);
+    out.push(found.hint("look whether the file holds a plot twice; the copies are never cut"));
 }
 
 /// Several lines: how many, and how long in all.
@@ -122,14 +134,15 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
         out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
     }
-    // An outline with a gap around closed lines is told for itself.
-    let held = doubts::open_outlines(sheet);
+    // An outline with a gap around closed lines is told for itself, and an edge that is drawn once more is cut.
+    let mut told = doubts::told(sheet);
+    told.extend(sheet.from_edges.iter().filter(|edge| edge.lie == Lie::Along).map(|edge| edge.line));
     let is_long = |line: &Line| {
         let is_open = matches!(line.class, Class::Other | Class::FromEdge);
         is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
     };
     let parts = Parts::of(sheet);
-    let open = (0..sheet.lines.len()).filter(|i| !held.contains_key(i)).map(|i| &sheet.lines[i]);
+    let open = (0..sheet.lines.len()).filter(|i| !told.contains(i)).map(|i| &sheet.lines[i]);
     let open: Vec<&Line> = open.filter(|line| is_long(line) && !parts.hold(line)).collect();
     if let Some(first) = open.first() {
         let places = first.as_drawn(&sheet.vertices);
@@ -141,9 +154,7 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let first_one = if open.len() == 1 { "it" } else { "the first one" };
         let message = format!("not cut: {} in no part; {first_one} {ends}", counted(&open, "open line"));
         let found = finding(&code::DRAWING_OPEN_OUTLINES, message, first, sheet);
-        out.push(
-            found.hint("if they are outlines, let the CAD close them; `--cut-all` cuts every line as it is drawn"),
-        );
+        out.push(found.hint("if they are outlines, let the CAD close them; `--cut-all` cuts every line but a frame"));
     }
 }
 
@@ -221,7 +232,13 @@ fn cut_short(sheet: &Sheet) -> Option<Diagnostic> {
         let vertices = line.vertices(&sheet.vertices);
         is_amid_number && vertices.iter().filter(|vertex| vertex.span == span).count() > 1
     };
-    let last = sheet.lines.iter().find(is_last).filter(|line| !line.is_closed || is_curve(line))?;
+    // A line that another one draws as well is whole, too.
+    let last = sheet
+        .lines
+        .iter()
+        .filter(|line| line.class != Class::Again)
+        .find(is_last)
+        .filter(|line| !line.is_closed || is_curve(line))?;
     let has_parts = sheet.lines.iter().any(|line| line.class == Class::Part);
     let may_be_outline =
         has_parts && last.class != Class::Notch && last.length > SHORTEST_CUT_SHORT && !Parts::of(sheet).hold(last);
@@ -265,7 +282,7 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     sheet.lines.iter().for_each(|line| extent.join(&line.extent));
     let (width, height) = extent.size();
     let is_small = sheet.lines.iter().any(|line| line.class == Class::SmallOutline);
-    if is_small || width.min(height) <= SMALL_OUTLINE {
+    if is_small || width.max(height) <= SMALL_OUTLINE {
         let large = format!("all of it is {} x {} mm", fixed(width, 1), fixed(height, 1));
         return finding.hint(if is_small {
             format!("{large}: a wrong unit (`--set hpgl.unit=1`)? `--cut-pens {listed}` cuts small parts")
@@ -273,16 +290,24 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
             format!("{large}: a wrong unit (`--set hpgl.unit=1`), or decimal commas?")
         });
     }
-    let is_back = |line: &Line| {
+    let ends = |line: &Line| {
         let places = line.as_drawn(&sheet.vertices);
-        !line.is_closed && places[0].at == places[places.len() - 1].at
+        (places[places.len() - 1].at - places[0].at).norm()
     };
-    let why = if sheet.lines.iter().any(|line| line.is_closed) {
-        "no closed line is a part"
-    } else if sheet.lines.iter().any(is_back) {
-        "its lines come back but enclose nothing"
-    } else {
-        "no line closes"
+    let open = sheet.lines.iter().filter(|line| !line.is_closed && !line.is_set_aside());
+    let longest = open.max_by(|a, b| a.length.total_cmp(&b.length));
+    let (why, place) = match longest {
+        _ if !sheet.remains.is_empty() => ("its closed lines lie in outlines that are open".to_owned(), None),
+        _ if sheet.lines.iter().any(|line| line.is_closed) => ("no closed line is a part".to_owned(), None),
+        None => ("no line closes".to_owned(), None),
+        Some(line) => match ends(line) {
+            0.0 => ("its lines come back but enclose nothing".to_owned(), Some(line)),
+            gap => (format!("no line closes: the longest ends {} mm from its start", fixed(gap, 1)), Some(line)),
+        },
     };
-    finding.hint(format!("{drawn}, {why}; `--cut-all` cuts all"))
+    let finding = finding.hint(format!("{drawn}, {why}")).hint("`--cut-all` cuts every line but a frame");
+    match place {
+        Some(line) => finding.at(line.span(&sheet.vertices)),
+        None => finding,
+    }
 }

@@ -1,13 +1,15 @@
 //! Seam lines: closed lines that follow the outline around them at a nearly even distance along each of its edges. The
-//! distance may differ from edge to edge: hems are wider than seams. An outline that lacks a side is followed by what is left.
+//! distance may differ from edge to edge: hems are wider than seams. An outline that lacks a side is followed by what
+//! is left.
 
 use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
 
 /// Farthest that a seam line lies from its outline, mm: hems are up to that wide.
-const FARTHEST: f64 = 60.0;
+pub(super) const FARTHEST: f64 = 60.0;
 /// The same for the sides of their boxes: at a sharp point of a part the two are farther apart.
-const BOX_MARGIN: f64 = 2.5 * FARTHEST;
-/// Sine of the greatest angle between a seam line and the edge beside it: edges that curve are hemmed along their chord.
+pub(super) const BOX_MARGIN: f64 = 2.5 * FARTHEST;
+/// Sine of the greatest angle between a seam line and the edge beside it: edges that curve are hemmed along their
+/// chord.
 const LARGEST_TURN: f64 = 0.5;
 /// Shares of a line that must be near the outline, and go along it.
 const NEAR: f64 = 0.75;
@@ -16,7 +18,9 @@ const ALONG: f64 = 0.7;
 const LEAST_AREA: f64 = 0.15;
 /// Places of a line that are looked at.
 const SAMPLES: usize = 48;
-/// What it costs to look at one edge from all of them.
+/// Closed lines of a part that are tried for its seam line, the largest first.
+pub(super) const CANDIDATES: usize = 3;
+/// Cost of the look at one edge from all of them, in comparisons of boxes.
 pub(super) const COST: usize = SAMPLES;
 
 /// Share of a closed line, by its length and by its box, that an outline goes around which lacks the rest.
@@ -29,7 +33,8 @@ pub(super) fn may_be_left_of(outline: &Extent, line: &Extent) -> bool {
     line.grown(BOX_MARGIN).covers(outline) && shared.x * shared.y >= LEAST_LEFT * size.x * size.y
 }
 
-/// Whether an open line is what is left of the outline around a closed line: it runs beside that line, around much of it.
+/// Whether an open line is what is left of the outline around a closed line: it runs beside that line, around much of
+/// it.
 pub(super) fn is_left_of(outline: &[Point], line: &[Point]) -> bool {
     if polyline::length(outline) < LEAST_LEFT * polyline::length(line) {
         return false;
@@ -68,12 +73,12 @@ fn nearest(at: Point, line: &[Point]) -> (f64, Vector) {
 }
 
 /// Whether two ways are nearly one, forwards or back.
-fn is_along(way: Vector, edge: Vector) -> bool {
+pub(super) fn is_along(way: Vector, edge: Vector) -> bool {
     cross(way, edge).abs() <= LARGEST_TURN * way.norm() * edge.norm()
 }
 
 /// Places along a line at even distances, each with the way of the line there.
-fn samples(line: &[Point]) -> Vec<(Point, Vector)> {
+pub(super) fn samples(line: &[Point]) -> Vec<(Point, Vector)> {
     let step = polyline::length(line) / SAMPLES as f64;
     let mut samples = Vec::with_capacity(SAMPLES);
     let mut next = step / 2.0;

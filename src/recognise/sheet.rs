@@ -1,12 +1,12 @@
 //! A drawing whose lines are sorted out: what each is, then whether it is cut.
 
 use super::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
-use super::marks::{EdgeLine, Mark, Search};
+use super::marks::{EdgeLine, Lie, Mark, Search};
 use super::pens::Use;
+use super::remains::Remains;
 use super::strokes::{self, Stroke};
-use super::{close, frame, letters, marks, nest, seam};
+use super::{close, frame, letters, marks, nest, remains, seam};
 use crate::analysis::nesting::Nesting;
-use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
 use crate::ir::marker::Label;
@@ -21,8 +21,6 @@ const HOLE_RATIO: f64 = 1.1;
 const HOLE_FILL: f64 = 0.7;
 /// Share of its part that an inner line takes at most to be cut: more is the part itself, drawn once more.
 const LARGEST_INNER: f64 = 0.5;
-/// Closed lines of a part that are tried for its seam line, the largest first.
-const SEAM_CANDIDATES: usize = 3;
 
 /// A drawing whose lines are sorted out.
 #[derive(Debug)]
@@ -33,10 +31,10 @@ pub(super) struct Sheet {
     pub(super) marks: Vec<Mark>,
     /// Notches that are open strokes between two places of an outline.
     pub(super) strokes: Vec<Stroke>,
-    /// Open lines from the edge of a part, other than notches.
+    /// Lines at the edge of a part, other than notches.
     pub(super) from_edges: Vec<EdgeLine>,
-    /// Open lines that are what is left of an outline, each with the closed line that they go around.
-    pub(super) remains: Vec<[usize; 2]>,
+    /// Open lines that are what is left of outlines, with the closed lines that they go around.
+    pub(super) remains: Vec<Remains>,
     /// The pens that draw them.
     pub(super) pens: Vec<Pen>,
     pub(super) texts: Vec<Label>,
@@ -52,11 +50,14 @@ impl Sheet {
     pub(super) fn sort_out(&mut self, job: &Job) {
         let band = BAND.max(ROUNDING * self.unit);
         let reach = close::Reach::of(self.unit, job);
-        frame::mark(&mut self.lines, job.profile.hpgl.frame, band, |frame, line| {
-            reach.is_edged(frame, line, &self.vertices)
-        });
-        close::close_along_frames(&mut self.lines, &mut self.vertices, reach);
         let mut work = Budget::of_a_marker();
+        frame::mark(
+            &mut self.lines,
+            &self.vertices,
+            frame::Asked { how: job.profile.hpgl.frame, band, reach },
+            &mut work,
+        );
+        close::close_along_frames(&mut self.lines, &mut self.vertices, reach);
         self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
         for i in 0..self.lines.len() {
             let line = &mut self.lines[i];
@@ -64,8 +65,9 @@ impl Sheet {
                 line.class = Class::Part;
             }
         }
+        let mut remains = Budget::of_lines(self.lines.len());
+        self.find_remains(&mut remains);
         let mut work = Budget::of_a_marker();
-        self.find_remains(&mut work);
         self.find_marks(&mut work);
         letters::mark(&mut self.lines, &self.vertices, &mut work);
         self.find_holes(job);
@@ -83,10 +85,11 @@ impl Sheet {
         self.find_parts_of_knives(&mut work);
         let parts = self.indices(|line| line.class == Class::Part);
         self.from_edges = marks::from_edges(self.search(&parts), &mut work);
-        for &EdgeLine { line, .. } in &self.from_edges {
+        // A closed line stays a sign.
+        for &EdgeLine { line, .. } in self.from_edges.iter().filter(|edge| edge.lie != Lie::Stands) {
             self.lines[line].class = Class::FromEdge;
         }
-        self.is_cut_short = work.is_spent();
+        self.is_cut_short = work.is_spent() || remains.is_spent();
     }
 
     /// The lines of some kind.
@@ -98,37 +101,13 @@ impl Sheet {
         Search { lines: &self.lines, vertices: &self.vertices, unit: self.unit, outlines }
     }
 
-    /// Finds the open lines that are what is left of an outline: the closed line that they go around is no part, but its
-    /// seam line.
+    /// Finds the open lines that are what is left of an outline: the closed line that they go around is no part, but
+    /// its seam line.
     fn find_remains(&mut self, work: &mut Budget) {
-        let may_be = |line: &Line| {
-            let is_open = !line.is_closed && line.end - line.first > 2 && line.size() > SMALL_OUTLINE;
-            is_open && line.is_open_question()
-        };
-        let open = self.indices(may_be);
-        let parts = self.indices(|line| line.class == Class::Part);
-        if open.is_empty() {
-            return;
-        }
-        let boxes = Boxes::new(parts.iter().map(|&part| self.lines[part].extent).collect());
-        for line in open {
-            let Line { extent, usage, .. } = self.lines[line];
-            let outline = self.lines[line].points(&self.vertices);
-            for k in boxes.near(extent) {
-                let Line { usage: inner, end, first, .. } = self.lines[parts[k]];
-                // A part that the budget leaves unsearched counts as a seam line: too small a part can't be mended.
-                let cost = seam::COST * (outline.len() + (end - first) as usize);
-                let is_said = inner == Use::Knife && usage != Use::Knife;
-                if !is_said
-                    && seam::may_be_left_of(&extent, &boxes.all()[k])
-                    && (!work.spend(cost) || seam::is_left_of(&outline, &self.lines[parts[k]].points(&self.vertices)))
-                {
-                    self.remains.push([line, parts[k]]);
-                }
-            }
-        }
-        for &[_, part] in &self.remains {
-            self.lines[part].class = Class::Seam;
+        let all = remains::Drawn { lines: &self.lines, vertices: &self.vertices, nest: &self.nest };
+        self.remains = remains::find(all, work);
+        for remains in &self.remains {
+            self.lines[remains.inner].class = Class::Seam;
         }
     }
 
@@ -154,7 +133,8 @@ impl Sheet {
         self.marks.extend(marks);
     }
 
-    /// Takes the outermost lines of a pen that is a knife for parts, whatever others draw around them: the edge of a table.
+    /// Takes the outermost lines of a pen that is a knife for parts, whatever others draw around them: the edge of a
+    /// table.
     fn find_parts_of_knives(&mut self, work: &mut Budget) {
         let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage == Use::Drawn);
         let is_knife =
@@ -198,7 +178,7 @@ impl Sheet {
         for children in inner.chunk_by(|&a, &b| self.nest.parent(a) == self.nest.parent(b)) {
             let Some(parent) = self.nest.parent(children[0]) else { continue };
             let outline = self.lines[parent].points(&self.vertices);
-            let tried = children.iter().take(SEAM_CANDIDATES);
+            let tried = children.iter().take(seam::CANDIDATES);
             // What nobody has looked at is not cut for a cut-out.
             let mut is_seam = |&&i: &&usize| {
                 !work.spend(seam::COST * outline.len())
@@ -225,15 +205,15 @@ impl Sheet {
                 Cut::Knife => is_knife,
                 Cut::Inner => inner == Inner::All || (is_knife || inner == Inner::Cut) && !self.is_too_large(i),
                 Cut::All => inner == Inner::All,
-                Cut::Never => false,
+                Cut::Every | Cut::Never => false,
             };
             let may_be = match line.usage {
                 Use::Unsaid | Use::Knife => true,
                 Use::Drawn => line.class == Class::Notch,
                 Use::Ignore => false,
             };
-            // A frame that is cut would make cut-outs of all parts.
-            let by_option = job.lines.all && line.class != Class::Frame;
+            // A frame that is cut would make cut-outs of all parts, and one cut is enough for a line.
+            let by_option = job.lines.all && line.class.rule().cut != Cut::Never;
             self.lines[i].is_cut = may_be && (by_rule || by_option);
         }
         // A notch is cut with its outline.

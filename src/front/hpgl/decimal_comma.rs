@@ -1,25 +1,42 @@
-//! Decimal commas: plots of programs that write numbers as the language of the computer has them. Their pairs read as four
-//! numbers, all of them at other places.
+//! Decimal commas: plots of programs that write numbers as the language of the computer has them. Their pairs read as
+//! four numbers, all of them at other places.
 
 /// Bytes that are looked at.
 const LOOKED_AT: usize = 4096;
 /// Numbers that show it: fewer may be chance.
 const LEAST: usize = 4;
-/// Decimals of a number at the least: one digit behind a comma may as well be a coordinate.
+/// Decimals of a number at the least where blanks part the numbers: one digit behind a comma may as well be a
+/// coordinate.
 const LEAST_DECIMALS: usize = 2;
+/// Largest height of a drawing that is none, mm: the digits behind the commas read as Y, all of them within it.
+const FLAT: f64 = 3.0;
+/// Places of a flat drawing at the least, and how much longer than high it is: a square in which commas are read wrong.
+const LEAST_PLACES: usize = 6;
+const FLAT_RATIO: f64 = 8.0;
 
-/// Whether the places of a plot have commas for points: blanks part the numbers, behind each comma stand as many digits, and
-/// some of these begin with a zero, which no coordinate does.
-pub(super) fn has(bytes: &[u8]) -> bool {
+/// Whether the places of a plot have commas for points. Behind each comma stand as many digits, and some of these begin
+/// with a zero, which no coordinate does; or all digits behind commas read as Y make a drawing that is flat. `unit` is
+/// that of the file, mm.
+pub(super) fn has(bytes: &[u8], unit: f64) -> bool {
     let head = &bytes[..bytes.len().min(LOOKED_AT)];
     // The last instruction may go on behind what is looked at.
     let end = memchr::memrchr(b';', head).unwrap_or(0);
-    let instructions = head[..end].split(|&byte| byte == b';').map(<[u8]>::trim_ascii);
+    are_parted_by_blanks(places(&head[..end])) || is_flat(bytes, unit)
+}
+
+/// The numbers of each instruction that leads the pen, where there are some.
+fn places(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let instructions = bytes.split(|&byte| byte == b';').map(<[u8]>::trim_ascii);
     let places = instructions.filter_map(|instruction| match instruction {
         [b'P', b'U' | b'D' | b'A' | b'R', places @ ..] => Some(places.trim_ascii()),
         _ => None,
     });
-    let numbers = places.filter(|places| !places.is_empty()).flat_map(|places| places.split(|&byte| byte == b' '));
+    places.filter(|places| !places.is_empty())
+}
+
+/// Whether each number has a comma, with as many digits behind it, some of which begin with a zero.
+fn are_parted_by_blanks<'a>(places: impl Iterator<Item = &'a [u8]>) -> bool {
+    let numbers = places.flat_map(|places| places.split(|&byte| byte == b' '));
     let (mut count, mut decimals, mut has_zero) = (0, None, false);
     for number in numbers.filter(|number| !number.is_empty()) {
         let Some(comma) = memchr::memchr(b',', number) else { return false };
@@ -36,6 +53,35 @@ pub(super) fn has(bytes: &[u8]) -> bool {
     has_zero && count >= LEAST
 }
 
+/// Whether all places of a plot, read in pairs, have a Y without a sign and of as many digits, so that all of it is as
+/// good as one line, which some of them leave. Small relative moves and scales are another matter. Nearly all plots end
+/// the search at one of their first places.
+fn is_flat(bytes: &[u8], unit: f64) -> bool {
+    let (mut x, mut y) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, 0.0_f64]);
+    let (mut digits, mut count) = (None, 0);
+    for pairs in places(bytes) {
+        let numbers = pairs.split(|&byte| byte == b',' || byte == b' ').filter(|number| !number.is_empty());
+        let mut numbers = numbers.map(|number| (number, parsed(number)));
+        while let Some((_, column)) = numbers.next() {
+            let (Some(column), Some((row, Some(height)))) = (column, numbers.next()) else { return false };
+            let is_alike = row.iter().all(u8::is_ascii_digit) && *digits.get_or_insert(row.len()) == row.len();
+            if !is_alike || height * unit > FLAT {
+                return false;
+            }
+            x = [x[0].min(column), x[1].max(column)];
+            y = [y[0].min(height), y[1].max(height)];
+            count += 1;
+        }
+    }
+    let leaves_line = y[1] > y[0] || digits.is_some_and(|digits| digits >= LEAST_DECIMALS) && y[1] == 0.0;
+    let is_scaled = || bytes.windows(3).any(|three| matches!(three, [b';', b'P', b'R'] | [b';', b'S', b'C']));
+    count >= LEAST_PLACES && leaves_line && x[1] - x[0] >= FLAT_RATIO * y[1].max(1.0) && !is_scaled()
+}
+
+fn parsed(number: &[u8]) -> Option<f64> {
+    std::str::from_utf8(number).ok()?.parse().ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,12 +91,23 @@ mod tests {
         for (plot, is_decimal) in [
             ("IN;PU400,00 400,00;PD4400,00 400,00;PD4400,00 2400,00;", true),
             ("IN;PU10,25 7,50;PD10,25 80,00;PU;PD3,50 -4,05;", true),
+            ("IN;PU404,94 413,51;PD12409,38 413,51;PD12409,38 8444,59;PD404,94 8444,59;", true),
+            ("IN;PU404,94,413,51;PD12409,38,413,51;PD12409,38,8444,59;PD404,94,8444,59;", true),
+            ("IN;PU400,00,400,00;PD4400,00,400,00;PD4400,00,2400,00;PD400,00,2400,00;", true),
+            ("IN;PU404,9 413,5;PD12409,4 413,5 12409,4 8444,6 404,9 8444,6 404,9 413,5;", true),
+            ("IN;PU404,9;PD413,5,12409,4,413,5,12409,4,8444,6,404,9,8444,6,404,9,413,5;", true),
             ("IN;PU400,100 400,200;PD4400,300 400,500;PD4400,200 2400,400;", false),
             ("IN;PU400,0 400,0;PD4400,0 400,0;PD4400,0 2400,0;", false),
             ("IN;PU400,00,400,00;PD4400,00,400,00;", false),
             ("IN;PU400,00 400,00;PD", false),
+            // A line of 2 mm by 2 mm, small moves, and a scale.
+            ("IN;PU10,10;PD20,10,90,10,90,90,10,90,10,10;", false),
+            ("IN;PU400,40;PR;PD400,10,800,20,900,30,700,20,800,10;", false),
+            ("IN;SC0,10000,0,100;PU404,94,413,51;PD12409,38,413,51;PD12409,38,8444,59;", false),
         ] {
-            assert_eq!(has(plot.as_bytes()), is_decimal, "{plot}");
+            assert_eq!(has(plot.as_bytes(), 0.025), is_decimal, "{plot}");
         }
+        let in_mm = "PU100,10;PD900,10,900,90,500,95,100,90,100,10;";
+        assert!(!has(in_mm.as_bytes(), 1.0));
     }
 }

@@ -6,8 +6,9 @@
 //! cut.
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the
-//! table of what they mean; [`decimal_comma`] tells files whose numbers are none; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`]
-//! doubts the size; [`tally`] counts what was not obeyed, [`lost`] what may be lost.
+//! table of what they mean; [`decimal_comma`] tells files whose numbers are none; [`mod@lower`] follows them with the
+//! [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed,
+//! [`lost`] what may be lost.
 
 mod count;
 mod curve;
@@ -111,7 +112,8 @@ fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     if foreign::refuse(source, DIALECT.name, out) {
         return Drawing::default();
     }
-    if decimal_comma::has(source.bytes()) {
+    let unit = &job.profile.hpgl.unit;
+    if decimal_comma::has(source.bytes(), unit.mm()) {
         let message = "the numbers of this plot have commas for decimal points";
         let finding = Diagnostic::new(&code::HPGL_DECIMAL_COMMA, message);
         out.push(
@@ -119,7 +121,6 @@ fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
         );
         return Drawing::default();
     }
-    let unit = &job.profile.hpgl.unit;
     let sagitta = job.profile.tolerance(unit.mm()) * SAGITTA;
     let drawing = lower(source, Measure { unit: unit.mm(), sagitta }, out);
     unit::check_plausible(unit::Sized { unit, extent: &drawing.extent(), source, labels: &drawing.texts }, out);

@@ -15,8 +15,9 @@ use cutc::verify::{PlotCuts, plot_audit};
 use super::audit::audit;
 use super::{as_read, read, rectangle, source};
 
-/// What a plot is behind the passes, and the codes of what is said; the account of its lines is whole and its parts are right.
-fn found(text: &str, job: &Job) -> (Marker, Vec<&'static str>) {
+/// What a plot is behind the passes, and the codes of what is said; the account of its lines is whole and its parts are
+/// right.
+pub(super) fn found(text: &str, job: &Job) -> (Marker, Vec<&'static str>) {
     let source = source(format!("IN;SP1;{text}PU;SP0;"));
     let marker = as_read(&source, job);
     assert_eq!(audit(&source, &marker, job), [], "{text}");
@@ -31,7 +32,7 @@ fn judged(source: &cutc::source::Source, marker: &Marker, job: &Job) -> Vec<&'st
 }
 
 /// Area of each closed contour, mm2.
-fn areas(marker: &Marker) -> Vec<f64> {
+pub(super) fn areas(marker: &Marker) -> Vec<f64> {
     let closed = marker.contours().filter(|(_, contour)| contour.closed);
     closed.map(|(_, contour)| ring::area(&marker.points(contour)).abs().round()).collect()
 }
@@ -162,7 +163,7 @@ fn outlines_that_end_at_the_frame_are_closed_along_it_and_lines_across_the_cloth
 }
 
 /// Reads one plot and judges it by the bytes of another, as if the reader had missed what only the other draws.
-fn missed(text: &str, all: &str) -> Vec<&'static str> {
+pub(super) fn missed(text: &str, all: &str) -> Vec<&'static str> {
     missed_by(text, all, &Job::default())
 }
 

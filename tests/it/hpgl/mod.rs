@@ -8,6 +8,7 @@ mod curves;
 mod lost;
 mod notches;
 mod patience;
+mod remains;
 mod twin;
 mod words;
 
@@ -244,7 +245,8 @@ fn pens_and_options_decide_what_is_cut() {
     check(&only("4"), [1, 1, 0, 0]);
     check(&only("1-4"), [1, 3, 0, 0]);
     check(&|job| job.lines = Lines { pens: Numbers::parse("1").ok(), all: true, inner: None }, [1, 3, 0, 0]);
-    // What a pen that only draws adds to the edge of a part that is cut is a notch; what an ignored one adds is nothing.
+    // What a pen that only draws adds to the edge of a part that is cut is a notch; what an ignored one adds is
+    // nothing.
     let text = format!("IN;SP4;{}SP1;PU4000,0;PD4000,200;PU;SP0;", rectangle(0, 0, 8000, 8000));
     for (usage, notches) in [(PenUse::Pen, 1), (PenUse::Knife, 1), (PenUse::Ignore, 0)] {
         let mut job = Job::default();

@@ -1,12 +1,12 @@
 //! Notch: recognises the notches that outlines make, and lists them with their piece. The outlines keep them.
 //!
-//! Needs: welded contours without narrow boxes and spikes, which are slits. A notch is a way between two places of a closed
-//! contour, of which all of this is true, to rounding:
+//! Needs: welded contours without narrow boxes and spikes, which are slits. A notch is a way between two places of a
+//! closed contour, of which all of this is true, to rounding:
 //!
 //! - it is a V (mouth 1 to 12 mm), a castle or a U (mouth 1.5 to 12 mm), 1.5 to 15 mm deep along its axis;
 //! - the axis of a V or castle, from the middle of the mouth to that of the bottom, leans up to 60 degrees from the square;
 //! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction;
-//! - on either side the next notch is farther than the mouth is wide: closer ones are the teeth of a pinked hem;
+//! - it is none of four or more in a row whose next is nearer than their mouths are wide: the teeth of a pinked hem;
 //! - three vertices at least belong to none of the contour's notches.
 //!
 //! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are none.
@@ -39,10 +39,14 @@ pub(super) const PASS: MarkerPass =
 
 /// Vertices that must belong to no notch.
 const LEAST_OTHERS: usize = 3;
+/// Notches beside each other, nearer than their mouths are wide, at the most: double and triple notches tell a back
+/// from a front.
+const MOST_BESIDE: usize = 3;
 /// What a vertex that is looked at to tell cut-outs from parts costs beside the comparison of two boxes. In a drawing
 /// made to be slow, what is left counts as a part.
 const VERTEX: usize = 4;
-/// How deep a notch may lie in another piece without a word, mm, beside the diagonal of the file's unit: pieces that touch.
+/// How deep a notch may lie in another piece without a word, mm, beside the diagonal of the file's unit: pieces that
+/// touch.
 const TOUCH: f64 = 0.2;
 /// Decimals of depths in messages, mm.
 const DEPTH_DECIMALS: u32 = 1;
@@ -202,8 +206,18 @@ impl<'a> Outline<'a> {
             })
         };
         let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
-        let is_alone = |k: usize| !crowded[k] && !crowded[(k + all.len() - 1) % all.len()];
-        (0..all.len()).map(|k| is_alone(k).then_some(all[k])).collect()
+        // Rows start behind a notch whose next is farther away; where there is none, all are one row.
+        let start = crowded.iter().rposition(|is| !is).map_or(0, |k| k + 1);
+        let mut kept = vec![None; all.len()];
+        let mut row = Vec::new();
+        for k in (0..all.len()).map(|k| (start + k) % all.len()) {
+            row.push(k);
+            if !crowded[k] || row.len() == all.len() {
+                let is_few = row.len() <= MOST_BESIDE;
+                row.drain(..).filter(|_| is_few).for_each(|k| kept[k] = Some(all[k]));
+            }
+        }
+        kept
     }
 }
 

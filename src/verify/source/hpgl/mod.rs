@@ -1,8 +1,8 @@
 //! A second, small reading of a plot: where the pen goes while it is down, by other means than the reader's.
 //!
-//! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together must be
-//! what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges by the same
-//! strokes whether the right lines are cut.
+//! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together
+//! must be what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges
+//! by the same strokes whether the right lines are cut, `rectangle` finds the edges of the cloth among them.
 
 mod curve;
 mod encoded;
@@ -10,6 +10,7 @@ mod figure;
 mod frame;
 mod instruction;
 mod outermost;
+mod rectangle;
 mod scan;
 
 use self::instruction::ETX;

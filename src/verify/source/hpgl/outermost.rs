@@ -1,11 +1,12 @@
-//! Whether the right lines of a plot are cut, judged by its strokes alone: no line is cut in the place of the outline around
-//! it, and no stroke from edge to edge of a part is left out.
+//! Whether the right lines of a plot are cut, judged by its strokes alone: no line is cut in the place of the outline
+//! around it, and no stroke from edge to edge of a part is left out.
 //!
-//! It knows less than the reader and is stricter where it knows. Lines of several strokes are not judged. Where somebody
-//! gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
+//! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are not judged. Where
+//! somebody gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
 
 use std::cell::RefCell;
 
+use super::rectangle;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -21,17 +22,18 @@ const LEAST_SIZE: f64 = 30.0;
 const GAP_SHARE: f64 = 0.08;
 /// Mean width of an outline at least, mm: less is a line out and back.
 const LEAST_WIDTH: f64 = 4.0;
-/// How far parts may stand over the frame that they touch, mm.
+/// Widest hem, mm: marks on one are narrower.
+const WIDEST_HEM: f64 = 75.0;
+/// Distance by which parts may stand over the frame that they touch, mm.
 const SAME_BOX: f64 = 0.5;
-/// How far an outline may be drawn from its cut where the tolerance is less, mm: programs end lines so far beside their start.
+/// Least distance allowed between a cut and the outline that it stands for, mm: programs end lines so far beside their
+/// start.
 const LEAST_OFF: f64 = 0.2;
-/// Places of a line along a frame that are looked at, less one.
-const STEPS: usize = 16;
 /// Rounding of gaps, mm.
 const CLOSE_EPSILON: f64 = 1e-6;
 /// Share by which a frame may be smaller than its box.
 const FRAME_LACK: f64 = 0.01;
-/// Lengths of a notch that is a stroke, mm: of all of it, of its mouth, of its depth.
+/// Measures of a notch that is a stroke, mm: all of its length, its mouth, its depth.
 const STROKE_LENGTH: f64 = 55.0;
 const STROKE_MOUTH: [f64; 2] = [0.6, 11.5];
 const STROKE_DEPTH: [f64; 2] = [1.5, 14.5];
@@ -120,9 +122,8 @@ impl<'a> Judging<'a> {
         if closed.is_empty() {
             return Vec::new();
         }
-        let is_frame = |stroke: &&Vec<Point>| gap(stroke) <= close && goes_around(stroke) && is_own_box(stroke);
-        let frames: Vec<&Vec<Point>> = self.drawn.iter().filter(is_frame).collect();
-        let is_drawn = |places: &[Point]| frames.iter().any(|frame| runs_along(frame, places, close));
+        let rectangles = rectangle::drawn(self.drawn, close);
+        let is_drawn = |places: &[Point]| rectangles.iter().any(|one| one.runs_along(places, close));
         closed.into_iter().filter(|places| !is_drawn(places)).map(|places| places[0]).collect()
     }
 
@@ -144,7 +145,8 @@ impl<'a> Judging<'a> {
         self.boxes.near(extent).any(has_box) || self.boxes.near(extent).any(follows)
     }
 
-    /// Where the first line is cut that lies in an outline which is not, unless that is a frame or lies in a part itself.
+    /// Where the first line is cut that lies in an outline which is not, unless that is a frame or lies in a part
+    /// itself.
     fn cut_inside(&self, stroke: &[Point]) -> Option<Point> {
         let extent = Extent::of(stroke);
         let boxes = self.boxes.all();
@@ -168,7 +170,18 @@ impl<'a> Judging<'a> {
         // A frame is a rectangle around parts beside each other.
         let beside = held.iter().any(|&k| held.iter().any(|&other| !boxes[k].meets(&boxes[other])))
             || held.len() > 1 && !held.iter().any(|&k| held.iter().all(|&other| boxes[k].covers(&boxes[other])));
-        (!is_rectangle || !beside).then(|| self.cuts.contours[first][0])
+        (!is_rectangle || !beside && !self.holds_another(stroke, first)).then(|| self.cuts.contours[first][0])
+    }
+
+    /// Whether an outline lies in a rectangle beside a cut, uncut itself, that is wider than any hem: then it is a
+    /// frame.
+    fn holds_another(&self, rectangle: &[Point], cut: usize) -> bool {
+        let (reach, beside) = (Extent::of(rectangle).grown(SAME_BOX), &self.boxes.all()[cut]);
+        self.drawn.iter().filter(|stroke| goes_around(stroke)).any(|stroke| {
+            let extent = Extent::of(stroke);
+            let (width, height) = extent.size();
+            width.min(height) > WIDEST_HEM && reach.covers(&extent) && !extent.meets(beside)
+        })
     }
 
     fn lies_in_a_cut(&self, stroke: &[Point]) -> bool {
@@ -191,12 +204,31 @@ impl<'a> Judging<'a> {
         for stroke in drawn {
             let Some(tip) = tip(stroke) else { continue };
             let [first, .., last] = stroke[..] else { continue };
-            if !is_among(&ends, [first, last]) && !is_among(&ends, [last, first]) && self.is_on_part([first, last], tip)
+            if !is_among(&ends, [first, last])
+                && !is_among(&ends, [last, first])
+                && self.is_on_part([first, last], tip)
+                && !self.is_along_a_cut(stroke)
             {
                 found.push(tip);
             }
         }
         found
+    }
+
+    /// Whether one cut goes along all of a stroke, place by place and from edge to edge: the outline that is lifted
+    /// there.
+    fn is_along_a_cut(&self, stroke: &[Point]) -> bool {
+        let extent = Extent::of(stroke);
+        let boxes = self.boxes.all();
+        let looked_at = stroke.windows(2).flat_map(|ends| [ends[0] + (ends[1] - ends[0]) / 2.0, ends[1]]);
+        let looked_at: Vec<Point> = stroke.first().copied().into_iter().chain(looked_at).collect();
+        self.boxes.near(extent).any(|k| {
+            let points = &self.cuts.contours[k];
+            points.len() > stroke.len()
+                && boxes[k].grown(SAME_END).covers(&extent)
+                && self.work.borrow_mut().spend(looked_at.len().saturating_mul(points.len()))
+                && looked_at.iter().all(|&place| polyline::distance(place, points) <= SAME_END)
+        })
     }
 
     /// Whether two places lie on the edge of one part and a third one in it, in no other cut inside.
@@ -230,21 +262,6 @@ fn goes_around(stroke: &[Point]) -> bool {
 /// Distance from the end of a stroke to its start, mm.
 fn gap(stroke: &[Point]) -> f64 {
     (stroke[stroke.len() - 1] - stroke[0]).norm()
-}
-
-/// Whether each edge of a line runs along one side of a rectangle, where that is drawn.
-fn runs_along(rectangle: &[Point], line: &[Point], reach: f64) -> bool {
-    let Extent { min, max } = Extent::of(rectangle);
-    let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-    let is_on = |side: usize, ends: &[Point]| {
-        let [from, to] = [corners[side], corners[(side + 1) % 4]];
-        ends.iter().all(|&end| polyline::distance_to_segment(end, from, to) <= reach)
-    };
-    let is_drawn = |ends: &[Point]| {
-        let place = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 / STEPS as f64);
-        (0..=STEPS).all(|k| polyline::distance(place(k), rectangle) <= reach)
-    };
-    line.windows(2).all(|ends| (0..4).any(|side| is_on(side, ends)) && is_drawn(ends))
 }
 
 /// Whether a stroke is its own box.

@@ -1,0 +1,328 @@
+//! Remains of outlines: open lines that go around a closed one. That is no part then, but the seam line of an outline
+//! which is not whole. One open line may do so, or several together: dashes, sides that do not meet, stretches between
+//! notches.
+
+use super::line::{Class, Line, SMALL_OUTLINE, is_straight};
+use super::pens::Use;
+use super::seam;
+use crate::analysis::nesting::Nesting;
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point, Vector, cross, left, polyline, ring};
+use crate::ir::drawing::Vertex;
+
+/// Share of a closed line that open ones together run beside: that of two sides of four, less what its corners take.
+const BESIDE: f64 = 0.45;
+/// The same where some of the lines go far beyond the closed one, as those of two outlines that were drawn without a
+/// lift. They must run beside three of its four sides, too: neighbours lie beside one or two.
+const SURELY: f64 = 0.75;
+const LEAST_SIDES: usize = 3;
+/// Share of an open line that runs beside the closed one, at the least: the outline of a neighbour has one side there.
+const OWN: f64 = 0.4;
+/// Least distance of an outline from its seam line, mm: what is nearer is the same edge once more.
+const LEAST_OFF: f64 = 1.0;
+/// Cosine of the greatest angle between the way to an open line and the square to the closed one.
+const SQUARE: f64 = 0.7;
+/// Largest line that may be a letter, mm; a dash is straight.
+const LETTER: f64 = 15.0;
+/// Share of its length that lines must have around a closed one to be looked at: dashes draw half of the way.
+const LEAST_DRAWN: f64 = 0.2;
+
+/// Open lines, and the closed line that they go around.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Remains {
+    pub(super) lines: Vec<usize>,
+    pub(super) inner: usize,
+}
+
+/// The lines of a drawing, and what lies in what.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drawn<'a> {
+    pub(super) lines: &'a [Line],
+    pub(super) vertices: &'a [Vertex],
+    pub(super) nest: &'a Nesting,
+}
+
+/// An edge near a closed line.
+struct Edge {
+    ends: [Point; 2],
+    /// The line that it is of.
+    line: usize,
+    /// Whether its line stays near the closed one.
+    is_own: bool,
+}
+
+impl Edge {
+    fn extent(&self) -> Extent {
+        Extent::between(self.ends[0], self.ends[1])
+    }
+}
+
+/// What runs beside a closed line: the lines, the share, and beside how many of its four sides.
+#[derive(Default)]
+struct Beside {
+    lines: Vec<usize>,
+    share: f64,
+    sides: usize,
+}
+
+/// Finds the parts that open lines go around. A part that the budget leaves unsearched counts as a seam line: a part
+/// that is too small cannot be mended.
+pub(super) fn find(all: Drawn, work: &mut Budget) -> Vec<Remains> {
+    let of = |is: &dyn Fn(&Line) -> bool| (0..all.lines.len()).filter(|&i| is(&all.lines[i])).collect::<Vec<_>>();
+    let open = of(&|line| !line.is_closed && line.is_open_question());
+    let parts = of(&|line| line.class == Class::Part);
+    if open.is_empty() || parts.is_empty() {
+        return Vec::new();
+    }
+    let mut found = all.single(&open, &parts, work);
+    let mut is_found: Vec<bool> = vec![false; all.lines.len()];
+    for remains in &found {
+        is_found[remains.inner] = true;
+    }
+    let extents = |lines: &[usize]| Boxes::new(lines.iter().map(|&i| all.lines[i].extent).collect());
+    let mut cloth = Extent::EMPTY;
+    for &i in &open {
+        cloth.join(&all.lines[i].extent);
+    }
+    let near = Near { cloth, open: &open, open_boxes: extents(&open), parts: &parts, part_boxes: extents(&parts) };
+    for &part in parts.iter().filter(|&&part| !is_found[part]) {
+        if let Some(lines) = all.several(part, &near, work) {
+            found.push(Remains { lines, inner: part });
+        }
+    }
+    found
+}
+
+/// Open and closed lines by their boxes.
+struct Near<'a> {
+    /// The box around all open lines: beyond it nothing is searched.
+    cloth: Extent,
+    open: &'a [usize],
+    open_boxes: Boxes,
+    parts: &'a [usize],
+    part_boxes: Boxes,
+}
+
+impl Drawn<'_> {
+    fn points(&self, line: usize) -> Vec<Point> {
+        self.lines[line].points(self.vertices)
+    }
+
+    /// Whether the pen of a closed line is named as a knife, and that of an open one is not.
+    fn is_named_knife(&self, part: usize, open: usize) -> bool {
+        self.lines[part].usage == Use::Knife && self.lines[open].usage != Use::Knife
+    }
+
+    /// Single open lines that go around much of a part.
+    fn single(&self, open: &[usize], parts: &[usize], work: &mut Budget) -> Vec<Remains> {
+        let may_be = |line: &Line| line.end - line.first > 2 && line.size() > SMALL_OUTLINE;
+        let boxes = Boxes::new(parts.iter().map(|&part| self.lines[part].extent).collect());
+        let mut found = Vec::new();
+        for &line in open.iter().filter(|&&line| may_be(&self.lines[line])) {
+            let extent = self.lines[line].extent;
+            work.spend(boxes.cost_near(&extent));
+            let fits = |k: &usize| seam::may_be_left_of(&extent, &boxes.all()[*k]);
+            let near: Vec<usize> = boxes.near(extent).filter(fits).map(|k| parts[k]).collect();
+            if near.is_empty() {
+                continue;
+            }
+            let outline = self.points(line);
+            for part in near.into_iter().filter(|&part| !self.is_named_knife(part, line)) {
+                let places = self.points(part);
+                if !work.spend(seam::COST * (outline.len() + places.len())) || seam::is_left_of(&outline, &places) {
+                    found.push(Remains { lines: vec![line], inner: part });
+                }
+            }
+        }
+        found
+    }
+
+    /// Several open lines that together go around a part without a seam line.
+    fn several(&self, part: usize, near: &Near, work: &mut Budget) -> Option<Vec<usize>> {
+        let extent = self.lines[part].extent;
+        let reach = extent.grown(seam::FARTHEST);
+        let is_beside = |&open: &usize| {
+            let line = &self.lines[open];
+            let may_be = line.size() > LETTER || is_straight(line.vertices(self.vertices));
+            may_be && !extent.covers(&line.extent) && !self.is_named_knife(part, open)
+        };
+        if !near.cloth.meets(&reach) {
+            return None;
+        }
+        work.spend(near.open_boxes.cost_near(&reach));
+        let open = near.open_boxes.near(reach).map(|k| near.open[k]);
+        let mut open: Vec<usize> = open.filter(is_beside).collect();
+        let drawn = open.iter().fold(0.0, |sum, &open| sum + self.lines[open].length);
+        if drawn < LEAST_DRAWN * self.lines[part].length {
+            return None;
+        }
+        open.sort_unstable();
+        let places = self.points(part);
+        let mut edges = Edges::new(self.edges(part, &places, &open, work));
+        if edges.around(&places, work)?.is_none() {
+            return Some(open);
+        }
+        // Few parts come so far: nothing closed may stand between, and a part with a seam line is an outline.
+        edges.walls = Walls::new(self.walls(part, near, work));
+        let lines = edges.around(&places, work)?.unwrap_or(open);
+        (!self.has_seam(part, &places, work)).then_some(lines)
+    }
+
+    /// The edges of open lines near a part.
+    fn edges(&self, part: usize, places: &[Point], open: &[usize], work: &mut Budget) -> Vec<Edge> {
+        let extent = self.lines[part].extent;
+        let (reach, margin) = (extent.grown(seam::FARTHEST), extent.grown(seam::BOX_MARGIN));
+        let mut edges = Vec::new();
+        for &line in open {
+            let Line { first, end, extent, .. } = self.lines[line];
+            let is_short = self.lines[line].size() <= SMALL_OUTLINE;
+            let cost = if is_short { 1 } else { seam::COST * places.len() + (end - first) as usize };
+            let is_own = margin.covers(&extent)
+                && (is_short || !work.spend(cost) || share_beside(&self.points(line), places) >= OWN);
+            let edge = |ends: &[Vertex]| Edge { ends: [ends[0].at, ends[1].at], line, is_own };
+            let is_near = |edge: &Edge| edge.extent().meets(&reach) && margin.covers(&edge.extent());
+            edges.extend(self.lines[line].vertices(self.vertices).windows(2).map(edge).filter(is_near));
+        }
+        edges
+    }
+
+    /// The edges of other parts near one.
+    fn walls(&self, part: usize, near: &Near, work: &mut Budget) -> Vec<[Point; 2]> {
+        let reach = self.lines[part].extent.grown(seam::FARTHEST);
+        work.spend(near.part_boxes.cost_near(&reach));
+        let mut walls = Vec::new();
+        for other in near.part_boxes.near(reach).map(|k| near.parts[k]).filter(|&other| other != part) {
+            let vertices = self.lines[other].vertices(self.vertices);
+            work.spend(vertices.len());
+            let ends = vertices.windows(2).map(|ends| [ends[0].at, ends[1].at]);
+            walls.extend(ends.filter(|ends| Extent::between(ends[0], ends[1]).meets(&reach)));
+        }
+        walls
+    }
+
+    /// Whether a closed line has a seam line inside it: then it is an outline.
+    fn has_seam(&self, part: usize, places: &[Point], work: &mut Budget) -> bool {
+        work.spend(self.lines.len());
+        let is_inner = |&i: &usize| self.nest.parent(i) == Some(part) && self.lines[i].is_outline();
+        let mut inner: Vec<usize> = (0..self.lines.len()).filter(is_inner).collect();
+        inner.sort_by(|&a, &b| self.lines[b].area.total_cmp(&self.lines[a].area).then(a.cmp(&b)));
+        let follows = |&i: &usize| work.spend(seam::COST * places.len()) && seam::follows(&self.points(i), places);
+        inner.iter().take(seam::CANDIDATES).any(follows)
+    }
+}
+
+/// Share of an open line that runs beside a closed one from outside, square to it.
+fn share_beside(open: &[Point], closed: &[Point]) -> f64 {
+    let samples = seam::samples(open);
+    let runs_beside = |(at, way): &&(Point, Vector)| {
+        let foot = |ends: &[Point]| ends[0] + (ends[1] - ends[0]) * polyline::foot(*at, ends[0], ends[1]) - at;
+        let ways = closed.windows(2).map(|ends| (foot(ends), ends[1] - ends[0]));
+        let nearest = ways.min_by(|a, b| a.0.norm_squared().total_cmp(&b.0.norm_squared()));
+        nearest.is_some_and(|(off, edge)| {
+            off.norm() <= seam::FARTHEST
+                && cross(*way, off).abs() >= SQUARE * way.norm() * off.norm()
+                && seam::is_along(*way, edge)
+                && !ring::contains(closed, *at)
+        })
+    };
+    samples.iter().filter(runs_beside).count() as f64 / samples.len().max(1) as f64
+}
+
+/// Edges of other closed lines, by their boxes: no outline lies beyond one.
+#[derive(Default)]
+struct Walls {
+    ends: Vec<[Point; 2]>,
+    boxes: Boxes,
+}
+
+impl Walls {
+    fn new(ends: Vec<[Point; 2]>) -> Self {
+        let boxes = Boxes::new(ends.iter().map(|[a, b]| Extent::between(*a, *b)).collect());
+        Self { ends, boxes }
+    }
+}
+
+/// The edges of open lines near a closed one, by their boxes.
+struct Edges {
+    list: Vec<Edge>,
+    boxes: Boxes,
+    walls: Walls,
+}
+
+impl Edges {
+    fn new(list: Vec<Edge>) -> Self {
+        let boxes = Boxes::new(list.iter().map(Edge::extent).collect());
+        Self { list, boxes, walls: Walls::default() }
+    }
+
+    /// The lines that go around a closed line: `None` when they do not, and `Some(None)` when the budget does not last.
+    #[expect(clippy::option_option, reason = "the search may find nothing, or end before its time")]
+    fn around(&self, places: &[Point], work: &mut Budget) -> Option<Option<Vec<usize>>> {
+        let Some(any) = self.beside(places, false, work) else { return Some(None) };
+        if any.share < BESIDE {
+            return None; // as of nearly all
+        }
+        let Some(own) = self.beside(places, true, work) else { return Some(None) };
+        if own.share >= BESIDE {
+            return Some(Some(own.lines));
+        }
+        (any.share >= SURELY && any.sides >= LEAST_SIDES).then_some(Some(any.lines))
+    }
+
+    /// The lines beside a closed line from outside: all open ones, or those that stay near it. `None` when the budget
+    /// does not last.
+    fn beside(&self, places: &[Point], is_own: bool, work: &mut Budget) -> Option<Beside> {
+        let samples = seam::samples(places);
+        let turn = ring::area(places).signum();
+        let mut found = Beside::default();
+        let mut sides = [[0_usize; 2]; 4];
+        let mut beside = 0_usize;
+        for (k, (at, way)) in samples.iter().enumerate() {
+            // What is left cannot make up for what is missing.
+            if ((beside + samples.len() - k) as f64) < BESIDE * samples.len() as f64 {
+                break;
+            }
+            let outward = -left(*way) * (turn / way.norm());
+            let side = if outward.x.abs() > outward.y.abs() {
+                usize::from(outward.x > 0.0)
+            } else {
+                2 + usize::from(outward.y > 0.0)
+            };
+            sides[side][1] += 1;
+            let around = Extent::between(*at, *at).grown(seam::FARTHEST);
+            if !work.spend(self.boxes.cost_near(&around) + self.walls.boxes.cost_near(&around)) {
+                return None;
+            }
+            if let Some(line) = self.line_beside(*at, *way, outward, is_own) {
+                sides[side][0] += 1;
+                beside += 1;
+                found.lines.push(line);
+            }
+        }
+        found.share = beside as f64 / samples.len().max(1) as f64;
+        found.sides = sides.iter().filter(|[beside, all]| 2 * beside > *all).count();
+        found.lines.sort_unstable();
+        found.lines.dedup();
+        Some(found)
+    }
+
+    /// The open line that runs beside a place of a closed one, with nothing closed between them.
+    fn line_beside(&self, at: Point, way: Vector, outward: Vector, is_own: bool) -> Option<usize> {
+        let around = Extent::between(at, at).grown(seam::FARTHEST);
+        // How far ahead an edge is, if it is.
+        let ahead = |[a, b]: [Point; 2]| {
+            let off = a + (b - a) * polyline::foot(at, a, b) - at;
+            let distance = off.norm();
+            (distance <= seam::FARTHEST && off.dot(&outward) >= SQUARE * distance).then_some(distance)
+        };
+        let edges = self.boxes.near(around).map(|k| &self.list[k]);
+        let along = edges.filter(|edge| (edge.is_own || !is_own) && seam::is_along(way, edge.ends[1] - edge.ends[0]));
+        let near = along.filter_map(|edge| Some((ahead(edge.ends)?, edge.line)));
+        let off = near.filter(|(distance, _)| *distance > LEAST_OFF);
+        // The edges come in no order.
+        let (distance, line) = off.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        let mut walls = self.walls.boxes.near(around).filter_map(|k| ahead(self.walls.ends[k]));
+        (!walls.any(|wall| wall <= distance)).then_some(line)
+    }
+}

@@ -1,0 +1,233 @@
+//! Outlines that are not whole, strokes that are drawn twice, and frames: no seam line is cut in the place of its
+//! outline, and what is drawn twice is cut once.
+
+use std::fmt::Write as _;
+
+use cutc::geom::ring;
+use cutc::ir::Marker;
+use cutc::ir::marker::OutlineNotch;
+use cutc::machine::Job;
+use cutc::machine::plot::PenUse;
+
+use super::closing::{areas, found, missed};
+use super::rectangle;
+
+/// An outline of 12,000 by 8000 units from (400, 400) on, drawn in several ways that are not whole.
+fn broken_outlines() -> Vec<(&'static str, String)> {
+    let [x, y, right, top] = [400, 400, 12_400, 8400];
+    let sides = |cut: i64| {
+        format!(
+            "PU{},{y};PD{right},{y};PU{right},{};PD{right},{top};PU{},{top};PD{x},{top};PU{x},{};PD{x},{y};",
+            x + cut,
+            y + cut,
+            right - cut,
+            top - cut
+        )
+    };
+    let mut dashes = String::new();
+    for (from, to, step) in [(x, right, 400), (x, right, 700)] {
+        dashes.clear();
+        let dash = step * 3 / 5;
+        for at in (from..to).step_by(step as usize) {
+            _ = write!(dashes, "PU{at},{y};PD{},{y};PU{at},{top};PD{},{top};", at + dash, at + dash);
+        }
+        for at in (y..top).step_by(step as usize) {
+            _ = write!(dashes, "PU{x},{at};PD{x},{};PU{right},{at};PD{right},{};", at + dash, at + dash);
+        }
+    }
+    vec![
+        ("sides 2 mm apart", sides(80)),
+        ("sides 5 mm apart", sides(200)),
+        ("sides 30 mm apart", sides(1200)),
+        ("sides past the corners", sides(-120)),
+        ("dashes", dashes),
+        ("two opposite sides", format!("PU{x},{y};PD{right},{y};PU{right},{top};PD{x},{top};")),
+        (
+            "stretches between notches",
+            "PU4240,400;PD12400,400,12400,4000;PU12400,4240;PD12400,8400,4240,8400;PU4000,8400;PD400,8400,400,4240;\
+             PU400,4000;PD400,400,4000,400;"
+                .to_owned(),
+        ),
+    ]
+}
+
+#[test]
+fn a_seam_line_is_no_part_when_its_outline_is_drawn_in_strokes_that_do_not_meet() {
+    let seam = rectangle(800, 800, 11_200, 7200);
+    let sound = rectangle(20_400, 400, 12_000, 12_000) + &rectangle(20_800, 800, 11_200, 11_200);
+    for (name, outline) in broken_outlines() {
+        for text in [format!("{outline}{seam}{sound}"), format!("{seam}{sound}{outline}")] {
+            let (marker, codes) = found(&text, &Job::default());
+            assert_eq!((areas(&marker), codes), (vec![90_000.0], vec!["drawing/open-part"]), "{name}");
+        }
+    }
+    // Two outlines that were drawn without a lift between them.
+    let both =
+        "PU400,400;PD12400,400,12400,8400,400,8400,400,400,20400,400,32400,400,32400,12400,20400,12400,20400,400;";
+    let (marker, codes) = found(&format!("{both}{seam}"), &Job::default());
+    assert_eq!((areas(&marker), codes), (vec![], vec!["drawing/open-part", "drawing/nothing-to-cut"]));
+}
+
+#[test]
+fn an_open_outline_of_a_pen_that_only_draws_is_told() {
+    let seam = rectangle(800, 800, 11_200, 7200);
+    let text =
+        format!("SP2;PU12400,400;PD400,400,400,8400,12400,8400;SP1;{seam}{}", rectangle(20_400, 400, 8000, 8000));
+    let mut job = Job::default();
+    job.profile.hpgl.pens.insert("2".to_owned(), PenUse::Pen);
+    let (marker, codes) = found(&text, &job);
+    assert_eq!((areas(&marker), codes), (vec![40_000.0], vec!["drawing/open-part"]));
+}
+
+#[test]
+fn a_part_without_a_seam_line_stays_one_beside_open_lines_that_are_no_outline_of_it() {
+    let part = rectangle(400, 400, 6000, 6000);
+    let neighbours = [
+        "PU12400,400;PD6480,400,6480,6400,12400,6400;",
+        "PU-6000,400;PD320,400,320,6400,-6000,6400;",
+        "PU400,12400;PD400,6480,6400,6480,6400,12400;",
+    ];
+    let cloth = "PU-20000,0;PD30000,0;PU-20000,6800;PD30000,6800;";
+    let grain = "PU1000,3000;PD6000,3000;PU600,600;PD600,6200;PU6200,600;PD6200,6200;PU600,6200;PD6200,6200;";
+    let text = (0..12).fold(String::new(), |text, i| {
+        text + &format!("PU{},100;PD{},250,{},100;", 400 + i * 300, 500 + i * 300, 600 + i * 300)
+    });
+    for lines in [
+        neighbours[0].to_owned(),
+        neighbours[..2].concat(),
+        neighbours[1..].concat(),
+        cloth.to_owned(),
+        grain.to_owned(),
+        format!("{text}{cloth}{grain}"),
+    ] {
+        let (marker, _) = found(&format!("{part}{lines}"), &Job::default());
+        assert_eq!(areas(&marker), [22_500.0], "{lines}");
+    }
+    // Its own seam line makes it an outline, whatever is drawn around it.
+    let seam = rectangle(800, 800, 5200, 5200);
+    let around = "PU200,200;PD6600,200;PU6600,0;PD6600,6600;PU6800,6600;PD200,6600;PU200,6400;PD200,400;";
+    let (marker, _) = found(&format!("{part}{seam}{around}"), &Job::default());
+    assert_eq!(areas(&marker), [22_500.0]);
+}
+
+/// The words of the notches of the outlines, and how many slits there are.
+fn notches(marker: &Marker) -> (Vec<&'static str>, usize) {
+    let words = marker.pieces.iter().flat_map(|piece| &piece.outline_notches).map(OutlineNotch::word).collect();
+    (words, marker.pieces.iter().map(|piece| piece.notches.len()).sum())
+}
+
+#[test]
+fn what_is_drawn_twice_is_cut_once_and_counted() {
+    let part = rectangle(400, 400, 12_000, 8000);
+    let sides = "PU20400,400;PD28400,400;PU28400,400;PD28400,8400;PU20400,8400;PD28400,8400;PU20400,8400;PD20400,400;";
+    let v = "PU4000,400;PD4120,640,4240,400;";
+    let back = "PU4240,400;PD4120,640,4000,400;";
+    let slit = "PU8000,400;PD8000,640;";
+    let once = format!("{part}{sides}{v}{slit}");
+    let (plain, codes) = found(&once, &Job::default());
+    assert_eq!((notches(&plain), codes), ((vec!["v"], 1), vec![]));
+    for again in [v.to_owned(), back.to_owned(), slit.to_owned(), sides.to_owned(), once.clone(), format!("SP2;{once}")]
+    {
+        let (marker, codes) = found(&format!("{once}{again}"), &Job::default());
+        assert_eq!((areas(&marker), notches(&marker)), (areas(&plain), notches(&plain)), "{again}");
+        assert_eq!(codes, ["drawing/drawn-again"], "{again}");
+    }
+    // An edge that two parts draw is no repetition, and that of two parts drawn twice is one.
+    let two = "PU400,400;PD4400,400;PU4400,400;PD4400,4400;PU4400,4400;PD400,4400,400,400;\
+               PU4400,4400;PD4400,400;PU4400,400;PD8400,400,8400,5400,4400,5400,4400,4400;";
+    let (plain, codes) = found(two, &Job::default());
+    assert!(!codes.contains(&"drawing/drawn-again"), "{codes:?}");
+    let (marker, codes) = found(&format!("{two}SP3;{two}"), &Job::default());
+    assert_eq!(areas(&marker), areas(&plain));
+    assert!(codes.contains(&"drawing/drawn-again"), "{codes:?}");
+}
+
+#[test]
+fn a_rectangle_with_its_seam_line_and_marks_on_its_hem_is_a_part_and_one_around_parts_a_frame() {
+    let (part, seam) = (rectangle(400, 400, 16_000, 12_000), rectangle(800, 2400, 15_200, 9600));
+    for mark in [
+        "PU4000,400;PD4000,2000,6000,2000,6000,400;",
+        "PU4000,600;PD6000,600,6000,2000,4000,2000,4000,600;",
+        "PU16400,400;PD24400,400,24400,12400,16400,12400;",
+        "PU400,12400;PD400,20400,16400,20400,16400,12400;",
+    ] {
+        let (marker, codes) = found(&format!("{part}{seam}{mark}"), &Job::default());
+        assert_eq!(areas(&marker), [120_000.0], "{mark} {codes:?}");
+        assert!(!codes.contains(&"drawing/frame"), "{mark} {codes:?}");
+    }
+    let frames = [
+        rectangle(0, 0, 16_000, 8000),
+        "PU0,0;PD16000,0;PU16000,0;PD16000,8000;PU16000,8000;PD0,8000;PU0,8000;PD0,0;".to_owned(),
+        "PU0,0;PD16000,0,16000,8000,0,8000,0,0,1000,0;".to_owned(),
+    ];
+    for frame in frames {
+        let text = format!("{frame}PU0,400;PD7000,400,7000,7600,0,7600;{}", rectangle(8000, 400, 7000, 7000));
+        let (marker, codes) = found(&text, &Job::default());
+        assert_eq!(areas(&marker).len(), 2, "{frame}");
+        assert!(codes.contains(&"drawing/closed") && codes.contains(&"drawing/frame"), "{frame} {codes:?}");
+    }
+}
+
+#[test]
+fn a_reader_that_takes_a_part_with_a_mark_on_its_hem_for_a_frame_is_caught() {
+    let (part, seam) = (rectangle(400, 400, 16_000, 12_000), rectangle(800, 2800, 15_200, 9200));
+    let mark = rectangle(4000, 600, 2000, 1800);
+    assert_eq!(missed(&seam, &format!("{part}{seam}{mark}")), ["source/outermost"]);
+    // A frame around a part that is cut and one whose outline has a gap.
+    let open = "PU20400,400;PD16500,400,16500,12400,20400,12400;";
+    let frame = rectangle(0, 0, 24_000, 12_800);
+    let held = rectangle(16_900, 800, 3500, 11_200);
+    assert_eq!(missed(&part, &format!("{frame}{part}{open}{held}")), [""; 0]);
+}
+
+#[test]
+fn an_outline_that_is_lifted_at_its_notches_is_cut_and_a_notch_beside_it_that_is_not_is_caught() {
+    let outline = "PU4240,400;PD12400,400,12400,8400,400,8400,400,400,4000,400;";
+    for notch in [
+        "PU4000,400;PD4120,640,4240,400;",
+        "PU4012,408;PD4120,640,4228,408;",
+        "PU4000,400;PD4000,640,4240,640,4240,400;",
+    ] {
+        let (marker, _) = found(&format!("{outline}{notch}"), &Job::default());
+        assert_eq!(notches(&marker).0.len(), 1, "{notch}");
+        let whole = rectangle(400, 400, 12_000, 8000);
+        assert_eq!(missed(&whole, &format!("{whole}{notch}")), ["source/strokes"], "{notch}");
+    }
+    // Two mouths that touch, and two or three notches beside each other; four are teeth.
+    let v = |x: i64| format!("PU{x},400;PD{},640,{},400;", x + 120, x + 240);
+    let part = rectangle(400, 400, 12_000, 8000);
+    for step in [280, 320, 360, 440, 480, 700] {
+        for count in 1..=4 {
+            let text = (0..count).fold(part.clone(), |text, k| text + &v(4000 + k * step));
+            let expected = if count == 4 && step < 480 { 0 } else { count as usize };
+            let (marker, _) = found(&text, &Job::default());
+            assert_eq!(notches(&marker).0.len(), expected, "{count} notches {step} units apart");
+        }
+    }
+    let (marker, _) = found(&(part + &v(4000) + &v(4240)), &Job::default());
+    let full = 300.0 * 200.0 - 2.0 * 18.0;
+    assert!(areas(&marker).iter().all(|area| (area - full).abs() <= 1.0), "{:?}", areas(&marker));
+    assert!(marker.contours().all(|(_, contour)| ring::area(&marker.points(contour)).abs() > 0.0));
+}
+
+#[test]
+fn gaps_are_bridged_up_to_the_limit_whichever_way_they_lie_and_to_the_nearer_end() {
+    let outline = |dx: i64, dy: i64| {
+        format!("PU400,400;PD12400,400,12400,8400;PU{},{};PD400,8400,400,400;", 12_400 + dx, 8400 + dy)
+    };
+    for (dx, dy, closes) in [(56, 0, true), (40, 40, true), (56, 56, false), (0, 61, false)] {
+        let (marker, _) = found(&outline(dx, dy), &Job::default());
+        assert_eq!(areas(&marker).len(), usize::from(closes), "{dx} {dy}");
+    }
+    // Two outlines with gaps of 0.9 mm, 1 mm from each other.
+    let sides = |x: i64| {
+        let right = x + 6000;
+        format!(
+            "PU{},400;PD{right},400;PU{right},436;PD{right},8400;PU{},8400;PD{x},8400;PU{x},8364;PD{x},400;",
+            x + 36,
+            right - 36
+        )
+    };
+    let (marker, codes) = found(&(sides(400) + &sides(6440)), &Job::default());
+    assert_eq!((areas(&marker).len(), codes), (2, vec!["drawing/closed"]));
+}
