@@ -10,8 +10,9 @@ use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
     let is_spare = |steps: &[Step], i: usize| {
         let [Step::PlungeCut(before), Step::PlungeCut(cut)] = &steps[i - 1..=i] else { return false };
-        // A line from corner to corner is cut by itself, even one that goes back beside another one.
-        if cut.ends.iter().all(|end| end.side != Side::Contour) {
+        // A line from corner to corner is cut by itself, even beside another one, but for one that goes straight back.
+        let goes_back = || before.points.first() == cut.points.last() && before.points.last() == cut.points.first();
+        if cut.ends.iter().all(|end| end.side != Side::Contour) && !goes_back() {
             return false;
         }
         let before = Blade::of(before, around);
