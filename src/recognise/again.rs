@@ -44,12 +44,20 @@ fn is_closed(drawing: &Drawing, stroke: usize) -> bool {
 fn sets(drawing: &Drawing, uses: &[Use]) -> Vec<Set> {
     let usage = |k: usize| uses.get(usize::from(drawing.strokes[k].pen)).copied().unwrap_or(Use::Ignore);
     let places = |k: usize| drawing.strokes[k].range().map(|i| bits(drawing.vertices[i].at));
+    // Most strokes differ from all others by what both their ends have in common.
+    let common = |k: usize| {
+        let range = drawing.strokes[k].range();
+        let [[ax, ay], [bx, by]] = [range.start, range.end - 1].map(|i| bits(drawing.vertices[i].at));
+        (range.len(), ax.wrapping_add(bx), ay.wrapping_add(by))
+    };
+    let meant = (0..drawing.strokes.len()).filter(|&k| usage(k) != Use::Ignore);
+    let mut alike: Vec<((usize, u64, u64), usize)> = meant.map(|k| (common(k), k)).collect();
+    alike.sort_unstable();
     // A stroke is compared in the direction in which its places come first.
     let is_back = |k: usize| places(k).rev().cmp(places(k)) == Ordering::Less;
-    let mut keyed: Vec<(Use, usize, bool, usize)> = (0..drawing.strokes.len())
-        .filter(|&k| usage(k) != Use::Ignore)
-        .map(|k| (usage(k), drawing.strokes[k].range().len(), is_back(k), k))
-        .collect();
+    let alike = alike.chunk_by(|a, b| a.0 == b.0).filter(|set| set.len() > 1).flatten();
+    let mut keyed: Vec<(Use, usize, bool, usize)> =
+        alike.map(|&((length, ..), k)| (usage(k), length, is_back(k), k)).collect();
     let order = |a: &(Use, usize, bool, usize), b: &(Use, usize, bool, usize)| {
         let ways = match (a.2, b.2) {
             (false, false) => places(a.3).cmp(places(b.3)),

@@ -1,6 +1,6 @@
 //! Doubts about a drawing, in words: each once, with how many lines it concerns and what to type.
 
-use std::cell::RefCell;
+use std::cell::{LazyCell, RefCell};
 use std::collections::BTreeMap;
 
 use super::doubts::{self, finding};
@@ -141,7 +141,7 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let is_open = matches!(line.class, Class::Other | Class::FromEdge);
         is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
     };
-    let parts = Parts::of(sheet);
+    let parts = LazyCell::new(|| Parts::of(sheet));
     let open = (0..sheet.lines.len()).filter(|i| !told.contains(i)).map(|i| &sheet.lines[i]);
     let open: Vec<&Line> = open.filter(|line| is_long(line) && !parts.hold(line)).collect();
     if let Some(first) = open.first() {
