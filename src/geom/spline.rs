@@ -11,7 +11,7 @@ pub fn clamped_knots<const K: usize>(breaks: &[f64]) -> Vec<f64> {
     knots
 }
 
-/// Length of a span of a slice that is none: rounding of where it is cut.
+/// Length below which a span at the end of a slice is dropped: rounding of where it is cut.
 pub const SLICE_EPSILON: f64 = 1e-9;
 
 /// Number of control values of a spline of order `K` over `breaks`.

@@ -83,7 +83,7 @@ struct Open<'a> {
     reach: f64,
 }
 
-/// What meets at the ends of the strokes of a set.
+/// Strokes that meet the ends of a set.
 struct Meeting {
     /// Other sets.
     sets: BTreeSet<usize>,
@@ -164,7 +164,7 @@ impl<'a> Open<'a> {
         widest.map_or(0, |(pen, _)| pen)
     }
 
-    /// What meets at both ends of a set.
+    /// Strokes that meet both ends of a set.
     fn meeting(&self, set: usize) -> Meeting {
         let mut meeting = Meeting { sets: BTreeSet::new(), is_crossing: false, is_odd: self.sets[set].len() % 2 == 1 };
         for end in self.ends(self.sets[set][0]) {

@@ -25,9 +25,9 @@ const MOST_HOLDERS: usize = 64;
 const LARGEST_MARK: f64 = 100.0;
 const MARK_SHARE: f64 = 0.1;
 
-/// What is asked of frames.
+/// Settings of the search for frames.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Asked {
+pub(super) struct FrameSettings {
     pub(super) how: Frame,
     /// How far lines that touch may lie in one another, mm.
     pub(super) band: f64,
@@ -38,11 +38,11 @@ pub(super) struct Asked {
 /// Marks the frames among the lines. A rectangle around one closed line alone is a part, and so is one around its seam
 /// line and small marks. An open line that a rectangle would close along its edge, from inside, is as good as a closed
 /// one.
-pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], asked: Asked, work: &mut Budget) {
+pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], settings: FrameSettings, work: &mut Budget) {
     let is_large = |line: &Line| line.may_hold() && line.size() > SMALL_OUTLINE;
     let mut order: Vec<usize> = (0..lines.len()).filter(|&i| is_large(&lines[i])).collect();
     order.sort_by(|&a, &b| lines[b].area.total_cmp(&lines[a].area).then(a.cmp(&b)));
-    match asked.how {
+    match settings.how {
         Frame::None => {}
         Frame::Outermost => {
             if let Some(&first) = order.first() {
@@ -50,7 +50,7 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], asked: Asked, work: 
             }
         }
         Frame::Auto => {
-            let count = Frames { lines, vertices, asked }.count(&order, work);
+            let count = Frames { lines, vertices, settings }.count(&order, work);
             order[..count].iter().for_each(|&frame| lines[frame].class = Class::Frame);
         }
     }
@@ -60,21 +60,22 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], asked: Asked, work: 
 struct Frames<'a> {
     lines: &'a [Line],
     vertices: &'a [Vertex],
-    asked: Asked,
+    settings: FrameSettings,
 }
 
 impl Frames<'_> {
     /// How many of the large lines, the largest first, are frames.
     fn count(&self, order: &[usize], work: &mut Budget) -> usize {
-        let may_be =
-            |k: &usize| self.lines[order[*k]].is_rectangle(self.asked.band) && self.holds(order[*k], &order[k + 1..]);
+        let may_be = |k: &usize| {
+            self.lines[order[*k]].is_rectangle(self.settings.band) && self.holds(order[*k], &order[k + 1..])
+        };
         let count = (0..order.len().min(MOST_FRAMES)).take_while(may_be).count();
         (1..=count).rev().find(|&count| self.is_around_several(order, count, work)).unwrap_or(0)
     }
 
     /// Whether lines lie in another. A hem may be drawn past the corner of its part, and so past the frame.
     fn holds(&self, outer: usize, inner: &[usize]) -> bool {
-        let reach = self.lines[outer].extent.grown(self.asked.band);
+        let reach = self.lines[outer].extent.grown(self.settings.band);
         let lies_in = |extent: &Extent| reach.holds(middle(extent)) && reach.grown(HEM).covers(extent);
         inner.iter().all(|&i| lies_in(&self.lines[i].extent))
     }
@@ -88,7 +89,7 @@ impl Frames<'_> {
         let are_several = match inner {
             [largest, others @ ..] => {
                 let several = !edged.is_empty() || !others.is_empty() && !self.holds(*largest, others);
-                several && !self.is_part(frame, *largest, others, &edged, work)
+                several && !self.is_part(frame, *largest, &[others, &edged].concat(), work)
             }
             [] => edged.len() > 1,
         };
@@ -97,19 +98,17 @@ impl Frames<'_> {
 
     /// Whether a rectangle is a part: one line in it is its seam line, and all others in it are lines of that or small
     /// marks.
-    fn is_part(&self, frame: &Line, largest: usize, others: &[usize], edged: &[usize], work: &mut Budget) -> bool {
+    fn is_part(&self, frame: &Line, largest: usize, others: &[usize], work: &mut Budget) -> bool {
         let is_small = |line: &Line| line.size() <= LARGEST_MARK && line.area <= MARK_SHARE * self.lines[largest].area;
         let is_mark = |&i: &usize| is_small(&self.lines[i]) || self.holds(largest, &[i]);
         let [outline, line] = [frame, &self.lines[largest]].map(|line| line.points(self.vertices));
-        others.iter().chain(edged).all(is_mark)
-            && work.spend(seam::COST * outline.len())
-            && seam::follows(&line, &outline)
+        others.iter().all(is_mark) && work.spend(seam::COST * outline.len()) && seam::follows(&line, &outline)
     }
 
     /// Large open lines that a frame would close from inside. They lie beside all closed ones and beside each other:
     /// what lies in another is a line of it.
     fn beside(&self, frame: &Line, closed: &[usize], work: &mut Budget) -> Vec<usize> {
-        let Asked { band, reach, .. } = self.asked;
+        let FrameSettings { band, reach, .. } = self.settings;
         let within = frame.extent.grown(band);
         let may_be = |line: &Line| {
             let is_open = !line.is_closed && line.is_open_question() && line.size() > SMALL_OUTLINE;

@@ -51,8 +51,8 @@ pub(super) struct Rule {
     pub(super) cut: Cut,
 }
 
-/// What lines are taken for, and whether they are then cut: a wrong cut inside a part cannot be mended, one that is
-/// missing can. They are shown in this order.
+/// Classes of lines in the order in which they are shown, and whether their lines are cut: a wrong cut inside a part
+/// cannot be mended, one that is missing can.
 #[rustfmt::skip] // a table: one row a class
 pub(super) const RULES: [Rule; 13] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
@@ -96,7 +96,7 @@ pub(super) enum Closing {
     Retraced,
     /// A straight line closes a gap of so many mm.
     Gap(f64),
-    /// Straight lines close the gaps between its strokes: the longest has so many mm and begins at a place.
+    /// Straight bridges between its strokes; length of the longest, mm, and where that begins.
     Bridged(f64, Point),
     /// The edge of the frame closes it, along so many mm.
     Edge(f64),

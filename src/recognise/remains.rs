@@ -58,7 +58,7 @@ impl Edge {
     }
 }
 
-/// What runs beside a closed line: the lines, the share, and beside how many of its four sides.
+/// Lines beside a closed one, the share of it that they run beside, and the number of its four sides.
 #[derive(Default)]
 struct Beside {
     lines: Vec<usize>,
@@ -279,7 +279,7 @@ impl Edges {
         let mut sides = [[0_usize; 2]; 4];
         let mut beside = 0_usize;
         for (k, (at, way)) in samples.iter().enumerate() {
-            // What is left cannot make up for what is missing.
+            // The samples that are left are too few to reach the share.
             if ((beside + samples.len() - k) as f64) < BESIDE * samples.len() as f64 {
                 break;
             }

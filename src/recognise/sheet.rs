@@ -54,7 +54,7 @@ impl Sheet {
         frame::mark(
             &mut self.lines,
             &self.vertices,
-            frame::Asked { how: job.profile.hpgl.frame, band, reach },
+            frame::FrameSettings { how: job.profile.hpgl.frame, band, reach },
             &mut work,
         );
         close::close_along_frames(&mut self.lines, &mut self.vertices, reach);

@@ -8,7 +8,7 @@ const LEAST: usize = 4;
 /// Decimals of a number at the least where blanks part the numbers: one digit behind a comma may as well be a
 /// coordinate.
 const LEAST_DECIMALS: usize = 2;
-/// Largest height of a drawing that is none, mm: the digits behind the commas read as Y, all of them within it.
+/// Height below which a drawing is flat, mm: the digits behind the commas, read as Y, stay within it.
 const FLAT: f64 = 3.0;
 /// Places of a flat drawing at the least, and how much longer than high it is: a square in which commas are read wrong.
 const LEAST_PLACES: usize = 6;

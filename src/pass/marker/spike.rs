@@ -156,7 +156,10 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     if count <= LEAST_LEFT {
         return found;
     }
-    let way = |i: usize| segments[i % count].to - segments[i % count].from;
+    let way = |i: usize| {
+        let segment = &segments[if i == count { 0 } else { i }];
+        segment.to - segment.from
+    };
     let most = measure.width * measure.width;
     let (mut is_taken, mut left) = (vec![false; count], count);
     let triples = (0..count).scan([way(count - 1), way(0)], |[before, bottom], i| {
@@ -345,7 +348,8 @@ fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
     // What is asked at the mouth is asked where the outline goes on; at the start of the contour, for all of it.
     let mut asked = Joint::default();
     for (i, segment) in segments.iter().enumerate() {
-        let [before, after] = [i + count - 1, i + 1].map(|k| way_of[k % count]);
+        let before = way_of[if i == 0 { count - 1 } else { i - 1 }];
+        let after = way_of[if i + 1 == count { 0 } else { i + 1 }];
         if let Some(way) = way_of[i] {
             if i == way.first || i == 0 {
                 asked = merged(asked, segment.joint);

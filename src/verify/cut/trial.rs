@@ -75,7 +75,7 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) fresh: f64,
     /// How much of them a blade on its way had cut before, mm.
     pub(in crate::verify) passed: f64,
-    /// What of it lies on a plunged blade itself; of a cut with a way nothing.
+    /// Stretches of the line that lie on a plunged blade itself; none where the blade moves.
     pub(in crate::verify) thin: Vec<[f64; 2]>,
     /// Length of that which no blade had passed or lain on before, mm.
     pub(in crate::verify) untouched: f64,

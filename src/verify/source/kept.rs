@@ -31,7 +31,7 @@ const STRAIGHT_ON: f64 = 0.998;
 /// Places of a stroke are looked at so far from each other, mm.
 const SAMPLE: f64 = 0.2;
 
-/// What of the file cuts or drills something: a block may hold many places, each at a byte of its own.
+/// Place in the file that makes a cut or a hole: a block may hold many, each at a byte of its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Cause {
     block: u32,

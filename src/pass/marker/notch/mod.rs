@@ -206,7 +206,7 @@ impl<'a> Outline<'a> {
             })
         };
         let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
-        // Rows start behind a notch whose next is farther away; where there is none, all are one row.
+        // A row ends with a notch that is far from the next one; without such a notch all are one row.
         let start = crowded.iter().rposition(|is| !is).map_or(0, |k| k + 1);
         let mut kept = vec![None; all.len()];
         let mut row = Vec::new();
