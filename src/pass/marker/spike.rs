@@ -156,10 +156,7 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     if count <= LEAST_LEFT {
         return found;
     }
-    let way = |i: usize| {
-        let segment = &segments[if i == count { 0 } else { i }];
-        segment.to - segment.from
-    };
+    let way = |i: usize| segments[i % count].to - segments[i % count].from;
     let most = measure.width * measure.width;
     let (mut is_taken, mut left) = (vec![false; count], count);
     let triples = (0..count).scan([way(count - 1), way(0)], |[before, bottom], i| {
@@ -340,17 +337,18 @@ fn stretches(line: &[Point], slack: f64) -> Vec<[usize; 2]> {
 /// An outline that runs straight over the mouths of its ways.
 fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
     let count = segments.len();
-    let mut way_of: Vec<Option<&Way>> = vec![None; count];
+    // Behind the last segment comes the first again, and before the first the last.
+    let mut way_of: Vec<Option<&Way>> = vec![None; count + 2];
     for way in ways {
-        (way.first..way.first + way.count).for_each(|k| way_of[k % count] = Some(way));
+        (way.first..way.first + way.count).for_each(|k| way_of[k % count + 1] = Some(way));
     }
+    (way_of[0], way_of[count + 1]) = (way_of[count], way_of[1]);
     let mut left: Vec<Segment> = Vec::with_capacity(count);
     // What is asked at the mouth is asked where the outline goes on; at the start of the contour, for all of it.
     let mut asked = Joint::default();
-    for (i, segment) in segments.iter().enumerate() {
-        let before = way_of[if i == 0 { count - 1 } else { i - 1 }];
-        let after = way_of[if i + 1 == count { 0 } else { i + 1 }];
-        if let Some(way) = way_of[i] {
+    for ((i, segment), ways) in segments.iter().enumerate().zip(way_of.windows(3)) {
+        let [before, own, after] = *ways else { unreachable!("windows of three have three") };
+        if let Some(way) = own {
             if i == way.first || i == 0 {
                 asked = merged(asked, segment.joint);
             }
