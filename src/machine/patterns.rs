@@ -11,7 +11,7 @@ use crate::units::MM_PER_INCH;
 /// The keys `dxf.*`.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "dxf.unit", takes: Takes::Word(words::<PatternUnit>), about: "Unit of pattern DXF. \"auto\" believes the text UNITS: METRIC (mm), CM or ENGLISH (inch); without one\nit is mm, with a warning." },
+    Key { name: "dxf.unit", takes: Takes::Word(words::<PatternUnit>), about: "Unit of pattern DXF. \"auto\" believes the text UNITS: METRIC (mm), CM or ENGLISH (inch);\nwithout one it is mm, with a warning." },
     Key { name: "dxf.quantity", takes: Takes::Word(words::<Quantity>), about: "How often a piece of a pattern DXF is cut: \"file\" = as the text QUANTITY says, 1,1 = once as it is\ndrawn and once mirrored; \"one\" = once as it is drawn." },
     Key { name: "dxf.curves", takes: Takes::Word(words::<Curves>), about: "Curves of a pattern DXF whose outlines have a few points of them: \"auto\" = as layers 84 to 87 draw\nthem, else as the CAD system lays them; \"points\" = straight from point to point." },
     Key { name: "dxf.gap_mm", takes: Takes::Number(from(0.0, 1000.0)), about: "Room between the pieces of a pattern DXF, which lie in a row unless the file places them." },
