@@ -122,6 +122,9 @@ impl Around {
         let length = stations[stations.len() - 1];
         let mut beside = 0;
         for k in 0..SAMPLES {
+            if ((beside + SAMPLES - k) as f64) < NEARLY_ALL * SAMPLES as f64 {
+                return false;
+            }
             let station = length * (k as f64 + 0.5) / SAMPLES as f64;
             let next = stations.partition_point(|&at| at < station).clamp(1, cut.len() - 1);
             let Some(way) = polyline::direction(cut[next - 1], cut[next]) else { continue };
