@@ -112,8 +112,8 @@ impl Joining<'_> {
         }
     }
 
-    /// Chains of the strokes; a stroke is added where a gap is bridged. And of each end of a stroke whether others go on
-    /// without it where it ends.
+    /// Chains of the strokes; a stroke is added where a gap is bridged. And of each end whether others go on without its
+    /// stroke there.
     fn chains(&mut self) -> (Chains, Vec<bool>) {
         let frame = self.frame();
         let open = |k: &usize| {
@@ -405,8 +405,8 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Whether two strokes are two notches: their mouths touch, or one is a slit that begins where the mouth of the other
-    /// ends, on the edge of a part.
+    /// Whether two strokes are two notches: their mouths touch, or one is a slit that begins at the mouth of the other,
+    /// on the edge of a part.
     fn are_notches(&self, node: usize, ends: [End; 2]) -> bool {
         match ends.map(|end| self.joining.is_notch(end / 2)) {
             [true, true] => true,
