@@ -306,7 +306,7 @@ mod tests {
         check(&[A, B, C, D, A, [40.0, 0.0], B, C, D, A], Some((3, 2, 0.0)));
         check(&[A, B, C, D, A, B, C, D, A, [5.0, 0.0]], Some((3, 2, 5.0)));
         check(&[A, B, C, D, A, D, C, B, A], Some((3, 2, 0.0)));
-        check(&[A, B, C, D, [0.1, 0.0], D, [50.0, 50.1], C, B, [0.0, 0.1]], Some((3, 2, 0.1)));
+        check(&[A, B, C, D, [0.1, 0.0], D, [50.0, 50.1], C, B, [0.0, 0.1]], Some((3, 2, 0.0)));
         check(&[A, B, C, D, A, D, C, B, A, [5.0, 0.0]], Some((3, 2, 5.0)));
         check(&[A, B, C, D, [0.1, 0.1], B, C, D, A], Some((3, 2, 0.0)));
         // Two triangles that meet at the start, twice.

@@ -229,10 +229,6 @@ mod tests {
         let spurs = [[foot, [2.0, 2.0]], [[2.0, 2.0], a], [[2.0, 2.0], b], [foot, c]];
         let whole = [&way[..], &[[9.0, 0.0], [9.0, 9.0]]].concat();
         check(&[&first, &second, &spurs[0], &spurs[1], &spurs[2], &spurs[3]], &[&whole]);
-        // One of them leads to another edge.
-        let foot = [4.0, 0.0];
-        let across = [[a, foot], [foot, [9.0, 4.0]]];
-        check(&[&square, &across[0], &across[1]], &[&square[..4], &[a, foot, [9.0, 4.0]]]);
     }
 
     #[test]
