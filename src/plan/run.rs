@@ -130,7 +130,10 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Smooth { curve: straight_curve(extended.end, ends), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
-        smoothed(&band, junctions).map_err(|tight| order.too_tight(tolerance, tight))?
+        let overlaps = if run.shape == Shape::Open { [run.heel, run.front] } else { [0.0; 2] };
+        let nearer = || band().with_overlaps(overlaps);
+        let found = if overlaps == [0.0; 2] { None } else { smoothed(&nearer, junctions).ok() };
+        found.map_or_else(|| smoothed(&band, junctions), Ok).map_err(|tight| order.too_tight(tolerance, tight))?
     };
     let mut curved = order.curved(&extended, &found)?;
     let most = order.most_beside(tolerance);

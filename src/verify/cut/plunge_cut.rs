@@ -7,9 +7,9 @@ use super::stroke::Judge;
 use super::trial::{REACH, Trial};
 use super::worsts::Worsts;
 use crate::geom::{angle, polyline};
-use crate::ir::declaration::Kind;
+use crate::ir::declaration::{Kind, Which};
 use crate::ir::finding::Sighting;
-use crate::verify::declared::Declared;
+use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
 use crate::verify::worst::Worst;
 
@@ -81,7 +81,7 @@ impl Judge<'_> {
         let length = (to - from).abs();
         let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
         let may = match self.tracer.declared {
-            Some(declared) => declared.has(Kind::Nibbled, line, trial.reach),
+            Some(declared) => declared.has(Kind::Nibbled, Stretch { line, stations: trial.reach, end: None }),
             None => !is_straight,
         };
         if !is_all && !may {
@@ -99,7 +99,8 @@ impl Judge<'_> {
         between.all(|point| polyline::distance_to_segment(point, from, to) <= self.tracer.allowed)
     }
 
-    /// The knife is lifted amid a line where that is declared; where nothing is, anywhere: the line is cut all the same.
+    /// The knife is lifted amid a line where that has a cause and is declared; where nothing is, anywhere: the line is cut all the
+    /// same.
     pub(super) fn check_lifts(
         &self,
         cut: &Cut,
@@ -113,17 +114,27 @@ impl Judge<'_> {
         if trial.laps || line.ring && (to - from).abs() >= line.length() - 2.0 * self.tracer.allowed {
             return;
         }
-        for (station, place) in trial.reach.into_iter().zip([cut.body, cut.points.len() - 1]) {
+        let places = [cut.body, cut.points.len() - 1].into_iter().zip([Which::Start, Which::End]);
+        for (station, (place, end)) in trial.reach.into_iter().zip(places) {
             let inside = if line.ring { f64::INFINITY } else { station.min(line.length() - station) };
-            if inside > 2.0 * self.tracer.allowed && !is_declared_lift(declared, line, station) {
+            let is_declared = || {
+                let stretch = |end| Stretch { line, stations: [station; 2], end };
+                declared.has(Kind::Lift, stretch(Some(end))) || declared.has(Kind::Nibbled, stretch(None))
+            };
+            if inside > 2.0 * self.tracer.allowed && !(is_declared() && self.may_lift(line, station)) {
                 undeclared.see(inside.min(self.knife.width_mm.max(REACH)), || seen(place));
             }
         }
     }
-}
 
-fn is_declared_lift(declared: &Declared, line: &Line, station: f64) -> bool {
-    [Kind::Lift, Kind::Nibbled].into_iter().any(|kind| declared.has(kind, line, [station; 2]))
+    /// Whether the knife may have to be lifted amid a line: on a bend, and anywhere where the profile limits how long it stays
+    /// down, how far C turns, or how far the blade swings.
+    fn may_lift(&self, line: &Line, station: f64) -> bool {
+        self.knife.max_down_mm.is_some()
+            || self.knife.max_swing_mm.is_some()
+            || self.profile.c.range_deg.is_some()
+            || !self.is_straight_about(line, [station; 2])
+    }
 }
 
 /// How far a blade points away from its line under it, rad: no farther to either side than one of its chords there.
