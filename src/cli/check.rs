@@ -9,7 +9,7 @@ use super::batch::{self, Batch, Columns, Input, Inputs, Outcome, Row, State, Tel
 use super::choices::Format;
 use super::files;
 use super::finished::{Console, DONE, FAULTY, Finished, USAGE, say};
-use super::options::{Messages, Reading, counted};
+use super::options::{LeftOut, Messages, Reading, counted};
 use super::report::{Findings, pretty};
 use super::setup;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
@@ -27,6 +27,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     reading: Reading,
+
+    #[command(flatten)]
+    left_out: LeftOut,
 
     #[command(flatten)]
     messages: Messages,
@@ -61,7 +64,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     let threads = arguments.threads.set();
     let inputs = batch::find(&arguments.files, batch::is_cutter_file, &batch::hint())?;
     let job = match arguments.reading.job()? {
-        Ok(job) => job,
+        Ok(job) => arguments.left_out.of(job),
         Err(refused) => return Ok(refused),
     };
     match inputs {

@@ -95,7 +95,8 @@ struct Plotted {
 
     /// Which closed lines inside parts are cut
     ///
-    /// Without it `hpgl.inner` of the profile holds, by default none: seam lines are drawn like cut-outs.
+    /// Without it `hpgl.inner` of the profile holds, by default none: seam lines are drawn like cut-outs. Given at all, it
+    /// says that a line between strokes of an outline lies in one part and is no common edge of two.
     #[arg(long, value_name = "LINES", value_enum)]
     inner: Option<choices::Inner>,
 
@@ -144,6 +145,22 @@ impl Reading {
     }
 }
 
+/// Pieces that are left out.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "What is cut")]
+pub(super) struct LeftOut {
+    /// Leave these pieces out, as in `--skip 4,9-10`
+    #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
+    skip: Option<Numbers>,
+}
+
+impl LeftOut {
+    /// The job without these pieces.
+    pub(super) fn of(&self, job: Job) -> Job {
+        Job { selection: Selection { skip: self.skip.clone(), ..job.selection }, ..job }
+    }
+}
+
 /// What of a marker is cut, and whether the knife goes down.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "What is cut")]
@@ -155,9 +172,8 @@ pub(super) struct Choice {
     #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
     pieces: Option<Numbers>,
 
-    /// Leave these pieces out, as in `--skip 4,9-10`
-    #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
-    skip: Option<Numbers>,
+    #[command(flatten)]
+    left_out: LeftOut,
 
     /// Cut from the piece of this number on, in cut order: what an interrupted run has left
     ///
@@ -218,6 +234,7 @@ impl Choice {
 
     /// The job, with this choice; or what is wrong with its centre line.
     fn of(&self, job: Job) -> anyhow::Result<Result<Job, Finished>> {
+        let job = self.left_out.of(job);
         let mut centre = None;
         if let Some(path) = &self.centre {
             let source = files::read(path)?;
@@ -227,8 +244,7 @@ impl Choice {
                 None => return Ok(Err(unfit(&found, &source))),
             }
         }
-        let selection =
-            Selection { pieces: self.pieces.clone(), skip: self.skip.clone(), resume_from: self.resume_from };
+        let selection = Selection { pieces: self.pieces.clone(), resume_from: self.resume_from, ..job.selection };
         let mode = match (self.dry_run, self.frame) {
             (_, true) => Mode::Frame,
             (true, false) => Mode::Dry,

@@ -3,8 +3,9 @@
 
 use super::sewn;
 
-/// Bytes that are looked at.
+/// Bytes that are looked at, and rows of a table behind its header.
 const SNIFFED: usize = 4096;
+const MOST_ROWS: usize = 8;
 
 /// A format that no dialect reads.
 #[derive(Debug)]
@@ -137,18 +138,32 @@ fn is_rule_table(bytes: &[u8]) -> bool {
     keys.iter().filter(|key| lines().any(|line| starts(line, key))).count() >= 2
 }
 
-/// Rows of two numbers with a semicolon between them, and commas in numbers.
+/// Rows of two numbers or more, with semicolons, tabs or blanks between them and commas in them. The first row may be a
+/// header.
 fn is_comma_table(bytes: &[u8]) -> bool {
-    let rows = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !row.is_empty());
-    let is_number = |field: &[u8]| {
-        let field = field.trim_ascii();
-        !field.is_empty() && field.iter().all(|byte| byte.is_ascii_digit() || b"-+,.".contains(byte))
+    let parts = |byte: &u8| b"; \t".contains(byte);
+    let head = head(bytes);
+    // The last number may be cut off.
+    let end = if head.len() < bytes.len() { head.iter().rposition(|byte| parts(byte) || *byte == b'\n') } else { None };
+    let head = &head[..end.unwrap_or(head.len())];
+    let mut rows = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !row.is_empty());
+    let fields =
+        |row: &[u8]| row.split(parts).map(<[u8]>::to_vec).filter(|field| !field.is_empty()).collect::<Vec<_>>();
+    let is_row = |row: &[u8]| {
+        let fields = fields(row);
+        fields.len() > 1 && fields.iter().all(|field| is_number(field))
     };
-    // The first row may be a header, and the last one cut off.
-    let rows: Vec<&[u8]> = rows.skip(1).take(8).collect();
-    let is_row =
-        |row: &&[u8]| row.split(|&byte| byte == b';').count() >= 2 && row.split(|&byte| byte == b';').all(is_number);
-    rows.len() >= 2 && rows.iter().all(is_row) && rows.iter().any(|row| row.contains(&b','))
+    let Some(first) = rows.next() else { return false };
+    let rows: Vec<&[u8]> = std::iter::once(first).filter(|row| is_row(row)).chain(rows.take(MOST_ROWS)).collect();
+    !rows.is_empty() && rows.iter().all(|row| is_row(row)) && rows.iter().any(|row| row.contains(&b','))
+}
+
+/// Whether a field is a number, with a comma or a point for decimals.
+fn is_number(field: &[u8]) -> bool {
+    let digits = field.strip_prefix(b"-").or_else(|| field.strip_prefix(b"+")).unwrap_or(field);
+    let mut parts = digits.split(|byte| b",.".contains(byte));
+    let are_digits = |part: &[u8]| !part.is_empty() && part.iter().all(u8::is_ascii_digit);
+    parts.clone().count() <= 2 && parts.all(are_digits)
 }
 
 /// Commands of one letter between ETX bytes, moves and lines among them.
@@ -276,6 +291,27 @@ mod tests {
         check(b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03", Some("a GP-GL plot (Graphtec)"));
         check(b";:H A L0 EC1 U 400,400 D 4400,400 @ ", Some("a DMPL plot (Houston Instruments)"));
         check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a CAMM-GL I plot (Roland)"));
+    }
+
+    #[test]
+    fn a_table_with_decimal_commas_is_known_however_it_is_laid_out() {
+        let table = Some("a table of points with decimal commas");
+        for text in [
+            "404,9;413,5",
+            "404,9;413,5\n",
+            "404,9;413,5;12409,4;413,5;12409,4;8444,6",
+            "404,9;413,5;\r\n12409,4;413,5;\r\n",
+            "X;Y\n404,9;413,5\n12409,4;413,5\n",
+            "1;404,9;413,5\n2;12409,4;413\n",
+            "404,9\t413,5\n12409,4\t-413,5\n",
+            "x y\n\n404,9 413,5\n",
+            &"404,9;413,5;".repeat(1000),
+        ] {
+            check(text.as_bytes(), table);
+        }
+        for text in ["404,9", "1, 2\n3, 4\n", "1;2\n3;4\n", "x;y\n", "1,2;3,4;PU\n", "1,,2;3\n", ";PU7,4;PD8,4;"] {
+            check(text.as_bytes(), None);
+        }
     }
 
     #[test]

@@ -195,6 +195,9 @@ pub struct Aside {
     pub moved: Moved,
 }
 
+/// What open lines are taken for that are outlines around closed lines, and those that are so together.
+pub const OPEN_OUTLINES: [&str; 2] = ["open outline", "broken outline"];
+
 /// A line that is not cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsideLine {

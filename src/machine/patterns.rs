@@ -52,8 +52,6 @@ impl Dxf {
     pub const PAST_CORNER: f64 = 10.0;
     /// Farthest that such a stretch, or another round, lies from the first round, mm.
     pub const RETRACE_OFF: f64 = 0.1;
-    /// Most rounds that an outline goes in one stroke and is still one outline.
-    pub const ROUNDS: u32 = 4;
 }
 
 impl Default for Dxf {

@@ -34,9 +34,10 @@ pub(super) fn findings(diagnostics: &Diagnostics) -> Vec<Finding> {
     diagnostics.iter().filter(is_error).map(finding).take(MOST).collect()
 }
 
-/// The warnings that are about some of the pieces.
+/// The warnings that are about some of the pieces, or about outlines that are not cut.
 pub(super) fn doubts(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
-    let is_doubt = |d: &&Diagnostic| d.code.severity == Severity::Warning && !d.pieces.is_empty();
+    let is_of_some = |d: &Diagnostic| !d.pieces.is_empty() || *d.code == code::DRAWING_OPEN_PART;
+    let is_doubt = |d: &&Diagnostic| d.code.severity == Severity::Warning && is_of_some(d);
     diagnostics.iter().filter(is_doubt).take(MOST).collect()
 }
 

@@ -11,7 +11,7 @@ use super::remains::Remains;
 use super::sheet::Sheet;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
 use crate::geom::Point;
-use crate::machine::CLOSE_MOST_MM;
+use crate::machine::{CLOSE_MOST_MM, Job};
 use crate::units::number::fixed;
 
 /// Parts with a seam line for each part without one, at least, and in all: fewer say nothing about the others.
@@ -23,12 +23,12 @@ const CLOSE_STEP: f64 = 0.1;
 const CLOSE_EPSILON: f64 = 1e-6;
 
 /// Tells every doubt about parts.
-pub(super) fn all(sheet: &Sheet, out: &mut Diagnostics) {
+pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let owners = owners(sheet);
     open_parts(sheet, out);
     without_seam(sheet, &owners, out);
     closed(sheet, &owners, out);
-    from_edges(sheet, &owners, out);
+    from_edges(sheet, &owners, job, out);
 }
 
 /// A finding about a line.
@@ -67,10 +67,10 @@ fn broken_outlines(sheet: &Sheet) -> impl Iterator<Item = &Remains> {
     sheet.remains.iter().filter(is_left)
 }
 
-/// The open lines that are told as outlines around closed lines.
-pub(super) fn told(sheet: &Sheet) -> BTreeSet<usize> {
+/// The open lines that are told as outlines around closed lines: those that are so alone, and together with others.
+pub(super) fn told(sheet: &Sheet) -> [BTreeSet<usize>; 2] {
     let broken = broken_outlines(sheet).flat_map(|remains| remains.lines.iter().copied());
-    open_outlines(sheet).into_keys().chain(broken).collect()
+    [open_outlines(sheet).into_keys().collect(), broken.collect()]
 }
 
 /// Says how many outlines have a gap around closed lines, and how many in several strokes are not whole.
@@ -211,33 +211,76 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     }
 }
 
+/// A way in which lines at an edge are told.
+struct EdgeDoubt {
+    lie: Lie,
+    code: &'static Code,
+    /// What one does, and several.
+    does: [&'static str; 2],
+    hints: &'static [&'static str],
+}
+
+/// What may be a notch.
+const NOTCHES: &str =
+    "notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts all but a frame";
+const MEASURES: &str = "the mouth of a notch is up to 12 mm wide, its depth 15 mm; `--cut-all` cuts all but a frame";
+
+/// How lines at an edge are told.
+const EDGE_DOUBTS: &[EdgeDoubt] = &[
+    EdgeDoubt {
+        lie: Lie::Between,
+        code: &code::DRAWING_SHARED_EDGE,
+        does: ["one line between strokes", "lines between strokes"],
+        hints: &[
+            "if two parts share it, let the CAD draw each as one closed line, or cut it: `--cut-all`",
+            "if it is a line in one part, `--inner ignore` says so",
+        ],
+    },
+    EdgeDoubt {
+        lie: Lie::Divides,
+        code: &code::DRAWING_DIVIDED_PART,
+        does: ["one open line goes from edge to edge", "open lines go from edge to edge"],
+        hints: &["if it divides a part in two, let the CAD draw both parts; `--cut-all` cuts every line but a frame"],
+    },
+    EdgeDoubt {
+        lie: Lie::Wide,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one stroke above 12 mm wide", "strokes above 12 mm wide"],
+        hints: &[MEASURES],
+    },
+    EdgeDoubt {
+        lie: Lie::Deep,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one stroke above 15 mm deep", "strokes above 15 mm deep"],
+        hints: &[MEASURES],
+    },
+    EdgeDoubt {
+        lie: Lie::Ends,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one open line ends at the outline", "open lines end at the outline"],
+        hints: &[NOTCHES],
+    },
+    EdgeDoubt {
+        lie: Lie::Stands,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one small closed line stands on the outline", "small closed lines stand on the outline"],
+        hints: &["if they are notches, let the CAD draw each as an open stroke from edge to edge of its mouth"],
+    },
+];
+
 /// Lines that begin on the outline of a part and are not cut, and small closed ones that stand on it.
-fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
+fn from_edges(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
     let is_left = |line: usize, outline: usize| {
         let Line { is_cut, usage, .. } = sheet.lines[line];
         !is_cut && usage != Use::Drawn && sheet.lines[outline].is_cut
     };
-    for (lie, code, does, hint) in [
-        (
-            Lie::Divides,
-            &code::DRAWING_DIVIDED_PART,
-            ["one open line goes from edge to edge", "open lines go from edge to edge"],
-            "if it divides a part in two, let the CAD draw both parts; `--cut-all` cuts every line but a frame",
-        ),
-        (
-            Lie::Ends,
-            &code::DRAWING_LINE_FROM_EDGE,
-            ["one open line ends at the outline", "open lines end at the outline"],
-            "notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts all but a frame",
-        ),
-        (
-            Lie::Stands,
-            &code::DRAWING_LINE_FROM_EDGE,
-            ["one small closed line stands on the outline", "small closed lines stand on the outline"],
-            "if they are notches, let the CAD draw each as an open stroke from edge to edge of its mouth",
-        ),
-    ] {
-        let of_kind = |edge: &&EdgeLine| edge.lie == lie && is_left(edge.line, edge.outline);
+    // Somebody who says what becomes of lines in parts has looked at them.
+    let lie_of = |edge: &EdgeLine| match edge.lie {
+        Lie::Between if job.lines.inner.is_some() => Lie::Divides,
+        lie => lie,
+    };
+    for &EdgeDoubt { lie, code, does, hints } in EDGE_DOUBTS {
+        let of_kind = |edge: &&EdgeLine| lie_of(edge) == lie && is_left(edge.line, edge.outline);
         let edges: Vec<&EdgeLine> = sheet.from_edges.iter().filter(of_kind).collect();
         let Some(first) = edges.first() else { continue };
         let (begin, longest) = match edges.len() {
@@ -248,6 +291,7 @@ fn from_edges(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
         let parts: Vec<usize> = edges.iter().map(|edge| edge.outline).collect();
         let numbers = numbers(owners, &parts);
         let message = format!("not cut: {begin} of {}; {longest} {length} mm long", pieces::listed(&numbers));
-        out.push(finding(code, message, &sheet.lines[first.line], sheet).about(numbers).hint(hint));
+        let found = finding(code, message, &sheet.lines[first.line], sheet).about(numbers);
+        out.push(hints.iter().fold(found, |found, hint| found.hint(*hint)));
     }
 }

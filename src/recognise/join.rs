@@ -7,6 +7,7 @@
 //! other. A line that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its
 //! neighbours end in the same places.
 
+use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
 use super::again;
@@ -15,6 +16,7 @@ use super::chains::{Chains, End, other, place};
 use super::close::along;
 use super::line::{Class, Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::pens::{self, Use};
+use crate::geom::boxes::Boxes;
 use crate::geom::closing;
 use crate::geom::{Extent, Point, Vector, angle, bits, polyline};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
@@ -50,7 +52,7 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
     let again = again::take(drawing, &uses, close.max(reach));
     let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
     joining.close_alone();
-    let chains = joining.chains();
+    let (chains, is_between) = joining.chains();
     let strokes = std::mem::take(&mut joining.drawing.strokes);
     let mut taken = vec![false; strokes.len()];
     let mut lines = Vec::with_capacity(strokes.len());
@@ -65,6 +67,8 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
         };
         let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
         let mut line = Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage);
+        let ends = [start, other(chains.from(start).last().unwrap_or(start))];
+        line.is_between = !line.is_closed && ends.iter().all(|&end| is_between.get(end) == Some(&true));
         let bridges = chains.from(start).filter(|end| end / 2 >= joining.strokes);
         let bridges = bridges.map(|end| &joining.moved.closed[end / 2 - joining.strokes]);
         let longest = bridges.map(|bridge| (polyline::length(bridge), bridge[0])).max_by(|a, b| a.0.total_cmp(&b.0));
@@ -108,8 +112,9 @@ impl Joining<'_> {
         }
     }
 
-    /// Chains of the strokes; a stroke is added where a gap is bridged.
-    fn chains(&mut self) -> Chains {
+    /// Chains of the strokes; a stroke is added where a gap is bridged. And of each end whether others go on without its
+    /// stroke there.
+    fn chains(&mut self) -> (Chains, Vec<bool>) {
         let frame = self.frame();
         let open = |k: &usize| {
             let ends = [place(self.drawing, 2 * k), place(self.drawing, 2 * k + 1)];
@@ -117,14 +122,15 @@ impl Joining<'_> {
         };
         let ends: Vec<End> = (0..self.drawing.strokes.len()).filter(open).flat_map(|k| [2 * k, 2 * k + 1]).collect();
         if ends.is_empty() {
-            return Chains::alone(self.drawing.strokes.len());
+            return (Chains::alone(self.drawing.strokes.len()), Vec::new());
         }
         let mut graph = Graph::new(self, self.nodes(ends.clone()));
         graph.put_dead_ends_aside();
         graph.link();
+        let is_left = graph.left();
         let mut chains = graph.chains;
         if self.close <= self.reach {
-            return chains; // what is nearer is joined
+            return (chains, is_left); // what is nearer is joined
         }
         let is_free = |end: &End| chains.links[*end].is_none() && !self.nearly_closes(end / 2);
         let free: Vec<End> = ends.into_iter().filter(is_free).collect();
@@ -133,7 +139,7 @@ impl Joining<'_> {
             self.bridge(pair);
             chains.join_over(pair);
         }
-        chains
+        (chains, is_left)
     }
 
     /// Adds the straight stroke from an end to another.
@@ -167,6 +173,13 @@ impl Joining<'_> {
         (last.at - first.at).norm() <= Notch::WIDEST
             && polyline::length(&places) <= Notch::LONGEST_STROKE
             && places.iter().any(is_deep)
+    }
+
+    /// Whether a stroke may be a slit by itself: it is straight and as long as one.
+    fn is_slit(&self, stroke: usize) -> bool {
+        let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
+        let length = (vertices[vertices.len() - 1].at - vertices[0].at).norm();
+        vertices.len() == 2 && (SHORTEST_NOTCH..=Notch::LONGEST).contains(&length)
     }
 
     /// The largest rectangle that one stroke draws.
@@ -333,6 +346,8 @@ struct Graph<'a, 'b> {
     chains: Chains,
     /// Strokes that lead nowhere.
     is_dead: Vec<bool>,
+    /// Places where a notch and a slit meet on an edge of another line.
+    on_edge: BTreeSet<usize>,
 }
 
 impl<'a, 'b> Graph<'a, 'b> {
@@ -343,7 +358,8 @@ impl<'a, 'b> Graph<'a, 'b> {
             node[end] = Some(k as u32);
         }
         let strokes = joining.drawing.strokes.len();
-        Self { joining, nodes, node, chains: Chains::alone(strokes), is_dead: vec![false; strokes] }
+        let (chains, is_dead) = (Chains::alone(strokes), vec![false; strokes]);
+        Self { joining, nodes, node, chains, is_dead, on_edge: BTreeSet::new() }
     }
 
     /// Finds the strokes of which an end meets no other, and those that then lead nowhere.
@@ -379,15 +395,61 @@ impl<'a, 'b> Graph<'a, 'b> {
                 self.chains.join(pair);
             }
         }
+        self.find_edges();
         for k in 0..self.nodes.len() {
-            // Two notches whose mouths touch stay two.
-            let are_notches = |ends: [End; 2]| ends.iter().all(|end| self.joining.is_notch(end / 2));
             if let [a, b] = self.open(k, true)[..]
-                && !are_notches([a, b])
+                && !self.are_notches(k, [a, b])
             {
                 self.chains.join([a, b]);
             }
         }
+    }
+
+    /// Whether two strokes are two notches: their mouths touch, or one is a slit that begins at the mouth of the other,
+    /// on the edge of a part.
+    fn are_notches(&self, node: usize, ends: [End; 2]) -> bool {
+        match ends.map(|end| self.joining.is_notch(end / 2)) {
+            [true, true] => true,
+            [false, false] => false,
+            [true, false] => self.joining.is_slit(ends[1] / 2) && self.on_edge.contains(&node),
+            [false, true] => self.joining.is_slit(ends[0] / 2) && self.on_edge.contains(&node),
+        }
+    }
+
+    /// Finds the places where a notch and a slit meet on an edge of another line.
+    fn find_edges(&mut self) {
+        let joining = self.joining;
+        let is_short = |end: &End| joining.is_notch(end / 2) || joining.is_slit(end / 2);
+        let may_be = |node: &[End]| node.iter().all(is_short) && node.iter().any(|end| joining.is_notch(end / 2));
+        let found: Vec<usize> = (0..self.nodes.len()).filter(|&k| may_be(&self.open(k, true))).collect();
+        if found.is_empty() {
+            return;
+        }
+        let at = |k: &usize| place(joining.drawing, self.nodes[*k][0]);
+        let boxes = Boxes::new(found.iter().map(|k| Extent::between(at(k), at(k)).grown(Notch::MISS)).collect());
+        let strokes = (0..joining.drawing.strokes.len()).filter(|&k| !joining.is_notch(k) && !joining.is_slit(k));
+        for stroke in strokes {
+            for ends in joining.drawing.vertices[joining.drawing.strokes[stroke].range()].windows(2) {
+                let [a, b] = [ends[0].at, ends[1].at];
+                let near = boxes.near(Extent::between(a, b)).map(|k| found[k]);
+                let on = near.filter(|k| polyline::distance_to_segment(at(k), a, b) <= Notch::MISS);
+                self.on_edge.extend(on);
+            }
+        }
+    }
+
+    /// Of each end whether its stroke leads on somewhere and others go on without it.
+    fn left(&self) -> Vec<bool> {
+        let mut is_left = vec![false; self.node.len()];
+        for node in &self.nodes {
+            let goes_on = |&&end: &&End| self.chains.links[end].is_some();
+            if node.iter().filter(goes_on).count() > 1 {
+                for &end in node {
+                    is_left[end] = self.chains.links[end].is_none() && !self.is_dead[end / 2];
+                }
+            }
+        }
+        is_left
     }
 
     /// The ends at a place that nothing continues yet.

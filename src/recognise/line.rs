@@ -2,7 +2,7 @@
 
 use super::pens::Use;
 use crate::geom::{Extent, Point, cross};
-use crate::ir::drawing::Vertex;
+use crate::ir::drawing::{OPEN_OUTLINES, Vertex};
 use crate::source::Span;
 
 /// What a line is taken for.
@@ -16,6 +16,8 @@ pub(super) enum Class {
     Sign,
     SmallOutline,
     FromEdge,
+    OpenOutline,
+    BrokenOutline,
     Letter,
     Frame,
     Other,
@@ -54,7 +56,7 @@ pub(super) struct Rule {
 /// Classes of lines in the order in which they are shown, and whether their lines are cut: a wrong cut inside a part
 /// cannot be mended, one that is missing can.
 #[rustfmt::skip] // a table: one row a class
-pub(super) const RULES: [Rule; 13] = [
+pub(super) const RULES: [Rule; 15] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
     Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards, or from edge to edge", cut: Cut::Always },
     Rule { class: Class::Hole, name: "hole", about: "a closed square or circle up to hpgl.drill_max_mm, drilled", cut: Cut::Always },
@@ -63,6 +65,8 @@ pub(super) const RULES: [Rule; 13] = [
     Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Every },
     Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
     Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Every },
+    Rule { class: Class::OpenOutline, name: OPEN_OUTLINES[0], about: "an open line around a closed one, which is no part", cut: Cut::Every },
+    Rule { class: Class::BrokenOutline, name: OPEN_OUTLINES[1], about: "one of some open lines around a closed one, which is no part", cut: Cut::Every },
     Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Every },
     Rule { class: Class::Frame, name: "frame", about: "a rectangle around all parts", cut: Cut::Never },
     Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Every },
@@ -119,6 +123,8 @@ pub(super) struct Line {
     pub(super) usage: Use,
     /// Whether it ends where it starts and has an inside.
     pub(super) is_closed: bool,
+    /// Whether it is open and leads from one place where strokes of other lines meet to another.
+    pub(super) is_between: bool,
     /// mm.
     pub(super) length: f64,
     /// mm2; never negative.
@@ -146,7 +152,8 @@ impl Line {
         let end = first + vertices.len() as u32;
         let (drawn, closing) = ([first, end], Closing::Drawn);
         let area = doubled.abs() / 2.0;
-        Self { first, end, drawn, closing, usage, is_closed, length, area, extent, class, is_cut: false }
+        let (is_between, is_cut) = (false, false);
+        Self { first, end, drawn, closing, usage, is_closed, is_between, length, area, extent, class, is_cut }
     }
 
     /// The line with a ring in place of its own places.

@@ -234,8 +234,14 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
 pub(super) enum Lie {
     /// An open line starts or ends on it.
     Ends,
+    /// An open stroke as long as a notch goes from it to itself, with a mouth that is too wide for one.
+    Wide,
+    /// The same, deeper than a notch.
+    Deep,
     /// An open line goes from it to itself through the inside, longer than a notch: it divides the part.
     Divides,
+    /// The same, between places where strokes of the outline meet: it may be the common edge of two parts.
+    Between,
     /// An open line goes along it.
     Along,
     /// A small closed line has an edge on it.
@@ -290,16 +296,32 @@ fn lie(line: usize, outline: usize, Search { lines, vertices, unit, .. }: Search
     let places = lines[line].points(vertices);
     let longest = if is_straight(lines[line].vertices(vertices)) { Notch::LONGEST } else { Notch::LONGEST_STROKE };
     let outline = lines[outline].points(vertices);
-    if lines[line].length <= longest || !work.spend(2 * PROBES.len() * outline.len()) {
+    if lines[line].length <= longest {
+        return Some(as_notch(&places));
+    }
+    if !work.spend(2 * PROBES.len() * outline.len()) {
         return Some(Lie::Ends);
     }
     let stations = polyline::stations(&places);
     let probes = PROBES.map(|share| polyline::place(&places, &stations, share * lines[line].length));
     let is_off = |at: &Point| polyline::distance(*at, &outline) > TOUCH + ROUNDING * unit;
     if probes.iter().any(is_off) {
-        probes.iter().any(|at| is_off(at) && ring::contains(&outline, *at)).then_some(Lie::Divides)
+        let divides = if lines[line].is_between { Lie::Between } else { Lie::Divides };
+        probes.iter().any(|at| is_off(at) && ring::contains(&outline, *at)).then_some(divides)
     } else {
         Some(Lie::Along)
+    }
+}
+
+/// Why a stroke from edge to edge is no notch.
+fn as_notch(places: &[Point]) -> Lie {
+    let [first, last] = [places[0], places[places.len() - 1]];
+    let depth = places.iter().map(|at| polyline::distance_to_segment(*at, first, last)).fold(0.0, f64::max);
+    match (last - first).norm() {
+        _ if depth < SHORTEST_NOTCH => Lie::Ends,
+        mouth if mouth > Notch::WIDEST => Lie::Wide,
+        _ if depth > Notch::LONGEST => Lie::Deep,
+        _ => Lie::Ends,
     }
 }
 
@@ -307,7 +329,12 @@ fn lie(line: usize, outline: usize, Search { lines, vertices, unit, .. }: Search
 fn standing(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
     let mut candidates = Vec::new();
-    for line in (0..lines.len()).filter(|&i| lines[i].class == Class::Sign) {
+    let may_be = |line: &Line| match line.class {
+        Class::Sign => true,
+        Class::Inner | Class::SmallOutline => line.size() <= Notch::LONGEST + TOUCH,
+        _ => false,
+    };
+    for line in (0..lines.len()).filter(|&i| may_be(&lines[i])) {
         let edges = lines[line].vertices(vertices).windows(2);
         let edges = edges.filter(|ends| (ends[1].at - ends[0].at).norm() >= SHORTEST_NOTCH);
         candidates.extend(edges.map(|ends| Candidate::whole(line, [ends[0].at, ends[1].at])));

@@ -60,6 +60,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     };
     sheet.sort_out(job);
     sheet.decide(job);
+    sheet.set_open_outlines(doubts::told(&sheet));
     say::all(&sheet, job, diagnostics);
     piece::marker(sheet, diagnostics)
 }

@@ -1,7 +1,7 @@
 //! Doubts about a drawing, in words: each once, with how many lines it concerns and what to type.
 
 use std::cell::{LazyCell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::doubts::{self, finding};
 use super::line::{Class, Line, SMALL_OUTLINE};
@@ -47,7 +47,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding);
         return;
     }
-    doubts::all(sheet, out);
+    doubts::all(sheet, job, out);
     if !sheet.lines.iter().any(|line| line.is_cut) {
         out.push(nothing(sheet, job));
         return;
@@ -79,10 +79,18 @@ fn counted(lines: &[&Line], noun: &str) -> String {
     }
 }
 
+/// Closed lines that stand on an outline.
+fn standing(sheet: &Sheet) -> BTreeSet<usize> {
+    sheet.from_edges.iter().filter(|edge| edge.lie == Lie::Stands).map(|edge| edge.line).collect()
+}
+
 /// Closed lines inside parts that are not cut: cut-outs, or parts in a frame that was not known for one.
 fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let mut by_part: BTreeMap<usize, Vec<&Line>> = BTreeMap::new();
-    for i in sheet.indices(|line| line.class == Class::Inner && !line.is_cut && line.usage != Use::Drawn) {
+    // Those that stand on an outline are told for themselves.
+    let standing = standing(sheet);
+    let is_inner = |line: &Line| line.class == Class::Inner && !line.is_cut && line.usage != Use::Drawn;
+    for i in sheet.indices(is_inner).into_iter().filter(|i| !standing.contains(i)) {
         by_part.entry(sheet.nest.outermost(i).unwrap_or(i)).or_default().push(&sheet.lines[i]);
     }
     let doubtful: Vec<(usize, &[&Line])> =
@@ -124,18 +132,18 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
 
 /// Small closed lines, and long open ones, that are in no part.
 fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
-    let small: Vec<&Line> = sheet
-        .lines
-        .iter()
-        .filter(|line| line.class == Class::SmallOutline && !line.is_cut && line.usage != Use::Drawn)
-        .collect();
+    let standing = standing(sheet);
+    let is_small = |line: &Line| line.class == Class::SmallOutline && !line.is_cut && line.usage != Use::Drawn;
+    let small = sheet.indices(is_small).into_iter().filter(|i| !standing.contains(i));
+    let small: Vec<&Line> = small.map(|i| &sheet.lines[i]).collect();
     if let Some(first) = small.first() {
         let message = format!("not cut: {} up to 25 mm large in no part", counted(&small, "closed line"));
         let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
         out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
     }
     // An outline with a gap around closed lines is told for itself, and an edge that is drawn once more is cut.
-    let mut told = doubts::told(sheet);
+    let [mut told, broken] = doubts::told(sheet);
+    told.extend(broken);
     told.extend(sheet.from_edges.iter().filter(|edge| edge.lie == Lie::Along).map(|edge| edge.line));
     let is_long = |line: &Line| {
         let is_open = matches!(line.class, Class::Other | Class::FromEdge);

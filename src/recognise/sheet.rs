@@ -1,5 +1,7 @@
 //! A drawing whose lines are sorted out: what each is, then whether it is cut.
 
+use std::collections::BTreeSet;
+
 use super::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
 use super::marks::{EdgeLine, Lie, Mark, Search};
 use super::pens::Use;
@@ -85,7 +87,7 @@ impl Sheet {
         self.find_parts_of_knives(&mut work);
         let parts = self.indices(|line| line.class == Class::Part);
         self.from_edges = marks::from_edges(self.search(&parts), &mut work);
-        // A closed line stays a sign.
+        // A closed line stays what it is.
         for &EdgeLine { line, .. } in self.from_edges.iter().filter(|edge| edge.lie != Lie::Stands) {
             self.lines[line].class = Class::FromEdge;
         }
@@ -224,6 +226,15 @@ impl Sheet {
             let is_cut = job.lines.all || marks.iter().any(|mark| self.lines[mark.outline].is_cut);
             for line in marks.iter().filter_map(|mark| mark.bar).chain([marks[0].line]) {
                 self.lines[line].is_cut &= is_cut;
+            }
+        }
+    }
+
+    /// Sets the open lines apart that are outlines around closed lines, alone or together, and are not cut.
+    pub(super) fn set_open_outlines(&mut self, [open, broken]: [BTreeSet<usize>; 2]) {
+        for (lines, class) in [(broken, Class::BrokenOutline), (open, Class::OpenOutline)] {
+            for line in lines {
+                self.lines[line].class = class;
             }
         }
     }

@@ -77,7 +77,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 27] = [
+const OTHERWISE: [(&str, &str); 28] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
@@ -104,6 +104,7 @@ const OTHERWISE: [(&str, &str); 27] = [
     ("scales-that-are-broken", "it stops at a scale that is broken"),
     ("text-on-the-display", "it draws what the display shows"),
     ("turned-amid", "it makes relative moves from a place that is not turned, its chords are others"),
+    ("u-notch-of-an-arc-amid-an-outline", "its chords are others"),
     ("wedge-of-a-full-turn", "it draws the radii of a full turn as well"),
 ];
 

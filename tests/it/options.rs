@@ -92,6 +92,18 @@ fn a_number_that_no_piece_has_is_an_error_that_names_those_that_there_are() {
 }
 
 #[test]
+fn info_and_check_leave_pieces_out_too() {
+    let room = room();
+    let json = |choice: &str| run(&room, &format!("info m.cut --format json {choice}"), 0);
+    assert!(json("").contains("\"pieces\": 3") && json("--skip 3").contains("\"pieces\": 2"));
+    run(&room, "check m.cut --skip 3", 0);
+    for command in ["info", "check"] {
+        let said = run(&room, &format!("{command} m.cut --skip 4"), 1);
+        assert!(said.contains("select/unknown-piece"), "{said}");
+    }
+}
+
+#[test]
 fn a_program_of_some_pieces_is_proven_against_those_and_the_reader_against_the_whole_file() {
     let room = room();
     let said = run(&room, "compile m.cut --skip 5", 0);

@@ -6,7 +6,8 @@ use clap::Args;
 
 use crate::cli::batch::{Cloth, Figures, Threads};
 use crate::cli::choices::Sheet;
-use crate::cli::options::{Messages, NO_HEADING, Reading};
+use crate::cli::finished::Finished;
+use crate::cli::options::{LeftOut, Messages, NO_HEADING, Reading};
 use crate::cli::price::Pricing;
 use crate::ir::Marker;
 use crate::machine::Job;
@@ -29,6 +30,9 @@ pub(in crate::cli) struct Arguments {
 
     #[command(flatten)]
     pub(super) reading: Reading,
+
+    #[command(flatten)]
+    left_out: LeftOut,
 
     #[command(flatten)]
     pub(super) messages: Messages,
@@ -76,6 +80,11 @@ fn width(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
+    /// The job, or what is wrong with its profile.
+    pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        Ok(self.reading.job()?.map(|job| self.left_out.of(job)))
+    }
+
     /// What is known of a marker beyond its report; of one with errors no area.
     pub(super) fn figures(&self, marker: Option<&Marker>, report: &Report, job: &Job) -> Figures {
         let [length_mm, height_mm] = report.extent_mm;

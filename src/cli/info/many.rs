@@ -16,7 +16,7 @@ pub(super) fn run(
     threads: usize,
     console: &mut Console,
 ) -> anyhow::Result<Finished> {
-    let job = match arguments.reading.job()? {
+    let job = match arguments.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };

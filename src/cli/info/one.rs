@@ -23,7 +23,7 @@ use crate::units::number::fixed;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
     let source = files::read(file)?;
-    let job = match arguments.reading.job()? {
+    let job = match arguments.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };

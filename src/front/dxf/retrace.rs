@@ -15,6 +15,7 @@ pub(super) struct Retraced {
     /// Length past the start, mm.
     past: f64,
     rounds: usize,
+    is_back: bool,
     /// Where the line begins.
     span: Span,
 }
@@ -34,9 +35,9 @@ pub(super) fn retraces(line: &Chain) -> bool {
 /// Lines without what goes along them again; each one that had such a stretch is noted.
 pub(super) fn once(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain> {
     let ring = |mut line: Chain| {
-        if let Some(Retrace { last, rounds, past }) = retrace(&line) {
+        if let Some(Retrace { last, rounds, is_back, past }) = retrace(&line) {
             let count = line.vertices.len();
-            retraced.push(Retraced { past, rounds, span: line.vertices[0].span });
+            retraced.push(Retraced { past, rounds, is_back, span: line.vertices[0].span });
             // The next segment starts at the first vertex instead.
             let closing = line.vertices[(last + 1) % count].span;
             line.vertices.truncate(last + 1);
@@ -51,7 +52,7 @@ pub(super) fn once(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain
 /// Says how many outlines and cut-outs run past their start, and how many go round again.
 pub(super) fn say_retraced(retraced: &[Retraced], out: &mut Diagnostics) {
     let longest = retraced.iter().map(|line| line.past).fold(0.0, f64::max);
-    let most = retraced.iter().map(|line| line.rounds).max().unwrap_or(0);
+    let most = retraced.iter().filter(|line| !line.is_back).map(|line| line.rounds).max().unwrap_or(0);
     let mut say = |code: &'static Code, is_so: fn(&Retraced) -> bool, how: String| {
         let lines: Vec<&Retraced> = retraced.iter().filter(|line| is_so(line)).collect();
         let Some(first) = lines.first() else { return };
@@ -62,7 +63,12 @@ pub(super) fn say_retraced(retraced: &[Retraced], out: &mut Diagnostics) {
         out.push(Diagnostic::new(code, format!("{count} {verb} {how}: cut once")).at(first.span));
     };
     say(&code::MARKER_OVERRUN, |line| line.past > 0.0, format!("past the start, by up to {longest:.1} mm"));
-    say(&code::MARKER_ROUND_AGAIN, |line| line.rounds > 1, format!("round {most} times in one stroke"));
+    say(
+        &code::MARKER_ROUND_AGAIN,
+        |line| line.rounds > 1 && !line.is_back,
+        format!("round {most} times in one stroke"),
+    );
+    say(&code::MARKER_ROUND_AGAIN, |line| line.is_back, "round and back in one stroke".to_owned());
 }
 
 #[cfg(test)]
@@ -74,6 +80,5 @@ mod tests {
         assert_eq!(Dxf::OVERRUN.to_bits(), closing::LONGEST_PAST.to_bits());
         assert_eq!(Dxf::PAST_CORNER.to_bits(), closing::LONGEST_STRAIGHT.to_bits());
         assert_eq!(Dxf::RETRACE_OFF.to_bits(), closing::LEAST_REACH.to_bits());
-        assert_eq!(Dxf::ROUNDS as usize, closing::MOST_ROUNDS);
     }
 }

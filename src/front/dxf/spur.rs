@@ -3,7 +3,7 @@
 
 use super::chain::{Chain, REACH, chains};
 use super::retrace::{Retraced, once};
-use super::tree::{Graph, Tour};
+use super::tree::{End, Graph, Tour};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
@@ -11,14 +11,22 @@ use crate::ir::drawing::Vertex;
 /// Joins the lines of a layer. Each outline goes along the spurs that stand off it, and stretches that retrace it are dropped.
 pub(super) fn chains_with_spurs(lines: &[Chain], retraced: &mut Vec<Retraced>) -> Vec<Chain> {
     let graph = Graph::of(lines);
-    let mut tours = graph.tours_off_rings();
-    let trees = graph.trees();
-    let mut is_apart = vec![false; lines.len()];
-    for &line in tours.iter().flat_map(|tour| &tour.lines).chain(trees.iter().flatten()) {
-        is_apart[line] = true;
-    }
     let of =
         |wanted: &dyn Fn(usize) -> bool| (0..lines.len()).filter(|&k| wanted(k)).map(|k| lines[k].clone()).collect();
+    let mut tours = graph.tours_off_rings();
+    if graph.meetings().next().is_some() {
+        let rings = chains(of(&|k| lines[k].is_closed || graph.leads_round(k)));
+        tours.extend(tours_from_edges(&graph, &Edges::of(rings.iter().filter(|chain| chain.is_closed))));
+    }
+    let mut is_apart = vec![false; lines.len()];
+    for &line in tours.iter().flat_map(|tour| &tour.lines) {
+        is_apart[line] = true;
+    }
+    let mut trees = graph.trees();
+    trees.retain(|tree| !tree.iter().any(|&line| is_apart[line]));
+    for &line in trees.iter().flatten() {
+        is_apart[line] = true;
+    }
     let mut joined = once(chains(of(&|k| !is_apart[k])), retraced);
     let edges = Edges::of(joined.iter().filter(|chain| chain.is_closed));
     let mut is_trunk = vec![false; lines.len()];
@@ -37,6 +45,16 @@ pub(super) fn chains_with_spurs(lines: &[Chain], retraced: &mut Vec<Retraced>) -
     }
     joined.extend(once(chains(of(&|k| is_trunk[k])), retraced));
     attached(joined, tours, lines)
+}
+
+/// Ways along lines that meet at one place of a ring and stand off it there, and nowhere else.
+fn tours_from_edges(graph: &Graph, edges: &Edges) -> Vec<Tour> {
+    let stands = |end: End| edges.standing(graph.place(end)).is_some();
+    let are_spurs = |ends: &&[End]| {
+        let stand_off = || ends.iter().all(|&end| !graph.ends_from(end).into_iter().any(stands));
+        ends.first().is_some_and(|&end| stands(end)) && stand_off()
+    };
+    graph.meetings().filter(are_spurs).flatten().map(|&end| graph.tour(end)).collect()
 }
 
 /// Place of a spur on an outline.
@@ -191,6 +209,26 @@ mod tests {
         let way = [[0.0, 0.0], [2.0, 2.0], [0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [4.0, 0.0], [9.0, 0.0], [9.0, 9.0]];
         let rest = [[7.0, 7.0], [9.0, 9.0], [0.0, 9.0]];
         check(&[&ring, &spurs[0], &spurs[1], &spurs[2]], &[&[&way[..], &rest].concat()]);
+    }
+
+    #[test]
+    fn lines_that_meet_at_one_place_of_a_ring_are_a_spur_each() {
+        let square = [[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]];
+        let [a, b, c] = [[3.0, 2.0], [4.0, 3.0], [5.0, 2.0]];
+        // On an edge, whichever way each is drawn.
+        let foot = [4.0, 0.0];
+        let way = [square[0], foot, a, foot, c];
+        let rest = [foot, square[1], square[2], square[3]];
+        check(&[&square, &[foot, a], &[c, foot]], &[&[&way[..], &rest].concat()]);
+        let way = [square[0], foot, a, foot, b, foot, c];
+        check(&[&square, &[foot, a], &[b, foot], &[foot, c]], &[&[&way[..], &rest].concat()]);
+        // At a vertex of a ring in two lines, one of them with a branch.
+        let [first, second] = [[[0.0, 9.0], [0.0, 0.0], [9.0, 0.0]], [[9.0, 0.0], [9.0, 9.0], [0.0, 9.0]]];
+        let foot = [0.0, 0.0];
+        let way = [[0.0, 9.0], foot, [2.0, 2.0], a, [2.0, 2.0], b, [2.0, 2.0], foot, c, foot];
+        let spurs = [[foot, [2.0, 2.0]], [[2.0, 2.0], a], [[2.0, 2.0], b], [foot, c]];
+        let whole = [&way[..], &[[9.0, 0.0], [9.0, 9.0]]].concat();
+        check(&[&first, &second, &spurs[0], &spurs[1], &spurs[2], &spurs[3]], &[&whole]);
     }
 
     #[test]

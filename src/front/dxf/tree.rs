@@ -130,6 +130,27 @@ impl<'a> Graph<'a> {
         self.open_ends().filter(is_root).map(|end| self.tour(end)).collect()
     }
 
+    /// Ends of lines that meet off all rings.
+    pub(super) fn meetings(&self) -> impl Iterator<Item = &[End]> {
+        let is_off_rings = |ends: &&Vec<End>| ends.len() >= PASSING && !ends.iter().any(|end| self.is_round[end / 2]);
+        self.ends.iter().filter(is_off_rings).map(Vec::as_slice)
+    }
+
+    /// Whether a line leads round, or from one ring to another.
+    pub(super) fn leads_round(&self, line: usize) -> bool {
+        self.is_round[line]
+    }
+
+    /// The ends of a line and of all that stands off its other end, from one of its ends on.
+    pub(super) fn ends_from(&self, root: End) -> Vec<End> {
+        let (mut ends, mut next) = (Vec::new(), vec![root]);
+        while let Some(end) = next.pop() {
+            ends.push(end ^ 1);
+            next.extend(self.others(end ^ 1));
+        }
+        ends
+    }
+
     /// Ways along what stands off some of the lines of a tree.
     pub(super) fn tours_off(&self, trunk: &[usize]) -> Vec<Tour> {
         let mut is_trunk = vec![false; self.lines.len()];

@@ -1,7 +1,7 @@
 //! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour.
 //!
 //! Needs: welded contours. Other software lays an overcut at the end of an outline, plotters draw bold lines by going round
-//! twice. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts once. Leaves
+//! twice, or there and back. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts once. Leaves
 //! true: such a contour ends where it starts, and keeps its start and direction.
 
 use super::pass::MarkerPass;
@@ -22,13 +22,13 @@ const DECIMALS: u32 = 1;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let reach = closing::reach(marker.unit);
-    let (mut past, mut again) = (Found::default(), Found::default());
+    let [mut past, mut again, mut back] = [(); 3].map(|()| Found::default());
     for piece in &mut marker.pieces {
         for contour in &mut piece.contours {
             let points = marker.list.points(contour.range);
             let points: &[Point] = &points;
             let Some(found) = closing::retrace(points.len(), |k| points[k], reach) else { continue };
-            let Retrace { last, rounds, past: length } = found;
+            let Retrace { last, rounds, is_back, past: length } = found;
             let mut ring: Vec<Segment> =
                 marker.list.walk(contour.range).map(|(_, segment)| segment).take(last + 2).collect();
             let behind = ring[ring.len() - 1].span;
@@ -43,7 +43,8 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
                 past.add(piece.number, length, behind);
             }
             if rounds > 1 {
-                again.add(piece.number, rounds as f64, behind);
+                let found = if is_back { &mut back } else { &mut again };
+                found.add(piece.number, rounds as f64, behind);
             }
         }
     }
@@ -51,6 +52,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         format!("past the start, by up to {} mm", fixed(longest, DECIMALS))
     });
     again.say(&code::MARKER_ROUND_AGAIN, diagnostics, |most| format!("round {} times in one stroke", fixed(most, 0)));
+    back.say(&code::MARKER_ROUND_AGAIN, diagnostics, |_| "round and back in one stroke".to_owned());
 }
 
 /// Outlines that something was found about.

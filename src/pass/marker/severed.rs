@@ -17,7 +17,10 @@ pub(super) fn severing(piece: &Piece, part: &Outlines, work: &mut Budget) -> Opt
     let slits = &piece.notches;
     let deepest = slits.iter().map(Notch::depth).fold(0.0, f64::max);
     (0..slits.len())
-        .find(|&i| meets_slit(&slits[i], &slits[..i], deepest, work) || meets_edge(&slits[i], part, work))
+        .find(|&i| {
+            let others = Others { slits: &slits[..i], deepest, part };
+            others.meet(&slits[i], work) || meets_edge(&slits[i], part, work)
+        })
         .map(|i| slits[i])
 }
 
@@ -25,16 +28,38 @@ fn ends(slit: &Notch) -> [Point; 2] {
     [slit.root, slit.tip]
 }
 
-/// Whether a slit comes to one of some others, none of which is deeper than `deepest`, mm. Strokes from one place are one notch.
-fn meets_slit(slit: &Notch, others: &[Notch], deepest: f64, work: &mut Budget) -> bool {
-    let reach = 2.0 * deepest + LEAST_BRIDGE;
-    let meets = |other: &Notch| {
-        let apart = (other.root - slit.root).norm_squared();
-        apart < reach * reach
-            && apart > AT_ROOT * AT_ROOT
-            && distance_of_segments(ends(slit), ends(other)) < LEAST_BRIDGE
-    };
-    work.spend(others.len()) && others.iter().any(meets)
+/// Other slits of a part.
+struct Others<'a> {
+    slits: &'a [Notch],
+    /// The depth of the deepest one, mm.
+    deepest: f64,
+    part: &'a Outlines<'a>,
+}
+
+impl Others<'_> {
+    /// Whether a slit comes to one of them. Strokes from one place are one notch, and so are a slit and its branch.
+    fn meet(&self, slit: &Notch, work: &mut Budget) -> bool {
+        let reach = 2.0 * self.deepest + LEAST_BRIDGE;
+        let mut meets = |other: &Notch| {
+            let apart = (other.root - slit.root).norm_squared();
+            apart < reach * reach
+                && apart > AT_ROOT * AT_ROOT
+                && distance_of_segments(ends(slit), ends(other)) < LEAST_BRIDGE
+                && !self.is_branch(slit, other, work)
+                && !self.is_branch(other, slit, work)
+        };
+        let met = self.slits.iter().any(&mut meets);
+        work.spend(self.slits.len()) && met
+    }
+
+    /// Whether a slit begins on another one, and not on the edge.
+    fn is_branch(&self, slit: &Notch, other: &Notch, work: &mut Budget) -> bool {
+        let [root, tip] = ends(other);
+        let around = Extent::between(slit.root, slit.root).grown(AT_ROOT);
+        let is_near = |[from, to]: [Point; 2]| distance_to_segment(slit.root, from, to) <= AT_ROOT;
+        distance_to_segment(slit.root, root, tip) < LEAST_BRIDGE
+            && !self.part.edges_near(around).any(|edge| work.spend(1) && is_near(edge))
+    }
 }
 
 /// Whether a slit comes to an edge that it does not begin on.

@@ -189,15 +189,16 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     lost
 }
 
-/// The last strokes of lines that come back to their start and go straight on from there, by their bytes: overcuts that other
+/// The last strokes of lines that come by their start and go straight on from there, by their bytes: overcuts that other
 /// software has drawn.
 fn overcuts(read: &[KeptPlace]) -> Vec<u32> {
     let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
     let overcut = |line: &[KeptPlace]| {
         let [start, .., before, from, to] = line else { return None };
         let [way, over] = [from.at - before.at, to.at - from.at];
-        let is_overcut = over.norm() <= OVERCUT && way.dot(&over) >= STRAIGHT_ON * way.norm() * over.norm();
-        (is_overcut && (from.at - start.at).norm() <= AGAIN).then_some(to.cause.byte)
+        let is_overcut =
+            (to.at - start.at).norm() <= OVERCUT && way.dot(&over) >= STRAIGHT_ON * way.norm() * over.norm();
+        (is_overcut && polyline::distance_to_segment(start.at, before.at, from.at) <= AGAIN).then_some(to.cause.byte)
     };
     lines.filter_map(overcut).collect()
 }

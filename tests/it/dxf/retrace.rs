@@ -207,10 +207,13 @@ fn a_stretch_that_was_taken_for_a_second_round_is_missed() {
         // Another lobe that comes back to the same start.
         let lobe = [[ring[0][0] + 40.0, 15.0], [ring[0][0] + 40.0, -15.0], ring[0]];
         caught(&[&once[..], &lobe].concat(), "lobe");
-        // A way back along the outline, a stretch and the whole of it.
-        let back: Vec<Place> = once.iter().rev().skip(1).copied().collect();
-        caught(&[&once[..], &back].concat(), "back");
+        // A stretch back along the outline, and a way back beside it at one corner.
+        let mut back: Vec<Place> = once.iter().rev().skip(1).copied().collect();
         caught(&[&once[..], &back[..1]].concat(), "back a stretch");
+        assert_eq!(judged(&[&once[..], &back].concat(), &once), [""; 0], "seed {seed}: back");
+        let corner = ring.len() - 1 - k;
+        back[corner] = back[corner].map(|at| at * 1.01);
+        caught(&[&once[..], &back].concat(), "back beside");
     }
 }
 
@@ -245,10 +248,23 @@ fn a_round_that_lacks_a_tip_of_another_is_no_repetition() {
 }
 
 #[test]
-fn rounds_beyond_what_one_outline_goes_are_no_repetition() {
-    let mut random = Rng::with_seed(4);
-    let ring = ring(&mut random);
-    let once = stroke(&ring, 1, 0.0);
-    assert_eq!(judged(&stroke(&ring, 4, 0.0), &once), [""; 0]);
-    assert!(!judged(&stroke(&ring, 6, 0.0), &once).is_empty());
+fn an_outline_is_cut_once_however_many_rounds_it_goes_and_whichever_way() {
+    for seed in 0..40 {
+        let mut random = Rng::with_seed(seed);
+        let ring = ring(&mut random);
+        let once = stroke(&ring, 1, 0.0);
+        let mut drawn = once.clone();
+        for _ in 0..random.usize(4..9) {
+            let is_back = seed % 2 == 0 && random.bool();
+            drawn.extend(
+                once[1..].iter().enumerate().map(|(k, at)| if is_back { once[once.len() - 2 - k] } else { *at }),
+            );
+        }
+        assert_eq!(judged(&drawn, &once), [""; 0], "seed {seed}");
+        let (read, said) = as_read(&alone(&drawn), &Job::default());
+        let places = read.contours().map(|(_, contour)| read.points(contour).len()).collect::<Vec<_>>();
+        assert_eq!((places, said.contains(&AGAIN)), (vec![once.len()], true), "seed {seed}");
+        drawn.extend_from_slice(&[[400.0, 0.0], once[0]]);
+        assert!(!judged(&drawn, &once).is_empty(), "seed {seed}");
+    }
 }

@@ -88,6 +88,10 @@ fn a_part_is_the_same_whether_its_outline_has_a_gap_runs_past_its_start_or_goes_
         let (again, codes) = found(&stroke(&rounds), &Job::default());
         assert_eq!((areas(&again), codes), (areas(&plain), vec!["marker/round-again"]), "{ring:?}");
 
+        let way_back: Vec<[i64; 2]> = closed.iter().rev().skip(1).copied().collect();
+        let (back, codes) = found(&stroke(&[&closed[..], &way_back].concat()), &Job::default());
+        assert_eq!((areas(&back), codes), (areas(&plain), vec!["marker/round-again"]), "{ring:?}");
+
         let (both, codes) = found(&stroke(&[&rounds[..], &past].concat()), &Job::default());
         assert_eq!(areas(&both), areas(&plain), "{ring:?}");
         assert_eq!(codes, ["marker/overrun", "marker/round-again"]);

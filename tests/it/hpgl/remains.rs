@@ -3,14 +3,18 @@
 
 use std::fmt::Write as _;
 
+use cutc::diagnostic::Diagnostics;
+use cutc::front::by_name;
 use cutc::geom::ring;
 use cutc::ir::Marker;
 use cutc::ir::marker::OutlineNotch;
 use cutc::machine::Job;
-use cutc::machine::plot::PenUse;
+use cutc::machine::plot::{Inner, Lines, PenUse};
+use cutc::pipeline;
 
 use super::closing::{areas, found, missed};
-use super::rectangle;
+use super::{rectangle, source};
+use crate::support::room::Room;
 
 /// An outline of 12,000 by 8000 units from (400, 400) on, drawn in several ways that are not whole.
 fn broken_outlines() -> Vec<(&'static str, String)> {
@@ -230,4 +234,88 @@ fn gaps_are_bridged_up_to_the_limit_whichever_way_they_lie_and_to_the_nearer_end
     };
     let (marker, codes) = found(&(sides(400) + &sides(6440)), &Job::default());
     assert_eq!((areas(&marker).len(), codes), (2, vec!["drawing/closed"]));
+}
+
+#[test]
+fn a_reader_that_cuts_a_seam_line_inside_a_broken_outline_is_caught() {
+    let seam = rectangle(800, 800, 11_200, 7200);
+    let other = rectangle(20_400, 400, 12_000, 12_000);
+    for (name, outline) in broken_outlines().into_iter().filter(|(name, _)| *name != "two opposite sides") {
+        let whole = format!("{outline}{seam}{other}");
+        assert_eq!(missed(&format!("{seam}{other}"), &whole), ["source/outermost"], "{name}");
+        assert_eq!(missed(&other, &whole), [""; 0], "{name}");
+        // A seam line in it makes an outline of a cut, and lines that others stand before are theirs.
+        let inner = rectangle(1200, 1200, 10_400, 6400);
+        assert_eq!(missed(&format!("{seam}{inner}"), &format!("{outline}{seam}{inner}")), [""; 0], "{name}");
+    }
+}
+
+#[test]
+fn a_rectangle_around_one_cut_is_no_frame_for_the_sake_of_a_closed_line_beside_it() {
+    let part = rectangle(400, 400, 24_000, 12_000);
+    let [one, other] = [rectangle(1200, 1200, 8000, 8000), rectangle(12_000, 1200, 8000, 8000)];
+    assert_eq!(missed(&one, &format!("{part}{one}{other}")), ["source/outermost"]);
+    // Beside an outline with a gap it is one, and beside a line in a broken outline.
+    let open = "PU12000,1200;PD20000,1200,20000,9200,12000,9200,12000,2000;";
+    assert_eq!(missed(&one, &format!("{part}{one}{open}")), [""; 0]);
+    let sides =
+        "PU11700,900;PD20300,900;PU20400,1000;PD20400,9400;PU20300,9500;PD11700,9500;PU11600,9400;PD11600,1000;";
+    assert_eq!(missed(&one, &format!("{part}{one}{other}{sides}")), [""; 0]);
+}
+
+#[test]
+fn a_slit_at_the_mouth_of_a_notch_is_one_of_its_own_and_a_notch_in_two_strokes_stays_one() {
+    let part = rectangle(400, 400, 8000, 4000);
+    let slit = "PU3240,400;PD3340,800;";
+    for (strokes, notches) in [
+        ("PU3000,400;PD3120,640,3240,400;", ["v"]),
+        ("PU3240,400;PD3120,640,3000,400;", ["v"]),
+        ("PU3000,400;PD3000,600,3240,600,3240,400;", ["castle"]),
+    ] {
+        for text in [format!("{part}{strokes}{slit}"), format!("{slit}{strokes}{part}")] {
+            let (marker, codes) = found(&text, &Job::default());
+            let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect();
+            assert_eq!((&words[..], marker.pieces[0].notches.len(), codes), (&notches[..], 1, vec![]), "{text}");
+        }
+    }
+    for strokes in [
+        "PU3000,400;PD3000,600,3240,600;PU3240,600;PD3240,400;",
+        "PU3000,400;PD3000,600;PU3240,400;PD3240,600,3000,600;",
+    ] {
+        let (marker, _) = found(&format!("{part}{strokes}"), &Job::default());
+        let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect();
+        assert_eq!((&words[..], marker.pieces[0].notches.len()), (&["castle"][..], 0), "{strokes}");
+    }
+}
+
+#[test]
+fn a_line_between_strokes_of_an_outline_is_refused_until_somebody_says_what_it_is() {
+    let strokes = "PU0,0;PD4000,0;PU4000,0;PD8000,0,8000,4000,4000,4000;PU4000,4000;PD0,4000,0,0;PU4000,0;PD4000,4000;";
+    let codes = |job: &Job| {
+        let source = source(format!("IN;SP1;{strokes}PU;SP0;"));
+        let mut said = Diagnostics::default();
+        pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, job, &mut said);
+        said.iter().map(|diagnostic| diagnostic.code.name).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(&Job::default()), ["drawing/shared-edge"]);
+    let lines = |inner, all| Job { lines: Lines { inner, all, ..Lines::default() }, ..Job::default() };
+    assert_eq!(codes(&lines(Some(Inner::Ignore), false)), ["drawing/divided-part"]);
+    assert_eq!(codes(&lines(None, true)), [""; 0]);
+}
+
+#[test]
+fn an_outline_that_is_not_cut_has_a_band_in_the_picture() {
+    let seam = rectangle(800, 800, 11_200, 7200);
+    let sound = rectangle(20_400, 400, 12_000, 12_000);
+    let open = "PU2400,400;PD12400,400,12400,8400,400,8400,400,400;".to_owned();
+    for (name, outline) in broken_outlines().into_iter().chain([("a gap", open)]) {
+        let room = Room::with("a.plt", &format!("IN;SP1;{outline}{seam}{sound}PU;SP0;"));
+        let said = room.says("compile a.plt -t svg", 0);
+        assert!(said.contains("drawing/open-part"), "{name}: {said}");
+        let picture = room.text("a.svg");
+        assert_eq!(picture.matches("class=\"doubt\"").count(), 1, "{name}");
+        assert_eq!(picture.matches("class=\"doubt-sign\"").count(), 1, "{name}");
+        let is_broken = picture.contains("broken outline: ");
+        assert!(is_broken != picture.contains("open outline: "), "{name}");
+    }
 }

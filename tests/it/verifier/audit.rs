@@ -208,6 +208,19 @@ fn a_damaged_byte_that_leaves_no_error_leaves_no_difference_either() {
 }
 
 #[test]
+fn an_overcut_is_no_loss_where_the_outline_starts_amid_an_edge() {
+    for (start, is_overcut) in [(100, true), (103, true), (140, true), (180, false)] {
+        let places = "X3100Y100*X3100Y2100*X100Y2100*X100Y100*X100Y70*";
+        let file = format!("H1*G71*N1*X100Y{start}*M14*{places}M15*N2*X3300Y100*M14*X5300Y100*X5300Y900*M15*M0*");
+        assert_eq!(faults(file.as_bytes(), &ignoring(&[])), Some(Vec::new()), "{start}");
+        let mut said = Diagnostics::default();
+        let source = Source::new("a.cut", file.into_bytes()).expect("small");
+        pipeline::read(&source, None, &Job::default(), &mut said);
+        assert_eq!(said.iter().any(|found| found.code.name == "marker/overrun"), is_overcut, "{start}");
+    }
+}
+
+#[test]
 fn a_marker_that_lacks_something_of_the_file_is_refused() {
     type Loss = fn(&mut Marker) -> bool;
     let losses: &[(&str, Loss)] = &[

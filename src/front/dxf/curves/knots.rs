@@ -97,9 +97,10 @@ impl<'a> Search<'a> {
 
     fn run(mut self) -> Option<Fit> {
         self.take_back()?;
+        let mut knots = self.is_knot.iter().filter(|is_knot| **is_knot).count();
         for i in 0..self.is_knot.len() {
             if self.is_knot[i] && self.is_added[i] {
-                self.leave_out(i)?;
+                knots -= self.leave_out(i, knots)?;
             }
         }
         self.take_back()
@@ -170,22 +171,25 @@ impl<'a> Search<'a> {
         best.map(|(_, place)| place)
     }
 
-    /// Leaves a vertex out, alone or with some behind it, where the curve passes them without.
-    fn leave_out(&mut self, i: usize) -> Option<()> {
+    /// Leaves a vertex out of some knots, alone or with some behind it, where the curve passes them without: how many it
+    /// leaves out.
+    fn leave_out(&mut self, i: usize, knots: usize) -> Option<usize> {
         let count = self.run.places.len();
         let end = if self.run.is_ring { i + count } else { count };
         let behind = (i + 1..end).map(|k| k % count).filter(|&k| self.is_knot[k] && self.is_added[k]);
         let all: Vec<usize> = std::iter::once(i).chain(behind.take(MOST_BEHIND)).collect();
         let skipped = all.get(2).map(|&next| vec![i, next]);
         for set in (1..=all.len()).map(|some| all[..some].to_vec()).chain(skipped) {
+            if self.run.is_ring && knots < set.len() + LEAST_RING {
+                continue;
+            }
             self.set_knots(&set, false);
-            let is_left = !self.run.is_ring || self.is_knot.iter().filter(|is_knot| **is_knot).count() >= LEAST_RING;
-            if is_left && self.around(i)?.is_empty() {
-                break;
+            if self.around(i)?.is_empty() {
+                return Some(set.len());
             }
             self.set_knots(&set, true);
         }
-        Some(())
+        Some(0)
     }
 
     fn set_knots(&mut self, places: &[usize], are_knots: bool) {

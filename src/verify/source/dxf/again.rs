@@ -1,6 +1,6 @@
 //! Lines that go along themselves again behind their start, found anew: the overcut of another cutter, and further rounds.
 //! A line is walked from its first place. Where it comes back there, all of it behind must be where it was as far from its
-//! start, or go straight on out of the ring.
+//! start, or on whole rounds as far from its end, or go straight on out of the ring.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -16,6 +16,8 @@ const SLIP_SHARE: f64 = 0.002;
 const MOST_RETURNS: usize = 8;
 /// Lines that are walked as one: their ends are compared with each other.
 const MOST_PATHS: usize = 2000;
+/// Stretches that are compared at the most, as a multiple of those of the walk.
+const MOST_COMPARED: usize = 64;
 /// Places of a curve that are looked at.
 const SAMPLES: usize = 16;
 
@@ -121,6 +123,19 @@ impl Leg {
     }
 }
 
+/// A round behind the first one, or the beginning of one.
+#[derive(Debug, Clone, Copy)]
+struct Lap {
+    /// The stretch that closes the first round, and the length of that, mm.
+    last: usize,
+    round: f64,
+    /// Where it begins and ends, mm behind the first round.
+    from: f64,
+    to: f64,
+    /// Whether it goes in the other direction.
+    is_back: bool,
+}
+
 /// A walk in stretches.
 struct Legs {
     all: Vec<Leg>,
@@ -201,28 +216,41 @@ impl Legs {
         doubled.abs() <= Dxf::RETRACE_OFF * polyline::length(&places)
     }
 
-    /// Whether all behind the first `round` mm, which end on a stretch, lies where the walk was a round before.
+    /// Whether all behind the first `round` mm, which end on a stretch, lies where the walk was a round before; of a whole
+    /// round it may lie there in the other direction.
     fn goes_again(&self, last: usize, round: f64) -> bool {
         let again = self.length() - round;
-        if again <= Dxf::RETRACE_OFF || again > f64::from(Dxf::ROUNDS - 1) * round + Dxf::RETRACE_OFF {
+        if again <= Dxf::RETRACE_OFF {
             return false;
         }
-        let mut stations = vec![again];
-        for k in 0..self.all.len() {
-            let [from, to] = [self.stations[k], self.stations[k + 1]];
+        let laps = ((again - Dxf::RETRACE_OFF) / round).ceil().max(1.0) as usize;
+        laps.saturating_mul(last) <= MOST_COMPARED.saturating_mul(self.all.len())
+            && (0..laps).all(|k| {
+                let from = k as f64 * round;
+                let lap = Lap { last, round, from, to: again.min(from + round), is_back: false };
+                let is_whole = again >= from + round - SLIP - SLIP_SHARE * (from + round);
+                self.goes_along(lap) || is_whole && self.goes_along(Lap { is_back: true, ..lap })
+            })
+    }
+
+    /// Whether the walk lies where it was on the first round, on one of those behind it.
+    fn goes_along(&self, lap: Lap) -> bool {
+        let Lap { last, round, from, to, is_back } = lap;
+        let first = |station: f64| if is_back { round - (station - from) } else { station - from };
+        let mut stations = vec![from, to];
+        for k in (0..=last).chain(self.near(round + from, 0.0).start..self.near(round + to, 0.0).end) {
+            let ends = [self.stations[k], self.stations[k + 1]];
             let count = if self.all[k].curve.is_some() { SAMPLES } else { 1 };
-            let own = (0..count).map(|i| from + (to - from) * i as f64 / count as f64);
-            if k <= last {
-                let rounds = (0..Dxf::ROUNDS).map(|n| f64::from(n) * round);
-                stations.extend(own.clone().flat_map(|at| rounds.clone().map(move |before| before + at)));
-            }
+            let own = (0..count).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / count as f64);
+            // Those of the first round, and its own.
+            stations.extend(own.clone().map(|at| from + if is_back { round - at } else { at }));
             stations.extend(own.map(|at| at - round));
         }
-        stations.retain(|at| (0.0..=again).contains(at));
+        stations.retain(|at| (from..=to).contains(at));
         stations.into_iter().all(|station| {
-            let [place, before] = [self.at(round + station), self.at(station % round)];
+            let [place, before] = [self.at(round + station), self.at(first(station))];
             let slip = SLIP + SLIP_SHARE * station;
-            let ways = [self.near(station % round, slip), self.near(0.0, slip + station % round - round)];
+            let ways = [0.0, round, -round].map(|turn| self.near(first(station) + turn, slip));
             let is_on_head = || ways.into_iter().flatten().any(|k| k <= last && self.is_on(k, place));
             let mut tail = self.near(round + station, slip);
             (place - before).norm() <= slip && is_on_head() && tail.any(|k| k >= last && self.is_on(k, before))

@@ -205,8 +205,8 @@ pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
     if is_twig.iter().all(|&is_twig| is_twig) { vec![false; paths.len()] } else { is_twig }
 }
 
-/// Groups of lines that stand on edges of others: single open lines, one end of which is on an edge and the other is not.
-/// Where all are open the longest one is half of an outline, which ends at a fold.
+/// Groups of lines that stand on edges of others: open ones of which one free end is on an edge, or of none but the lines
+/// meet at one place on an edge. Where all are open the longest one is half of an outline, which ends at a fold.
 pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
     let is_open = |paths: &Vec<Path>| twigs(paths).iter().all(|is_twig| !is_twig) && !free_ends(paths).is_empty();
     let length = |k: &usize| -> f64 {
@@ -221,7 +221,14 @@ pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
         .collect();
     let boxes = Boxes::new(edges.iter().map(|[a, b]| Extent::between(*a, *b).grown(MEETS)).collect());
     let is_on = |at: Point| boxes.at(at).any(|k| polyline::distance_to_segment(at, edges[k][0], edges[k][1]) <= MEETS);
-    let stands = |paths: &Vec<Path>| is_open(paths) && free_ends(paths).iter().filter(|end| is_on(end.1)).count() == 1;
+    let meets_there = |paths: &[Path]| {
+        let places: Vec<Point> = open_ends(paths).into_iter().map(|end| end.1).filter(|at| is_on(*at)).collect();
+        half.is_none() && !places.is_empty() && places.iter().all(|at| (at - places[0]).norm() <= MEETS)
+    };
+    let stands = |paths: &Vec<Path>| {
+        let free = || free_ends(paths).into_iter().filter(|end| is_on(end.1)).count();
+        is_open(paths) && (free() == 1 || free() == 0 && meets_there(paths))
+    };
     clusters.iter().enumerate().map(|(k, paths)| half != Some(k) && stands(paths)).collect()
 }
 

@@ -2,8 +2,10 @@
 //!
 //! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together
 //! must be what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges
-//! by the same strokes whether the right lines are cut, `rectangle` finds the edges of the cloth among them.
+//! by the same strokes whether the right lines are cut, `around` whether others go around these, `rectangle` finds the edges
+//! of the cloth among them.
 
+mod around;
 mod curve;
 mod encoded;
 mod figure;

@@ -1,12 +1,12 @@
 //! Whether the right lines of a plot are cut, judged by its strokes alone: no line is cut in the place of the outline
 //! around it, and no stroke from edge to edge of a part is left out.
 //!
-//! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are not judged. Where
-//! somebody gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
+//! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are judged by whether they
+//! go around a cut. Where somebody gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
 
 use std::cell::RefCell;
 
-use super::rectangle;
+use super::{around, rectangle};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -31,6 +31,8 @@ const SAME_BOX: f64 = 0.5;
 const LEAST_OFF: f64 = 0.2;
 /// Rounding of gaps, mm.
 const CLOSE_EPSILON: f64 = 1e-6;
+/// Share of a cut that an uncut line in it goes around to be its seam line, at the least: then it is an outline.
+const SEAM_SHARE: f64 = 0.3;
 /// Share by which a frame may be smaller than its box.
 const FRAME_LACK: f64 = 0.01;
 /// Measures of a notch that is a stroke, mm: all of its length, its mouth, its depth.
@@ -72,6 +74,7 @@ pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
     let mut lost = Vec::new();
     if job.lines.pens.is_none() && job.profile.hpgl.pens.is_empty() {
         wrong.extend(judging.in_uncut_outlines());
+        wrong.extend(judging.surrounded());
         lost = judging.lost_strokes();
     }
     for (point, count) in wrong.into_iter().zip(1..) {
@@ -95,7 +98,7 @@ struct Judging<'a> {
 impl<'a> Judging<'a> {
     fn new(drawn: &'a [Vec<Point>], cuts: &'a PlotCuts, job: &'a Job) -> Self {
         let boxes = Boxes::new(cuts.contours.iter().map(|points| Extent::of(points)).collect());
-        Self { drawn, cuts, job, boxes, work: RefCell::new(Budget::of_a_marker()) }
+        Self { drawn, cuts, job, boxes, work: RefCell::new(Budget::of_lines(drawn.len() + cuts.contours.len())) }
     }
 
     /// Where a line is cut inside an outline that is not.
@@ -114,6 +117,22 @@ impl<'a> Judging<'a> {
         found
     }
 
+    /// Where a line is cut that open ones go around, and that has no seam line itself.
+    fn surrounded(&self) -> Vec<Point> {
+        let close = self.job.profile.drawing.close_mm + CLOSE_EPSILON;
+        let found = around::surrounded(self.drawn, &self.cuts.contours, close).into_iter();
+        let found = found.map(|k| &self.cuts.contours[k]).filter(|cut| !self.has_seam(cut));
+        found.map(|cut| cut[0]).collect()
+    }
+
+    fn has_seam(&self, cut: &[Point]) -> bool {
+        let (extent, least) = (Extent::of(cut), SEAM_SHARE * ring::area(cut).abs());
+        let is_seam = |stroke: &&Vec<Point>| {
+            goes_around(stroke) && extent.covers(&Extent::of(stroke)) && ring::area(stroke).abs() >= least
+        };
+        self.drawn.iter().filter(is_seam).any(|stroke| !self.is_cut(stroke))
+    }
+
     /// Where a line closes an outline over more than a gap and not along the edge of a rectangle.
     fn made_up(&self) -> Vec<Point> {
         let close = self.job.profile.drawing.close_mm + CLOSE_EPSILON;
@@ -127,10 +146,15 @@ impl<'a> Judging<'a> {
         closed.into_iter().filter(|places| !is_drawn(places)).map(|places| places[0]).collect()
     }
 
+    /// How near to a cut lies what it stands for, mm: curves are drawn in chords.
+    fn reach(&self) -> f64 {
+        self.job.profile.tolerance(self.job.profile.hpgl.unit.mm()).max(LEAST_OFF)
+    }
+
     /// Whether some cut has the box of a stroke, or goes along all of it and on.
     fn is_cut(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
-        let reach = self.job.profile.tolerance(self.job.profile.hpgl.unit.mm()).max(LEAST_OFF);
+        let reach = self.reach();
         let boxes = self.boxes.all();
         let has_box = |k: usize| {
             let corners = [boxes[k].min - extent.min, boxes[k].max - extent.max];
@@ -146,7 +170,7 @@ impl<'a> Judging<'a> {
     }
 
     /// Where the first line is cut that lies in an outline which is not, unless that is a frame or lies in a part
-    /// itself.
+    /// itself. An outline that no work is left for counts as one with a cut in it.
     fn cut_inside(&self, stroke: &[Point]) -> Option<Point> {
         let extent = Extent::of(stroke);
         let boxes = self.boxes.all();
@@ -163,7 +187,7 @@ impl<'a> Judging<'a> {
         };
         let cost: usize = inside.iter().map(|&k| self.cuts.contours[k].len()).sum();
         if !self.work.borrow_mut().spend(cost.saturating_mul(stroke.len())) {
-            return None;
+            return Some(stroke[0]);
         }
         let held: Vec<usize> = inside.into_iter().filter(holds).collect();
         let &first = held.first()?;
@@ -173,15 +197,23 @@ impl<'a> Judging<'a> {
         (!is_rectangle || !beside && !self.holds_another(stroke, first)).then(|| self.cuts.contours[first][0])
     }
 
-    /// Whether an outline lies in a rectangle beside a cut, uncut itself, that is wider than any hem: then it is a
-    /// frame.
+    /// Whether an outline lies in a rectangle beside a cut that is wider than any hem and not cut, since it is open or
+    /// lies in an open one: then the rectangle is a frame.
     fn holds_another(&self, rectangle: &[Point], cut: usize) -> bool {
         let (reach, beside) = (Extent::of(rectangle).grown(SAME_BOX), &self.boxes.all()[cut]);
-        self.drawn.iter().filter(|stroke| goes_around(stroke)).any(|stroke| {
-            let extent = Extent::of(stroke);
+        let close = self.job.profile.drawing.close_mm;
+        let is_beside = |extent: &Extent| {
             let (width, height) = extent.size();
-            width.min(height) > WIDEST_HEM && reach.covers(&extent) && !extent.meets(beside)
-        })
+            width.min(height) > WIDEST_HEM && reach.covers(extent) && !extent.meets(beside)
+        };
+        let is_open = |stroke: &&Vec<Point>| gap(stroke) > close && is_beside(&Extent::of(stroke));
+        let is_in_open = |stroke: &Vec<Point>| {
+            let extent = Extent::of(stroke);
+            self.drawn.iter().filter(is_open).any(|other| Extent::of(other).covers(&extent))
+                || !around::surrounded(self.drawn, std::slice::from_ref(stroke), close).is_empty()
+        };
+        let mut outlines = self.drawn.iter().filter(|stroke| goes_around(stroke) && is_beside(&Extent::of(stroke)));
+        outlines.any(|stroke| is_open(&stroke) || is_in_open(stroke))
     }
 
     fn lies_in_a_cut(&self, stroke: &[Point]) -> bool {
@@ -190,7 +222,7 @@ impl<'a> Judging<'a> {
         let around: Vec<usize> = self.boxes.near(extent).filter(|&k| boxes[k].covers(&extent)).collect();
         around.into_iter().any(|k| {
             let points = &self.cuts.contours[k];
-            !self.work.borrow_mut().spend(points.len()) || ring::contains(points, stroke[0])
+            self.work.borrow_mut().spend(points.len()) && ring::contains(points, stroke[0])
         })
     }
 
@@ -219,29 +251,29 @@ impl<'a> Judging<'a> {
     /// there.
     fn is_along_a_cut(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
-        let boxes = self.boxes.all();
+        let (boxes, reach) = (self.boxes.all(), self.reach());
         let looked_at = stroke.windows(2).flat_map(|ends| [ends[0] + (ends[1] - ends[0]) / 2.0, ends[1]]);
         let looked_at: Vec<Point> = stroke.first().copied().into_iter().chain(looked_at).collect();
         self.boxes.near(extent).any(|k| {
             let points = &self.cuts.contours[k];
-            points.len() > stroke.len()
-                && boxes[k].grown(SAME_END).covers(&extent)
+            boxes[k].grown(reach).covers(&extent)
                 && self.work.borrow_mut().spend(looked_at.len().saturating_mul(points.len()))
-                && looked_at.iter().all(|&place| polyline::distance(place, points) <= SAME_END)
+                && looked_at.iter().all(|&place| polyline::distance(place, points) <= reach)
         })
     }
 
-    /// Whether two places lie on the edge of one part and a third one in it, in no other cut inside.
+    /// Whether two places lie on the edge of one part and a third one in it, in no other cut inside, or no work is left
+    /// to find out.
     fn is_on_part(&self, ends: [Point; 2], tip: Point) -> bool {
         let around = Extent::between(ends[0], ends[1]).grown(ON_EDGE);
         let near: Vec<usize> = self.boxes.near(around).collect();
         near.into_iter().any(|k| {
             let points = &self.cuts.contours[k];
-            if points.len() < 4
-                || points[0] != points[points.len() - 1]
-                || !self.work.borrow_mut().spend(3 * points.len())
-            {
+            if points.len() < 4 || points[0] != points[points.len() - 1] {
                 return false;
+            }
+            if !self.work.borrow_mut().spend(3 * points.len()) {
+                return true;
             }
             let is_near = |end: &Point| polyline::distance(*end, points) <= ON_EDGE;
             ends.iter().all(is_near) && ring::contains(points, tip)

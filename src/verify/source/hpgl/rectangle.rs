@@ -6,7 +6,7 @@ use crate::geom::{Extent, Point, polyline};
 
 /// Places of a line along a rectangle that are looked at, less one.
 const STEPS: usize = 16;
-/// Smallest rectangle that closes outlines, mm.
+/// Smaller side of the smallest rectangle that closes outlines, mm: less is a line.
 const LEAST_SIZE: f64 = 30.0;
 /// How far the two ends of an edge along an axis may lie beside each other, mm: rounding.
 const ASKEW: f64 = 0.2;
@@ -70,7 +70,7 @@ impl Rectangle {
     fn is_whole(&self, reach: f64) -> bool {
         let (width, height) = self.extent.size();
         let corners = self.corners();
-        width.max(height) >= LEAST_SIZE
+        width.min(height) >= LEAST_SIZE
             && (0..4).all(|side| self.is_drawn([corners[side], corners[(side + 1) % 4]], reach))
     }
 
