@@ -15,6 +15,8 @@ const ASIDE: f64 = 1.0;
 /// Tolerances by which a deviation may be less than its declaration says: smoothing moves the blade and its line, each by one,
 /// and a plunge is declared with one.
 const LESS: f64 = 4.0;
+/// The same that steps along the blade and along its line make, mm.
+const STEPS: f64 = 0.2;
 /// What a declaration counts of which nothing is found at its place, mm, whatever it says.
 const NOWHERE: f64 = 1.0;
 
@@ -108,7 +110,7 @@ impl<'a> Account<'a> {
         for (entry, found) in self.declared.entries.iter().zip(&self.found) {
             let excess = match found.load(Ordering::Relaxed) {
                 NOTHING => entry.magnitude_mm.max(NOWHERE),
-                found => entry.magnitude_mm - (f64::from_bits(found) - 1.0) - LESS * reference.tolerance,
+                found => entry.magnitude_mm - (f64::from_bits(found) - 1.0) - LESS * reference.tolerance - STEPS,
             };
             if excess > 0.0 {
                 undeclared.see(excess, || place(entry, reference));

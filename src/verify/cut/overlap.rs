@@ -27,14 +27,7 @@ impl Judge<'_> {
         }
         let knife = self.knife;
         if trial.laps {
-            // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.
-            let [start, end] = trial.reach;
-            let lapped = lapped(cut, line.length()).max((end - start).abs() - line.length());
-            let missing = knife.front_overlap_mm.min(line.length()) - lapped;
-            // Its start and its end may both be off along it.
-            if missing > 2.0 * self.tracer.allowed {
-                overlap.see(missing - self.tracer.allowed, || seen(cut.points.len() - 1));
-            }
+            self.check_lap(cut, trial, seen, overlap);
         }
         if trial.laps || line.ring {
             return;
@@ -77,6 +70,19 @@ impl Judge<'_> {
             if !may {
                 overlap.see(missing, || seen(place));
             }
+        }
+    }
+
+    /// How much a ring goes on over its own start less than the profile asks for.
+    fn check_lap(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, overlap: &mut Worst) {
+        let length = self.reference.lines[trial.line].length();
+        // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.
+        let [start, end] = trial.reach;
+        let lapped = lapped(cut, length).max((end - start).abs() - length);
+        let missing = self.knife.front_overlap_mm.min(length) - lapped;
+        // Its start and its end may both be off along it.
+        if missing > 2.0 * self.tracer.allowed {
+            overlap.see(missing - self.tracer.allowed, || seen(cut.points.len() - 1));
         }
     }
 

@@ -14,7 +14,7 @@ const AWAY: f64 = 20.0;
 /// Entries of a kind that are faked in each program, at the most.
 const OF_A_KIND: usize = 3;
 /// A deviation of less is none to speak of, mm: half of it is within what is allowed anyway.
-const WORTH: f64 = 0.5;
+const WORTH: f64 = 1.2;
 /// Faked declarations, at the least.
 const AT_LEAST: usize = 40;
 
