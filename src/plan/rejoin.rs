@@ -181,7 +181,9 @@ impl<'a> Line<'a> {
     fn cuts(&self, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let ends = [self.points[0], self.points[self.points.len() - 1]];
         let length = polyline::length(&self.points);
-        if self.ring.is_none() && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+        if self.ring.is_none()
+            && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+            && run::passes_ends(&self.points, self.overlaps(), tolerance)
         {
             let at = |station: f64| ends[0] + (ends[1] - ends[0]) * (station / length);
             let smooth = Smooth { curve: run::straight_curve(length, ends), sagitta: 0.0 };

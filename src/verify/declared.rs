@@ -110,7 +110,12 @@ impl<'a> Account<'a> {
         for (entry, found) in self.declared.entries.iter().zip(&self.found) {
             let excess = match found.load(Ordering::Relaxed) {
                 NOTHING => entry.magnitude_mm.max(NOWHERE),
-                found => entry.magnitude_mm - (f64::from_bits(found) - 1.0) - LESS * reference.tolerance - STEPS,
+                found => {
+                    // Less than the band is no depth.
+                    let band = if entry.kind == Kind::Surplus { reference.band } else { 0.0 };
+                    let found = f64::from_bits(found) - 1.0;
+                    entry.magnitude_mm - found - LESS * reference.tolerance - STEPS - band
+                }
             };
             if excess > 0.0 {
                 undeclared.see(excess, || place(entry, reference));

@@ -4,7 +4,7 @@ use super::band::ToleranceBand;
 use super::fade::{Beside, Fade};
 use super::fit::{Arc, Ends, Stop, fit};
 use super::pieces::{Joining, Pieces, Tip};
-use super::tip::{TipLine, at_seam};
+use super::tip::{LENGTH_EPSILON, TipLine};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::arcs::{Deviation, Interpolation, Path};
 use crate::ir::toolpath::{Pose, Run, Shape};
@@ -111,17 +111,19 @@ fn tip_arcs(
     interpolation: &Interpolation,
     job: &Job,
 ) -> Result<TipArcs, Point> {
-    let chords = &line.chords;
+    let lap = run.points.len() - 1;
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
-    let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
+    // A ring ends on its own start: what goes on over that is the same way again.
+    let (points, chords) =
+        if ring { (&line.points[..=lap], &line.chords[..lap]) } else { (&line.points[..], &line.chords[..]) };
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
-    let plain = ToleranceBand::new(line.points.clone(), tolerance, seam, &job.profile);
+    let plain = ToleranceBand::new(points.to_vec(), tolerance, [turn; 2], &job.profile);
     let is_overlap = |chord: usize| !ring && run.front > 0.0 && chord + 1 == chords.len();
     let band = plain.clone().with_junctions((0..chords.len()).map(is_overlap), OVERLAP_SHARE);
     let mut shares = JUNCTION_SHARES.iter().filter(|_| chords.iter().any(&is_junction));
     let start = if ring { at_seam(run) } else { band.direction(0) };
-    let end = if ring && run.front == 0.0 { start } else { band.direction(band.chords() - 1) };
+    let end = if ring { start } else { band.direction(band.chords() - 1) };
     let changes = |k: usize| run.feeds[chords[k - 1]] != run.feeds[chords[k]];
     let along = |k: usize| line.meets.filter(|&(vertex, _)| vertex == k).map(|(_, along)| along);
     let stop = |k: usize| (changes(k) || along(k).is_some()).then(|| Stop { vertex: k, along: along(k) });
@@ -135,8 +137,34 @@ fn tip_arcs(
     };
     let nearer = |&share: &f64| fitted(&band.clone().with_junctions(chords.iter().map(is_junction), share)).ok();
     // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
-    let arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok).or_else(|_| fitted(&plain))?;
+    let mut arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok).or_else(|_| fitted(&plain))?;
+    if ring {
+        arcs.extend(again(&arcs, run.front, [lap, line.chords.len() - 1]));
+    }
     Ok(TipArcs { arcs, start, from: band.points[0] })
+}
+
+/// The first arcs of a ring once more, over a length, mm, beside the chords behind its `lap`, up to the last one.
+fn again(arcs: &[Arc], length: f64, [lap, last]: [usize; 2]) -> Vec<Arc> {
+    let (mut left, mut found) = (length, Vec::new());
+    for arc in arcs {
+        if left <= LENGTH_EPSILON {
+            break;
+        }
+        let length = arc.length.min(left);
+        let stops = arc.stops && length == arc.length;
+        found.push(Arc { length, stops, chord: (arc.chord + lap).min(last), ..*arc });
+        left -= length;
+    }
+    found
+}
+
+/// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
+fn at_seam(run: &Run) -> Vector {
+    let n = run.points.len();
+    let (to, from) = (run.points[0] - run.points[n - 2], run.points[1] - run.points[0]);
+    let (a, b) = (to.norm(), from.norm());
+    (to * (b / a) + from * (a / b)).normalize()
 }
 
 /// Turn of a ring where it starts, rad.

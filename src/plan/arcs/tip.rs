@@ -16,8 +16,8 @@ pub(super) struct TipLine {
     pub(super) chords: Vec<usize>,
     /// Where the heel plunges, when the blade stands as a chord of the run.
     pub(super) heel: Option<Point>,
-    /// The point at which it comes by the start of a cut that goes on along it, that of a ring itself or that of the next run,
-    /// and the unit vector along that cut there.
+    /// The point at which it comes by the start of the next run, where that goes on along it, and the unit vector along that run
+    /// there.
     pub(super) meets: Option<(usize, Vector)>,
 }
 
@@ -80,8 +80,7 @@ impl TipLine {
             left -= length;
             chord = (chord + 1) % (n - 1);
         }
-        let meets = (run.front > LENGTH_EPSILON).then(|| (n - 1, at_seam(run)));
-        Self { points, chords, heel: None, meets }
+        Self { points, chords, heel: None, meets: None }
     }
 
     /// From where the tip stands while the heel plunges at the start of the heel overlap.
@@ -112,14 +111,6 @@ impl TipLine {
         }
         Self { points, chords, heel: Some(extended[0]), meets: None }
     }
-}
-
-/// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
-pub(super) fn at_seam(run: &Run) -> Vector {
-    let n = run.points.len();
-    let (to, from) = (run.points[0] - run.points[n - 2], run.points[1] - run.points[0]);
-    let (a, b) = (to.norm(), from.norm());
-    (to * (b / a) + from * (a / b)).normalize()
 }
 
 #[cfg(test)]

@@ -13,6 +13,8 @@ use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
 use crate::verify::worst::Worst;
 
+/// Part of the tolerance by which a line is off a straight one where it bends, however little.
+const SLIGHT_SHARE: f64 = 0.1;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-6;
 
@@ -90,13 +92,18 @@ impl Judge<'_> {
     }
 
     /// Whether a line is straight under a blade and for its width before and behind it.
-    pub(super) fn is_straight_about(&self, line: &Line, [a, b]: [f64; 2]) -> bool {
+    pub(super) fn is_straight_about(&self, line: &Line, stations: [f64; 2]) -> bool {
+        self.is_straight_within(line, stations, self.tracer.allowed)
+    }
+
+    /// The same within a distance, mm.
+    fn is_straight_within(&self, line: &Line, [a, b]: [f64; 2], slack: f64) -> bool {
         let (width, length) = (self.knife.width_mm, line.length());
         let (low, high) = (a.min(b) - width, a.max(b) + width);
         let [low, high] = if line.ring { [low, high] } else { [low.max(0.0), high.min(length)] };
         let [from, to] = [low, high].map(|station| line.place(on_lap(line, station)));
         let mut between = line.vertices(low, high).map(|vertex| line.point(vertex));
-        between.all(|point| polyline::distance_to_segment(point, from, to) <= self.tracer.allowed)
+        between.all(|point| polyline::distance_to_segment(point, from, to) <= slack)
     }
 
     /// The knife is lifted amid a line where that has a cause and is declared; where nothing is, anywhere: the line is cut all the
@@ -133,7 +140,7 @@ impl Judge<'_> {
         self.knife.max_down_mm.is_some()
             || self.knife.max_swing_mm.is_some()
             || self.profile.c.range_deg.is_some()
-            || !self.is_straight_about(line, [station; 2])
+            || !self.is_straight_within(line, [station; 2], SLIGHT_SHARE * self.tracer.allowed)
     }
 }
 
