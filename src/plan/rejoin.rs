@@ -233,7 +233,9 @@ impl<'a> Line<'a> {
             Some((extended, ring)) => (&extended.points, extended.start, extended.lap(ring)),
             None => (&self.points, 0.0, None),
         };
-        let overlaps = if lap.is_some() { [0.0; 2] } else { self.overlaps() };
+        let [before, behind] = [&self.parts[0], &self.parts[self.parts.len() - 1]];
+        let at_lifts = [run::overlaps_at_lifts(before.run)[0], run::overlaps_at_lifts(behind.run)[1]];
+        let overlaps = if lap.is_some() { [0.0; 2] } else { at_lifts };
         let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
         let band = || plain().with_overlaps(overlaps);
         let junctions = match &extended {

@@ -27,6 +27,9 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         for contour in &mut piece.contours {
             let points = marker.list.points(contour.range);
             let points: &[Point] = &points;
+            if never_returns(points, reach) {
+                continue;
+            }
             let Some(found) = closing::retrace(points.len(), |k| points[k], reach) else { continue };
             let Retrace { last, rounds, is_back, past: length } = found;
             let mut ring: Vec<Segment> =
@@ -53,6 +56,12 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     });
     again.say(&code::MARKER_ROUND_AGAIN, diagnostics, |most| format!("round {} times in one stroke", fixed(most, 0)));
     back.say(&code::MARKER_ROUND_AGAIN, diagnostics, |_| "round and back in one stroke".to_owned());
+}
+
+/// Whether a line ends where it starts and has not been near there before, as nearly all have not.
+fn never_returns(points: &[Point], reach: f64) -> bool {
+    let [first, inner @ .., last] = points else { return true };
+    first == last && !inner.iter().any(|at| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach)
 }
 
 /// Outlines that something was found about.

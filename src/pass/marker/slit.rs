@@ -11,6 +11,7 @@
 //! A slit that starts up to [`Notch::MISS`] inside its edge reaches it: where its own line leads back there. Leaves true:
 //! notches in the order of the file; none without length, and no slit twice, whichever way round.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::pass::MarkerPass;
@@ -81,10 +82,19 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
 
-/// The segments of the outlines of a piece.
-fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item = [Point; 2]> {
+/// The points of each outline of a piece.
+fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item = Cow<'a, [Point]>> {
     let outlines = piece.contours.iter().filter(|contour| contour.closed && short(list, contour, 0).is_none());
-    outlines.flat_map(|contour| list.lines(contour.range))
+    outlines.map(|contour| list.points(contour.range))
+}
+
+/// Does something with each segment of the outlines of a piece: with plain loops, since every segment of a marker comes by here.
+fn each_edge(list: &SegmentList, piece: &Piece, mut edge: impl FnMut([Point; 2])) {
+    for points in outlines(list, piece) {
+        for ends in points.windows(2) {
+            edge([ends[0], ends[1]]);
+        }
+    }
 }
 
 /// What may be a crossbar.
@@ -135,12 +145,12 @@ impl Search<'_> {
                 *is_divided |= (tip(k) - from).norm().min((tip(k) - to).norm()) > slack;
             });
         }
-        for ends in outlines(self.list, piece) {
+        each_edge(self.list, piece, |ends| {
             self.near.each(&starts, ends, |i| shorts[i].taken = true);
             self.around.each(&starts, ends, |i| {
                 shorts[i].taken |= !is_divided[i] && back_to(&shorts[i].stroke, ends).is_some();
             });
-        }
+        });
         for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
             let NotchStroke { from: root, to: tip, span } = *stroke;
             piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
@@ -153,7 +163,7 @@ impl Search<'_> {
         let slit = |notch: &Notch| NotchStroke { from: notch.root, to: notch.tip, span: notch.span };
         let starts = sorted(piece.notches.iter().map(|notch| notch.root));
         let mut missed: Vec<Option<f64>> = vec![Some(f64::INFINITY); piece.notches.len()];
-        for ends in outlines(self.list, piece) {
+        each_edge(self.list, piece, |ends| {
             self.around.each(&starts, ends, |i| {
                 let stroke = slit(&piece.notches[i]);
                 // At a vertex no edge may be met, by rounding.
@@ -165,7 +175,7 @@ impl Search<'_> {
                     missed[i] = missed[i].filter(|_| back >= self.least_miss).map(|least| least.min(back));
                 }
             });
-        }
+        });
         for (notch, missed) in piece.notches.iter_mut().zip(missed) {
             let back = missed.filter(|&back| back <= Notch::MISS + self.near.slack() && notch.depth() > 0.0);
             if let Some(back) = back {
@@ -181,9 +191,7 @@ impl Search<'_> {
         // A slit alone has none that could be its crossbar, or whose crossbar it could be.
         if slits.len() > 1 {
             let ends = sorted(slits.iter().flat_map(|(_, notch)| [notch.root, notch.tip]));
-            for segment in outlines(self.list, piece) {
-                self.near.each(&ends, segment, |i| touches[i / 2] = true);
-            }
+            each_edge(self.list, piece, |edge| self.near.each(&ends, edge, |i| touches[i / 2] = true));
         }
         let free = slits.iter().zip(touches).filter(|(_, touches)| slits.len() > 1 && !touches);
         let notches = free.map(|((i, notch), _)| {

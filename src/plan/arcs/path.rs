@@ -9,6 +9,7 @@ use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::arcs::{Deviation, Interpolation, Path};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
+use crate::plan::run::overlaps_at_lifts;
 use crate::plan::spline::{JUNCTION_SHARES, OVERLAP_SHARE};
 use crate::units::rad;
 
@@ -119,7 +120,7 @@ fn tip_arcs(
         if ring { (&line.points[..=lap], &line.chords[..lap]) } else { (&line.points[..], &line.chords[..]) };
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
     let plain = ToleranceBand::new(points.to_vec(), tolerance, [turn; 2], &job.profile);
-    let is_overlap = |chord: usize| !ring && run.front > 0.0 && chord + 1 == chords.len();
+    let is_overlap = |chord: usize| overlaps_at_lifts(run)[1] > 0.0 && chord + 1 == chords.len();
     let band = plain.clone().with_junctions((0..chords.len()).map(is_overlap), OVERLAP_SHARE);
     let mut shares = JUNCTION_SHARES.iter().filter(|_| chords.iter().any(&is_junction));
     let start = if ring { at_seam(run) } else { band.direction(0) };

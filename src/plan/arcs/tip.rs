@@ -53,14 +53,12 @@ impl TipLine {
         let is_on = |ends: &[Point]| polyline::distance_to_segment(start, ends[0], ends[1]) <= ON_EPSILON;
         let Some((chord, along)) = self.points.windows(2).rposition(is_on).zip(along) else { return self };
         let near = |point: Point| (start - point).norm() <= LENGTH_EPSILON;
-        let vertex = match [chord, chord + 1].into_iter().find(|&vertex| near(self.points[vertex])) {
-            Some(vertex) => vertex,
-            None => {
-                self.points.insert(chord + 1, start);
-                self.chords.insert(chord, self.chords[chord]);
-                chord + 1
-            }
-        };
+        let known = [chord, chord + 1].into_iter().find(|&vertex| near(self.points[vertex]));
+        let vertex = known.unwrap_or_else(|| {
+            self.points.insert(chord + 1, start);
+            self.chords.insert(chord, self.chords[chord]);
+            chord + 1
+        });
         self.meets = (1..self.points.len() - 1).contains(&vertex).then_some((vertex, along));
         self
     }

@@ -28,7 +28,7 @@ const FAKES: &[(&str, Fake)] = &[
         can_be.then(|| Some(Declaration { magnitude_mm: entry.magnitude_mm / 2.0, ..*entry }))
     }),
     ("ten times as much", |entry| {
-        (entry.magnitude_mm > WORTH).then(|| Some(Declaration { magnitude_mm: 10.0 * entry.magnitude_mm, ..*entry }))
+        (entry.magnitude_mm > WORTH).then_some(Some(Declaration { magnitude_mm: 10.0 * entry.magnitude_mm, ..*entry }))
     }),
     ("of another cut", |entry| is_worth(entry).then(|| Some(Declaration { cut: entry.cut + 1000, ..*entry }))),
     ("moved", |entry| {
