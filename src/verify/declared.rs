@@ -92,6 +92,15 @@ impl<'a> Account<'a> {
         self.declared.entries.binary_search_by_key(&line.cut.index, |entry| entry.cut).is_err()
     }
 
+    /// Whether more is declared of a kind about a stretch than was found so far.
+    pub(super) fn lacks(&self, kind: Kind, stretch: Stretch) -> bool {
+        let found = |place: usize| match self.found[place].load(Ordering::Relaxed) {
+            NOTHING => -1.0,
+            found => f64::from_bits(found) - 1.0,
+        };
+        self.declared.places(kind, stretch).any(|place| self.declared.entries[place].magnitude_mm > found(place))
+    }
+
     /// Sees a deviation of a kind about a stretch, mm.
     pub(super) fn see(&self, kind: Kind, stretch: Stretch, found: f64) {
         self.see_where(kind, stretch, |_| true, found);

@@ -25,15 +25,25 @@ impl Judge<'_> {
         if self.knife.width_mm == 0.0 {
             return;
         }
+        let under = [0, cut.body].map(|place| trial.feet[place].station);
+        let plunged = if cut.is_plunge_cut() { whole } else { Stretch { stations: under, ..whole } };
+        // What the drawing makes of them is known at once, the rest where that is less than is declared.
+        if account.lacks(Kind::Plunge, plunged) {
+            account.see(Kind::Plunge, plunged, self.drawn_beside(cut, trial));
+        }
+        if account.lacks(Kind::Plunge, plunged) {
+            account.see(Kind::Plunge, plunged, self.beside(cut, trial));
+        }
         if cut.is_plunge_cut() {
-            account.see(Kind::Plunge, whole, self.beside(cut, trial).max(self.drawn_beside(cut, trial)));
             account.see(Kind::Nibbled, whole, (trial.reach[1] - trial.reach[0]).abs());
             self.find_surplus(cut, trial, account);
-        } else {
-            let under = [0, cut.body].map(|place| trial.feet[place].station);
-            let beside = self.beside(cut, trial).max(self.drawn_beside(cut, trial));
-            account.see(Kind::Plunge, Stretch { stations: under, ..whole }, beside);
-            account.see(Kind::Swing, whole, self.swing(traced, trial).max(self.drawn_swing(cut, trial)));
+            return;
+        }
+        if account.lacks(Kind::Swing, whole) {
+            account.see(Kind::Swing, whole, self.drawn_swing(cut, trial));
+        }
+        if account.lacks(Kind::Swing, whole) {
+            account.see(Kind::Swing, whole, self.swing(traced, trial));
         }
     }
 
