@@ -195,7 +195,7 @@ pub struct Aside {
     pub moved: Moved,
 }
 
-/// What open lines are taken for that are outlines around closed lines, and those that are so together.
+/// Classes of open lines around closed lines: one that is an outline by itself, and several that make one together.
 pub const OPEN_OUTLINES: [&str; 2] = ["open outline", "broken outline"];
 
 /// A line that is not cut.

@@ -215,14 +215,15 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
 struct EdgeDoubt {
     lie: Lie,
     code: &'static Code,
-    /// What one does, and several.
+    /// Words for one such line, and for several.
     does: [&'static str; 2],
     hints: &'static [&'static str],
 }
 
-/// What may be a notch.
+/// Hint with the measures of the strokes that are notches.
 const NOTCHES: &str =
     "notches lead 1 to 15 mm inwards from within 0.5 mm of the edge; `--cut-all` cuts all but a frame";
+/// Hint with the greatest measures of a notch.
 const MEASURES: &str = "the mouth of a notch is up to 12 mm wide, its depth 15 mm; `--cut-all` cuts all but a frame";
 
 /// How lines at an edge are told.

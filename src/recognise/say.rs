@@ -87,7 +87,7 @@ fn standing(sheet: &Sheet) -> BTreeSet<usize> {
 /// Closed lines inside parts that are not cut: cut-outs, or parts in a frame that was not known for one.
 fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let mut by_part: BTreeMap<usize, Vec<&Line>> = BTreeMap::new();
-    // Those that stand on an outline are told for themselves.
+    // Closed lines that stand on an outline have a warning of their own.
     let standing = standing(sheet);
     let is_inner = |line: &Line| line.class == Class::Inner && !line.is_cut && line.usage != Use::Drawn;
     for i in sheet.indices(is_inner).into_iter().filter(|i| !standing.contains(i)) {

@@ -1,8 +1,8 @@
 //! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour.
 //!
 //! Needs: welded contours. Other software lays an overcut at the end of an outline, plotters draw bold lines by going round
-//! twice, or there and back. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts once. Leaves
-//! true: such a contour ends where it starts, and keeps its start and direction.
+//! twice, or there and back. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts
+//! once. Leaves true: such a contour ends where it starts, and keeps its start and direction.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};

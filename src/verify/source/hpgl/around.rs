@@ -100,7 +100,7 @@ fn places(edge: [Point; 2]) -> impl Iterator<Item = Uncut> {
     (0..count).map(move |k| Uncut { at: edge[0] + way * ((k as f64 + 0.5) / count as f64), edge })
 }
 
-/// What is drawn and not cut, and what is cut.
+/// Lines of a plot about its cuts: places of those that are not cut, and the edges that are.
 struct Around {
     places: Vec<Uncut>,
     boxes: Boxes,
