@@ -26,15 +26,46 @@ fn pieces<'a>(doubt: &'a Diagnostic, context: &'a Context) -> impl Iterator<Item
     context.marker.pieces.iter().filter(|piece| doubt.pieces.contains(&piece.number))
 }
 
-/// The outlines that are not cut and that a doubt is about: all that were taken for the same.
-fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Vec<Point>> {
+/// What a doubt is about at one place of the cloth.
+struct Band {
+    outlines: Vec<Vec<Point>>,
+    /// Place below its sign.
+    middle: Point,
+}
+
+impl Band {
+    /// Outlines of one place, with the sign above the middle of some points.
+    fn new(outlines: Vec<Vec<Point>>, of: &[Point]) -> Self {
+        let Extent { min, max } = Extent::of(of);
+        Self { outlines, middle: min + (max - min) / 2.0 }
+    }
+
+    /// The outlines of a piece.
+    fn of_piece(piece: &Piece, context: &Context) -> Option<Self> {
+        let closed = piece.contours.iter().filter(|contour| contour.closed);
+        let outlines: Vec<Vec<Point>> = closed.map(|contour| context.marker.points(contour)).collect();
+        let points = outlines.concat();
+        (!points.is_empty()).then(|| Self::new(outlines, &points))
+    }
+}
+
+/// The outlines that are not cut and that a doubt is about: all that were taken for the same. Each line is an outline of
+/// its own; the strokes of broken ones are in one band, whose sign stands at the first of them.
+fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Band> {
     let aside = context.marker.drawing.iter().flat_map(|account| account.aside.each());
     let outlines: Vec<(&str, &[Vertex])> =
         aside.filter_map(|(class, line)| Some((class.filter(|class| OPEN_OUTLINES.contains(class))?, line))).collect();
     let is_at = |line: &[Vertex]| doubt.span.is_some_and(|span| line.iter().any(|vertex| vertex.span == span));
-    let first = outlines.iter().find(|(_, line)| doubt.pieces.is_empty() && is_at(line));
-    let alike = outlines.iter().filter(|(class, _)| first.is_some_and(|(first, _)| first == class));
-    alike.map(|(_, line)| line.iter().map(|vertex| vertex.at).collect()).collect()
+    let Some(&(class, first)) = outlines.iter().find(|(_, line)| doubt.pieces.is_empty() && is_at(line)) else {
+        return Vec::new();
+    };
+    let points = |line: &[Vertex]| line.iter().map(|vertex| vertex.at).collect::<Vec<Point>>();
+    let alike = outlines.iter().filter(|(other, _)| *other == class).map(|(_, line)| points(line));
+    if class == OPEN_OUTLINES[0] {
+        alike.map(|line| Band::new(vec![line.clone()], &line)).collect()
+    } else {
+        vec![Band::new(alike.collect(), &points(first))]
+    }
 }
 
 /// The bands and signs, in the coordinates of the sheet (Y down).
@@ -44,18 +75,12 @@ pub(super) fn layer(doubts: &[&Diagnostic], sheet: &Sheet, context: &Context) ->
     }
     let mut text = String::from("<g id=\"doubts\" inkscape:groupmode=\"layer\" inkscape:label=\"doubts\">\n");
     for (n, doubt) in doubts.iter().enumerate() {
-        let of_pieces = pieces(doubt, context).map(|piece| {
-            let closed = piece.contours.iter().filter(|c| c.closed);
-            closed.map(|c| context.marker.points(c)).collect()
-        });
-        let outlines: Vec<Vec<Vec<Point>>> = of_pieces.chain([uncut(doubt, context)]).collect();
-        for outlines in outlines.into_iter().filter(|outlines| !outlines.is_empty()) {
+        let of_pieces = pieces(doubt, context).filter_map(|piece| Band::of_piece(piece, context));
+        for Band { outlines, middle } in of_pieces.chain(uncut(doubt, context)) {
             let mut data = PathData::default();
             for outline in &outlines {
                 data.line(outline.iter().map(|point| Point::new(point.x, -point.y)));
             }
-            let Extent { min, max } = Extent::of(&outlines.concat());
-            let middle = min + (max - min) / 2.0;
             let _infallible = write!(
                 text,
                 "<g><title>{} {}</title>\n{}<text class=\"doubt-sign\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text></g>\n",
