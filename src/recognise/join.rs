@@ -44,10 +44,15 @@ const MOST_STEPS: usize = 64;
 /// The pen, and the cell of a grid.
 type Cell = (u16, [i64; 2]);
 
+/// Farthest that two places which are meant to be one may miss each other along an axis in a file with that unit, mm.
+pub(super) fn reach(unit: f64) -> f64 {
+    if unit > 0.0 { (REACH_UNITS * unit).min(REACH) } else { REACH }
+}
+
 /// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
 pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
     let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
-    let reach = if drawing.unit > 0.0 { (REACH_UNITS * drawing.unit).min(REACH) } else { REACH };
+    let reach = reach(drawing.unit);
     let close = job.profile.drawing.close_mm;
     let again = again::take(drawing, &uses, close.max(reach));
     let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
@@ -386,7 +391,9 @@ impl<'a, 'b> Graph<'a, 'b> {
     /// Decides at every place, first where two lines meet, then where more do, then among those that lead nowhere.
     fn link(&mut self) {
         for k in 0..self.nodes.len() {
-            if let [a, b] = self.open(k, false)[..] {
+            if let [a, b] = self.open(k, false)[..]
+                && !self.are_one_notch([a, b])
+            {
                 self.chains.join([a, b]);
             }
         }
@@ -397,12 +404,18 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
         self.find_edges();
         for k in 0..self.nodes.len() {
-            if let [a, b] = self.open(k, true)[..]
+            if let [a, b] = self.open_but_slits(k)[..]
                 && !self.are_notches(k, [a, b])
             {
                 self.chains.join([a, b]);
             }
         }
+    }
+
+    /// Whether two strokes are one notch that is drawn twice: they meet at both ends.
+    fn are_one_notch(&self, [a, b]: [End; 2]) -> bool {
+        let far = [a, b].map(|end| self.node[other(end)]);
+        a / 2 != b / 2 && far[0] == far[1] && [a, b].iter().all(|end| self.joining.is_notch(end / 2))
     }
 
     /// Whether two strokes are two notches: their mouths touch, or one is a slit that begins at the mouth of the other,
@@ -457,6 +470,15 @@ impl<'a, 'b> Graph<'a, 'b> {
         let may_go_on = |stroke: usize| !self.is_dead[stroke] || with_dead && !self.joining.nearly_closes(stroke);
         let is_open = |end: &End| self.chains.links[*end].is_none() && may_go_on(end / 2);
         self.nodes[node].iter().copied().filter(is_open).collect()
+    }
+
+    /// The ends at a place of an outline that is not whole, less a slit that begins there: a straight stroke whose other end
+    /// meets nothing.
+    fn open_but_slits(&self, node: usize) -> Vec<End> {
+        let open = self.open(node, true);
+        let is_slit = |end: End| self.joining.is_slit(end / 2) && self.node[other(end)].is_none();
+        let others: Vec<End> = open.iter().copied().filter(|&end| !is_slit(end)).collect();
+        if open.len() > 2 && others.len() == 2 { others } else { open }
     }
 
     fn continuation(&self, node: usize) -> Option<[End; 2]> {

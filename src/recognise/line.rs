@@ -70,7 +70,7 @@ pub(super) const RULES: [Rule; 15] = [
     Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Every },
     Rule { class: Class::Frame, name: "frame", about: "a rectangle around all parts", cut: Cut::Never },
     Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Every },
-    Rule { class: Class::Again, name: "drawn again", about: "a line with the places of one before it", cut: Cut::Never },
+    Rule { class: Class::Again, name: "drawn again", about: "a line in the places of another one", cut: Cut::Never },
     Rule { class: Class::Ignored, name: "ignored pen", about: "a line of a pen that does not matter", cut: Cut::Never },
 ];
 

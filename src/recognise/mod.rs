@@ -7,7 +7,7 @@
 //! Never knows the dialect.
 //!
 //! `again` puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, over the gaps that
-//! `bridge` finds, `close` closes them; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest`
+//! `bridge` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest`
 //! what lies in what, `remains` the outlines that are not whole, `marks` and `strokes` the notches, `letters` and
 //! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for.
 //! `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
@@ -30,10 +30,12 @@ mod say;
 mod seam;
 mod sheet;
 mod strokes;
+mod twins;
 
 use self::sheet::Sheet;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
+use crate::geom::budget::Budget;
 use crate::ir::Marker;
 use crate::ir::drawing::Drawing;
 use crate::machine::Job;
@@ -42,6 +44,8 @@ use crate::machine::Job;
 pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
     let (mut lines, moved) = join::join(&mut drawing, job);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
+    let mut work = Budget::of_a_marker();
+    twins::mark(&mut lines, &drawing.vertices, join::reach(drawing.unit), &mut work);
     let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
     let mut sheet = Sheet {
         vertices,
@@ -56,7 +60,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
         unit,
         ending,
         moved,
-        is_cut_short: false,
+        is_cut_short: work.is_spent(),
     };
     sheet.sort_out(job);
     sheet.decide(job);

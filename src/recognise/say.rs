@@ -7,7 +7,7 @@ use super::doubts::{self, finding};
 use super::line::{Class, Line, SMALL_OUTLINE};
 use super::marks::Lie;
 use super::pens::Use;
-use super::sheet::Sheet;
+use super::sheet::{BAND, Sheet};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
 use crate::geom::boxes::Boxes;
@@ -25,6 +25,8 @@ const SHORTEST_NAMED: f64 = 100.0;
 const SHORTEST_CUT_SHORT: f64 = 25.0;
 /// Closed lines in a part that make one doubt whether it is one.
 const DOUBTFUL: usize = 2;
+/// Share of a rectangle that a closed line in it fills at least to be a part in a frame: less is a pocket or a loop.
+const LEAST_FILL: f64 = 0.15;
 /// Parts in a frame that make nobody doubt that it is one.
 const SURE_PARTS: usize = 4;
 /// Most pens that a message names.
@@ -63,7 +65,7 @@ fn drawn_again(sheet: &Sheet, out: &mut Diagnostics) {
     let again: Vec<&Line> = sheet.lines.iter().filter(|line| line.class == Class::Again).collect();
     let Some(first) = again.first() else { return };
     let (are, each) = if again.len() == 1 { ("is", "it is") } else { ("are", "each is") };
-    let message = format!("{} {are} drawn again, place by place: {each} taken once", counted(&again, "line"));
+    let message = format!("{} {are} drawn again: {each} taken once", counted(&again, "line"));
     let found = finding(&code::DRAWING_AGAIN, message, first, sheet);
     out.push(found.hint("look whether the file holds a plot twice; the copies are never cut"));
 }
@@ -93,8 +95,14 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     for i in sheet.indices(is_inner).into_iter().filter(|i| !standing.contains(i)) {
         by_part.entry(sheet.nest.outermost(i).unwrap_or(i)).or_default().push(&sheet.lines[i]);
     }
-    let doubtful: Vec<(usize, &[&Line])> =
-        by_part.iter().filter(|(_, held)| held.len() >= DOUBTFUL).map(|(&part, held)| (part, &held[..])).collect();
+    // A rectangle that is all there is may be the edge of the cloth around one part.
+    let is_alone = sheet.lines.iter().filter(|line| line.class == Class::Part).count() == 1;
+    let may_be_frame = |part: usize, held: &[&Line]| {
+        let (part, area) = (&sheet.lines[part], held.iter().map(|line| line.area).sum::<f64>());
+        held.len() >= DOUBTFUL || is_alone && part.is_rectangle(BAND) && area >= LEAST_FILL * part.area
+    };
+    let (doubtful, others): (Vec<_>, Vec<_>) =
+        by_part.iter().map(|(&part, held)| (part, &held[..])).partition(|(part, held)| may_be_frame(*part, held));
     if let Some(&(part, held)) = doubtful.first() {
         let (width, height) = sheet.lines[part].extent.size();
         let others = match doubtful.len() {
@@ -103,15 +111,16 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
             n => format!("; so do {} others", n - 1),
         };
         let message = format!(
-            "a part of {} x {} mm holds {} that are not cut: it may be a frame or the edge of the table{others}",
+            "a part of {} x {} mm holds {} that {} not cut: it may be a frame or the edge of the table{others}",
             fixed(width, 1),
             fixed(height, 1),
-            counted(held, "closed line")
+            counted(held, "closed line"),
+            if held.len() == 1 { "is" } else { "are" }
         );
         let found = finding(&code::DRAWING_MAY_BE_FRAME, message, &sheet.lines[part], sheet);
-        out.push(found.hint("`--set hpgl.frame=outermost` if it is one; `--inner cut` if the lines are cut-outs"));
+        out.push(found.hint("`--set hpgl.frame=outermost` if it is one; `--inner cut` cuts cut-outs"));
     }
-    let single: Vec<&Line> = by_part.values().filter(|held| held.len() < DOUBTFUL).flatten().copied().collect();
+    let single: Vec<&Line> = others.iter().flat_map(|(_, held)| *held).copied().collect();
     if let Some(first) = single.first() {
         let lines = counted(&single, "closed line");
         let is_asked = job.lines.inner.unwrap_or(job.profile.hpgl.inner) == Inner::Cut;

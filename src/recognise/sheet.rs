@@ -16,7 +16,7 @@ use crate::machine::Job;
 use crate::machine::plot::Inner;
 
 /// Lines that touch may lie so far in one another, mm, or a diagonal of the unit: each was rounded by itself.
-const BAND: f64 = 0.2;
+pub(super) const BAND: f64 = 0.2;
 /// How much longer one side of a hole's box may be than the other.
 const HOLE_RATIO: f64 = 1.1;
 /// Share of its box that a circle of eight chords fills; a square fills all of it.
