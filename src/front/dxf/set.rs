@@ -10,6 +10,7 @@ use super::entity::{Block, Entity, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Does, Named, Names};
+use super::letters::letters;
 use super::over;
 use super::piece::{Making, Piece};
 use super::placing::{Held, MOST_PIECES, Placing};
@@ -24,6 +25,7 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;
 use crate::machine::Job;
+use crate::machine::letters::Letters;
 use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
 
@@ -43,6 +45,8 @@ pub(super) struct Set {
     gap: f64,
     /// Its sizes, as they are told.
     sizes: String,
+    /// How its texts are encoded.
+    pub(super) letters: Option<Letters>,
     /// What its layers are called.
     pub(super) names: Names,
     /// Texts that are of no piece.
@@ -68,6 +72,7 @@ struct Parts<'a> {
     source: &'a Source,
     job: &'a Job,
     sections: &'a Sections<'a>,
+    letters: Letters,
 }
 
 impl<'a> Parts<'a> {
@@ -75,7 +80,7 @@ impl<'a> Parts<'a> {
     fn reader<'o>(&self, unit: f64, out: &'o mut Diagnostics) -> Reader<'a, 'o> {
         Reader {
             source: self.source,
-            labels: &self.job.profile.labels,
+            letters: self.letters,
             unit,
             sagitta: self.job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
             chords: 0,
@@ -105,8 +110,11 @@ impl<'a> Parts<'a> {
         lengths
     }
 
-    fn facts<'e>(&self, entities: impl IntoIterator<Item = &'e Entity<'e>>) -> Facts {
-        Facts::of(entities, self.source, &self.job.profile.labels)
+    fn facts<'e>(&self, entities: impl IntoIterator<Item = &'e Entity<'a>>) -> Facts
+    where
+        'a: 'e,
+    {
+        Facts::of(entities, self.source, &self.letters)
     }
 }
 
@@ -121,11 +129,12 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let groups = groups(source, out);
     let sections = sections(source, &groups, out);
     let Sections { blocks, entities, unit: of_header, .. } = &sections;
-    let parts = Parts { source, job, sections: &sections };
+    let letters = letters(&sections, source, &job.profile.labels);
+    let parts = Parts { source, job, sections: &sections, letters };
     let own: Vec<Facts> = blocks.iter().map(|block| parts.facts(&block.entities)).collect();
     let file = own.iter().fold(parts.facts(entities), |facts, of_block| facts.and(*of_block, source));
     say_text(file.unread, out);
-    let asked = Asked { source, job, file };
+    let asked = Asked { source, job, letters, file };
     let unit = unit(&asked, *of_header, || parts.lengths(), out);
     let mut reader = parts.reader(unit, out);
     let mut loose = reader.shapes(entities);
@@ -152,7 +161,8 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         apart: Vec::new(),
         out,
     };
-    let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), names, ..Set::default() };
+    let mut set =
+        Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), names, letters: Some(letters), ..Set::default() };
     for (k, (mut shapes, said)) in drawn.into_iter().zip(said).enumerate() {
         let (span, facts) = (blocks[k].head.span(), &facts[k]);
         if held[k].is_cut && !placing.is_piece(k) {

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Label;
-use crate::machine::labels::Labels;
+use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
@@ -138,7 +138,7 @@ impl Shapes<'_> {
 pub(super) struct Reader<'a, 'o> {
     pub(super) source: &'a Source,
     /// How its texts are encoded.
-    pub(super) labels: &'a Labels,
+    pub(super) letters: Letters,
     /// Length of a unit, mm.
     pub(super) unit: f64,
     /// Farthest that chords lie off their curve, mm.
@@ -270,7 +270,7 @@ impl<'a> Reader<'a, '_> {
             at: self.place(entity, [X, Y])?,
             scale: [scale(SCALE_X)?, scale(SCALE_Y)?],
             turn: rad(entity.number(ANGLE)?.unwrap_or(0.0)),
-            facts: Facts::of(attributes, self.source, self.labels),
+            facts: Facts::of(attributes, self.source, &self.letters),
             span: entity.span(),
         })
     }
