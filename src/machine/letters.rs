@@ -49,6 +49,12 @@ impl Letters {
         };
         if *has_codes { visible(&drafting_codes::replaced(&text, encoding)) } else { visible(&text) }
     }
+
+    /// The text of a name, which tells things apart: bytes that are no text stay what they are.
+    pub fn name(&self, bytes: &[u8]) -> String {
+        let text = self.text(bytes);
+        if text.contains(char::REPLACEMENT_CHARACTER) { bytes.escape_ascii().to_string() } else { text }
+    }
 }
 
 /// Where Unicode has its pictures of the control characters from 0 on, and that of the last one, 127.

@@ -32,13 +32,6 @@ pub(super) struct Chosen<'a> {
     sizes: Option<Vec<String>>,
 }
 
-/// The name of a size. Bytes that are no text in the encoding of the file stay what they are: sizes that cannot be read
-/// differ all the same.
-fn size_of(bytes: &[u8], letters: &Letters) -> String {
-    let text = letters.text(bytes);
-    if text.contains(char::REPLACEMENT_CHARACTER) { bytes.escape_ascii().to_string() } else { text }
-}
-
 /// Sizes are the same whichever letters they are written in.
 fn same(text: &str) -> String {
     text.trim().to_uppercase()
@@ -49,7 +42,7 @@ impl<'a> Chosen<'a> {
     /// insertions put beside each other are a marker: they are cut whatever their sizes.
     pub(super) fn of(asked: &Asked<'a>, blocks: &[Facts], are_apart: bool, out: &mut Diagnostics) -> Self {
         let Asked { source, job, letters, file } = asked;
-        let text = |span: Span| size_of(source.slice(span), letters);
+        let text = |span: Span| letters.name(source.slice(span));
         let mut names: BTreeSet<String> = BTreeSet::new();
         let mut known: Vec<String> = Vec::new();
         for Facts { size, .. } in blocks {
@@ -102,7 +95,7 @@ impl<'a> Chosen<'a> {
 
     /// Whether a block is cut. One that is of no size goes with every size.
     pub(super) fn has(&self, facts: &Facts) -> bool {
-        let text = |span: Span| same(&size_of(self.source.slice(span), &self.letters));
+        let text = |span: Span| same(&self.letters.name(self.source.slice(span)));
         match (&self.sizes, facts.size.first.map(text)) {
             (None, _) | (_, None) => true,
             (Some(sizes), Some(size)) => sizes.contains(&size),

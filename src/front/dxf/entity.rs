@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::group::Group;
 use super::syntax::{number, whole};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
 /// Code of the group that begins an entity, and those of its name or text, its layer and its flags.
@@ -97,9 +98,8 @@ impl<'a> Entity<'a> {
     }
 
     /// The name of its layer, as it is shown.
-    pub(super) fn layer_name(&self) -> String {
-        let bytes = self.bytes(LAYER);
-        std::str::from_utf8(bytes).map_or_else(|_| bytes.escape_ascii().to_string(), str::to_owned)
+    pub(super) fn layer_name(&self, letters: &Letters) -> String {
+        letters.name(self.bytes(LAYER))
     }
 
     /// The number of a code; `None` when there is none.
