@@ -46,7 +46,8 @@ struct Field {
 
 /// The pieces that have labels or fields, in the order of the marker.
 pub(super) fn of(marker: &Marker, source: &Source, job: &Job) -> Vec<Labelled> {
-    let text = |span: Span| job.profile.labels.text(source.slice(span));
+    let letters = marker.letters(&job.profile.labels);
+    let text = |span: Span| letters.text(source.slice(span));
     let label = |label: &marker::Label| Label {
         text: text(label.span),
         mirrored: label.mirrored.map(text),

@@ -163,7 +163,7 @@ codes! {
     /// A number too large to be a place on a table.
     HPGL_OVERFLOW = error(Text, "hpgl/number-overflow", "A coordinate of a plot is beyond any table.", "Numbers that have run together lead the knife off the table. A separator was lost on the way: transfer the file again.");
     /// Bytes of PE that mean nothing.
-    HPGL_PE_DAMAGED = error(Text, "hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number.", "Every place behind the damage is relative to what is lost, so the outlines would be wrong. Transfer the file again as binary data: mail and editors change such bytes.");
+    HPGL_PE_DAMAGED = error(Text, "hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number or a place.", "Every place behind the damage is relative to what is lost, so the outlines would be wrong. Transfer the file again as binary data: mail and editors change such bytes.");
     /// PE without its end.
     HPGL_PE_OPEN = warning(Spoils, Text, "hpgl/encoding-open", "An encoded polyline (PE) has no semicolon, and the file ends with it.", "Its numbers are whole, but nobody knows whether more should follow. Compare the size of the file with the original, and the pieces with the marker.");
     /// PE that became text.

@@ -57,6 +57,8 @@ const FORMATS: &[Format] = &[
     known("a TIFF picture", PICTURE, |b| b.starts_with(b"II*\0") || b.starts_with(b"MM\0*")),
     known("a WebP picture", PICTURE, |b| b.starts_with(b"RIFF") && b.get(8..12) == Some(b"WEBP")),
     known("a BMP picture", PICTURE, |b| b.starts_with(b"BM") && b.get(6..10) == Some(&[0; 4])),
+    known("a web page (HTML)", "the download gave a page in its stead: sign in and fetch the file itself", is_web_page),
+    known("a pointer of Git LFS", "the file itself is stored elsewhere: fetch it with `git lfs pull`", |b| b.starts_with(b"version https://git-lfs")),
     known("an SVG drawing", EXPORT_PLOT, is_svg),
     known("text in UTF-16", "save it as plain text: one byte a character", is_utf16),
     known("a binary DXF drawing", "save it as text (ASCII DXF)", |b| b.starts_with(b"AutoCAD Binary DXF")),
@@ -121,6 +123,13 @@ fn is_illustrator(bytes: &[u8]) -> bool {
     (bytes.starts_with(b"%!PS") || bytes.starts_with(b"%PDF")) && has(bytes, b"Adobe Illustrator")
 }
 
+/// A page of HTML, behind a mark of its encoding.
+fn is_web_page(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let begins = |with: &[u8]| bytes.get(..with.len()).is_some_and(|start| start.eq_ignore_ascii_case(with));
+    begins(b"<!DOCTYPE html") || begins(b"<html") || begins(b"<head") || begins(b"<body")
+}
+
 /// An element of that name, behind whatever XML begins with.
 fn is_svg(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -176,15 +185,14 @@ fn is_gp_gl(bytes: &[u8]) -> bool {
     leads.count() >= 2
 }
 
-/// Lines of one letter with pairs of numbers: moves and lines.
+/// Lines of one letter with pairs of numbers, moves and lines, among commands of mode 2 behind a circumflex.
 fn is_camm_gl(bytes: &[u8]) -> bool {
-    if memchr::memchr(b'*', head(bytes)).is_some()
-        || !matches!(bytes.trim_ascii_start(), [_, second, ..] if !second.is_ascii_alphabetic())
-    {
+    let begins = |bytes: &[u8]| matches!(bytes, [first, second, ..] if *first == b'^' || !second.is_ascii_alphabetic());
+    if memchr::memchr(b'*', head(bytes)).is_some() || !begins(bytes.trim_ascii_start()) {
         return false;
     }
     let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
-    let commands = commands.filter(|command| !command.is_empty());
+    let commands = commands.filter(|command| !command.is_empty() && !b"^!".contains(&command[0]));
     let (mut all, mut leads) = (0, 0);
     for command in commands.take(50) {
         all += 1;
@@ -291,6 +299,9 @@ mod tests {
         check(b"\x1b\x04FX20,0\x03M400,400\x03D4400,400,4400,2400\x03", Some("a GP-GL plot (Graphtec)"));
         check(b";:H A L0 EC1 U 400,400 D 4400,400 @ ", Some("a DMPL plot (Houston Instruments)"));
         check(b"H\nM0,0\nD100,0\nD100,50\n", Some("a CAMM-GL I plot (Roland)"));
+        check(b"^IN;!PG;H\nM0,0\nD2000,0,2000,3000\nM4000,0\nD6000,0\nH\n", Some("a CAMM-GL I plot (Roland)"));
+        check(b"\r\n<!doctype HTML><html><body><svg></svg></body></html>", Some("a web page (HTML)"));
+        check(b"version https://git-lfs.github.com/spec/v1\noid sha256:aa\nsize 12345\n", Some("a pointer of Git LFS"));
     }
 
     #[test]

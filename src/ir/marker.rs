@@ -6,6 +6,8 @@ use super::drawing::Account;
 use super::list::{Range, SegmentList};
 use super::toolpath;
 use crate::geom::{Extent, Point, Vector};
+use crate::machine::labels::Labels;
+use crate::machine::letters::Letters;
 use crate::source::Span;
 
 /// The whole of a cutter file.
@@ -31,6 +33,8 @@ pub struct Marker {
     pub unit: f64,
     /// What happens behind the last piece.
     pub closing: Vec<Event>,
+    /// How its texts are encoded, where the file says so; `None` = as the profile has it.
+    pub letters: Option<Letters>,
     /// Of a drawing: what all of its lines were taken for.
     pub drawing: Option<Account>,
 }
@@ -315,6 +319,11 @@ impl Piece {
 }
 
 impl Marker {
+    /// How its texts are encoded, in the encoding of the profile where the file says nothing.
+    pub fn letters(&self, labels: &Labels) -> Letters {
+        self.letters.unwrap_or_else(|| labels.letters())
+    }
+
     /// All contours in cut order, with the index of their piece.
     pub fn contours(&self) -> impl Iterator<Item = (usize, &Contour)> {
         self.pieces.iter().enumerate().flat_map(|(i, piece)| piece.contours.iter().map(move |c| (i, c)))

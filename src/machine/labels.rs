@@ -1,14 +1,11 @@
 //! The texts of labels: bytes in the encoding of some CAD system, shown to people. The keys `labels.*`.
 //!
-//! The one place that decodes them, so that reports and pictures show the same text.
+//! [`Letters`] alone decodes them, so that reports and pictures show the same text.
 
-use std::fmt::Write as _;
-
-use encoding_rs::UTF_8;
 use serde::{Deserialize, Serialize};
 
-use super::encoding;
 use super::key::{Key, Takes};
+use super::letters::Letters;
 
 /// The keys `labels.*`.
 #[rustfmt::skip] // a table: one row a key
@@ -20,7 +17,7 @@ pub(super) const KEYS: &[Key] = &[
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Labels {
-    /// Name of an encoding; [`Labels::text`] decodes what is in it.
+    /// Name of an encoding; [`Letters::text`] decodes what is in it.
     pub encoding: String,
 }
 
@@ -30,58 +27,28 @@ impl Default for Labels {
     }
 }
 
-/// From here on UTF-8 has three bytes a character.
-const THREE_BYTES_FROM: char = '\u{800}';
-
 impl Labels {
     /// The text that some bytes of a label stand for: UTF-8 when they are that, else what the profile's encoding makes of
     /// them, with U+FFFD for what is no text in it. One line, in which everything can be seen.
     pub fn text(&self, bytes: &[u8]) -> String {
-        let encoding = encoding::find(&self.encoding).unwrap_or(UTF_8);
-        // Two bytes of GBK and its like are often two bytes of UTF-8 as well: 前片, the most common label of all, would be
-        // shown as ǰƬ. What is UTF-8 where such an encoding is in use has ideographs, of three bytes.
-        let is_utf_8 =
-            |text: &&str| encoding.is_single_byte() || text.is_ascii() || text.chars().any(|c| c >= THREE_BYTES_FROM);
-        match std::str::from_utf8(bytes).ok().filter(is_utf_8) {
-            Some(text) => visible(text),
-            None => visible(&encoding.decode_without_bom_handling(bytes).0),
-        }
+        self.letters().text(bytes)
     }
-}
 
-/// Where Unicode has its pictures of the control characters from 0 on, and that of the last one, 127.
-const CONTROL_PICTURES: u32 = 0x2400;
-const DELETE_PICTURE: char = '\u{2421}';
-
-/// The text with pictures for control characters; others that would break the line, or turn the order of what is shown
-/// around them, by their number.
-fn visible(text: &str) -> String {
-    let mut shown = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '\0'..='\u{1f}' => shown.extend(char::from_u32(CONTROL_PICTURES + c as u32)),
-            '\u{7f}' => shown.push(DELETE_PICTURE),
-            // Line and paragraph separators, marks of direction, byte-order marks, and what XML does not take at all.
-            '\u{80}'..='\u{9f}'
-            | '\u{61c}'
-            | '\u{200b}'..='\u{200f}'
-            | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}'
-            | '\u{feff}'
-            | '\u{fffe}'
-            | '\u{ffff}' => {
-                // Writing into a `String` cannot fail.
-                let _ = write!(shown, "{}", c.escape_unicode());
-            }
-            c => shown.push(c),
-        }
+    /// Their encoding.
+    pub fn letters(&self) -> Letters {
+        Letters::named(&self.encoding).unwrap_or(Letters::utf_8())
     }
-    shown
+
+    /// Their encoding where somebody has set one: UTF-8 is read whether it is set or not.
+    pub fn set(&self) -> Option<Letters> {
+        Some(self.letters()).filter(|letters| *letters != Letters::utf_8())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::encoding;
 
     fn check(encoding: &str, bytes: &[u8], expected: &str) {
         let labels = Labels { encoding: encoding.to_owned() };

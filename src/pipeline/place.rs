@@ -7,6 +7,7 @@ use crate::geom::Point;
 use crate::ir::Marker;
 use crate::ir::marker::{Notch, Piece};
 use crate::machine::Job;
+use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
 /// The most letters of a label that are shown.
@@ -49,6 +50,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
             places.push(OnCloth { piece: None, copy: 0, point: Some(vertex.at) });
         }
     }
+    let letters = marker.letters(&job.profile.labels);
     diagnostics.revise(known, |finding| {
         let places = finding.span.and_then(|span| wanted.get(&span.start)).into_iter().flatten();
         // Of several copies the one where it was found.
@@ -59,7 +61,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
         };
         let place = places.min_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(place) = place.filter(|_| finding.piece.is_none()) else { return };
-        finding.piece = place.piece.map(|piece| Box::new(name(&marker.pieces[piece], source, job)));
+        finding.piece = place.piece.map(|piece| Box::new(name(&marker.pieces[piece], source, letters)));
         finding.at = finding.at.take().or_else(|| place.point.map(|point| Box::new(point.into())));
     });
 }
@@ -72,8 +74,8 @@ struct OnCloth {
 }
 
 /// A piece by its number and the start of its first label.
-pub(super) fn name(piece: &Piece, source: &Source, job: &Job) -> PieceName {
-    let texts = piece.labels.iter().map(|label| job.profile.labels.text(source.slice(label.span)));
+pub(super) fn name(piece: &Piece, source: &Source, letters: Letters) -> PieceName {
+    let texts = piece.labels.iter().map(|label| letters.text(source.slice(label.span)));
     let mut texts = texts.map(|text| text.trim().to_owned()).filter(|text| !text.is_empty());
     let label = texts.next().map(|text| match text.char_indices().nth(LETTERS) {
         Some((end, _)) => format!("{}...", text[..end].trim_end()),

@@ -63,7 +63,8 @@ pub(super) fn told(
     job: &Job,
     program: &mut dyn Medium,
 ) -> io::Result<Vec<Told>> {
-    let named = |piece: &Piece| name(piece, source, job);
+    let letters = marker.letters(&job.profile.labels);
+    let named = |piece: &Piece| name(piece, source, letters);
     let tell = |finding: &Finding| {
         let place = finding.place?;
         let uncut = if finding.rule == COMPLETE { &verdict.uncut[..] } else { &[] };

@@ -73,7 +73,7 @@ pub(super) fn layer(shapes: &mut [Shape], sheet: &Sheet, context: &Context) -> S
 }
 
 fn text_of(span: Span, context: &Context) -> String {
-    context.job.profile.labels.text(context.source.slice(span))
+    context.marker.letters(&context.job.profile.labels).text(context.source.slice(span))
 }
 
 /// The labels of a piece that have something to read, by place and direction. Those without a place stand in the middle

@@ -6,7 +6,7 @@ use super::tally::{Tally, Thing};
 use super::text::{Facts, Said};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::patterns::{Quantity, Sizes};
-use crate::machine::{Job, labels::Labels};
+use crate::machine::{Job, letters::Letters};
 use crate::source::{Source, Span};
 
 /// Sizes that a message names.
@@ -17,6 +17,8 @@ const SHOWN: usize = 24;
 pub(super) struct Asked<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
+    /// How its texts are encoded.
+    pub(super) letters: Letters,
     /// What the file says of all of its blocks.
     pub(super) file: Facts,
 }
@@ -25,16 +27,9 @@ pub(super) struct Asked<'a> {
 #[derive(Debug)]
 pub(super) struct Chosen<'a> {
     source: &'a Source,
-    labels: &'a Labels,
+    letters: Letters,
     /// `None` = all.
     sizes: Option<Vec<String>>,
-}
-
-/// The name of a size. Bytes that are no text in the encoding of the profile stay what they are: sizes that cannot be read
-/// differ all the same.
-fn size_of(bytes: &[u8], labels: &Labels) -> String {
-    let text = labels.text(bytes);
-    if text.contains(char::REPLACEMENT_CHARACTER) { bytes.escape_ascii().to_string() } else { text }
 }
 
 /// Sizes are the same whichever letters they are written in.
@@ -46,9 +41,8 @@ impl<'a> Chosen<'a> {
     /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which. Blocks that
     /// insertions put beside each other are a marker: they are cut whatever their sizes.
     pub(super) fn of(asked: &Asked<'a>, blocks: &[Facts], are_apart: bool, out: &mut Diagnostics) -> Self {
-        let Asked { source, job, file } = asked;
-        let labels = &job.profile.labels;
-        let text = |span: Span| size_of(source.slice(span), labels);
+        let Asked { source, job, letters, file } = asked;
+        let text = |span: Span| letters.name(source.slice(span));
         let mut names: BTreeSet<String> = BTreeSet::new();
         let mut known: Vec<String> = Vec::new();
         for Facts { size, .. } in blocks {
@@ -96,12 +90,12 @@ impl<'a> Chosen<'a> {
                 None
             }
         };
-        Self { source, labels, sizes }
+        Self { source, letters: *letters, sizes }
     }
 
     /// Whether a block is cut. One that is of no size goes with every size.
     pub(super) fn has(&self, facts: &Facts) -> bool {
-        let text = |span: Span| same(&size_of(self.source.slice(span), self.labels));
+        let text = |span: Span| same(&self.letters.name(self.source.slice(span)));
         match (&self.sizes, facts.size.first.map(text)) {
             (None, _) | (_, None) => true,
             (Some(sizes), Some(size)) => sizes.contains(&size),
@@ -114,7 +108,7 @@ impl<'a> Chosen<'a> {
         let facts = if self.sizes.is_some() { facts } else { &[] };
         for facts in facts {
             if let Some(span) = facts.name.first {
-                let name = self.labels.text(self.source.slice(span)).trim().to_owned();
+                let name = self.letters.text(self.source.slice(span)).trim().to_owned();
                 pieces.entry(name).or_insert((false, span)).0 |= self.has(facts);
             }
         }
@@ -151,11 +145,8 @@ fn its_sizes(known: &[String]) -> String {
 
 /// How often a piece is cut as it is drawn, and how often mirrored: `1,1` is right and left. `None` when it is no such
 /// text or names none at all.
-fn quantity(text: &[u8]) -> Option<[u32; 2]> {
-    let mut numbers = text.split(|&byte| byte == b',').map(|number| {
-        let number = std::str::from_utf8(number.trim_ascii()).ok()?;
-        number.parse::<u32>().ok()
-    });
+fn quantity(text: &str) -> Option<[u32; 2]> {
+    let mut numbers = text.split(',').map(|number| number.trim().parse::<u32>().ok());
     let right = numbers.next()??;
     let left = match numbers.next() {
         None => 0,
@@ -171,7 +162,7 @@ impl Asked<'_> {
     /// Texts of the file on the CAD system that wrote it.
     pub(super) fn author(&self) -> String {
         let author = [self.file.author.first, self.file.author.other].into_iter().flatten();
-        author.map(|span| self.job.profile.labels.text(self.source.slice(span))).collect::<Vec<_>>().join(" ")
+        author.map(|span| self.letters.text(self.source.slice(span))).collect::<Vec<_>>().join(" ")
     }
 
     /// How often a piece is cut of which texts say so; `None` where nobody wants to know, or nothing is said.
@@ -185,7 +176,7 @@ impl Asked<'_> {
             tally.add(Thing::TwoQuantities, other);
         }
         let span = said.first?;
-        let quantity = quantity(self.source.slice(span));
+        let quantity = quantity(&self.letters.text(self.source.slice(span)));
         if quantity.is_none() {
             tally.add(Thing::Quantity, span);
         }
@@ -199,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_quantity_is_right_and_left() {
-        let check = |text: &str, expected: Option<[u32; 2]>| assert_eq!(quantity(text.as_bytes()), expected, "{text}");
+        let check = |text: &str, expected: Option<[u32; 2]>| assert_eq!(quantity(text), expected, "{text}");
         check("1,1", Some([1, 1]));
         check("2", Some([2, 0]));
         check(" 0 , 1 ", Some([0, 1]));

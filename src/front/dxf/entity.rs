@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::group::Group;
 use super::syntax::{number, whole};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
 /// Code of the group that begins an entity, and those of its name or text, its layer and its flags.
@@ -15,9 +16,10 @@ const LAYER: i32 = 8;
 /// Flags of polylines and vertices; of an insertion, how many columns of copies it puts.
 pub(super) const FLAGS: i32 = 70;
 
-/// Code of the name of a variable of the header, and that of the unit.
+/// Code of the name of a variable of the header, and the names of the unit and of the code page of texts.
 const VARIABLE: i32 = 9;
 const UNIT: &[u8] = b"$INSUNITS";
+const PAGE: &[u8] = b"$DWGCODEPAGE";
 /// Code of the colour of a layer, which is negative when that is off, and the flag of one that is frozen.
 const COLOUR: i32 = 62;
 const FROZEN: i64 = 1;
@@ -44,6 +46,8 @@ pub(super) struct Block<'a> {
 pub(super) struct Sections<'a> {
     /// The number of the unit that the header names.
     pub(super) unit: Option<Span>,
+    /// The name of the code page that the header has.
+    pub(super) page: Option<Span>,
     /// Names of layers that are not shown.
     pub(super) hidden: BTreeSet<&'a [u8]>,
     pub(super) blocks: Vec<Block<'a>>,
@@ -94,9 +98,8 @@ impl<'a> Entity<'a> {
     }
 
     /// The name of its layer, as it is shown.
-    pub(super) fn layer_name(&self) -> String {
-        let bytes = self.bytes(LAYER);
-        std::str::from_utf8(bytes).map_or_else(|_| bytes.escape_ascii().to_string(), str::to_owned)
+    pub(super) fn layer_name(&self, letters: &Letters) -> String {
+        letters.name(self.bytes(LAYER))
     }
 
     /// The number of a code; `None` when there is none.
@@ -166,12 +169,12 @@ enum Within {
 }
 
 impl Entity<'_> {
-    /// Of the entity that begins the header: the number of the unit that stands there.
-    fn unit(&self) -> Option<Span> {
+    /// Of the entity that begins the header: the value of a variable.
+    fn variable(&self, name: &[u8]) -> Option<Span> {
         let variable = self
             .groups()
             .iter()
-            .position(|group| group.code == VARIABLE && self.source.slice(group.value).eq_ignore_ascii_case(UNIT))?;
+            .position(|group| group.code == VARIABLE && self.source.slice(group.value).eq_ignore_ascii_case(name))?;
         self.groups().get(variable + 1).map(|group| group.value)
     }
 
@@ -209,7 +212,8 @@ pub(super) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Di
                 b"ENTITIES" => Within::Entities,
                 b"TABLES" => Within::Tables,
                 b"HEADER" => {
-                    sections.unit = sections.unit.or(entity.unit());
+                    sections.unit = sections.unit.or(entity.variable(UNIT));
+                    sections.page = sections.page.or(entity.variable(PAGE));
                     Within::Others
                 }
                 _ => Within::Others,

@@ -16,7 +16,7 @@ const DRILL: u8 = 1;
 
 /// What is cut of a set: inside a piece first, its outline last.
 pub(super) fn marker(set: &Set) -> Marker {
-    let mut marker = Marker::default();
+    let mut marker = Marker { letters: set.letters, ..Marker::default() };
     let mut account = Account { classes: classes(), ..Account::default() };
     for (laid, number) in set.laid().iter().zip(1..) {
         marker.pieces.push(piece(laid, number, &mut marker.list, &mut account));

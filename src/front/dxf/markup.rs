@@ -7,9 +7,13 @@ const WITH_ARGUMENT: &[u8] = b"ACcFfHQpTW";
 /// Codes that switch a line over, through or under the letters.
 const SWITCHES: &[u8] = b"LlOoKk";
 
-/// Whether codes or braces are left in a part of a text: then nobody knows what its letters are.
+/// Beginnings of codes that stand for a letter, by its number.
+const LETTERS: [&[u8]; 2] = [b"\\U+", b"\\M+"];
+
+/// Whether codes or braces are left in a part of a text, other than codes of letters: then nobody knows what its letters are.
 pub(super) fn has_codes(text: &[u8]) -> bool {
-    text.iter().any(|byte| b"{}\\".contains(byte))
+    let is_letter = |at: usize| LETTERS.iter().any(|code| text[at..].starts_with(code));
+    text.iter().enumerate().any(|(at, byte)| b"{}\\".contains(byte) && !is_letter(at))
 }
 
 /// Where the lines of a text are, without the codes before their first and the braces behind their last letters. A line

@@ -6,7 +6,7 @@
 //! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
 //!
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
-//! mm with [`arc`] and the [`mod@unit`]; [`text`] reads what texts say by their [`key`]s with [`markup`] and [`choice`] which blocks that
+//! mm with [`arc`] and the [`mod@unit`]; [`text`] reads what texts say in their [`letters`](mod@letters) by their [`key`]s with [`markup`] and [`choice`] which blocks that
 //! lets be cut. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
 //! [`mod@notch`] by the table of [`layer`]s. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
 //! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
@@ -23,6 +23,7 @@ mod group;
 mod key;
 mod lay;
 mod layer;
+mod letters;
 mod marker;
 mod markup;
 mod notch;

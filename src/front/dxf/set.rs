@@ -10,6 +10,7 @@ use super::entity::{Block, Entity, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Does, Named, Names};
+use super::letters::letters;
 use super::over;
 use super::piece::{Making, Piece};
 use super::placing::{Held, MOST_PIECES, Placing};
@@ -24,6 +25,7 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;
 use crate::machine::Job;
+use crate::machine::letters::Letters;
 use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
 
@@ -43,6 +45,8 @@ pub(super) struct Set {
     gap: f64,
     /// Its sizes, as they are told.
     sizes: String,
+    /// How its texts are encoded.
+    pub(super) letters: Option<Letters>,
     /// What its layers are called.
     pub(super) names: Names,
     /// Texts that are of no piece.
@@ -68,14 +72,19 @@ struct Parts<'a> {
     source: &'a Source,
     job: &'a Job,
     sections: &'a Sections<'a>,
+    letters: Letters,
 }
 
 impl<'a> Parts<'a> {
+    fn of(sections: &'a Sections<'a>, source: &'a Source, job: &'a Job) -> Self {
+        Self { source, job, sections, letters: letters(sections, source, &job.profile.labels) }
+    }
+
     /// Reads their entities in a unit, mm.
     fn reader<'o>(&self, unit: f64, out: &'o mut Diagnostics) -> Reader<'a, 'o> {
         Reader {
             source: self.source,
-            labels: &self.job.profile.labels,
+            letters: self.letters,
             unit,
             sagitta: self.job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
             chords: 0,
@@ -105,8 +114,11 @@ impl<'a> Parts<'a> {
         lengths
     }
 
-    fn facts<'e>(&self, entities: impl IntoIterator<Item = &'e Entity<'e>>) -> Facts {
-        Facts::of(entities, self.source, &self.job.profile.labels)
+    fn facts<'e>(&self, entities: impl IntoIterator<Item = &'e Entity<'a>>) -> Facts
+    where
+        'a: 'e,
+    {
+        Facts::of(entities, self.source, &self.letters)
     }
 }
 
@@ -121,11 +133,11 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let groups = groups(source, out);
     let sections = sections(source, &groups, out);
     let Sections { blocks, entities, unit: of_header, .. } = &sections;
-    let parts = Parts { source, job, sections: &sections };
+    let parts = Parts::of(&sections, source, job);
     let own: Vec<Facts> = blocks.iter().map(|block| parts.facts(&block.entities)).collect();
     let file = own.iter().fold(parts.facts(entities), |facts, of_block| facts.and(*of_block, source));
     say_text(file.unread, out);
-    let asked = Asked { source, job, file };
+    let asked = Asked { source, job, letters: parts.letters, file };
     let unit = unit(&asked, *of_header, || parts.lengths(), out);
     let mut reader = parts.reader(unit, out);
     let mut loose = reader.shapes(entities);
@@ -142,17 +154,14 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
     let chosen = Chosen::of(&asked, &facts, placing.parts(&boxes), out);
     chosen.say_missing(&facts, out);
-    let mut making = Making {
-        notch_depth: job.profile.dxf.notch_mm,
-        drafting: Drafting::of(&asked.author(), job.profile.dxf.curves, job.profile.tolerance(0.0) * Dxf::CHORDS_OFF),
-        curved: CurveCounts::default(),
-        work: Budget::of_a_marker(),
-        tally: Tally::default(),
-        retraced: Vec::new(),
-        apart: Vec::new(),
-        out,
+    let mut making = Making::of(&asked, out);
+    let mut set = Set {
+        gap: job.profile.dxf.gap_mm,
+        sizes: chosen.told(),
+        names,
+        letters: Some(parts.letters),
+        ..Set::default()
     };
-    let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), names, ..Set::default() };
     for (k, (mut shapes, said)) in drawn.into_iter().zip(said).enumerate() {
         let (span, facts) = (blocks[k].head.span(), &facts[k]);
         if held[k].is_cut && !placing.is_piece(k) {
@@ -210,6 +219,24 @@ fn sizes_of<'a>(own: &[Facts], Asked { source, file, .. }: &Asked<'a>) -> Vec<Si
         is_sample: sample.is_some() && name(facts.size.first) == sample,
     };
     own.iter().map(size).collect()
+}
+
+impl<'o> Making<'o> {
+    /// Nothing made yet of a file.
+    fn of(asked: &Asked, out: &'o mut Diagnostics) -> Self {
+        let dxf = &asked.job.profile.dxf;
+        let sagitta = asked.job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
+        Self {
+            notch_depth: dxf.notch_mm,
+            drafting: Drafting::of(&asked.author(), dxf.curves, sagitta),
+            curved: CurveCounts::default(),
+            work: Budget::of_a_marker(),
+            tally: Tally::default(),
+            retraced: Vec::new(),
+            apart: Vec::new(),
+            out,
+        }
+    }
 }
 
 impl Making<'_> {

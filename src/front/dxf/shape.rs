@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Label;
-use crate::machine::labels::Labels;
+use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
@@ -138,7 +138,7 @@ impl Shapes<'_> {
 pub(super) struct Reader<'a, 'o> {
     pub(super) source: &'a Source,
     /// How its texts are encoded.
-    pub(super) labels: &'a Labels,
+    pub(super) letters: Letters,
     /// Length of a unit, mm.
     pub(super) unit: f64,
     /// Farthest that chords lie off their curve, mm.
@@ -199,7 +199,7 @@ impl<'a> Reader<'a, '_> {
             return;
         }
         let Diagnostic { message, span, .. } = fault;
-        let message = format!("{message}; left out, as layer {} is not cut", entity.layer_name());
+        let message = format!("{message}; left out, as layer {} is not cut", entity.layer_name(&self.letters));
         let finding = Diagnostic::new(&code::DXF_DAMAGED, message).at(span.unwrap_or(entity.span()));
         self.out.push(finding.hint("what is cut is whole; export the file again if the drawing is to be sewn"));
     }
@@ -215,7 +215,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
-        let layer = self.names.layer(entity.layer(), || entity.layer_name());
+        let layer = self.names.layer(entity.layer(), || entity.layer_name(&self.letters));
         // Lines and points have their coordinates in space whichever side they are seen from (DXF reference, OCS).
         if layer.is_cut() && (entity.is("LWPOLYLINE") || entity.is("ARC") || entity.is("CIRCLE")) {
             flat(entity)?;
@@ -270,7 +270,7 @@ impl<'a> Reader<'a, '_> {
             at: self.place(entity, [X, Y])?,
             scale: [scale(SCALE_X)?, scale(SCALE_Y)?],
             turn: rad(entity.number(ANGLE)?.unwrap_or(0.0)),
-            facts: Facts::of(attributes, self.source, self.labels),
+            facts: Facts::of(attributes, self.source, &self.letters),
             span: entity.span(),
         })
     }
@@ -282,7 +282,7 @@ impl<'a> Reader<'a, '_> {
         vertices: &[Entity<'a>],
         shapes: &mut Shapes<'a>,
     ) -> Result<(), Diagnostic> {
-        let layer = self.names.layer(entity.layer(), || entity.layer_name());
+        let layer = self.names.layer(entity.layer(), || entity.layer_name(&self.letters));
         let flags = entity.flags()?;
         if layer.is_cut() {
             flat(entity)?;
@@ -397,10 +397,10 @@ impl<'a> Reader<'a, '_> {
 
     /// An entity of a kind that is not read: an error where a cut would be missing.
     fn unread(&mut self, entity: &Entity) -> Result<Unread, Diagnostic> {
-        let layer = self.names.layer(entity.layer(), || entity.layer_name());
+        let layer = self.names.layer(entity.layer(), || entity.layer_name(&self.letters));
         let kind = entity.kind().escape_ascii().to_string();
         if layer.is_cut() {
-            let message = format!("{kind} on layer {}, which is cut, is not read", entity.layer_name());
+            let message = format!("{kind} on layer {}, which is cut, is not read", entity.layer_name(&self.letters));
             let finding = Diagnostic::new(&code::DXF_UNREAD_CUT, message).at(entity.span());
             return Err(finding.hint("export polylines: read are polylines, lines, arcs, circles, points and texts"));
         }

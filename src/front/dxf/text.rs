@@ -5,11 +5,13 @@ use std::ops::Range;
 use super::entity::{Entity, NAME, TEXT};
 use super::key::{Key, key};
 use super::markup;
-use crate::machine::labels::Labels;
+use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
 /// Code of all parts but the last of a text of more than 250 bytes.
 const PART: i32 = 3;
+/// The colon of Chinese texts, as wide as an ideograph, in UTF-8 and GBK.
+const WIDE_COLONS: [&[u8]; 2] = ["：".as_bytes(), b"\xa3\xba"];
 /// What a text says facts by.
 const FACTS: [&str; 4] = ["SIZE", "UNIT", "QUANTITY", "QTY"];
 
@@ -64,11 +66,15 @@ pub(super) fn is_text(entity: &Entity) -> bool {
 
 impl Facts {
     /// What texts say.
-    pub(super) fn of<'a>(entities: impl IntoIterator<Item = &'a Entity<'a>>, source: &Source, labels: &Labels) -> Self {
+    pub(super) fn of<'e, 'a: 'e>(
+        entities: impl IntoIterator<Item = &'e Entity<'a>>,
+        source: &'a Source,
+        letters: &Letters,
+    ) -> Self {
         let mut facts = Self::default();
         for entity in entities.into_iter().filter(|entity| is_text(entity)) {
             facts.unread = facts.unread.or(long(entity, source));
-            for (key, value) in said(entity, source, labels) {
+            for Fact { key, value, .. } in said(entity, source, letters) {
                 let fact = match key {
                     Key::Size => &mut facts.size,
                     Key::SampleSize => &mut facts.sample_size,
@@ -124,8 +130,22 @@ fn long(entity: &Entity, source: &Source) -> Option<Span> {
     entity.value(PART).filter(|_| is_long && parts().any(|part| says(source.slice(part.value))))
 }
 
-/// What the lines of a text say, and where their values are; of an attribute without a colon its tag is the key.
-fn said(entity: &Entity, source: &Source, labels: &Labels) -> Vec<(Key, Span)> {
+/// The keys, as they are written, by which a text says facts when it is read in these letters.
+pub(super) fn names<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> impl Iterator<Item = &'a [u8]> {
+    let entity = Some(entity).filter(|entity| is_text(entity));
+    entity.into_iter().flat_map(|entity| said(entity, source, letters)).map(|said| said.name)
+}
+
+/// A fact that a text says.
+struct Fact<'a> {
+    key: Key,
+    /// The key as it is written.
+    name: &'a [u8],
+    value: Span,
+}
+
+/// What the lines of a text say; of an attribute without a colon its tag is the key.
+fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<Fact<'a>> {
     let Some(span) = entity.value(TEXT) else { return Vec::new() };
     let part = |range: Range<usize>| {
         let [start, end] = [range.start, range.end].map(|at| span.start + at as u32);
@@ -135,15 +155,25 @@ fn said(entity: &Entity, source: &Source, labels: &Labels) -> Vec<(Key, Span)> {
         if entity.is("MTEXT") { markup::lines(source.slice(span)).map(part).collect() } else { vec![span] };
     let line = |line: Span| {
         let text = source.slice(line);
-        let Some(colon) = memchr::memchr(b':', text) else {
+        let Some((name, behind)) = split(text, letters) else {
             let tag = entity.bytes(NAME);
             return (!entity.is("TEXT") && !tag.is_empty()).then_some((tag, line));
         };
-        let value = &text[colon + 1..];
+        let value = &text[behind..];
         let blanks =
             if entity.is("MTEXT") { markup::codes_before(value) } else { value.len() - value.trim_ascii_start().len() };
-        Some((&text[..colon], Span { start: line.start + (colon + 1 + blanks) as u32, ..line }))
+        Some((name, Span { start: line.start + (behind + blanks) as u32, ..line }))
     };
-    let known = |(name, value)| Some((key(&labels.text(name))?, value));
+    let known = |(name, value)| Some(Fact { key: key(&letters.text(name))?, name, value });
     lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).filter_map(known).collect()
+}
+
+/// What stands before the colon of a line, and where what stands behind it begins. A wide colon is one behind a key alone.
+fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
+    let is_key = |name: &[u8]| key(&letters.text(name)).is_some();
+    let wide = WIDE_COLONS.iter().find_map(|colon| {
+        let at = memchr::memmem::find_iter(line, colon).find(|&at| is_key(&line[..at]))?;
+        Some((&line[..at], at + colon.len()))
+    });
+    wide.or_else(|| memchr::memchr(b':', line).map(|at| (&line[..at], at + 1)))
 }

@@ -55,7 +55,7 @@ pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Di
 
 /// Why a piece of this number cannot be cut, and what may be done without it.
 pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked: &Asked, out: &mut Diagnostics) {
-    let text = |span: Span| asked.job.profile.labels.text(asked.source.slice(span));
+    let text = |span: Span| asked.letters.text(asked.source.slice(span));
     let label = piece.labels.first().map(|label| text(label.span));
     let name = PieceName { number, copy: 0, label };
     for fault in &piece.faults {

@@ -11,6 +11,16 @@ const UNITS: [(i64, f64); 7] =
     [(1, MM_PER_INCH), (2, 304.8), (4, 1.0), (5, 10.0), (6, 1000.0), (10, 914.4), (14, 100.0)];
 /// The number that names none.
 const NO_UNIT: i64 = 0;
+/// Names of units in English, German, French, Italian, Spanish, Portuguese and Chinese, in capitals, and their lengths, mm. The
+/// metric system is mm, the English one inches.
+#[rustfmt::skip] // a table: a row a unit
+const NAMES: [(f64, &[&str]); 3] = [
+    (1.0, &["METRIC", "MM", "MILLIMETERS", "MILLIMETRES", "METRISCH", "MILLIMETER", "MÉTRIQUE", "METRIQUE", "MILLIMÈTRES", "METRICO", "MILLIMETRI", "MÉTRICO", "MILÍMETROS", "MILIMETROS", "公制", "米制", "毫米"]),
+    (10.0, &["CM", "CENTIMETERS", "CENTIMETRES", "ZENTIMETER", "CENTIMÈTRES", "CENTIMETRI", "CENTÍMETROS", "CENTIMETROS", "厘米"]),
+    (MM_PER_INCH, &["ENGLISH", "IMPERIAL", "INCH", "INCHES", "IN", "ENGLISCH", "ZOLL", "ANGLAIS", "IMPÉRIAL", "POUCE", "POUCES", "INGLESE", "IMPERIALE", "POLLICE", "POLLICI", "INGLÉS", "INGLES", "PULGADA", "PULGADAS", "INGLÊS", "POLEGADA", "POLEGADAS", "英制", "英寸"]),
+];
+/// Letters of a text that a message shows.
+const SHOWN: usize = 24;
 /// What to do where nobody knows which it is.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
@@ -30,7 +40,7 @@ pub(super) struct Lengths {
 /// Length of the unit that the texts name, else the header, mm. A unit of the header in which the cuts, which `lengths` finds,
 /// would be longer than any is that of a library that writes one whatever the drawing has: that is in mm.
 pub(super) fn unit(
-    Asked { source, job, file }: &Asked,
+    Asked { source, job, letters, file }: &Asked,
     of_header: Option<Span>,
     lengths: impl FnOnce() -> Lengths,
     out: &mut Diagnostics,
@@ -55,7 +65,7 @@ pub(super) fn unit(
                 );
                 return 1.0;
             }
-            let message = format!("`{}` ($INSUNITS) is no unit of patterns", source.slice(span).escape_ascii());
+            let message = format!("`{}` ($INSUNITS) is no unit of patterns", shown(&letters.text(source.slice(span))));
             out.push(Diagnostic::new(&code::DXF_UNIT, message).at(span).hint(SAY_WHICH));
             return 1.0;
         }
@@ -65,9 +75,9 @@ pub(super) fn unit(
         return 1.0;
     };
     let told = [Some(first), file.units.other].into_iter().flatten().map(|span| {
-        let text = source.slice(span);
-        unit_of(text).ok_or_else(|| {
-            let message = format!("`{}` is no unit that pattern DXF knows", text.escape_ascii());
+        let text = letters.text(source.slice(span));
+        unit_of(&text).ok_or_else(|| {
+            let message = format!("`{}` is no unit that pattern DXF knows", shown(&text));
             Diagnostic::new(&code::DXF_UNIT, message).at(span).hint(SAY_WHICH)
         })
     });
@@ -75,7 +85,7 @@ pub(super) fn unit(
         Ok(&[mm]) => mm,
         Ok(units) => {
             if let (Some(other), true) = (file.units.other, units.windows(2).any(|pair| pair[0] != pair[1])) {
-                let text = |span: Span| source.slice(span).escape_ascii();
+                let text = |span: Span| shown(&letters.text(source.slice(span)));
                 let message = format!("the file has two units, `{}` and `{}`", text(first), text(other));
                 out.push(Diagnostic::new(&code::DXF_SAID_TWICE, message).at(other).hint(SAY_WHICH));
             }
@@ -99,12 +109,33 @@ pub(super) fn doubt(largest: f64, Asked { job, .. }: &Asked, out: &mut Diagnosti
     }
 }
 
+/// The beginning of a text in a message.
+fn shown(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// Length of a unit that a text names, mm.
-fn unit_of(text: &[u8]) -> Option<f64> {
-    match text.to_ascii_uppercase().as_slice() {
-        b"METRIC" | b"METRISCH" | b"METRICO" | b"METRIQUE" | b"MM" | b"MILLIMETERS" | b"MILLIMETRES" => Some(1.0),
-        b"CM" | b"CENTIMETERS" | b"CENTIMETRES" => Some(10.0),
-        b"ENGLISH" | b"INCH" | b"INCHES" | b"IN" | b"IMPERIAL" => Some(MM_PER_INCH),
-        _ => None,
+fn unit_of(text: &str) -> Option<f64> {
+    let text = text.trim().to_uppercase();
+    NAMES.iter().find(|(_, names)| names.contains(&text.as_str())).map(|(mm, _)| *mm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_known_in_the_languages_of_the_keys() {
+        for (names, mm) in [
+            (["metric", "Metrisch", "métrique", "METRICO", "公制"], 1.0),
+            (["Zentimeter", "centimètres", "centimetri", "centímetros", "厘米"], 10.0),
+            (["Englisch", "pouces", "Pollici", "pulgadas", "英制"], MM_PER_INCH),
+        ] {
+            assert_eq!(names.map(unit_of), [Some(mm); 5], "{names:?}");
+        }
+        assert_eq!(["MILES", "", "公"].map(unit_of), [None; 3]);
     }
 }

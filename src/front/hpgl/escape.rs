@@ -1,6 +1,6 @@
 //! Escape sequences of plotters and printers, and the job language around a plot: all of it is passed over but resets.
 
-use nom::bytes::complete::{take_while, take_while1};
+use nom::bytes::complete::{take, take_while, take_while1};
 use nom::character::complete::{char, one_of, satisfy};
 use nom::combinator::{opt, recognize, value};
 use nom::sequence::{preceded, terminated};
@@ -34,10 +34,36 @@ fn language(i: &[u8]) -> Out<'_> {
         .parse(i)
 }
 
-/// `<parametrised>`: a mark, a group, then numbers that end in letters, the last one in upper case.
+/// `<parametrised>`: a mark, a group, then numbers that end in letters, the last one in upper case. Data may stand behind
+/// it, which are no part of the grammar.
 fn parametrised(i: &[u8]) -> Out<'_> {
     let body = take_while(|byte: u8| byte.is_ascii_digit() || byte.is_ascii_lowercase() || b"+-.".contains(&byte));
-    value(Escape::Other, (one_of("!\"#$&'()*+,/"), body, satisfy(|c| c.is_ascii_uppercase() || c == '@'))).parse(i)
+    let mut rule = (one_of("!\"#$&'()*+,/"), body, satisfy(|c| c.is_ascii_uppercase() || c == '@'));
+    let (rest, (mark, body, last)) = rule.parse(i)?;
+    let length = if has_data(mark, body, last) { count(body) } else { 0 };
+    value(Escape::Other, take(length)).parse(rest)
+}
+
+/// Whether data stand behind a sequence: those of W (raster rows, fonts, patterns, colours), planes of raster rows, and texts
+/// that are printed whatever they hold (Hewlett-Packard, "PCL 5 Printer Language Technical Reference Manual").
+fn has_data(mark: char, body: &[u8], last: char) -> bool {
+    match last {
+        'W' => true,
+        'V' => mark == '*' && body.starts_with(b"b"),
+        'X' => mark == '&' && body.starts_with(b"p"),
+        _ => false,
+    }
+}
+
+/// The number at the end of a sequence, before its last letter: how many bytes of data stand behind it.
+fn count(body: &[u8]) -> usize {
+    let start = body.iter().rposition(u8::is_ascii_lowercase).map_or(0, |letter| letter + 1);
+    let digits = std::str::from_utf8(&body[start..]).unwrap_or_default();
+    if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        return 0;
+    }
+    // More than can be counted is more than any file has.
+    digits.parse().unwrap_or(usize::MAX)
 }
 
 /// `<two>`: any other letter or digit.
@@ -70,7 +96,16 @@ mod tests {
         check(b"\x1b.I81;;17:IN;", "IN;");
         check(b"\x1b&l1x0OIN;", "IN;");
         check(b"\x1b9IN;", "IN;");
+        check(b"\x1b*b5WPU1,2IN;", "IN;");
+        check(b"\x1b*b2m3WPU;IN;", "IN;");
+        check(b"\x1b*b3VPU;\x1b(s2WPU", "\x1b(s2WPU");
+        check(b"\x1b(s2WPUIN;", "IN;");
+        check(b"\x1b&p3XPU;IN;", "IN;");
+        check(b"\x1b*b0WIN;", "IN;");
+        check(b"\x1b*t300RIN;", "IN;");
         assert_eq!(escape(b"\x1bE").map(|found| found.1), Ok(Escape::Reset));
+        // A count beyond the end is none.
+        assert!(escape(b"\x1b*b6WPU1,2").is_err());
         assert!(escape(b"\x1b").is_err() && escape(b"\x1b%").is_err());
         assert_eq!(job(b"@PJL ENTER LANGUAGE=HPGL2\r\nIN").map(|found| found.0), Ok(&b"\nIN"[..]));
     }

@@ -8,7 +8,7 @@ use crate::source::Span;
 /// Bytes that begin no instruction: a letter of one may be lost.
 pub(super) fn over_junk(reader: &Reader, plotter: &mut Plotter, span: Span) {
     let (is_torn, numbers) = (reader.is_torn_pen(span), reader.numbers_within(span));
-    if numbers > 1 {
+    if numbers > 1 || reader.is_torn_encoded(span) {
         // Places: an outline may be among them.
         plotter.lost.add(span);
     } else if plotter.is_drawing() || is_torn || numbers > 0 || reader.follows_number(span) {

@@ -402,16 +402,15 @@ impl Lowering<'_> {
             let Some(item) = body.next() else { break };
             let number = match item {
                 Item::Number(number) => number,
-                Item::Pen | Item::Fraction => {
-                    flag = Some(item);
-                    continue;
+                // Flags stand before places, not amid them.
+                Item::Pen | Item::Fraction | Item::Up | Item::Absolute if first.is_some() => {
+                    body.ending = Ending::Damaged;
+                    break;
                 }
-                Item::Up => {
-                    is_up = true;
-                    continue;
-                }
-                Item::Absolute => {
-                    is_absolute = true;
+                Item::Pen | Item::Fraction | Item::Up | Item::Absolute => {
+                    is_up |= item == Item::Up;
+                    is_absolute |= item == Item::Absolute;
+                    flag = Some(item).filter(|item| matches!(item, Item::Pen | Item::Fraction)).or(flag);
                     continue;
                 }
             };
@@ -446,15 +445,16 @@ impl Lowering<'_> {
             }
         }
         self.reader.behind(&body);
-        if let Some((_, start)) = first {
-            self.odd(self.reader.within(start, body.at));
+        let start = first.map_or(body.at.saturating_sub(1), |(_, start)| start);
+        if first.is_some() {
+            // A body with a number without a partner has lost one.
+            body.ending = Ending::Damaged;
         }
-        self.end_encoded(&body);
+        self.end_encoded(&body, self.reader.within(start, body.at));
     }
 
-    /// What is said of the end of an encoded polyline.
-    fn end_encoded(&mut self, body: &Body) {
-        let span = self.reader.within(body.at.saturating_sub(1), body.at);
+    /// What is said of the end of an encoded polyline, or of what is at fault before it.
+    fn end_encoded(&mut self, body: &Body, span: Span) {
         match body.ending {
             Ending::Damaged => {
                 let finding =

@@ -265,6 +265,13 @@ impl<'a> Reader<'a> {
         matches!(self.bytes[span.start as usize].to_ascii_uppercase(), b'P' | b'U' | b'D')
     }
 
+    /// Whether some bytes are what is left of an encoded polyline whose mnemonic has lost a letter: flags stand behind it.
+    pub(super) fn is_torn_encoded(&self, span: Span) -> bool {
+        let bytes = &self.bytes[span.start as usize..span.end as usize];
+        matches!(bytes, [b'P' | b'p' | b'E' | b'e', b'<' | b'=' | b'>' | b':' | b'7', ..])
+            || memchr::memmem::find(bytes, b"<=").is_some()
+    }
+
     /// Passes over what stands behind a mnemonic; a fault in it.
     pub(super) fn pass_over(&mut self, tail: Tail) -> Option<Flaw> {
         match tail {

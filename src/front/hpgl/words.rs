@@ -14,7 +14,7 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`WD`, `MG`, `CO`", about: "texts for the display, messages, comments: passed over, whatever words they hold" },
     Word { words: "`IN`, `BP`, `ESC E`", about: "as switched on: pen 1, up, at the origin; scale, corners and turn end; ETX ends labels" },
     Word { words: "`DF`", about: "the same of modes, scale and terminator; pen, place, corners and turn stay" },
-    Word { words: "other escape sequences, lines of `@PJL`", about: "passed over" },
+    Word { words: "other escape sequences, lines of `@PJL`", about: "passed over, with the data that they count (`ESC*b26W`)" },
     Word { words: "`PG`, `AF`, `AH`", about: "reported when more is drawn behind it" },
     Word { words: "`FP`, `RA`, `RR`, `WG`, `FT`, `UC`, `CP`, `CS`, `SS`, `SM`, `IW`", about: "reported" },
     Word { words: "`LT`, `VS`, `PW` and other settings", about: "no effect on the cut" },

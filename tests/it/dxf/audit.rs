@@ -49,6 +49,22 @@ fn every_fixture_becomes_programs_that_are_verified() {
     }
 }
 
+#[test]
+fn pieces_of_other_sizes_are_seen_whatever_letters_keys_are_written_in() {
+    let names = ["keys-in-gbk", "keys-in-windows-1252", "keys-with-codes-of-letters"];
+    for (path, bytes) in
+        fixtures().into_iter().filter(|(path, _)| names.iter().any(|name| path.ends_with(format!("{name}.dxf"))))
+    {
+        let source = source(bytes);
+        let all = Job { patterns: Patterns { sizes: Some(Sizes::All), ..Patterns::default() }, ..Job::default() };
+        let (of_all, of_one) = (as_read(&source, &all).0, as_read(&source, &Job::default()).0);
+        assert_eq!([of_all.pieces.len(), of_one.pieces.len()], [6, 2], "{}", path.display());
+        assert_eq!(broken(&source, &of_one, &Job::default()), [""; 0], "{}", path.display());
+        assert_eq!(broken(&source, &of_all, &all), [""; 0], "{}", path.display());
+        assert!(!broken(&source, &of_all, &Job::default()).is_empty(), "{}", path.display());
+    }
+}
+
 /// What is changed, and the rule that must see it.
 type Change = (&'static str, fn(&mut Marker));
 

@@ -61,6 +61,28 @@ fn a_character_that_is_lost_is_an_error_or_changes_nothing() {
     );
 }
 
+/// An outline and a slit in it, encoded.
+const ENCODED: &[u8] = b"IN;SP1;PE<=\xbf\xbf?y\xc2\xbf\xbf?v\xc4@y\xc2\xbf\xbf@v\xc4;PE<=?|\xc0\xbf\xbf\xc9;PU;SP0;";
+
+#[test]
+fn an_encoded_line_that_loses_a_byte_is_refused_unless_another_number_is_left() {
+    let job = Job::default();
+    let is_refused = |bytes: &[u8]| {
+        let mut found = Diagnostics::default();
+        pipeline::read(&source(bytes), by_name("hpgl"), &job, &mut found);
+        found.has_errors()
+    };
+    assert!(!is_refused(ENCODED));
+    let slit = ENCODED.windows(2).rposition(|pair| pair == b"PE").expect("a slit");
+    for at in slit..ENCODED.len() - 8 {
+        let [before, behind] = [&ENCODED[..at], &ENCODED[at + 1..]];
+        // Digits before the last one, and flags, are another place: nothing in the file tells.
+        if !b"?|<=".contains(&ENCODED[at]) && ENCODED[at] != b';' {
+            assert!(is_refused(&[before, behind].concat()), "{at}");
+        }
+    }
+}
+
 #[test]
 fn figures_that_lack_numbers_are_errors() {
     for figure in ["AA400,400", "CI", "EA400", "EW400,0", "AT1,2,3", "BZ1,2,3,4", "AR0,0"] {

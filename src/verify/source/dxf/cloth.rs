@@ -6,13 +6,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::curves::{Bend, Bow, lent};
 use super::cuts::{Cuts, Mark, Place};
 use super::left_out::wrong_count;
+use super::letters::Letters;
 use super::lines::{MEETS, Measure, Round, paths};
 use super::lookup::Lookup;
 use super::places::CutPlaces;
-use super::tags::{Item, Sheet, sheets};
+use super::tags::{File, Item, Sheet, sheets};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross};
 use crate::machine::Job;
+use crate::machine::labels::Labels;
 use crate::machine::patterns::{Curves, Dxf, Quantity, Sizes};
 use crate::units::MM_PER_INCH;
 
@@ -48,6 +50,8 @@ struct Sheets<'a> {
     loose: Sheet<'a>,
     /// Blocks by their names; of several with one name the first.
     names: BTreeMap<Vec<u8>, usize>,
+    /// How its texts are encoded.
+    letters: Letters,
     /// Length of a unit, mm.
     unit: f64,
 }
@@ -99,20 +103,16 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
 
 impl<'a> Sheets<'a> {
     fn of(bytes: &'a [u8], job: &'a Job) -> Self {
-        let (blocks, loose, of_header) = sheets(bytes, &job.profile.labels);
+        let File { blocks, loose, unit: of_header, letters } = sheets(bytes, &job.profile.labels);
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
             names.entry(block.name.clone()).or_insert(k);
         }
-        let mut sheets = Self { blocks, loose, names, unit: 1.0 };
+        let mut sheets = Self { blocks, loose, names, letters, unit: 1.0 };
         sheets.unit = job.profile.dxf.unit.mm().unwrap_or_else(|| {
             let unit = sheets.says("UNITS");
             match (unit, of_header) {
-                (Some(unit), _) => match unit.first() {
-                    Some(b'E' | b'I' | b'e' | b'i') => MM_PER_INCH,
-                    Some(b'C' | b'c') => 10.0,
-                    Some(_) | None => 1.0,
-                },
+                (Some(unit), _) => unit_of(&letters.read(unit)),
                 (None, Some(number)) => {
                     let unit = UNITS.iter().find(|unit| unit.0 == number).map_or(1.0, |unit| unit.1);
                     if sheets.is_too_long_in(unit) { 1.0 } else { unit }
@@ -207,7 +207,8 @@ impl<'a> Sheets<'a> {
 
     /// How often each block is cut.
     fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
-        self.of_each("QUANTITY").into_iter().map(|told| quantity(told.unwrap_or_default(), job)).collect()
+        let quantity = |told: Option<&[u8]>| quantity(&self.letters.read(told.unwrap_or_default()), job);
+        self.of_each("QUANTITY").into_iter().map(quantity).collect()
     }
 
     /// The block of each piece that lies in a row, in their order.
@@ -243,7 +244,8 @@ impl<'a> Sheets<'a> {
     /// Whether each block is of a size that is cut.
     fn are_cut(&self, job: &Job, are_apart: bool) -> Vec<bool> {
         let name = |bytes: &[u8]| {
-            let text = job.profile.labels.text(bytes);
+            // As people see it, who name sizes.
+            let text = Labels::default().text(self.letters.read(bytes).as_bytes());
             // Bytes that are no text are their own name.
             let text = if text.contains('\u{fffd}') { format!("{bytes:x?}") } else { text };
             text.trim().to_uppercase()
@@ -337,12 +339,24 @@ impl Row<'_> {
     }
 }
 
+/// Length of a unit, mm, by how its name begins in the languages of keys.
+fn unit_of(name: &str) -> f64 {
+    let name = name.trim().to_lowercase();
+    let begins = |with: &[&str]| with.iter().any(|start| name.starts_with(start));
+    if begins(&["e", "i", "anglais", "zoll", "po", "pul", "英"]) {
+        MM_PER_INCH
+    } else if begins(&["c", "z", "厘"]) {
+        10.0
+    } else {
+        1.0
+    }
+}
+
 /// How often a text wants a block cut as it is drawn, and mirrored.
-fn quantity(text: &[u8], job: &Job) -> [u32; 2] {
+fn quantity(text: &str, job: &Job) -> [u32; 2] {
     if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
         return [1, 0];
     }
-    let text = String::from_utf8_lossy(text);
     let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some(&[right]) if right > 0 => [right, 0],

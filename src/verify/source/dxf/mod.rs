@@ -7,6 +7,7 @@ mod compare;
 mod curves;
 mod cuts;
 mod left_out;
+mod letters;
 mod lines;
 mod lookup;
 mod places;

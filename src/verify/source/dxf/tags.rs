@@ -1,5 +1,6 @@
 //! A second, small reading of the lines of a DXF file: what stands in which block.
 
+use super::letters::Letters;
 use crate::machine::labels::Labels;
 
 /// A code and its value.
@@ -17,8 +18,8 @@ pub(super) struct Item<'a> {
     /// Number of the group that it begins with.
     pub(super) number: u32,
     tags: Vec<Tag<'a>>,
-    /// How its texts are encoded.
-    labels: &'a Labels,
+    /// How its texts are encoded; `None` before that is known.
+    letters: Option<Letters>,
 }
 
 /// Other words of some keys, as CAD systems of other countries write them.
@@ -65,10 +66,10 @@ impl<'a> Item<'a> {
         if is_line && self.has(70) { self.number(70).map(|flags| flags as u32 & bit != 0) } else { Some(false) }
     }
 
-    /// The number of a variable of the header.
-    fn variable(&self, name: &[u8]) -> Option<f64> {
+    /// The value of a variable of the header.
+    fn variable(&self, name: &[u8]) -> Option<&'a [u8]> {
         let at = self.tags.iter().position(|tag| tag.code == 9 && tag.text.eq_ignore_ascii_case(name))?;
-        number(self.tags.get(at + 1)?.text)
+        Some(self.tags.get(at + 1)?.text)
     }
 
     fn has(&self, code: i32) -> bool {
@@ -124,12 +125,21 @@ impl<'a> Item<'a> {
 
     /// What a text says under a key: what stands behind `KEY:`, or the value of an attribute of that tag.
     pub(super) fn says(&self, key: &str) -> Option<&'a [u8]> {
+        self.says_in(self.letters?, key)
+    }
+
+    /// Whether a text says anything under a key when it is read in these letters.
+    fn says_anything(&self, letters: Letters) -> bool {
+        ALSO.iter().any(|(key, _)| self.says_in(letters, key).is_some())
+    }
+
+    fn says_in(&self, letters: Letters, key: &str) -> Option<&'a [u8]> {
         if !self.is_text() {
             return None;
         }
         let also = ALSO.iter().find(|(word, _)| *word == key).map_or(&[][..], |(_, also)| also);
         let is_key = |name: &[u8]| {
-            let name = self.labels.text(name).to_uppercase();
+            let name = letters.read(name).to_uppercase();
             let is = |word: &str| name.split_whitespace().eq(word.split_whitespace());
             is(key) || also.iter().any(|word| is(word))
         };
@@ -137,14 +147,25 @@ impl<'a> Item<'a> {
         if self.kind == b"MTEXT" {
             return behind(text, is_key);
         }
-        match text.iter().position(|&byte| byte == b':') {
-            Some(colon) if is_key(&text[..colon]) => {
-                Some(text[colon + 1..].trim_ascii()).filter(|text| !text.is_empty())
-            }
+        match colon(text, is_key) {
+            Some((name, value)) if is_key(name) => Some(value.trim_ascii()).filter(|text| !text.is_empty()),
             None if self.kind != b"TEXT" && is_key(self.text(2)) => Some(text).filter(|text| !text.is_empty()),
             _ => None,
         }
     }
+}
+
+/// What stands before and behind the colon of a line: a wide one, of UTF-8 or GBK, behind a key, else the first.
+fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> {
+    for at in 0..line.len() {
+        let (name, rest) = line.split_at(at);
+        let value = rest.strip_prefix(b"\xef\xbc\x9a").or(rest.strip_prefix(b"\xa3\xba"));
+        if let Some(value) = value.filter(|_| is_key(name)) {
+            return Some((name, value));
+        }
+    }
+    let at = line.iter().position(|&byte| byte == b':')?;
+    Some((&line[..at], &line[at + 1..]))
 }
 
 /// What stands behind a key and its colon in a text whose lines end at `\P`, and in which codes with a backslash and braces say
@@ -153,9 +174,9 @@ fn behind(mut text: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<&[u8]> {
     while !text.is_empty() {
         let end = text.windows(2).position(|pair| pair == b"\\P").unwrap_or(text.len());
         let line = &text[..end];
-        if let Some(colon) = line.iter().position(|&byte| byte == b':') {
-            let value = bare(&line[colon + 1..]).split(|&byte| byte == b'}').next().unwrap_or_default().trim_ascii();
-            if is_key(bare(&line[..colon])) && !value.is_empty() {
+        if let Some((name, value)) = colon(line, |name| is_key(bare(name))) {
+            let value = bare(value).split(|&byte| byte == b'}').next().unwrap_or_default().trim_ascii();
+            if is_key(bare(name)) && !value.is_empty() {
                 return Some(value);
             }
         }
@@ -193,19 +214,47 @@ impl Sheet<'_> {
     }
 }
 
-/// The blocks of a file, what stands in none, and the number of the unit that its header has.
-pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &'a Labels) -> (Vec<Sheet<'a>>, Sheet<'a>, Option<f64>) {
+/// What a file holds.
+#[derive(Debug)]
+pub(super) struct File<'a> {
+    pub(super) blocks: Vec<Sheet<'a>>,
+    /// What stands in no block.
+    pub(super) loose: Sheet<'a>,
+    /// The number of the unit that its header has.
+    pub(super) unit: Option<f64>,
+    /// How its texts are encoded.
+    pub(super) letters: Letters,
+}
+
+/// Items with their texts in the letters in which the most of them say something.
+fn lettered(items: &mut [Item], labels: &Labels) -> Letters {
+    let page = items.iter().find_map(|item| item.variable(b"$DWGCODEPAGE"));
+    let is_foreign = |item: &&Item| item.is_text() && item.tags.iter().any(|tag| !tag.text.is_ascii());
+    let foreign: Vec<&Item> = items.iter().filter(is_foreign).collect();
+    let count = |letters: Letters| foreign.iter().filter(|item| item.says_anything(letters)).count();
+    let letters = Letters::of(page.unwrap_or_default(), labels, count);
+    for item in items {
+        item.letters = Some(letters);
+    }
+    letters
+}
+
+/// Reads a file.
+pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
     let mut items: Vec<Item> = Vec::new();
     for (pair, number) in lines.chunks_exact(2).zip(1..) {
         let Some(code) = std::str::from_utf8(pair[0]).ok().and_then(|code| code.parse().ok()) else { break };
         match items.last_mut() {
-            _ if code == 0 => items.push(Item { kind: pair[1].to_ascii_uppercase(), number, tags: Vec::new(), labels }),
+            _ if code == 0 => {
+                items.push(Item { kind: pair[1].to_ascii_uppercase(), number, tags: Vec::new(), letters: None });
+            }
             Some(item) => item.tags.push(Tag { code, text: pair[1] }),
             None => {}
         }
     }
+    let letters = lettered(&mut items, labels);
     let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
     let (mut section, mut is_in_block, mut unit) = (Vec::new(), false, None);
     // What has 1 in group 67 stands on the sheet around the drawing; only what it says is of interest.
@@ -223,7 +272,7 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &'a Labels) -> (Vec<Sheet<'a>>
             b"SECTION" => {
                 section = item.text(2).to_ascii_uppercase();
                 if section == b"HEADER" {
-                    unit = unit.or(item.variable(b"$INSUNITS"));
+                    unit = unit.or(item.variable(b"$INSUNITS").and_then(number));
                 }
             }
             b"ENDSEC" => section.clear(),
@@ -243,5 +292,5 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &'a Labels) -> (Vec<Sheet<'a>>
             _ => {}
         }
     }
-    (blocks, loose, unit)
+    File { blocks, loose, unit, letters }
 }

@@ -54,7 +54,10 @@ impl Scan<'_> {
             }
             [mark, ..] if b"!\"#$&'()*+,/".contains(mark) => {
                 let end = after(1, &|b| b.is_ascii_digit() || b.is_ascii_lowercase() || b"+-.".contains(&b));
-                if rest.get(end).is_some_and(|b| b.is_ascii_uppercase() || *b == b'@') { end + 1 } else { 0 }
+                let ends_well = rest.get(end).is_some_and(|b| b.is_ascii_uppercase() || *b == b'@');
+                // Data that reach beyond the end make no sequence of it.
+                let length = end + 1 + if ends_well { data_behind(&rest[..=end]) } else { 0 };
+                if ends_well && length <= rest.len() { length } else { 0 }
             }
             [other, ..] if other.is_ascii_alphanumeric() || *other == b'=' => 1,
             _ => 0,
@@ -185,6 +188,26 @@ impl Scan<'_> {
     }
 }
 
+/// How many bytes of data stand behind a sequence: the number before its last letter, where that is W, or V of raster rows, or
+/// X of texts that are printed as they are.
+fn data_behind(sequence: &[u8]) -> usize {
+    let [mark, group, .., last] = *sequence else { return 0 };
+    if !matches!([mark, group, last], [_, _, b'W'] | [b'*', b'b', b'V'] | [b'&', b'p', b'X']) {
+        return 0;
+    }
+    let mut count = 0_usize;
+    let mut weight = 1_usize;
+    for &byte in sequence[..sequence.len() - 1].iter().rev() {
+        match byte {
+            b'0'..=b'9' => count = count.saturating_add(usize::from(byte - b'0').saturating_mul(weight)),
+            b'-' | b'+' | b'.' => return 0,
+            _ => break,
+        }
+        weight = weight.saturating_mul(10);
+    }
+    count
+}
+
 /// Whether a label draws: by the commas between PD and the next letter.
 fn draws(label: &[u8]) -> bool {
     let starts = |mnemonic: &[u8]| {
@@ -198,4 +221,24 @@ fn draws(label: &[u8]) -> bool {
     };
     let Some(first) = starts(b"PU").find(|&at| commas(at) > 0) else { return false };
     starts(b"PD").filter(|&at| at > first).map(|at| commas(at).div_ceil(2)).sum::<usize>() >= DRAWN_PLACES
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_stand_behind_the_sequences_that_count_them() {
+        let check = |sequence: &str, count: usize| assert_eq!(data_behind(sequence.as_bytes()), count, "{sequence}");
+        check("*b26W", 26);
+        check("*b0m26W", 26);
+        check("*b26V", 26);
+        check("(s9W", 9);
+        check("&p6X", 6);
+        check("*bW", 0);
+        check("*b-2W", 0);
+        check("*t300R", 0);
+        check("&l1x0O", 0);
+        check("*b99999999999999999999999W", usize::MAX);
+    }
 }
