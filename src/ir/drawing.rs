@@ -195,8 +195,10 @@ pub struct Aside {
     pub moved: Moved,
 }
 
-/// Classes of open lines around closed lines: one that is an outline by itself, and several that make one together.
-pub const OPEN_OUTLINES: [&str; 2] = ["open outline", "broken outline"];
+/// Class of an open line around a closed line: an outline with a gap.
+pub const OPEN_OUTLINE: &str = "open outline";
+/// Class of the open lines that together make an outline around a closed line.
+pub const BROKEN_OUTLINE: &str = "broken outline";
 
 /// A line that is not cut.
 #[derive(Debug, Clone, Copy, PartialEq)]

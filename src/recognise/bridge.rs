@@ -52,7 +52,7 @@ impl Gaps<'_> {
         found
     }
 
-    /// The ends within reach of one, of the same pen and of other strokes, by their places among the ends.
+    /// Ends of other strokes of the same pen within reach of an end, each with its distance, mm, and its index in `ends`.
     fn near<'b>(&'b self, k: usize, boxes: &'b Boxes) -> impl Iterator<Item = (f64, usize)> + 'b {
         let pen = |end: End| self.drawing.strokes[end / 2].pen;
         let (end, at) = (self.ends[k], place(self.drawing, self.ends[k]));

@@ -22,7 +22,7 @@ const DECIMALS: u32 = 1;
 const CLOSE_STEP: f64 = 0.1;
 const CLOSE_EPSILON: f64 = 1e-6;
 
-/// Tells every doubt about parts.
+/// Adds every doubt about parts.
 pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let owners = owners(sheet);
     open_parts(sheet, out);
@@ -67,8 +67,8 @@ fn broken_outlines(sheet: &Sheet) -> impl Iterator<Item = &Remains> {
     sheet.remains.iter().filter(is_left)
 }
 
-/// The open lines that are told as outlines around closed lines: those that are so alone, and together with others.
-pub(super) fn told(sheet: &Sheet) -> [BTreeSet<usize>; 2] {
+/// Open lines around closed lines: single outlines with a gap, and strokes of broken outlines.
+pub(super) fn doubtful_outlines(sheet: &Sheet) -> [BTreeSet<usize>; 2] {
     let broken = broken_outlines(sheet).flat_map(|remains| remains.lines.iter().copied());
     [open_outlines(sheet).into_keys().collect(), broken.collect()]
 }
@@ -142,9 +142,9 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     }
 }
 
-/// How lines were closed, as far as it is told.
+/// Kinds of closing that are reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Closed {
+enum ClosingKind {
     /// They stop before their start.
     Gap,
     /// Their strokes do not meet.
@@ -153,14 +153,14 @@ enum Closed {
     Edge,
 }
 
-/// How a line was closed, over how many mm, and where that begins.
-fn closing(line: &Line, sheet: &Sheet) -> Option<(Closed, f64, Point)> {
+/// Kind of closing of a line, length of the gap, mm, and the place where the gap begins.
+fn closing(line: &Line, sheet: &Sheet) -> Option<(ClosingKind, f64, Point)> {
     let drawn = line.as_drawn(&sheet.vertices);
     let last = drawn[drawn.len() - 1].at;
     match line.closing {
-        Closing::Gap(mm) => Some((Closed::Gap, mm, last)),
-        Closing::Bridged(mm, at) => Some((Closed::Bridged, mm, at)),
-        Closing::Edge(mm) => Some((Closed::Edge, mm, last)),
+        Closing::Gap(mm) => Some((ClosingKind::Gap, mm, last)),
+        Closing::Bridged(mm, at) => Some((ClosingKind::Bridged, mm, at)),
+        Closing::Edge(mm) => Some((ClosingKind::Edge, mm, last)),
         Closing::Drawn | Closing::Retraced | Closing::Open(_) => None,
     }
 }
@@ -169,9 +169,10 @@ fn closing(line: &Line, sheet: &Sheet) -> Option<(Closed, f64, Point)> {
 fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     let cut = sheet.indices(|line| line.is_cut && line.is_closed);
     let closings = cut.into_iter().filter_map(|i| Some((i, closing(&sheet.lines[i], sheet)?)));
-    let closings: Vec<(usize, (Closed, f64, Point))> = closings.collect();
-    for kind in [Closed::Gap, Closed::Bridged, Closed::Edge] {
-        let closed: Vec<&(usize, (Closed, f64, Point))> = closings.iter().filter(|(_, how)| how.0 == kind).collect();
+    let closings: Vec<(usize, (ClosingKind, f64, Point))> = closings.collect();
+    for kind in [ClosingKind::Gap, ClosingKind::Bridged, ClosingKind::Edge] {
+        let closed: Vec<&(usize, (ClosingKind, f64, Point))> =
+            closings.iter().filter(|(_, how)| how.0 == kind).collect();
         let Some(&&(widest, (_, length, at))) =
             closed.iter().max_by(|a, b| a.1.1.total_cmp(&b.1.1).then(b.0.cmp(&a.0)))
         else {
@@ -189,12 +190,14 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
         let stop = if is_one { "stops" } else { "stop" };
         let length = fixed(length, DECIMALS);
         let message = match kind {
-            Closed::Gap => format!("{outlines} {stop} before the start, {of}: closed straight, by up to {length} mm"),
-            Closed::Bridged => {
+            ClosingKind::Gap => {
+                format!("{outlines} {stop} before the start, {of}: closed straight, by up to {length} mm")
+            }
+            ClosingKind::Bridged => {
                 let have = if is_one { "has gaps between its strokes" } else { "have gaps between their strokes" };
                 format!("{outlines} {have}, {of}: closed straight, by up to {length} mm")
             }
-            Closed::Edge => {
+            ClosingKind::Edge => {
                 format!("{outlines} {stop} at the edge of the frame, {of}: closed along it, by up to {length} mm")
             }
         };
@@ -211,7 +214,7 @@ fn closed(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     }
 }
 
-/// A way in which lines at an edge are told.
+/// Warning about lines that lie at an edge in one way.
 struct EdgeDoubt {
     lie: Lie,
     code: &'static Code,
@@ -226,7 +229,7 @@ const NOTCHES: &str =
 /// Hint with the greatest measures of a notch.
 const MEASURES: &str = "the mouth of a notch is up to 12 mm wide, its depth 15 mm; `--cut-all` cuts all but a frame";
 
-/// How lines at an edge are told.
+/// Warnings about lines at an edge, in the order in which they are given.
 const EDGE_DOUBTS: &[EdgeDoubt] = &[
     EdgeDoubt {
         lie: Lie::Between,

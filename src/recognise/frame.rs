@@ -10,19 +10,17 @@ use crate::geom::budget::Budget;
 use crate::ir::drawing::Vertex;
 use crate::machine::plot::Frame;
 
-/// Share of a frame that the closed lines in it fill at least: less, and it is a part with cut-outs. What is taken for
-/// a part by mistake is named; what is taken for a frame by mistake is cut inside.
+/// Least share of a frame that the closed lines in it fill; a rectangle with less is a part with cut-outs. A frame taken for
+/// a part is reported; a part taken for a frame would be cut inside.
 const LEAST_FILL: f64 = 0.5;
-/// How far past a frame the seam lines of its parts are drawn at the most, mm.
-const HEM: f64 = 60.0;
 /// Frames in frames that are looked for: the paper, and the cloth on it.
 const MOST_FRAMES: usize = 3;
 
 /// Boxes around a corner that are looked at for one that holds another, and open lines that a frame closes.
 const MOST_HOLDERS: usize = 64;
-/// Largest mark on the hem of a part, mm, and its largest area, as a share of that of the seam line: a loop, a button
-/// stand.
+/// Largest mark on the hem of a part, mm: a loop, a button stand.
 const LARGEST_MARK: f64 = 100.0;
+/// Largest area of a mark, as a share of that of the seam line.
 const MARK_SHARE: f64 = 0.1;
 
 /// Settings of the search for frames.
@@ -76,7 +74,7 @@ impl Frames<'_> {
     /// Whether lines lie in another. A hem may be drawn past the corner of its part, and so past the frame.
     fn holds(&self, outer: usize, inner: &[usize]) -> bool {
         let reach = self.lines[outer].extent.grown(self.settings.band);
-        let lies_in = |extent: &Extent| reach.holds(middle(extent)) && reach.grown(HEM).covers(extent);
+        let lies_in = |extent: &Extent| reach.holds(middle(extent)) && reach.grown(seam::FARTHEST).covers(extent);
         inner.iter().all(|&i| lies_in(&self.lines[i].extent))
     }
 
@@ -106,7 +104,7 @@ impl Frames<'_> {
     }
 
     /// Large open lines that a frame would close from inside. They lie beside all closed ones and beside each other:
-    /// what lies in another is a line of it.
+    /// a line inside another one belongs to it.
     fn beside(&self, frame: &Line, closed: &[usize], work: &mut Budget) -> Vec<usize> {
         let FrameSettings { band, reach, .. } = self.settings;
         let within = frame.extent.grown(band);
@@ -131,7 +129,7 @@ impl Frames<'_> {
     }
 }
 
-/// The area of the closed lines whose box lies in that of no other, nearly: what they cover together.
+/// Area covered by the closed lines, mm2: that of the lines whose box lies in no other box.
 fn outermost_area(lines: &[Line], by_size: &[usize]) -> f64 {
     let boxes = Boxes::new(by_size.iter().map(|&i| lines[i].extent).collect());
     let is_outermost = |k: usize| {

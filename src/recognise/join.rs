@@ -4,7 +4,8 @@
 //! Ends of one pen that meet to the bit are at one place, and so are two that lie within reach of each other and of no
 //! third. Where two ends are left at a place once lines that lead nowhere are put aside, they continue each other;
 //! where more are, a line that comes back to the place closes, and else the two that go straightest continue each
-//! other. A line that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its
+//! other. Two strokes of one notch drawn twice are not joined, and a slit between two strokes of an outline is passed over.
+//! A line that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its
 //! neighbours end in the same places.
 
 use std::collections::BTreeSet;
@@ -178,6 +179,14 @@ impl Joining<'_> {
         (last.at - first.at).norm() <= Notch::WIDEST
             && polyline::length(&places) <= Notch::LONGEST_STROKE
             && places.iter().any(is_deep)
+    }
+
+    /// The place of a stroke that is farthest from the line between its ends.
+    fn tip(&self, stroke: usize) -> Option<Point> {
+        let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
+        let [first, .., last] = vertices else { return None };
+        let depth = |vertex: &Vertex| polyline::distance_to_segment(vertex.at, first.at, last.at);
+        vertices.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).map(|vertex| vertex.at)
     }
 
     /// Whether a stroke may be a slit by itself: it is straight and as long as one.
@@ -412,10 +421,13 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Whether two strokes are one notch that is drawn twice: they meet at both ends.
+    /// Whether two strokes are one notch that is drawn twice: they meet at both ends, and their tips are one.
     fn are_one_notch(&self, [a, b]: [End; 2]) -> bool {
         let far = [a, b].map(|end| self.node[other(end)]);
-        a / 2 != b / 2 && far[0] == far[1] && [a, b].iter().all(|end| self.joining.is_notch(end / 2))
+        let is_pair = a / 2 != b / 2 && far[0].is_some() && far[0] == far[1];
+        let tips = [a, b].map(|end| self.joining.tip(end / 2));
+        let is_one = |[a, b]: [Option<Point>; 2]| a.zip(b).is_some_and(|(a, b)| (a - b).amax() <= self.joining.reach);
+        is_pair && is_one(tips) && [a, b].iter().all(|end| self.joining.is_notch(end / 2))
     }
 
     /// Whether two strokes are two notches: their mouths touch, or one is a slit that begins at the mouth of the other,
@@ -472,8 +484,8 @@ impl<'a, 'b> Graph<'a, 'b> {
         self.nodes[node].iter().copied().filter(is_open).collect()
     }
 
-    /// The ends at a place of an outline that is not whole, less a slit that begins there: a straight stroke whose other end
-    /// meets nothing.
+    /// Ends at a place that nothing continues yet. Slits that begin there and end free are left out where exactly two other
+    /// ends remain.
     fn open_but_slits(&self, node: usize) -> Vec<End> {
         let open = self.open(node, true);
         let is_slit = |end: End| self.joining.is_slit(end / 2) && self.node[other(end)].is_none();

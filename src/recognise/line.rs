@@ -2,7 +2,7 @@
 
 use super::pens::Use;
 use crate::geom::{Extent, Point, cross};
-use crate::ir::drawing::{OPEN_OUTLINES, Vertex};
+use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_OUTLINE, Vertex};
 use crate::source::Span;
 
 /// What a line is taken for.
@@ -65,8 +65,8 @@ pub(super) const RULES: [Rule; 15] = [
     Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Every },
     Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
     Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Every },
-    Rule { class: Class::OpenOutline, name: OPEN_OUTLINES[0], about: "an open line around a closed one, which is no part", cut: Cut::Every },
-    Rule { class: Class::BrokenOutline, name: OPEN_OUTLINES[1], about: "one of some open lines around a closed one, which is no part", cut: Cut::Every },
+    Rule { class: Class::OpenOutline, name: OPEN_OUTLINE, about: "an open line around a closed one, which is no part", cut: Cut::Every },
+    Rule { class: Class::BrokenOutline, name: BROKEN_OUTLINE, about: "one of some open lines around a closed one, which is no part", cut: Cut::Every },
     Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Every },
     Rule { class: Class::Frame, name: "frame", about: "a rectangle around all parts", cut: Cut::Never },
     Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Every },

@@ -7,10 +7,11 @@
 //! Never knows the dialect.
 //!
 //! `again` puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, over the gaps that
-//! `bridge` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest`
-//! what lies in what, `remains` the outlines that are not whole, `marks` and `strokes` the notches, `letters` and
-//! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for.
-//! `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
+//! `bridge` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out,
+//! and asks the others: `frame` finds the frames, `nest` what lies in what, `remains` the outlines that are not
+//! whole, `marks` and `strokes` the notches, `letters` and `seam` what their names say; `line` has the table of
+//! classes, and of when each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is
+//! doubtful, `doubts` that about pieces.
 
 mod again;
 mod bridge;
@@ -64,7 +65,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     };
     sheet.sort_out(job);
     sheet.decide(job);
-    sheet.set_open_outlines(doubts::told(&sheet));
+    sheet.set_open_outlines(doubts::doubtful_outlines(&sheet));
     say::all(&sheet, job, diagnostics);
     piece::marker(sheet, diagnostics)
 }

@@ -1,5 +1,5 @@
-//! Remains of outlines: open lines that go around a closed one. That is no part then, but the seam line of an outline
-//! which is not whole. One open line may do so, or several together: dashes, sides that do not meet, stretches between
+//! Remains of outlines: open lines around a closed line. The closed line is then the seam line of an outline that is not
+//! whole, and no part. One open line may do so, or several together: dashes, sides that do not meet, stretches between
 //! notches.
 
 use super::line::{Class, Line, SMALL_OUTLINE, is_straight};
@@ -13,13 +13,14 @@ use crate::ir::drawing::Vertex;
 
 /// Share of a closed line that open ones together run beside: that of two sides of four, less what its corners take.
 const BESIDE: f64 = 0.45;
-/// The same where some of the lines go far beyond the closed one, as those of two outlines that were drawn without a
-/// lift. They must run beside three of its four sides, too: neighbours lie beside one or two.
+/// Share of a closed line that open lines must run beside where some of them go far beyond it, as two outlines drawn
+/// without a lift do.
 const SURELY: f64 = 0.75;
+/// Least number of its four sides beside which they must then run: neighbours lie beside one or two.
 const LEAST_SIDES: usize = 3;
 /// Share of an open line that runs beside the closed one, at the least: the outline of a neighbour has one side there.
 const OWN: f64 = 0.4;
-/// Least distance of an outline from its seam line, mm: what is nearer is the same edge once more.
+/// Least distance of an outline from its seam line, mm: a nearer line is that edge drawn again.
 const LEAST_OFF: f64 = 1.0;
 /// Cosine of the greatest angle between the way to an open line and the square to the closed one.
 const SQUARE: f64 = 0.7;
@@ -261,7 +262,7 @@ impl Edges {
     fn around(&self, places: &[Point], work: &mut Budget) -> Option<Option<Vec<usize>>> {
         let Some(any) = self.beside(places, false, work) else { return Some(None) };
         if any.share < BESIDE {
-            return None; // as of nearly all
+            return None; // the usual case
         }
         let Some(own) = self.beside(places, true, work) else { return Some(None) };
         if own.share >= BESIDE {

@@ -7,7 +7,7 @@ use super::doubts::{self, finding};
 use super::line::{Class, Line, SMALL_OUTLINE};
 use super::marks::Lie;
 use super::pens::Use;
-use super::sheet::{BAND, Sheet};
+use super::sheet::Sheet;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
 use crate::geom::boxes::Boxes;
@@ -25,8 +25,8 @@ const SHORTEST_NAMED: f64 = 100.0;
 const SHORTEST_CUT_SHORT: f64 = 25.0;
 /// Closed lines in a part that make one doubt whether it is one.
 const DOUBTFUL: usize = 2;
-/// Share of a rectangle that a closed line in it fills at least to be a part in a frame: less is a pocket or a loop.
-const LEAST_FILL: f64 = 0.15;
+/// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
+const LEAST_SINGLE_FILL: f64 = 0.15;
 /// Parts in a frame that make nobody doubt that it is one.
 const SURE_PARTS: usize = 4;
 /// Most pens that a message names.
@@ -98,8 +98,9 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     // A rectangle that is all there is may be the edge of the cloth around one part.
     let is_alone = sheet.lines.iter().filter(|line| line.class == Class::Part).count() == 1;
     let may_be_frame = |part: usize, held: &[&Line]| {
-        let (part, area) = (&sheet.lines[part], held.iter().map(|line| line.area).sum::<f64>());
-        held.len() >= DOUBTFUL || is_alone && part.is_rectangle(BAND) && area >= LEAST_FILL * part.area
+        let part = &sheet.lines[part];
+        let is_filled = held[0].area >= LEAST_SINGLE_FILL * part.area;
+        held.len() >= DOUBTFUL || is_alone && part.is_rectangle(sheet.band()) && is_filled
     };
     let (doubtful, others): (Vec<_>, Vec<_>) =
         by_part.iter().map(|(&part, held)| (part, &held[..])).partition(|(part, held)| may_be_frame(*part, held));
@@ -151,7 +152,7 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
     }
     // An outline with a gap around closed lines is told for itself, and an edge that is drawn once more is cut.
-    let [mut told, broken] = doubts::told(sheet);
+    let [mut told, broken] = doubts::doubtful_outlines(sheet);
     told.extend(broken);
     told.extend(sheet.from_edges.iter().filter(|edge| edge.lie == Lie::Along).map(|edge| edge.line));
     let is_long = |line: &Line| {

@@ -16,7 +16,7 @@ use crate::machine::Job;
 use crate::machine::plot::Inner;
 
 /// Lines that touch may lie so far in one another, mm, or a diagonal of the unit: each was rounded by itself.
-pub(super) const BAND: f64 = 0.2;
+const BAND: f64 = 0.2;
 /// How much longer one side of a hole's box may be than the other.
 const HOLE_RATIO: f64 = 1.1;
 /// Share of its box that a circle of eight chords fills; a square fills all of it.
@@ -50,7 +50,7 @@ pub(super) struct Sheet {
 impl Sheet {
     /// Finds what every line is.
     pub(super) fn sort_out(&mut self, job: &Job) {
-        let band = BAND.max(ROUNDING * self.unit);
+        let band = self.band();
         let reach = close::Reach::of(self.unit, job);
         let mut work = Budget::of_a_marker();
         frame::mark(
@@ -69,6 +69,7 @@ impl Sheet {
         }
         let mut remains = Budget::of_lines(self.lines.len());
         self.find_remains(&mut remains);
+        self.is_cut_short |= work.is_spent();
         let mut work = Budget::of_a_marker();
         self.find_marks(&mut work);
         letters::mark(&mut self.lines, &self.vertices, &mut work);
@@ -91,7 +92,12 @@ impl Sheet {
         for &EdgeLine { line, .. } in self.from_edges.iter().filter(|edge| edge.lie != Lie::Stands) {
             self.lines[line].class = Class::FromEdge;
         }
-        self.is_cut_short = work.is_spent() || remains.is_spent();
+        self.is_cut_short |= work.is_spent() || remains.is_spent();
+    }
+
+    /// Depth to which lines that touch may lie in one another, mm.
+    pub(super) fn band(&self) -> f64 {
+        BAND.max(ROUNDING * self.unit)
     }
 
     /// The lines of some kind.

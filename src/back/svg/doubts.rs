@@ -8,7 +8,7 @@ use super::sheet::{LINE_PX, Sheet};
 use crate::back::target::Context;
 use crate::diagnostic::Diagnostic;
 use crate::geom::{Extent, Point};
-use crate::ir::drawing::{OPEN_OUTLINES, Vertex};
+use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_OUTLINE, Vertex};
 use crate::ir::marker::Piece;
 
 /// Height of the sign of a doubt, nominal pixels.
@@ -26,7 +26,7 @@ fn pieces<'a>(doubt: &'a Diagnostic, context: &'a Context) -> impl Iterator<Item
     context.marker.pieces.iter().filter(|piece| doubt.pieces.contains(&piece.number))
 }
 
-/// What a doubt is about at one place of the cloth.
+/// Band of a doubt at one place of the cloth.
 struct Band {
     outlines: Vec<Vec<Point>>,
     /// Place below its sign.
@@ -34,9 +34,9 @@ struct Band {
 }
 
 impl Band {
-    /// Outlines of one place, with the sign above the middle of some points.
-    fn new(outlines: Vec<Vec<Point>>, of: &[Point]) -> Self {
-        let Extent { min, max } = Extent::of(of);
+    /// Band along outlines; its sign stands above the middle of the box of `anchor`.
+    fn new(outlines: Vec<Vec<Point>>, anchor: &[Point]) -> Self {
+        let Extent { min, max } = Extent::of(anchor);
         Self { outlines, middle: min + (max - min) / 2.0 }
     }
 
@@ -49,19 +49,22 @@ impl Band {
     }
 }
 
-/// The outlines that are not cut and that a doubt is about: all that were taken for the same. Each line is an outline of
-/// its own; the strokes of broken ones are in one band, whose sign stands at the first of them.
+/// Bands along uncut outlines of the class that a doubt is about. Each open outline has a band; all broken outlines share
+/// one, whose sign stands at the outline that the doubt names.
 fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Band> {
     let aside = context.marker.drawing.iter().flat_map(|account| account.aside.each());
-    let outlines: Vec<(&str, &[Vertex])> =
-        aside.filter_map(|(class, line)| Some((class.filter(|class| OPEN_OUTLINES.contains(class))?, line))).collect();
+    let outlines: Vec<(&str, &[Vertex])> = aside
+        .filter_map(|(class, line)| {
+            Some((class.filter(|&class| class == OPEN_OUTLINE || class == BROKEN_OUTLINE)?, line))
+        })
+        .collect();
     let is_at = |line: &[Vertex]| doubt.span.is_some_and(|span| line.iter().any(|vertex| vertex.span == span));
     let Some(&(class, first)) = outlines.iter().find(|(_, line)| doubt.pieces.is_empty() && is_at(line)) else {
         return Vec::new();
     };
     let points = |line: &[Vertex]| line.iter().map(|vertex| vertex.at).collect::<Vec<Point>>();
     let alike = outlines.iter().filter(|(other, _)| *other == class).map(|(_, line)| points(line));
-    if class == OPEN_OUTLINES[0] {
+    if class == OPEN_OUTLINE {
         alike.map(|line| Band::new(vec![line.clone()], &line)).collect()
     } else {
         vec![Band::new(alike.collect(), &points(first))]

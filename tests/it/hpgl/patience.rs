@@ -74,7 +74,11 @@ fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said()
     let bars = many(200_000, &|i| rectangle(0, 20 * i, 100_000, 10));
     check("outlines that lie beside each other", &bars, &[]);
     let marks = many(200_000, &|i| format!("PU{},-1000;PD{},-1100;", i % 90_000, i % 90_000));
-    check("marks beside many outlines", &(marks + &bars[..bars.len() / 2]), &["drawing/search-ended", "drawing/drawn-again"]);
+    check(
+        "marks beside many outlines",
+        &(marks + &bars[..bars.len() / 2]),
+        &["drawing/search-ended", "drawing/drawn-again"],
+    );
     let zigzag = many(50_000, &|i| format!("{},{},", 90_000 * (i % 2), 40 * i));
     let marks = many(100_000, &|i| format!("PU{},2000;PD{},2090;", i % 90_000, i % 90_000));
     check(
