@@ -21,14 +21,10 @@ pub use planner::{Planner, home};
 pub use run::Cut;
 
 use crate::diagnostic::Diagnostic;
-use crate::ir::toolpath::{Run, Step, Toolpath};
+use crate::ir::toolpath::{Run, Toolpath};
 use crate::machine::Job;
 
 /// The runs of a toolpath as they will be cut, in order; a diagnostic for each that cannot be.
 pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
-    let runs = toolpath.steps.iter().filter_map(|step| match step {
-        Step::Run(run) => Some(run),
-        Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
-    });
-    rejoin::solve(&runs.collect::<Vec<&Run>>(), toolpath.tolerance, job)
+    rejoin::solve(&toolpath.runs().collect::<Vec<&Run>>(), toolpath.tolerance, job)
 }

@@ -61,7 +61,7 @@ fn groups(runs: &[&Run]) -> Vec<Vec<usize>> {
 
 /// The stretch over which two runs lie.
 #[derive(Debug, Clone, Copy)]
-struct Overlap {
+pub(super) struct Overlap {
     /// The chord of the first run on which the second one begins.
     chord: usize,
     /// mm.
@@ -69,7 +69,7 @@ struct Overlap {
 }
 
 /// The stretch over which a run ends and another one begins; `None` where it does not go on along it.
-fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
+pub(super) fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
     let is_lifted = |end: End| end.bare && end.side == Side::Contour;
     let are_alike = before.shape == Shape::Open
         && behind.shape == Shape::Open
@@ -149,6 +149,11 @@ impl<'a> Line<'a> {
         line
     }
 
+    /// The overlaps with which the line begins and ends, mm.
+    fn overlaps(&self) -> [f64; 2] {
+        [self.parts[0].run.heel, self.parts[self.parts.len() - 1].run.front]
+    }
+
     /// The ring that the runs go round.
     fn lap(&self) -> Option<Run> {
         let [first, last] = [&self.parts[0], &self.parts[self.parts.len() - 1]];
@@ -176,7 +181,9 @@ impl<'a> Line<'a> {
     fn cuts(&self, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let ends = [self.points[0], self.points[self.points.len() - 1]];
         let length = polyline::length(&self.points);
-        if self.ring.is_none() && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+        if self.ring.is_none()
+            && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+            && run::passes_ends(&self.points, self.overlaps(), tolerance)
         {
             let at = |station: f64| ends[0] + (ends[1] - ends[0]) * (station / length);
             let smooth = Smooth { curve: run::straight_curve(length, ends), sagitta: 0.0 };
@@ -226,7 +233,11 @@ impl<'a> Line<'a> {
             Some((extended, ring)) => (&extended.points, extended.start, extended.lap(ring)),
             None => (&self.points, 0.0, None),
         };
-        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let [before, behind] = [&self.parts[0], &self.parts[self.parts.len() - 1]];
+        let at_lifts = [run::overlaps_at_lifts(before.run)[0], run::overlaps_at_lifts(behind.run)[1]];
+        let overlaps = if lap.is_some() { [0.0; 2] } else { at_lifts };
+        let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let band = || plain().with_overlaps(overlaps);
         let junctions = match &extended {
             Some((extended, _)) => extended.junctions.clone(),
             None if share < 1.0 => narrow(points),

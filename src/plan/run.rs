@@ -5,6 +5,7 @@ use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
 use crate::analysis::plunge::Deviation;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
+use crate::ir::list::Joint;
 use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, StraightCut};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
@@ -13,7 +14,7 @@ use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
 use crate::plan::spline::{self, Curve, LEAD, Smooth, has_room, smooth};
 use crate::plan::spline::{Blocks, Extended};
-use crate::plan::spline::{JUNCTION_SHARES, ToleranceBand};
+use crate::plan::spline::{JUNCTION_SHARES, OVERLAP_SHARE, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
 use crate::plan::timing::{Bounds, profile};
@@ -122,7 +123,8 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     let Extended { points, junctions, .. } = &extended;
     let order = Order::new(run, &extended, job);
     let ends = [points[0], points[points.len() - 1]];
-    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, straight_share(junctions) * tolerance);
+    let is_nearly = run.shape == Shape::Open && polyline::is_straight(points, straight_share(junctions) * tolerance);
+    let is_straight = is_nearly && passes_ends(points, [run.heel, run.front], tolerance);
     if is_straight && order.has_one_feed() {
         return order.straight(ends);
     }
@@ -130,7 +132,10 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Smooth { curve: straight_curve(extended.end, ends), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
-        smoothed(&band, junctions).map_err(|tight| order.too_tight(tolerance, tight))?
+        let overlaps = if is_nearly { [run.heel, run.front] } else { overlaps_at_lifts(run) };
+        let nearer = || band().with_overlaps(overlaps);
+        let found = if overlaps == [0.0; 2] { None } else { smoothed(&nearer, junctions).ok() };
+        found.map_or_else(|| smoothed(&band, junctions), Ok).map_err(|tight| order.too_tight(tolerance, tight))?
     };
     let mut curved = order.curved(&extended, &found)?;
     let most = order.most_beside(tolerance);
@@ -147,6 +152,24 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
 /// Part of the tolerance within which a polyline counts as straight that crosses other cuts about some of its chords.
 pub(super) fn straight_share(junctions: &[bool]) -> f64 {
     if junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] }
+}
+
+/// The overlaps of an open run where the file lifts the knife, mm: there the contour may go straight on, and cuts that run beside
+/// each other do not cross. At corners they do.
+pub(super) fn overlaps_at_lifts(run: &Run) -> [f64; 2] {
+    let is_lift = |joint: Option<&Joint>| run.shape == Shape::Open && joint.is_some_and(|joint| joint.lift);
+    let at = |joint: Option<&Joint>, length: f64| if is_lift(joint) { length } else { 0.0 };
+    [at(run.joints.first(), run.heel), at(run.joints.last(), run.front)]
+}
+
+/// Whether a straight line from the first point to the last comes by the ends of a run, where overlaps of these lengths begin, mm,
+/// so near that other cuts can meet it there.
+pub(super) fn passes_ends(points: &[Point], [heel, front]: [f64; 2], tolerance: f64) -> bool {
+    let last = points.len() - 1;
+    let is_by = |place: usize| {
+        polyline::distance_to_segment(points[place], points[0], points[last]) <= OVERLAP_SHARE * tolerance
+    };
+    (heel == 0.0 || is_by(1)) && (front == 0.0 || is_by(last - 1))
 }
 
 /// The curve of a straight run, over its length.

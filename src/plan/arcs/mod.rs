@@ -16,15 +16,18 @@ use crate::geom::polyline;
 use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
 use crate::ir::toolpath::{OrientationMode, Run, Step, Toolpath};
 use crate::machine::Job;
+use crate::plan::rejoin::overlap;
 
 /// The path of each run and plunge cut of a toolpath, in order; otherwise the runs that have none.
 pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> Result<Arcs, Vec<Unfit>> {
     let (mut paths, mut unfit) = (Vec::new(), Vec::new());
     // The axis stands askew to the blade by that.
     let yaw = job.profile.knife.yaw();
+    let runs: Vec<&Run> = toolpath.runs().collect();
+    let mut nexts = (0..runs.len()).map(|place| next(&runs, place));
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => match path_of(run, toolpath.tolerance, interpolation, job) {
+            Step::Run(run) => match path_of(run, nexts.next().flatten(), toolpath.tolerance, interpolation, job) {
                 Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
                 Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
             },
@@ -35,12 +38,25 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
     if unfit.is_empty() { Ok(Arcs { paths }) } else { Err(unfit) }
 }
 
-fn path_of(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
+/// The run that goes on along the end of another one, given by its place: the next one, or the first one of a ring that is cut
+/// in several runs.
+fn next<'a>(runs: &[&'a Run], place: usize) -> Option<&'a Run> {
+    let next = runs[(place + 1) % runs.len()];
+    overlap(runs[place], next).map(|_| next)
+}
+
+fn path_of(
+    run: &Run,
+    next: Option<&Run>,
+    tolerance: f64,
+    interpolation: &Interpolation,
+    job: &Job,
+) -> Result<Path, Reason> {
     // On a straight run both orientation modes are the same.
     let orientation =
         if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
     match orientation {
-        OrientationMode::Tangent => path::path(run, tolerance, interpolation, job).map_err(Reason::Band),
+        OrientationMode::Tangent => path::path(run, next, tolerance, interpolation, job).map_err(Reason::Band),
         OrientationMode::Chord => Err(Reason::Chord),
     }
 }

@@ -15,6 +15,10 @@ const TURN_EPSILON: f64 = 1e-6;
 /// each other by one tolerance; two tips that are each off by a quarter use half of that.
 pub(in crate::plan) const JUNCTION_SHARES: [f64; 2] = [0.25, 0.5];
 
+/// The part of the tolerance that is used along overlaps: where a contour hardly turns at a lift two cuts cross only if both come
+/// by the place where they meet.
+pub(in crate::plan) const OVERLAP_SHARE: f64 = 0.1;
+
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct ToleranceBand {
@@ -61,6 +65,16 @@ impl ToleranceBand {
     pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool], share: f64) -> Self {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
             (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share);
+        }
+        self
+    }
+
+    /// The same, near to the overlaps with which an open run begins and ends, where it has these.
+    pub(in crate::plan) fn with_overlaps(mut self, [heel, front]: [f64; 2]) -> Self {
+        let last = self.shares.len() - 1;
+        for chord in [(heel, 0), (front, last)].into_iter().filter(|(length, _)| *length > 0.0).map(|(_, chord)| chord)
+        {
+            self.shares[chord] = self.shares[chord].min(OVERLAP_SHARE);
         }
         self
     }
