@@ -2,11 +2,13 @@
 //!
 //! Receives the toolpath of one contour, promises a motion whose every setpoint keeps the limits of the axes, with the
 //! tip inside the tolerance band of the path. Runs are solved first, in any order ([`solve`]), each alone but for those that
-//! are lifted amid a line (`rejoin`); then a [`Planner`] joins them in order by turns and rapids between the states that they really have. For controllers that plan
-//! for themselves [`arcs`] makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
+//! are lifted amid a line (`rejoin`), and so that their cuts cross where they meet (`meeting`); then a [`Planner`] joins them
+//! in order by turns and rapids between the states that they really have. For controllers that plan for themselves [`arcs`]
+//! makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
 
 pub mod arcs;
 mod certify;
+mod meeting;
 mod orientation;
 mod planner;
 mod rapid;

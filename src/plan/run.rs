@@ -5,7 +5,6 @@ use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
 use crate::analysis::plunge::Deviation;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
-use crate::ir::list::Joint;
 use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, StraightCut};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
@@ -14,7 +13,7 @@ use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
 use crate::plan::spline::{self, Curve, LEAD, Smooth, has_room, smooth};
 use crate::plan::spline::{Blocks, Extended};
-use crate::plan::spline::{JUNCTION_SHARES, OVERLAP_SHARE, ToleranceBand};
+use crate::plan::spline::{JUNCTION_SHARES, Near, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
 use crate::plan::timing::{Bounds, profile};
@@ -117,14 +116,15 @@ pub(super) struct Order<'a> {
     bounds: Bounds,
 }
 
-/// Solves one run.
-pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
+/// Solves one run, whose tip keeps so near to its line at its two ends.
+pub(super) fn solve(run: &Run, near: [Near; 2], tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let extended = extended(run, tolerance, job.profile.knife.width_mm);
     let Extended { points, junctions, .. } = &extended;
     let order = Order::new(run, &extended, job);
     let ends = [points[0], points[points.len() - 1]];
-    let is_nearly = run.shape == Shape::Open && polyline::is_straight(points, straight_share(junctions) * tolerance);
-    let is_straight = is_nearly && passes_ends(points, [run.heel, run.front], tolerance);
+    let is_straight = run.shape == Shape::Open
+        && polyline::is_straight(points, straight_share(junctions) * tolerance)
+        && passes_ends(points, near, tolerance);
     if is_straight && order.has_one_feed() {
         return order.straight(ends);
     }
@@ -132,9 +132,8 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Smooth { curve: straight_curve(extended.end, ends), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
-        let overlaps = if is_nearly { [run.heel, run.front] } else { overlaps_at_lifts(run) };
-        let nearer = || band().with_overlaps(overlaps);
-        let found = if overlaps == [0.0; 2] { None } else { smoothed(&nearer, junctions).ok() };
+        let nearer = || band().with_ends(near);
+        let found = if near == [Near::default(); 2] { None } else { smoothed(&nearer, junctions).ok() };
         found.map_or_else(|| smoothed(&band, junctions), Ok).map_err(|tight| order.too_tight(tolerance, tight))?
     };
     let mut curved = order.curved(&extended, &found)?;
@@ -154,22 +153,15 @@ pub(super) fn straight_share(junctions: &[bool]) -> f64 {
     if junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] }
 }
 
-/// The overlaps of an open run where the file lifts the knife, mm: there the contour may go straight on, and cuts that run beside
-/// each other do not cross. At corners they do.
-pub(super) fn overlaps_at_lifts(run: &Run) -> [f64; 2] {
-    let is_lift = |joint: Option<&Joint>| run.shape == Shape::Open && joint.is_some_and(|joint| joint.lift);
-    let at = |joint: Option<&Joint>, length: f64| if is_lift(joint) { length } else { 0.0 };
-    [at(run.joints.first(), run.heel), at(run.joints.last(), run.front)]
-}
-
-/// Whether a straight line from the first point to the last comes by the ends of a run, where overlaps of these lengths begin, mm,
-/// so near that other cuts can meet it there.
-pub(super) fn passes_ends(points: &[Point], [heel, front]: [f64; 2], tolerance: f64) -> bool {
-    let last = points.len() - 1;
-    let is_by = |place: usize| {
-        polyline::distance_to_segment(points[place], points[0], points[last]) <= OVERLAP_SHARE * tolerance
-    };
-    (heel == 0.0 || is_by(1)) && (front == 0.0 || is_by(last - 1))
+/// Whether a straight line from the first point of a run with its overlaps to the last comes as near to the vertices within these
+/// lengths of its ends as the tip keeps there.
+pub(super) fn passes_ends(points: &[Point], near: [Near; 2], tolerance: f64) -> bool {
+    let [first, .., last] = points else { return true };
+    let ends = [(first, near[0]), (last, near[1])];
+    ends.into_iter().filter(|(_, near)| near.length > 0.0).all(|(end, near)| {
+        let within = points.iter().filter(|at| (*at - end).norm() <= near.length);
+        within.into_iter().all(|at| polyline::distance_to_segment(*at, *first, *last) <= near.share * tolerance)
+    })
 }
 
 /// The curve of a straight run, over its length.

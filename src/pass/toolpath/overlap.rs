@@ -3,8 +3,9 @@
 //! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the
 //! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is
 //! the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where
-//! a part lies ahead. At a junction it goes on, whatever lies there, until it is through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near
-//! its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
+//! a part lies ahead. At a junction it goes on, whatever lies there, until it is through the other's cut, and where other
+//! cuts meet it by one tolerance at least. A run that begins on a curve has only as much of its heel overlap as keeps the
+//! plunged blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
 //! doi 10.7690/bgzdh.2013.02.026.
 
 use super::pass::ToolpathPass;
@@ -13,7 +14,7 @@ use super::scene::Scene;
 use crate::analysis::plunge::overlaps;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, polyline};
-use crate::ir::toolpath::{Run, Shape, Toolpath};
+use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
 use crate::units::number::fixed;
 
@@ -28,9 +29,10 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
-        let [least_heel, least_front] = across(run, scene);
-        (run.heel, run.front) = (heel.length.max(least_heel), front.length.max(least_front));
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
+        let [across, meeting] = [across(run, scene), meeting(run, around.tolerance)];
+        run.heel = heel.length.max(across[0]).max(meeting[0]);
+        run.front = front.length.max(across[1]).max(meeting[1]);
         if run.shape == Shape::Ring {
             warn_if_tight(run, around.knife, diagnostics);
         }
@@ -48,6 +50,17 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
         Shape::Open => [beyond(0, 1), beyond(n - 1, n - 2)].map(Option::unwrap_or_default),
         Shape::Ring => [0.0; 2],
     }
+}
+
+/// How far an open run must go past its start and its end to meet the cuts that meet it there, mm: these may be off their lines
+/// by the tolerance, and so much of an overlap is none for the cloth. The tip of a slit meets nothing.
+fn meeting(run: &Run, tolerance: f64) -> [f64; 2] {
+    let least = |end: End| match end.side {
+        Side::Contour => 0.0,
+        Side::Part if !end.corner => 0.0,
+        Side::Part | Side::Waste | Side::Gap => tolerance,
+    };
+    if run.shape == Shape::Open { run.ends.map(least) } else { [0.0; 2] }
 }
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {

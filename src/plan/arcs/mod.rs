@@ -16,21 +16,23 @@ use crate::geom::polyline;
 use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
 use crate::ir::toolpath::{OrientationMode, Run, Step, Toolpath};
 use crate::machine::Job;
-use crate::plan::rejoin::overlap;
+use crate::plan::meeting;
 
 /// The path of each run and plunge cut of a toolpath, in order; otherwise the runs that have none.
 pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> Result<Arcs, Vec<Unfit>> {
     let (mut paths, mut unfit) = (Vec::new(), Vec::new());
     // The axis stands askew to the blade by that.
     let yaw = job.profile.knife.yaw();
-    let runs: Vec<&Run> = toolpath.runs().collect();
-    let mut nexts = (0..runs.len()).map(|place| next(&runs, place));
+    let mut strokes = strokes(toolpath, job).into_iter();
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => match path_of(run, nexts.next().flatten(), toolpath.tolerance, interpolation, job) {
-                Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
-                Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
-            },
+            Step::Run(run) => {
+                let stroke = strokes.next().expect("each run has a stroke");
+                match path_of(&stroke, toolpath.tolerance, interpolation, job) {
+                    Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
+                    Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
+                }
+            }
             Step::PlungeCut(plunge_cut) => paths.push(Path::plunge(plunge_cut.pose).turned(yaw)),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
@@ -38,25 +40,29 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
     if unfit.is_empty() { Ok(Arcs { paths }) } else { Err(unfit) }
 }
 
-/// The run that goes on along the end of another one, given by its place: the next one, or the first one of a ring that is cut
-/// in several runs.
-fn next<'a>(runs: &[&'a Run], place: usize) -> Option<&'a Run> {
-    let next = runs[(place + 1) % runs.len()];
-    overlap(runs[place], next).map(|_| next)
+/// A run among the others of its contour.
+struct Stroke<'a> {
+    run: &'a Run,
+    /// The run that goes on along its end: the next one, or the first one of a ring that is cut in several runs.
+    next: Option<&'a Run>,
+    /// The part of the tolerance that is used along the overlap at its end.
+    share: f64,
 }
 
-fn path_of(
-    run: &Run,
-    next: Option<&Run>,
-    tolerance: f64,
-    interpolation: &Interpolation,
-    job: &Job,
-) -> Result<Path, Reason> {
+fn strokes<'a>(toolpath: &'a Toolpath, job: &Job) -> Vec<Stroke<'a>> {
+    let runs: Vec<&Run> = toolpath.runs().collect();
+    let near = meeting::near(&runs, toolpath.tolerance, job);
+    let next = |k: usize| Some(runs[(k + 1) % runs.len()]).filter(|next| meeting::overlap(runs[k], next).is_some());
+    (0..runs.len()).map(|k| Stroke { run: runs[k], next: next(k), share: near[k][1].share }).collect()
+}
+
+fn path_of(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
+    let run = stroke.run;
     // On a straight run both orientation modes are the same.
     let orientation =
         if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
     match orientation {
-        OrientationMode::Tangent => path::path(run, next, tolerance, interpolation, job).map_err(Reason::Band),
+        OrientationMode::Tangent => path::path(stroke, tolerance, interpolation, job).map_err(Reason::Band),
         OrientationMode::Chord => Err(Reason::Chord),
     }
 }

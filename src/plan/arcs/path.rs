@@ -1,5 +1,6 @@
 //! The path of a run: arcs of the tip inside the tolerance band, and beside each the pieces of the C axis.
 
+use super::Stroke;
 use super::band::ToleranceBand;
 use super::fade::{Beside, Fade};
 use super::fit::{Arc, Ends, Stop, fit};
@@ -9,8 +10,7 @@ use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::arcs::{Deviation, Interpolation, Path};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
-use crate::plan::run::overlaps_at_lifts;
-use crate::plan::spline::{JUNCTION_SHARES, OVERLAP_SHARE};
+use crate::plan::spline::JUNCTION_SHARES;
 use crate::units::rad;
 
 /// Part of the permitted angle by which C may be off where it turns evenly along arcs; the rest is for decimals.
@@ -41,21 +41,16 @@ const STEPS_LEAST: f64 = 50.0;
 
 /// The path of a run that comes by the start of the next one, where that goes on along it; otherwise the point from which no
 /// arc stays inside the tolerance band.
-pub(super) fn path(
-    run: &Run,
-    next: Option<&Run>,
-    tolerance: f64,
-    interpolation: &Interpolation,
-    job: &Job,
-) -> Result<Path, Point> {
+pub(super) fn path(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Point> {
+    let run = stroke.run;
     let knife = &job.profile.knife;
     let Interpolation { circular, step, chord_tolerance, heading_tolerance } = *interpolation;
     let line = TipLine::new(run, knife.width_mm).without_bend_at_start([STEPS_LEAST * step, OFF_SHARE * tolerance]);
-    let line = match next {
+    let line = match stroke.next {
         Some(next) => line.by_way_of(next),
         None => line,
     };
-    let TipArcs { arcs, start, from } = tip_arcs(run, &line, tolerance, interpolation, job)?;
+    let TipArcs { arcs, start, from } = tip_arcs(stroke, &line, tolerance, interpolation, job)?;
     let TipLine { chords, heel, .. } = line;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
@@ -106,12 +101,13 @@ struct TipArcs {
 
 /// Arcs inside the tolerance band of the line of the tip; otherwise the point from which none stays inside.
 fn tip_arcs(
-    run: &Run,
+    stroke: &Stroke,
     line: &TipLine,
     tolerance: f64,
     interpolation: &Interpolation,
     job: &Job,
 ) -> Result<TipArcs, Point> {
+    let run = stroke.run;
     let lap = run.points.len() - 1;
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
@@ -120,8 +116,8 @@ fn tip_arcs(
         if ring { (&line.points[..=lap], &line.chords[..lap]) } else { (&line.points[..], &line.chords[..]) };
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
     let plain = ToleranceBand::new(points.to_vec(), tolerance, [turn; 2], &job.profile);
-    let is_overlap = |chord: usize| overlaps_at_lifts(run)[1] > 0.0 && chord + 1 == chords.len();
-    let band = plain.clone().with_junctions((0..chords.len()).map(is_overlap), OVERLAP_SHARE);
+    let is_overlap = |chord: usize| stroke.share < 1.0 && run.front > 0.0 && chord + 1 == chords.len();
+    let band = plain.clone().with_junctions((0..chords.len()).map(is_overlap), stroke.share);
     let mut shares = JUNCTION_SHARES.iter().filter(|_| chords.iter().any(&is_junction));
     let start = if ring { at_seam(run) } else { band.direction(0) };
     let end = if ring { start } else { band.direction(band.chords() - 1) };

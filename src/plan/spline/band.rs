@@ -15,9 +15,20 @@ const TURN_EPSILON: f64 = 1e-6;
 /// each other by one tolerance; two tips that are each off by a quarter use half of that.
 pub(in crate::plan) const JUNCTION_SHARES: [f64; 2] = [0.25, 0.5];
 
-/// The part of the tolerance that is used along overlaps: where a contour hardly turns at a lift two cuts cross only if both come
-/// by the place where they meet.
-pub(in crate::plan) const OVERLAP_SHARE: f64 = 0.1;
+/// How near to its line a tip keeps at an end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::plan) struct Near {
+    /// Length from the end of the overlap, mm; 0 = nowhere.
+    pub(in crate::plan) length: f64,
+    /// The part of the tolerance that is used there.
+    pub(in crate::plan) share: f64,
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self { length: 0.0, share: 1.0 }
+    }
+}
 
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
@@ -32,6 +43,8 @@ pub(in crate::plan) struct ToleranceBand {
     sagittas: Vec<Vector>,
     /// The part of the tolerance that each chord may use.
     shares: Vec<f64>,
+    /// How near to it the tip keeps at its start and at its end.
+    near: [Near; 2],
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
     /// The lap of a ring, whose curve closes.
@@ -57,7 +70,7 @@ impl ToleranceBand {
         let turns = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
         let sagittas = vec![Vector::zeros(); points.len() - 1];
         let shares = vec![1.0; points.len() - 1];
-        Self { points, stations, turns, sagittas, shares, tolerance, lap: None }
+        Self { points, stations, turns, sagittas, shares, near: [Near::default(); 2], tolerance, lap: None }
     }
 
     /// The same, with a share of the tolerance by the chords about which it crosses cuts of other parts; of these there may be
@@ -69,13 +82,9 @@ impl ToleranceBand {
         self
     }
 
-    /// The same, near to the overlaps with which an open run begins and ends, where it has these.
-    pub(in crate::plan) fn with_overlaps(mut self, [heel, front]: [f64; 2]) -> Self {
-        let last = self.shares.len() - 1;
-        for chord in [(heel, 0), (front, last)].into_iter().filter(|(length, _)| *length > 0.0).map(|(_, chord)| chord)
-        {
-            self.shares[chord] = self.shares[chord].min(OVERLAP_SHARE);
-        }
+    /// The same, nearer to the polyline at its start and at its end.
+    pub(in crate::plan) fn with_ends(mut self, near: [Near; 2]) -> Self {
+        self.near = near;
         self
     }
 
@@ -118,7 +127,15 @@ impl ToleranceBand {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
         let base = self.points[chord] + (self.points[chord + 1] - self.points[chord]) * x;
-        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)), share: self.shares[chord] }
+        let [start, end] = self.near;
+        let mut share = self.shares[chord];
+        if u < start.length {
+            share = share.min(start.share);
+        }
+        if u > self.length() - end.length {
+            share = share.min(end.share);
+        }
+        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)), share }
     }
 }
 
