@@ -10,10 +10,11 @@ use crate::ir::toolpath::{End, Run, Shape, Side};
 use crate::machine::Job;
 use crate::plan::spline::Near;
 
-/// Least share of the tolerance, in widths of the widest thread: two tips that are off to opposite sides by so much are one
-/// width apart.
+/// Least deviation that a tip keeps to, in widths of the widest thread: two tips off to opposite sides are then 0.9 of a width
+/// apart.
 const LEAST: f64 = 0.45;
-/// Stretch before the vertex over which the tip keeps near, in tolerances, beside the overlap of the other.
+/// Stretch before the vertex on which the tip keeps near, in tolerances, in addition to both overlaps: from there it may leave
+/// its line as far as the tolerance.
 const STRETCH: f64 = 2.0;
 
 /// Places that are nearer to each other are one, mm: rounding.

@@ -188,18 +188,21 @@ impl<'a> Line<'a> {
             None => (&self.points, 0.0, None),
         };
         let near = if lap.is_some() { [Near::default(); 2] } else { self.near };
-        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap).with_ends(near);
+        let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let band = || plain().with_ends(near);
         let junctions = match &extended {
             Some((extended, _)) => extended.junctions.clone(),
             None if share < 1.0 => narrow(points),
             None => self.junctions.clone(),
         };
-        let smooth = if share < 1.0 {
-            smooth(&band().with_junctions(&junctions, share))
-        } else {
-            run::smoothed(&band, &junctions)
+        let along = |band: &dyn Fn() -> ToleranceBand| {
+            if share < 1.0 {
+                smooth(&band().with_junctions(&junctions, share))
+            } else {
+                run::smoothed(band, &junctions)
+            }
         };
-        Some((first, smooth.ok()?))
+        Some((first, along(&band).or_else(|_| along(&plain)).ok()?))
     }
 
     /// The cuts of its runs along a curve on which the line begins at a parameter; `None` of each whose blade would plunge too

@@ -116,7 +116,7 @@ pub(super) struct Order<'a> {
     bounds: Bounds,
 }
 
-/// Solves one run, whose tip keeps so near to its line at its two ends.
+/// Solves one run; `near` limits the deviation of its tip at its start and at its end.
 pub(super) fn solve(run: &Run, near: [Near; 2], tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let extended = extended(run, tolerance, job.profile.knife.width_mm);
     let Extended { points, junctions, .. } = &extended;
@@ -140,7 +140,9 @@ pub(super) fn solve(run: &Run, near: [Near; 2], tolerance: f64, job: &Job) -> Re
     let most = order.most_beside(tolerance);
     for share in NARROWER {
         if curved.beside > most {
-            let found = smooth(&ToleranceBand::plain(points.clone(), share * tolerance));
+            let band = || ToleranceBand::plain(points.clone(), share * tolerance);
+            let nearer = near.map(|near| Near { share: (near.share / share).min(1.0), ..near });
+            let found = smooth(&band().with_ends(nearer)).or_else(|_| smooth(&band()));
             let found = found.map_err(|tight| order.too_tight(share * tolerance, tight))?;
             curved = order.curved(&extended, &found)?;
         }
@@ -153,14 +155,21 @@ pub(super) fn straight_share(junctions: &[bool]) -> f64 {
     if junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] }
 }
 
-/// Whether a straight line from the first point of a run with its overlaps to the last comes as near to the vertices within these
-/// lengths of its ends as the tip keeps there.
+/// Whether the straight line between the ends of a run with its overlaps stays within the share of the tolerance that holds
+/// near each end.
 pub(super) fn passes_ends(points: &[Point], near: [Near; 2], tolerance: f64) -> bool {
+    if near == [Near::default(); 2] {
+        return true;
+    }
+    let stations = polyline::stations(points);
     let [first, .., last] = points else { return true };
-    let ends = [(first, near[0]), (last, near[1])];
-    ends.into_iter().filter(|(_, near)| near.length > 0.0).all(|(end, near)| {
-        let within = points.iter().filter(|at| (*at - end).norm() <= near.length);
-        within.into_iter().all(|at| polyline::distance_to_segment(*at, *first, *last) <= near.share * tolerance)
+    let length = stations[stations.len() - 1];
+    let stretches = [[0.0, near[0].length], [length - near[1].length, length]];
+    near.into_iter().zip(stretches).filter(|(near, _)| near.length > 0.0).all(|(near, stretch)| {
+        let inner = points.iter().zip(&stations).filter(|(_, at)| stretch[0] <= **at && **at <= stretch[1]);
+        let ends = stretch.map(|at| polyline::place(points, &stations, at.clamp(0.0, length)));
+        let is_near = |at: &Point| polyline::distance_to_segment(*at, *first, *last) <= near.share * tolerance;
+        inner.map(|(at, _)| at).chain(&ends).all(is_near)
     })
 }
 

@@ -12,12 +12,12 @@ use crate::ir::finding::Sighting;
 /// How far from where it is declared a deviation may be met, mm: places of the blade are looked at in steps, and smoothing
 /// moves the ends of a cut.
 const ASIDE: f64 = 1.0;
-/// Tolerances by which a deviation may be less than its declaration says: smoothing moves the blade and its line, each by one,
-/// and a plunge is declared with one.
+/// Tolerances by which the measured deviation may fall short of its declaration: smoothing moves the two ends of the blade and
+/// the line at each of them, by one each.
 const LESS: f64 = 4.0;
-/// The same that steps along the blade and along its line make, mm.
+/// Further shortfall allowed, mm: blade and line are looked at in steps.
 const STEPS: f64 = 0.2;
-/// What a declaration counts of which nothing is found at its place, mm, whatever it says.
+/// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.
 const NOWHERE: f64 = 1.0;
 
 /// The declarations of a program.
@@ -27,7 +27,7 @@ pub struct Declared {
     entries: Vec<Declaration>,
 }
 
-/// The stretch of a line, given by two stations of it, mm, at an end of a stroke where it matters at which.
+/// A stretch of a line between two stations, mm, and the end of the stroke there if that matters.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stretch<'a> {
     pub(super) line: &'a Line<'a>,
@@ -57,7 +57,7 @@ impl Declared {
         self.places(kind, stretch).map(|place| &self.entries[place])
     }
 
-    /// The places among all declarations of those of a kind about a stretch.
+    /// Indices of the declarations of a kind about a stretch.
     fn places(&self, kind: Kind, Stretch { line, stations: [a, b], end }: Stretch) -> impl Iterator<Item = usize> {
         let first = self.entries.partition_point(|entry| entry.cut < line.cut.index);
         let of_cut = self.entries[first..].iter().take_while(|entry| entry.cut == line.cut.index);
@@ -73,12 +73,12 @@ impl Declared {
 #[derive(Debug)]
 pub(super) struct Account<'a> {
     declared: &'a Declared,
-    /// The most that was found of each, mm, as the bits of a float that is no less than 0: strokes are judged on all cores.
-    /// `NOTHING` where none was.
+    /// Bits of one plus the most that was found of each, mm; `NOTHING` = nothing was found. Bits of positive floats have their
+    /// order, and strokes are judged on all cores.
     found: Vec<AtomicU64>,
 }
 
-/// Bits of less than any length, of those that are compared as whole numbers.
+/// Mark of a declaration of which nothing was found: less than the bits of any stored value.
 const NOTHING: u64 = 0;
 
 impl<'a> Account<'a> {

@@ -1,19 +1,22 @@
 //! Pass `overlap`: how far the blade goes past the ends of each run.
 //!
 //! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the
-//! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is
-//! the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where
-//! a part lies ahead. At a junction it goes on, whatever lies there, until it is through the other's cut, and where other
-//! cuts meet it by one tolerance at least. A run that begins on a curve has only as much of its heel overlap as keeps the
-//! plunged blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
-//! doi 10.7690/bgzdh.2013.02.026.
+//! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where
+//! it is the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less
+//! `knife.clearance_mm` where a part lies ahead, but to no less than one tolerance where the end is not bare; slits
+//! longer than the blade begin as far before their edge. At a junction it goes on, whatever lies there, until it is
+//! through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged
+//! blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating
+//! Algorithm*, 2013, doi 10.7690/bgzdh.2013.02.026.
 
 use super::pass::ToolpathPass;
 use super::runs;
 use super::scene::Scene;
+use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::overlaps;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, polyline};
+use crate::ir::marker::Notch;
 use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
 use crate::units::number::fixed;
@@ -30,7 +33,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
-        let [across, meeting] = [across(run, scene), meeting(run, around.tolerance)];
+        let [across, meeting] = [across(run, scene), meeting(run, &around)];
         run.heel = heel.length.max(across[0]).max(meeting[0]);
         run.front = front.length.max(across[1]).max(meeting[1]);
         if run.shape == Shape::Ring {
@@ -52,15 +55,19 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
     }
 }
 
-/// How far an open run must go past its start and its end to meet the cuts that meet it there, mm: these may be off their lines
-/// by the tolerance, and so much of an overlap is none for the cloth. The tip of a slit meets nothing.
-fn meeting(run: &Run, tolerance: f64) -> [f64; 2] {
-    let least = |end: End| match end.side {
-        Side::Contour => 0.0,
-        Side::Part if !end.corner => 0.0,
-        Side::Part | Side::Waste | Side::Gap => tolerance,
+/// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, and at the root of a slit
+/// that is longer than the blade. The cut that it must meet there may be off by that.
+fn meeting(run: &Run, around: &Surroundings) -> [f64; 2] {
+    let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
+    let length = polyline::length(&run.points);
+    let has_root = is_slit && (around.knife.width_mm + around.tolerance..Notch::LONGEST).contains(&length);
+    let root = usize::from(run.turned);
+    let is_meant = |k: usize| {
+        let End { side, bare, .. } = run.ends[k];
+        side == Side::Gap && !bare || has_root && k == root
     };
-    if run.shape == Shape::Open { run.ends.map(least) } else { [0.0; 2] }
+    let least = |k: usize| if is_meant(k) { around.tolerance } else { 0.0 };
+    if run.shape == Shape::Open { [0, 1].map(least) } else { [0.0; 2] }
 }
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {

@@ -10,20 +10,21 @@ mod fade;
 mod fit;
 mod path;
 mod pieces;
+mod stroke;
 mod tip;
 
+use self::stroke::Stroke;
 use crate::geom::polyline;
 use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
-use crate::ir::toolpath::{OrientationMode, Run, Step, Toolpath};
+use crate::ir::toolpath::{OrientationMode, Step, Toolpath};
 use crate::machine::Job;
-use crate::plan::meeting;
 
 /// The path of each run and plunge cut of a toolpath, in order; otherwise the runs that have none.
 pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> Result<Arcs, Vec<Unfit>> {
     let (mut paths, mut unfit) = (Vec::new(), Vec::new());
     // The axis stands askew to the blade by that.
     let yaw = job.profile.knife.yaw();
-    let mut strokes = strokes(toolpath, job).into_iter();
+    let mut strokes = stroke::of(toolpath, job).into_iter();
     for step in &toolpath.steps {
         match step {
             Step::Run(run) => {
@@ -38,22 +39,6 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
         }
     }
     if unfit.is_empty() { Ok(Arcs { paths }) } else { Err(unfit) }
-}
-
-/// A run among the others of its contour.
-struct Stroke<'a> {
-    run: &'a Run,
-    /// The run that goes on along its end: the next one, or the first one of a ring that is cut in several runs.
-    next: Option<&'a Run>,
-    /// The part of the tolerance that is used along the overlap at its end.
-    share: f64,
-}
-
-fn strokes<'a>(toolpath: &'a Toolpath, job: &Job) -> Vec<Stroke<'a>> {
-    let runs: Vec<&Run> = toolpath.runs().collect();
-    let near = meeting::near(&runs, toolpath.tolerance, job);
-    let next = |k: usize| Some(runs[(k + 1) % runs.len()]).filter(|next| meeting::overlap(runs[k], next).is_some());
-    (0..runs.len()).map(|k| Stroke { run: runs[k], next: next(k), share: near[k][1].share }).collect()
 }
 
 fn path_of(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {

@@ -1,10 +1,10 @@
 //! The path of a run: arcs of the tip inside the tolerance band, and beside each the pieces of the C axis.
 
-use super::Stroke;
 use super::band::ToleranceBand;
 use super::fade::{Beside, Fade};
 use super::fit::{Arc, Ends, Stop, fit};
 use super::pieces::{Joining, Pieces, Tip};
+use super::stroke::Stroke;
 use super::tip::{LENGTH_EPSILON, TipLine};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::arcs::{Deviation, Interpolation, Path};
@@ -136,12 +136,17 @@ fn tip_arcs(
     // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
     let mut arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok).or_else(|_| fitted(&plain))?;
     if ring {
+        // The feed may change at the seam.
+        if let Some(closing) = arcs.last_mut() {
+            closing.stops |= run.front > 0.0 && run.feeds[0] != run.feeds[lap - 1];
+        }
         arcs.extend(again(&arcs, run.front, [lap, line.chords.len() - 1]));
     }
     Ok(TipArcs { arcs, start, from: band.points[0] })
 }
 
-/// The first arcs of a ring once more, over a length, mm, beside the chords behind its `lap`, up to the last one.
+/// The overlap of a ring: its first arcs repeated over `length` mm. `lap` is its number of chords, `last` the last chord of the
+/// overlap.
 fn again(arcs: &[Arc], length: f64, [lap, last]: [usize; 2]) -> Vec<Arc> {
     let (mut left, mut found) = (length, Vec::new());
     for arc in arcs {

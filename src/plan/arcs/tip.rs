@@ -5,7 +5,7 @@ use crate::ir::toolpath::{Run, Shape};
 
 /// Shorter ways are none, mm.
 pub(super) const LENGTH_EPSILON: f64 = 1e-3;
-/// What is as near to a chord lies on it, mm: rounding.
+/// Distance within which a point lies on a chord, mm: rounding.
 const ON_EPSILON: f64 = 1e-6;
 
 /// The line of the tip from plunge to lift.
@@ -16,8 +16,8 @@ pub(super) struct TipLine {
     pub(super) chords: Vec<usize>,
     /// Where the heel plunges, when the blade stands as a chord of the run.
     pub(super) heel: Option<Point>,
-    /// The point at which it comes by the start of the next run, where that goes on along it, and the unit vector along that run
-    /// there.
+    /// Index of the point at the start of the next run, and the unit vector along that run there; `None` where the next run does
+    /// not continue this one.
     pub(super) meets: Option<(usize, Vector)>,
 }
 
@@ -47,7 +47,7 @@ impl TipLine {
         self
     }
 
-    /// The same by way of the start of a run that goes on along it: the two cuts meet there, and leave no thread.
+    /// Adds the start of the run that continues this one as a vertex, so that both cuts pass through it.
     pub(super) fn by_way_of(mut self, next: &Run) -> Self {
         let (start, along) = (next.points[0], polyline::direction(next.points[0], next.points[1]));
         let is_on = |ends: &[Point]| polyline::distance_to_segment(start, ends[0], ends[1]) <= ON_EPSILON;

@@ -73,8 +73,7 @@ impl ToleranceBand {
         Self { points, stations, turns, sagittas, shares, near: [Near::default(); 2], tolerance, lap: None }
     }
 
-    /// The same, with a share of the tolerance by the chords about which it crosses cuts of other parts; of these there may be
-    /// none.
+    /// The band with a smaller share of the tolerance on chords at junctions, if it has any.
     pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool], share: f64) -> Self {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
             (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share);
@@ -82,13 +81,13 @@ impl ToleranceBand {
         self
     }
 
-    /// The same, nearer to the polyline at its start and at its end.
+    /// The band narrowed at its start and its end.
     pub(in crate::plan) fn with_ends(mut self, near: [Near; 2]) -> Self {
         self.near = near;
         self
     }
 
-    /// The same of a ring.
+    /// The band of a ring.
     pub(in crate::plan) fn with_lap(mut self, lap: Option<Lap>) -> Self {
         self.lap = lap;
         self

@@ -1,4 +1,4 @@
-//! What is found of what a program declares: each deviation is measured where the program says that it is.
+//! Deviations that a program declares, each measured at the place where it is declared.
 
 use super::body::Cut;
 use super::chord::{self, BODY_SHARES};
@@ -57,14 +57,15 @@ impl Judge<'_> {
         let places = [0, cut.points.len() - 1];
         for (i, which) in [Which::Start, Which::End].into_iter().enumerate() {
             let station = trial.reach[i];
-            // Nobody sees which end of a blade that does not move comes first.
+            // The ends of a blade that does not move cannot be told apart.
             let end = if cut.is_plunge_cut() { None } else { Some(which) };
             let here = Stretch { line, stations: [station; 2], end };
             let is_lap = trial.laps && which == Which::End;
             let beyond = if is_lap { lapped(cut, line.length()) } else { trial.beyond(cut, places[i]) };
             account.see(Kind::Overcut, here, beyond);
             account.see(Kind::Shortened, here, asked[i].into_iter().fold(0.0, f64::max) - beyond);
-            if line.ring || station.min(line.length() - station) > 2.0 * self.tracer.allowed {
+            let is_amid = || station.min(line.length() - station) > 2.0 * self.tracer.allowed;
+            if if line.ring { !trial.laps } else { is_amid() } {
                 account.see(Kind::Lift, here, 0.0);
             }
         }
@@ -116,7 +117,7 @@ impl Judge<'_> {
         (0..points.len() - 1).map(of_chord).fold(0.0, f64::max)
     }
 
-    /// What a stroke cuts of its line, as that is drawn, from where it is plunged on, led on as far as it goes beyond that.
+    /// The stretch of the drawn line that a stroke cuts, in its direction, with straight extensions by its overlaps.
     fn drawn(&self, cut: &Cut, trial: &Trial) -> Vec<Point> {
         let line = &self.reference.lines[trial.line];
         let [from, to] = trial.reach;

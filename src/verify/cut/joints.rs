@@ -26,7 +26,7 @@ struct Way {
 }
 
 impl<'a> Joints<'a> {
-    /// Of these nothing is known yet.
+    /// Joints with no way seen yet.
     pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
         let extents = joints.iter().map(|joint| joint.about);
         Self {

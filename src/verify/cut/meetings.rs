@@ -1,4 +1,4 @@
-//! Meetings of strokes: where the drawing has two cuts meet, what the strokes cut must meet, or a thread of cloth is left.
+//! Meetings of strokes: places where the drawing has two cuts meet. The strokes must meet there, or a thread of cloth is left.
 //!
 //! Two cuts may each be off their line by the tolerance, and to opposite sides; a part that hangs on the thread between them
 //! is torn when it is lifted off. Strokes meet at the corners of a contour, where a ring closes and where the knife is lifted
@@ -19,8 +19,9 @@ use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 use crate::verify::worst::Worst;
 
-/// Tolerances from a corner within which the cuts of its two lines cross: `2 / sin(20 degrees)`, the least angle of a corner.
-const CROSSING: f64 = 6.0;
+/// Length of an end, in tolerances beside the overlaps: at points of ten degrees and more two cuts cross within it
+/// (2 / sin 10 degrees).
+const CROSSING: f64 = 12.0;
 /// Greatest share of a stroke that is an end of it where it meets its own other end.
 const END_SHARE: f64 = 0.3;
 
@@ -83,7 +84,7 @@ impl<'a> Meetings<'a> {
         let over = trial.stretches.iter().copied().reduce(|[a, b], [low, high]| [a.min(low), b.max(high)]);
         let Some(over @ [low, high]) = over else { return };
         let corners = [self.begins(trial.line), self.next(trial.line)];
-        let meets_itself = trial.laps || corners[0].is_some() && corners[0] == corners[1];
+        let meets_itself = line.ring || corners[0].is_some() && corners[0] == corners[1];
         let [first, last] = self.ends(cut, meets_itself);
         if trial.laps {
             return self.worst.see(closing(&[first, last]), || sighting(line, low));
@@ -122,14 +123,14 @@ impl<'a> Meetings<'a> {
         [end(heel, &tips[..=until]), end(heel.filter(|_| is_short), &tips[from..])]
     }
 
-    /// The corner at which a line begins, which is known by that line; `None` where an open cut begins, or a ring.
+    /// The corner at which a line begins, given by the index of that line; `None` at the start of an open cut, and for a ring.
     fn begins(&self, index: usize) -> Option<usize> {
         let (line, lines) = (&self.reference.lines[index], &self.reference.lines);
         let follows = index > 0 && lines[index - 1].cut.index == line.cut.index;
         (!line.ring && (follows || line.cut.round.is_some())).then_some(index)
     }
 
-    /// The corner at which a line ends, likewise.
+    /// The corner at which a line ends, given by the line that begins there; `None` at the end of an open cut, and for a ring.
     fn next(&self, index: usize) -> Option<usize> {
         let (line, lines) = (&self.reference.lines[index], &self.reference.lines);
         if line.ring {
@@ -198,18 +199,37 @@ fn widest(line: &Line, parts: &[Part], reach: f64) -> (f64, Sighting) {
         gaps.extend((i + 1..).zip(near).map(|(j, (_, others))| (gap(j, others), i, j)));
     }
     gaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-    let mut groups: Vec<usize> = (0..parts.len()).collect();
+    let mut groups = Groups((0..parts.len()).collect());
     let last = (0..parts.len()).max_by(|&a, &b| parts[a].0[1].total_cmp(&parts[b].0[1])).unwrap_or(0);
     let last = if line.ring { parts.len() - 1 } else { last };
     for (gap, i, j) in gaps {
-        let (one, other) = (groups[i], groups[j]);
-        groups.iter_mut().filter(|group| **group == other).for_each(|group| *group = one);
-        if groups[0] == groups[last] {
+        groups.join(i, j);
+        if groups.of(0) == groups.of(last) {
             return (gap, sighting(line, parts[j].0[0]));
         }
     }
     // What lies between strokes that far apart is uncut, of which another rule tells.
     (0.0, sighting(line, 0.0))
+}
+
+/// Disjoint sets of strokes: to each its parent, to the first of a set itself.
+struct Groups(Vec<usize>);
+
+impl Groups {
+    /// The first stroke of the set of one; the way there is halved (Tarjan & van Leeuwen, *Worst-case analysis of set union
+    /// algorithms*, 1984).
+    fn of(&mut self, mut stroke: usize) -> usize {
+        while self.0[stroke] != stroke {
+            self.0[stroke] = self.0[self.0[stroke]];
+            stroke = self.0[stroke];
+        }
+        stroke
+    }
+
+    fn join(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.of(one), self.of(other));
+        self.0[one.max(other)] = one.min(other);
+    }
 }
 
 /// Stations of a stretch, on a ring those on its first lap.

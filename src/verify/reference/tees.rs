@@ -7,10 +7,11 @@ use super::line::Line;
 use super::lines::Reference;
 use crate::geom::{Extent, Point, Vector, cross};
 
-/// Least sine of the angle of two lines whose crossing is looked for no farther than where they would cross at that angle.
+/// Least sine of the angle between two lines for which their crossing is looked for in full; below it the search ends where
+/// lines at that angle would cross.
 const LEAST_SINE: f64 = 0.1;
 
-/// How far from its end a cut is looked at for whether it comes out of a part, in tolerances.
+/// Distance from its end at which a cut is tested for lying in a part, in tolerances.
 const LOOK: f64 = 2.0;
 
 /// The tees of the open cuts that come out of parts; lines meet that are drawn within `limit` mm. A slit in the waste frees
