@@ -4,7 +4,7 @@
 //! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where
 //! it is the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less
 //! `knife.clearance_mm` where a part lies ahead, but to no less than one tolerance where the end is not bare; slits
-//! longer than the blade begin as far before their edge. At a junction it goes on, whatever lies there, until it is
+//! begin as far before their edge. At a junction it goes on, whatever lies there, until it is
 //! through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged
 //! blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating
 //! Algorithm*, 2013, doi 10.7690/bgzdh.2013.02.026.
@@ -55,16 +55,17 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
     }
 }
 
-/// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, and at the root of a slit
-/// that is longer than the blade. The cut that it must meet there may be off by that.
+/// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, its own part at a reflex
+/// corner, too, and at the root of a slit.
+/// The cut that it must meet there may be off by that.
 fn meeting(run: &Run, around: &Surroundings) -> [f64; 2] {
     let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
-    let length = polyline::length(&run.points);
-    let has_root = is_slit && (around.knife.width_mm + around.tolerance..Notch::LONGEST).contains(&length);
+    let has_root = is_slit && polyline::length(&run.points) <= Notch::LONGEST;
     let root = usize::from(run.turned);
     let is_meant = |k: usize| {
-        let End { side, bare, .. } = run.ends[k];
-        side == Side::Gap && !bare || has_root && k == root
+        let End { side, bare, corner } = run.ends[k];
+        let is_narrow = side == Side::Gap || side == Side::Part && corner;
+        is_narrow && !bare || has_root && k == root
     };
     let least = |k: usize| if is_meant(k) { around.tolerance } else { 0.0 };
     if run.shape == Shape::Open { [0, 1].map(least) } else { [0.0; 2] }
