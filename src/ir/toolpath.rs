@@ -60,6 +60,14 @@ impl Toolpath {
         };
         self.steps.iter().rev().find_map(end).unwrap_or(self.entry)
     }
+
+    /// Its runs, in order.
+    pub fn runs(&self) -> impl Iterator<Item = &Run> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Run(run) => Some(run),
+            Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+        })
+    }
 }
 
 /// One thing that the machine does.

@@ -2,11 +2,13 @@
 //!
 //! Receives the toolpath of one contour, promises a motion whose every setpoint keeps the limits of the axes, with the
 //! tip inside the tolerance band of the path. Runs are solved first, in any order ([`solve`]), each alone but for those that
-//! are lifted amid a line (`rejoin`); then a [`Planner`] joins them in order by turns and rapids between the states that they really have. For controllers that plan
-//! for themselves [`arcs`] makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
+//! are lifted amid a line (`rejoin`), and so that their cuts cross where they meet (`meeting`); then a [`Planner`] joins them
+//! in order by turns and rapids between the states that they really have. For controllers that plan for themselves [`arcs`]
+//! makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
 
 pub mod arcs;
 mod certify;
+mod meeting;
 mod orientation;
 mod planner;
 mod rapid;
@@ -21,14 +23,10 @@ pub use planner::{Planner, home};
 pub use run::Cut;
 
 use crate::diagnostic::Diagnostic;
-use crate::ir::toolpath::{Run, Step, Toolpath};
+use crate::ir::toolpath::{Run, Toolpath};
 use crate::machine::Job;
 
 /// The runs of a toolpath as they will be cut, in order; a diagnostic for each that cannot be.
 pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
-    let runs = toolpath.steps.iter().filter_map(|step| match step {
-        Step::Run(run) => Some(run),
-        Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
-    });
-    rejoin::solve(&runs.collect::<Vec<&Run>>(), toolpath.tolerance, job)
+    rejoin::solve(&toolpath.runs().collect::<Vec<&Run>>(), toolpath.tolerance, job)
 }

@@ -3,16 +3,15 @@
 //! The end of one run and the start of the next lie over the same stretch of the contour. Smoothed by themselves, each inside
 //! the band, they would run beside each other there, and a thread of cloth would stay between the two cuts.
 
+use super::meeting::{self, Overlap, SAME_EPSILON, overlap};
 use super::run::{self, Curved, Cut, Order};
-use super::spline::{Extended, Smooth, ToleranceBand, smooth};
+use super::spline::{Extended, Near, Smooth, ToleranceBand, smooth};
 use crate::diagnostic::Diagnostic;
 use crate::geom::{Point, polyline};
 use crate::ir::list::Joint;
-use crate::ir::toolpath::{End, Run, Shape, Side};
+use crate::ir::toolpath::{Run, Shape};
 use crate::machine::Job;
 
-/// Places that are nearer to each other are one, mm: rounding.
-const SAME_EPSILON: f64 = 1e-6;
 /// Shares of the tolerance that are tried where blades plunge, when all of it would let the curve turn from one.
 const NARROWER: [f64; 3] = [0.4, 0.15, 0.05];
 /// Part of the greatest heading that a curve may turn from a plunged blade more than its line does.
@@ -22,16 +21,18 @@ const LEAD_SHARE: f64 = 0.9;
 pub(super) fn solve(runs: &[&Run], tolerance: f64, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
     let mut cuts: Vec<Option<Cut>> = runs.iter().map(|_| None).collect();
     let mut refused = Vec::new();
+    let near = meeting::near(runs, tolerance, job);
     for group in groups(runs) {
         let of_group: Vec<&Run> = group.iter().map(|&k| runs[k]).collect();
         let is_line = group.len() > 1 || overlap(of_group[0], of_group[0]).is_some();
-        let of_line = if is_line { Line::of(&of_group, tolerance, job).cuts(tolerance, job) } else { None };
+        let ends = [near[group[0]][0], near[group[group.len() - 1]][1]];
+        let of_line = if is_line { Line::of(&of_group, ends, tolerance, job).cuts(tolerance, job) } else { None };
         if let Some(of_line) = of_line {
             group.into_iter().zip(of_line).for_each(|(k, cut)| cuts[k] = Some(cut));
             continue;
         }
         for k in group {
-            match run::solve(runs[k], tolerance, job) {
+            match run::solve(runs[k], near[k], tolerance, job) {
                 Ok(cut) => cuts[k] = Some(cut),
                 Err(diagnostic) => refused.push(diagnostic),
             }
@@ -59,55 +60,13 @@ fn groups(runs: &[&Run]) -> Vec<Vec<usize>> {
     starts.map(group).collect()
 }
 
-/// The stretch over which two runs lie.
-#[derive(Debug, Clone, Copy)]
-struct Overlap {
-    /// The chord of the first run on which the second one begins.
-    chord: usize,
-    /// mm.
-    length: f64,
-}
-
-/// The stretch over which a run ends and another one begins; `None` where it does not go on along it.
-fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
-    let is_lifted = |end: End| end.bare && end.side == Side::Contour;
-    let are_alike = before.shape == Shape::Open
-        && behind.shape == Shape::Open
-        && [before.turned, behind.turned] == [false; 2]
-        && [before.front, behind.heel] == [0.0; 2]
-        && before.orientation == behind.orientation;
-    if !are_alike || !is_lifted(before.ends[1]) || !is_lifted(behind.ends[0]) {
-        return None;
-    }
-    let (points, first) = (&before.points, behind.points[0]);
-    let mut length = 0.0;
-    for chord in (0..points.len() - 1).rev() {
-        let [from, to] = [points[chord], points[chord + 1]];
-        if polyline::distance_to_segment(first, from, to) <= SAME_EPSILON {
-            length += (to - first).norm();
-            let is_along = length > SAME_EPSILON && goes_along(&points[chord + 1..], &behind.points);
-            return is_along.then_some(Overlap { chord, length });
-        }
-        length += (to - from).norm();
-    }
-    None
-}
-
-/// Whether the places at the end of a run are those behind the first one of another, up to the last, which lies amid a chord,
-/// and that one goes on.
-fn goes_along(end: &[Point], start: &[Point]) -> bool {
-    let (last, inner) = end.split_last().expect("a chord has an end");
-    start.len() > end.len()
-        && (start[start.len() - 1] - last).norm() > SAME_EPSILON
-        && inner.iter().zip(&start[1..]).all(|(a, b)| (a - b).norm() <= SAME_EPSILON)
-        && polyline::distance_to_segment(*last, start[end.len() - 1], start[end.len()]) <= SAME_EPSILON
-}
-
 /// The line of several runs.
 struct Line<'a> {
     points: Vec<Point>,
     junctions: Vec<bool>,
     parts: Vec<Part<'a>>,
+    /// How near to it the tip keeps at its ends.
+    near: [Near; 2],
     /// The lap that the runs go round, when the last one ends over the first: a ring.
     ring: Option<Run>,
 }
@@ -121,9 +80,9 @@ struct Part<'a> {
 }
 
 impl<'a> Line<'a> {
-    fn of(runs: &[&'a Run], tolerance: f64, job: &Job) -> Self {
+    fn of(runs: &[&'a Run], near: [Near; 2], tolerance: f64, job: &Job) -> Self {
         let width = job.profile.knife.width_mm;
-        let mut line = Self { points: Vec::new(), junctions: Vec::new(), parts: Vec::new(), ring: None };
+        let mut line = Self { points: Vec::new(), junctions: Vec::new(), parts: Vec::new(), near, ring: None };
         let has_junctions = runs.iter().any(|run| !run.junctions.is_empty());
         let mut end = 0.0;
         for (k, &run) in runs.iter().enumerate() {
@@ -176,7 +135,9 @@ impl<'a> Line<'a> {
     fn cuts(&self, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let ends = [self.points[0], self.points[self.points.len() - 1]];
         let length = polyline::length(&self.points);
-        if self.ring.is_none() && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+        if self.ring.is_none()
+            && polyline::is_straight(&self.points, run::straight_share(&self.junctions) * tolerance)
+            && run::passes_ends(&self.points, self.near, tolerance)
         {
             let at = |station: f64| ends[0] + (ends[1] - ends[0]) * (station / length);
             let smooth = Smooth { curve: run::straight_curve(length, ends), sagitta: 0.0 };
@@ -226,18 +187,22 @@ impl<'a> Line<'a> {
             Some((extended, ring)) => (&extended.points, extended.start, extended.lap(ring)),
             None => (&self.points, 0.0, None),
         };
-        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let near = if lap.is_some() { [Near::default(); 2] } else { self.near };
+        let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let band = || plain().with_ends(near);
         let junctions = match &extended {
             Some((extended, _)) => extended.junctions.clone(),
             None if share < 1.0 => narrow(points),
             None => self.junctions.clone(),
         };
-        let smooth = if share < 1.0 {
-            smooth(&band().with_junctions(&junctions, share))
-        } else {
-            run::smoothed(&band, &junctions)
+        let along = |band: &dyn Fn() -> ToleranceBand| {
+            if share < 1.0 {
+                smooth(&band().with_junctions(&junctions, share))
+            } else {
+                run::smoothed(band, &junctions)
+            }
         };
-        Some((first, smooth.ok()?))
+        Some((first, along(&band).or_else(|_| along(&plain)).ok()?))
     }
 
     /// The cuts of its runs along a curve on which the line begins at a parameter; `None` of each whose blade would plunge too

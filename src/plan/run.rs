@@ -13,7 +13,7 @@ use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
 use crate::plan::spline::{self, Curve, LEAD, Smooth, has_room, smooth};
 use crate::plan::spline::{Blocks, Extended};
-use crate::plan::spline::{JUNCTION_SHARES, ToleranceBand};
+use crate::plan::spline::{JUNCTION_SHARES, Near, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
 use crate::plan::timing::{Bounds, profile};
@@ -116,13 +116,15 @@ pub(super) struct Order<'a> {
     bounds: Bounds,
 }
 
-/// Solves one run.
-pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
+/// Solves one run; `near` limits the deviation of its tip at its start and at its end.
+pub(super) fn solve(run: &Run, near: [Near; 2], tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let extended = extended(run, tolerance, job.profile.knife.width_mm);
     let Extended { points, junctions, .. } = &extended;
     let order = Order::new(run, &extended, job);
     let ends = [points[0], points[points.len() - 1]];
-    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, straight_share(junctions) * tolerance);
+    let is_straight = run.shape == Shape::Open
+        && polyline::is_straight(points, straight_share(junctions) * tolerance)
+        && passes_ends(points, near, tolerance);
     if is_straight && order.has_one_feed() {
         return order.straight(ends);
     }
@@ -130,13 +132,17 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Smooth { curve: straight_curve(extended.end, ends), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(extended.lap(run));
-        smoothed(&band, junctions).map_err(|tight| order.too_tight(tolerance, tight))?
+        let nearer = || band().with_ends(near);
+        let found = if near == [Near::default(); 2] { None } else { smoothed(&nearer, junctions).ok() };
+        found.map_or_else(|| smoothed(&band, junctions), Ok).map_err(|tight| order.too_tight(tolerance, tight))?
     };
     let mut curved = order.curved(&extended, &found)?;
     let most = order.most_beside(tolerance);
     for share in NARROWER {
         if curved.beside > most {
-            let found = smooth(&ToleranceBand::plain(points.clone(), share * tolerance));
+            let band = || ToleranceBand::plain(points.clone(), share * tolerance);
+            let nearer = near.map(|near| Near { share: (near.share / share).min(1.0), ..near });
+            let found = smooth(&band().with_ends(nearer)).or_else(|_| smooth(&band()));
             let found = found.map_err(|tight| order.too_tight(share * tolerance, tight))?;
             curved = order.curved(&extended, &found)?;
         }
@@ -147,6 +153,24 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
 /// Part of the tolerance within which a polyline counts as straight that crosses other cuts about some of its chords.
 pub(super) fn straight_share(junctions: &[bool]) -> f64 {
     if junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] }
+}
+
+/// Whether the straight line between the ends of a run with its overlaps stays within the share of the tolerance that holds
+/// near each end.
+pub(super) fn passes_ends(points: &[Point], near: [Near; 2], tolerance: f64) -> bool {
+    if near == [Near::default(); 2] {
+        return true;
+    }
+    let stations = polyline::stations(points);
+    let [first, .., last] = points else { return true };
+    let length = stations[stations.len() - 1];
+    let stretches = [[0.0, near[0].length], [length - near[1].length, length]];
+    near.into_iter().zip(stretches).filter(|(near, _)| near.length > 0.0).all(|(near, stretch)| {
+        let inner = points.iter().zip(&stations).filter(|(_, at)| stretch[0] <= **at && **at <= stretch[1]);
+        let ends = stretch.map(|at| polyline::place(points, &stations, at.clamp(0.0, length)));
+        let is_near = |at: &Point| polyline::distance_to_segment(*at, *first, *last) <= near.share * tolerance;
+        inner.map(|(at, _)| at).chain(&ends).all(is_near)
+    })
 }
 
 /// The curve of a straight run, over its length.

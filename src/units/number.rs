@@ -37,13 +37,15 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
     let whole = scaled.abs() as u64;
     let rounded = whole + u64::from(scaled.abs() - whole as f64 >= 0.5);
     let mut digits = [0_u8; DIGITS];
-    let mut at = put(&mut digits, DIGITS, (rounded, decimals + 1));
+    let mut at = DIGITS;
+    let mut before = rounded;
     if decimals > 0 {
-        let point = DIGITS - decimals - 1;
-        digits.copy_within(at..=point, at - 1);
-        digits[point] = b'.';
-        at -= 1;
+        let unit = POWERS[decimals] as u64;
+        before = rounded / unit;
+        at = put(&mut digits, at, (rounded % unit, decimals)) - 1;
+        digits[at] = b'.';
     }
+    at = put(&mut digits, at, (before, 1));
     if scaled < 0.0 && rounded > 0 {
         at -= 1;
         digits[at] = b'-';

@@ -1,17 +1,38 @@
-//! What a program says that it does beside its lines, cut by cut.
+//! Declarations of a program: what it says that it does beside its lines, cut by cut, and whether it does.
+
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::reference::line::Line;
-use crate::ir::declaration::{Declaration, Kind};
+use super::reference::lines::Reference;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::ir::declaration::{Declaration, Kind, Which};
+use crate::ir::finding::Sighting;
 
 /// How far from where it is declared a deviation may be met, mm: places of the blade are looked at in steps, and smoothing
 /// moves the ends of a cut.
 const ASIDE: f64 = 1.0;
+/// Tolerances by which the measured deviation may fall short of its declaration: smoothing moves the two ends of the blade and
+/// the line at each of them, by one each.
+const LESS: f64 = 4.0;
+/// Further shortfall allowed, mm: blade and line are looked at in steps.
+const STEPS: f64 = 0.2;
+/// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.
+const NOWHERE: f64 = 1.0;
 
 /// The declarations of a program.
 #[derive(Debug, Clone, Default)]
 pub struct Declared {
     /// In the order of their cuts.
     entries: Vec<Declaration>,
+}
+
+/// A stretch of a line between two stations, mm, and the end of the stroke there if that matters.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch<'a> {
+    pub(super) line: &'a Line<'a>,
+    pub(super) stations: [f64; 2],
+    pub(super) end: Option<Which>,
 }
 
 impl Declared {
@@ -21,21 +42,109 @@ impl Declared {
         Self { entries }
     }
 
-    /// The greatest magnitude that is declared of a kind about a stretch of a line, given by two stations of it, mm; none
-    /// where nothing is.
-    pub(super) fn most(&self, kind: Kind, line: &Line, stations: [f64; 2]) -> f64 {
-        self.find(kind, line, stations).map(|entry| entry.magnitude_mm).fold(0.0, f64::max)
+    /// The greatest magnitude that is declared of a kind about a stretch, mm; none where nothing is.
+    pub(super) fn most(&self, kind: Kind, stretch: Stretch) -> f64 {
+        self.find(kind, stretch).map(|entry| entry.magnitude_mm).fold(0.0, f64::max)
     }
 
     /// Whether a kind is declared there.
-    pub(super) fn has(&self, kind: Kind, line: &Line, stations: [f64; 2]) -> bool {
-        self.find(kind, line, stations).next().is_some()
+    pub(super) fn has(&self, kind: Kind, stretch: Stretch) -> bool {
+        self.find(kind, stretch).next().is_some()
     }
 
-    fn find(&self, kind: Kind, line: &Line, [a, b]: [f64; 2]) -> impl Iterator<Item = &Declaration> {
+    /// What is declared of a kind there.
+    pub(super) fn find(&self, kind: Kind, stretch: Stretch) -> impl Iterator<Item = &Declaration> {
+        self.places(kind, stretch).map(|place| &self.entries[place])
+    }
+
+    /// Indices of the declarations of a kind about a stretch.
+    fn places(&self, kind: Kind, Stretch { line, stations: [a, b], end }: Stretch) -> impl Iterator<Item = usize> {
         let first = self.entries.partition_point(|entry| entry.cut < line.cut.index);
         let of_cut = self.entries[first..].iter().take_while(|entry| entry.cut == line.cut.index);
         let (low, high) = (a.min(b) - ASIDE + line.cut.offset, a.max(b) + ASIDE + line.cut.offset);
-        of_cut.filter(move |entry| entry.kind == kind && line.cut.meets([low, high], [entry.from_mm, entry.to_mm]))
+        let is_at_end = move |entry: &Declaration| end.is_none() || entry.end.is_none() || entry.end == end;
+        let is_there = move |entry: &Declaration| line.cut.meets([low, high], [entry.from_mm, entry.to_mm]);
+        let those = (first..).zip(of_cut);
+        those.filter(move |(_, entry)| entry.kind == kind && is_at_end(entry) && is_there(entry)).map(|(i, _)| i)
     }
+}
+
+/// The declarations of a program with what was found of each: what is declared must happen.
+#[derive(Debug)]
+pub(super) struct Account<'a> {
+    declared: &'a Declared,
+    /// Bits of one plus the most that was found of each, mm; `NOTHING` = nothing was found. Bits of positive floats have their
+    /// order, and strokes are judged on all cores.
+    found: Vec<AtomicU64>,
+}
+
+/// Mark of a declaration of which nothing was found: less than the bits of any stored value.
+const NOTHING: u64 = 0;
+
+impl<'a> Account<'a> {
+    /// Nothing is found yet.
+    pub(super) fn new(declared: &'a Declared) -> Self {
+        Self { declared, found: declared.entries.iter().map(|_| AtomicU64::new(NOTHING)).collect() }
+    }
+
+    /// Whether nothing is declared of the cut of a line.
+    pub(super) fn is_silent(&self, line: &Line) -> bool {
+        self.declared.entries.binary_search_by_key(&line.cut.index, |entry| entry.cut).is_err()
+    }
+
+    /// Whether more is declared of a kind about a stretch than was found so far.
+    pub(super) fn lacks(&self, kind: Kind, stretch: Stretch) -> bool {
+        let found = |place: usize| match self.found[place].load(Ordering::Relaxed) {
+            NOTHING => -1.0,
+            found => f64::from_bits(found) - 1.0,
+        };
+        self.declared.places(kind, stretch).any(|place| self.declared.entries[place].magnitude_mm > found(place))
+    }
+
+    /// Sees a deviation of a kind about a stretch, mm.
+    pub(super) fn see(&self, kind: Kind, stretch: Stretch, found: f64) {
+        self.see_where(kind, stretch, |_| true, found);
+    }
+
+    /// Sees the same of some declarations alone.
+    pub(super) fn see_where(&self, kind: Kind, stretch: Stretch, is_meant: impl Fn(&Declaration) -> bool, found: f64) {
+        for place in self.declared.places(kind, stretch).filter(|&place| is_meant(&self.declared.entries[place])) {
+            // One more than it is: the bits of floats above 0 are in their order.
+            self.found[place].fetch_max((found.max(0.0) + 1.0).to_bits(), Ordering::Relaxed);
+        }
+    }
+
+    /// Sees by how much each declaration says more than was found, with the tolerance of the lines.
+    pub(super) fn settle(&self, reference: &Reference, undeclared: &mut Worst) {
+        for (entry, found) in self.declared.entries.iter().zip(&self.found) {
+            let excess = match found.load(Ordering::Relaxed) {
+                NOTHING => entry.magnitude_mm.max(NOWHERE),
+                found => {
+                    // Less than the band is no depth.
+                    let band = if entry.kind == Kind::Surplus { reference.band } else { 0.0 };
+                    let found = f64::from_bits(found) - 1.0;
+                    entry.magnitude_mm - found - LESS * reference.tolerance - STEPS - band
+                }
+            };
+            if excess > 0.0 {
+                undeclared.see(excess, || place(entry, reference));
+            }
+        }
+    }
+}
+
+/// Where a declaration is, as far as the drawing has its cut.
+fn place(entry: &Declaration, reference: &Reference) -> Sighting {
+    let of_cut = reference.lines.iter().filter(|line| line.cut.index == entry.cut);
+    let Some(line) = of_cut.min_by(|a, b| away(a, entry).total_cmp(&away(b, entry))) else {
+        return Sighting { time: None, line: None, point: Point::origin(), block: 0 };
+    };
+    let station = (entry.from_mm - line.cut.offset).clamp(0.0, line.length());
+    Sighting { time: None, line: None, point: line.place(station), block: line.block(line.chord_at(station)) }
+}
+
+/// How far from a line of its cut a declaration begins, mm.
+fn away(line: &Line, entry: &Declaration) -> f64 {
+    let station = entry.from_mm - line.cut.offset;
+    (-station).max(station - line.length()).max(0.0)
 }

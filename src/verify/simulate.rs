@@ -8,7 +8,7 @@ use super::axes::rest::Rest;
 use super::axes::table::Table;
 use super::cut::coverage::{self, Coverage};
 use super::cut::done::Done;
-use super::cut::joints::Joints;
+use super::cut::meetings::Meetings;
 use super::cut::naming::Naming;
 use super::cut::stroke::{Judge, Traced};
 use super::cut::strokes::Strokes;
@@ -139,8 +139,9 @@ pub(super) fn simulate(
         last: None,
     };
     let order = Order::new(&reference.lines);
-    let joints = Joints::new(&judge.common.joints);
-    let mut done = Done { coverage: Coverage::new(reference), joints, order, worsts: judge.worsts() };
+    let limit = coverage::limit(profile);
+    let meetings = Meetings::new(reference, &judge.common.joints, profile.knife.overlaps(), limit);
+    let mut done = Done { coverage: Coverage::new(reference), meetings, order, worsts: judge.worsts() };
     // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
     let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());
     // Who makes room for rows gives it back: only then it is at hand for the next ones.
@@ -155,11 +156,14 @@ pub(super) fn simulate(
         given_back = strokes;
     }
     drop(given_back);
+    if let Some(account) = &judge.account {
+        account.settle(reference, &mut done.worsts.declared);
+    }
     let mut findings = watch.findings(&mut done);
     findings.extend(done.worsts.findings());
     let uncut = done.coverage.uncut();
     findings.push(done.coverage.finding(judge.common, profile));
-    findings.push(done.joints.finding(coverage::limit(profile)));
+    findings.push(done.meetings.finding());
     findings.push(judge.common.finding());
     findings.extend(done.order.findings(judge.held, profile.time.period()));
     (findings, uncut)

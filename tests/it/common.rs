@@ -300,7 +300,7 @@ fn a_slit_on_a_common_edge_reaches_the_cut_that_stands_for_it() {
     let root = marker.list.points(marker.cuts[slit].range)[0];
     // The first piece ends at 89.8 mm.
     assert!((89.5..89.8).contains(&root.y), "{root}");
-    for (back, is_open) in [(0.0, true), (0.15, false)] {
+    for (back, is_open) in [(0.0, true), (0.25, false)] {
         let mut other = marker.clone();
         redraw(&mut other, slit, |segments| segments[0].from.y += back);
         let program = setpoints(&other, &job);

@@ -1,19 +1,23 @@
 //! Pass `overlap`: how far the blade goes past the ends of each run.
 //!
 //! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the
-//! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is
-//! the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where
-//! a part lies ahead. At a junction it goes on, whatever lies there, until it is through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near
-//! its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
-//! doi 10.7690/bgzdh.2013.02.026.
+//! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where
+//! it is the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less
+//! `knife.clearance_mm` where a part lies ahead, but to no less than one tolerance where the end is not bare; slits
+//! begin as far before their edge. At a junction it goes on, whatever lies there, until it is
+//! through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged
+//! blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating
+//! Algorithm*, 2013, doi 10.7690/bgzdh.2013.02.026.
 
 use super::pass::ToolpathPass;
 use super::runs;
 use super::scene::Scene;
+use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::overlaps;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, polyline};
-use crate::ir::toolpath::{Run, Shape, Toolpath};
+use crate::ir::marker::Notch;
+use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
 use crate::units::number::fixed;
 
@@ -28,9 +32,10 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
-        let [least_heel, least_front] = across(run, scene);
-        (run.heel, run.front) = (heel.length.max(least_heel), front.length.max(least_front));
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
+        let [across, meeting] = [across(run, scene), meeting(run, &around)];
+        run.heel = heel.length.max(across[0]).max(meeting[0]);
+        run.front = front.length.max(across[1]).max(meeting[1]);
         if run.shape == Shape::Ring {
             warn_if_tight(run, around.knife, diagnostics);
         }
@@ -48,6 +53,22 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
         Shape::Open => [beyond(0, 1), beyond(n - 1, n - 2)].map(Option::unwrap_or_default),
         Shape::Ring => [0.0; 2],
     }
+}
+
+/// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, its own part at a reflex
+/// corner, too, and at the root of a slit.
+/// The cut that it must meet there may be off by that.
+fn meeting(run: &Run, around: &Surroundings) -> [f64; 2] {
+    let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
+    let has_root = is_slit && polyline::length(&run.points) <= Notch::LONGEST;
+    let root = usize::from(run.turned);
+    let is_meant = |k: usize| {
+        let End { side, bare, corner } = run.ends[k];
+        let is_narrow = side == Side::Gap || side == Side::Part && corner;
+        is_narrow && !bare || has_root && k == root
+    };
+    let least = |k: usize| if is_meant(k) { around.tolerance } else { 0.0 };
+    if run.shape == Shape::Open { [0, 1].map(least) } else { [0.0; 2] }
 }
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {

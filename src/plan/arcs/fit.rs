@@ -133,6 +133,15 @@ enum Kind {
     Spare,
 }
 
+/// A vertex at which an arc must end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stop {
+    /// Its place among the points of the band.
+    pub(super) vertex: usize,
+    /// Unit vector along the way there; `None` = between the two chords.
+    pub(super) along: Option<Vector>,
+}
+
 /// What is asked of a way beside its band.
 #[derive(Debug, Clone)]
 pub(super) struct Ends {
@@ -140,7 +149,7 @@ pub(super) struct Ends {
     pub(super) start: Vector,
     pub(super) end: Vector,
     /// Vertices at which an arc must end, in order.
-    pub(super) stops: Vec<usize>,
+    pub(super) stops: Vec<Stop>,
     /// Greatest curvature where a gentler way stays in the band, per mm: infinite where arcs are told as they are.
     pub(super) curvature: f64,
     /// Whether every vertex has shoulders, for where no other place can be reached.
@@ -244,8 +253,9 @@ fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
         let along = if length < reach { band.around(middle.station, reach) } else { along };
         nodes.push(Node { at: middle.at + band.middle(chord), along, ..middle });
         nodes.extend(shoulder(chord, chord + 1).map(|(way, kind)| Node { kind, ..place(length - way) }));
-        if ends.stops.binary_search(&(chord + 1)).is_ok() {
-            let along = (along + band.direction(chord + 1)).normalize();
+        if let Ok(stop) = ends.stops.binary_search_by_key(&(chord + 1), |stop| stop.vertex) {
+            let between = || (band.direction(chord) + band.direction(chord + 1)).normalize();
+            let along = ends.stops[stop].along.unwrap_or_else(between);
             let end = (band.points[chord + 1], along);
             nodes.push(Node { stops: true, ..node(chord, end, band.stations[chord + 1]) });
         }
@@ -430,11 +440,10 @@ mod tests {
             &MachineProfile::default(),
         );
         let along = band.direction(0);
-        let arcs = fit(
-            &band,
-            &Ends { start: along, end: along, stops: vec![1, 3], curvature: f64::INFINITY, spares: false, reach: 0.0 },
-        )
-        .expect("it fits");
+        let stops = [1, 3].map(|vertex| Stop { vertex, along: None }).to_vec();
+        let arcs =
+            fit(&band, &Ends { start: along, end: along, stops, curvature: f64::INFINITY, spares: false, reach: 0.0 })
+                .expect("it fits");
         let ends: Vec<(usize, bool)> = arcs.iter().map(|arc| (arc.chord, arc.stops)).collect();
         assert_eq!(ends, [(0, true), (2, true), (3, false)]);
     }

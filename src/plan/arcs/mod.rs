@@ -10,11 +10,13 @@ mod fade;
 mod fit;
 mod path;
 mod pieces;
+mod stroke;
 mod tip;
 
+use self::stroke::Stroke;
 use crate::geom::polyline;
 use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
-use crate::ir::toolpath::{OrientationMode, Run, Step, Toolpath};
+use crate::ir::toolpath::{OrientationMode, Step, Toolpath};
 use crate::machine::Job;
 
 /// The path of each run and plunge cut of a toolpath, in order; otherwise the runs that have none.
@@ -22,12 +24,16 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
     let (mut paths, mut unfit) = (Vec::new(), Vec::new());
     // The axis stands askew to the blade by that.
     let yaw = job.profile.knife.yaw();
+    let mut strokes = stroke::of(toolpath, job).into_iter();
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => match path_of(run, toolpath.tolerance, interpolation, job) {
-                Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
-                Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
-            },
+            Step::Run(run) => {
+                let stroke = strokes.next().expect("each run has a stroke");
+                match path_of(&stroke, toolpath.tolerance, interpolation, job) {
+                    Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
+                    Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
+                }
+            }
             Step::PlungeCut(plunge_cut) => paths.push(Path::plunge(plunge_cut.pose).turned(yaw)),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
@@ -35,12 +41,13 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
     if unfit.is_empty() { Ok(Arcs { paths }) } else { Err(unfit) }
 }
 
-fn path_of(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
+fn path_of(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
+    let run = stroke.run;
     // On a straight run both orientation modes are the same.
     let orientation =
         if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
     match orientation {
-        OrientationMode::Tangent => path::path(run, tolerance, interpolation, job).map_err(Reason::Band),
+        OrientationMode::Tangent => path::path(stroke, tolerance, interpolation, job).map_err(Reason::Band),
         OrientationMode::Chord => Err(Reason::Chord),
     }
 }

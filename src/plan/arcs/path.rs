@@ -2,9 +2,10 @@
 
 use super::band::ToleranceBand;
 use super::fade::{Beside, Fade};
-use super::fit::{Arc, Ends, fit};
+use super::fit::{Arc, Ends, Stop, fit};
 use super::pieces::{Joining, Pieces, Tip};
-use super::tip::TipLine;
+use super::stroke::Stroke;
+use super::tip::{LENGTH_EPSILON, TipLine};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::arcs::{Deviation, Interpolation, Path};
 use crate::ir::toolpath::{Pose, Run, Shape};
@@ -38,13 +39,19 @@ const STEPS_MIN: f64 = 400.0;
 /// Shortest piece that is written at all: rounding would make a turn on the spot of one that is much shorter.
 const STEPS_LEAST: f64 = 50.0;
 
-/// The path of a run; otherwise the point from which no arc stays inside the tolerance band.
-pub(super) fn path(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Point> {
+/// The path of a run that comes by the start of the next one, where that goes on along it; otherwise the point from which no
+/// arc stays inside the tolerance band.
+pub(super) fn path(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Point> {
+    let run = stroke.run;
     let knife = &job.profile.knife;
     let Interpolation { circular, step, chord_tolerance, heading_tolerance } = *interpolation;
     let line = TipLine::new(run, knife.width_mm).without_bend_at_start([STEPS_LEAST * step, OFF_SHARE * tolerance]);
-    let TipLine { points, chords, heel } = line;
-    let TipArcs { arcs, start, from } = tip_arcs(run, points, &chords, tolerance, interpolation, job)?;
+    let line = match stroke.next {
+        Some(next) => line.by_way_of(next),
+        None => line,
+    };
+    let TipArcs { arcs, start, from } = tip_arcs(stroke, &line, tolerance, interpolation, job)?;
+    let TipLine { chords, heel, .. } = line;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
     let lead = heel.map_or(0.0, |heel| angle::turn(from - heel, start));
@@ -92,25 +99,32 @@ struct TipArcs {
     from: Point,
 }
 
-/// Arcs inside the tolerance band of the line of the tip, given with the chord of the run that each of its chords lies on;
-/// otherwise the point from which none stays inside.
+/// Arcs inside the tolerance band of the line of the tip; otherwise the point from which none stays inside.
 fn tip_arcs(
-    run: &Run,
-    points: Vec<Point>,
-    chords: &[usize],
+    stroke: &Stroke,
+    line: &TipLine,
     tolerance: f64,
     interpolation: &Interpolation,
     job: &Job,
 ) -> Result<TipArcs, Point> {
+    let run = stroke.run;
+    let lap = run.points.len() - 1;
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
-    let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
+    // A ring ends on its own start: what goes on over that is the same way again.
+    let (points, chords) =
+        if ring { (&line.points[..=lap], &line.chords[..lap]) } else { (&line.points[..], &line.chords[..]) };
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
-    let band = ToleranceBand::new(points, tolerance, seam, &job.profile);
+    let plain = ToleranceBand::new(points.to_vec(), tolerance, [turn; 2], &job.profile);
+    let is_overlap = |chord: usize| stroke.share < 1.0 && run.front > 0.0 && chord + 1 == chords.len();
+    let band = plain.clone().with_junctions((0..chords.len()).map(is_overlap), stroke.share);
     let mut shares = JUNCTION_SHARES.iter().filter(|_| chords.iter().any(&is_junction));
     let start = if ring { at_seam(run) } else { band.direction(0) };
-    let end = if ring && run.front == 0.0 { start } else { band.direction(band.chords() - 1) };
-    let stops = (1..chords.len()).filter(|&k| run.feeds[chords[k - 1]] != run.feeds[chords[k]]).collect();
+    let end = if ring { start } else { band.direction(band.chords() - 1) };
+    let changes = |k: usize| run.feeds[chords[k - 1]] != run.feeds[chords[k]];
+    let along = |k: usize| line.meets.filter(|&(vertex, _)| vertex == k).map(|(_, along)| along);
+    let stop = |k: usize| (changes(k) || along(k).is_some()).then(|| Stop { vertex: k, along: along(k) });
+    let stops = (1..chords.len()).filter_map(stop).collect();
     let ends = Ends { start, end, stops, curvature: f64::INFINITY, spares: false, reach: 0.0 };
     let fitted = |band: &ToleranceBand| {
         let gentle = |&reach: &f64| fit(band, &Ends { curvature: GENTLE, reach, ..ends.clone() }).ok();
@@ -120,8 +134,31 @@ fn tip_arcs(
     };
     let nearer = |&share: &f64| fitted(&band.clone().with_junctions(chords.iter().map(is_junction), share)).ok();
     // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
-    let arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok)?;
+    let mut arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok).or_else(|_| fitted(&plain))?;
+    if ring {
+        // The feed may change at the seam.
+        if let Some(closing) = arcs.last_mut() {
+            closing.stops |= run.front > 0.0 && run.feeds[0] != run.feeds[lap - 1];
+        }
+        arcs.extend(again(&arcs, run.front, [lap, line.chords.len() - 1]));
+    }
     Ok(TipArcs { arcs, start, from: band.points[0] })
+}
+
+/// The overlap of a ring: its first arcs repeated over `length` mm. `lap` is its number of chords, `last` the last chord of the
+/// overlap.
+fn again(arcs: &[Arc], length: f64, [lap, last]: [usize; 2]) -> Vec<Arc> {
+    let (mut left, mut found) = (length, Vec::new());
+    for arc in arcs {
+        if left <= LENGTH_EPSILON {
+            break;
+        }
+        let length = arc.length.min(left);
+        let stops = arc.stops && length == arc.length;
+        found.push(Arc { length, stops, chord: (arc.chord + lap).min(last), ..*arc });
+        left -= length;
+    }
+    found
 }
 
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.

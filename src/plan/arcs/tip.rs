@@ -5,6 +5,8 @@ use crate::ir::toolpath::{Run, Shape};
 
 /// Shorter ways are none, mm.
 pub(super) const LENGTH_EPSILON: f64 = 1e-3;
+/// Distance within which a point lies on a chord, mm: rounding.
+const ON_EPSILON: f64 = 1e-6;
 
 /// The line of the tip from plunge to lift.
 pub(super) struct TipLine {
@@ -14,6 +16,9 @@ pub(super) struct TipLine {
     pub(super) chords: Vec<usize>,
     /// Where the heel plunges, when the blade stands as a chord of the run.
     pub(super) heel: Option<Point>,
+    /// Index of the point at the start of the next run, and the unit vector along that run there; `None` where the next run does
+    /// not continue this one.
+    pub(super) meets: Option<(usize, Vector)>,
 }
 
 impl TipLine {
@@ -42,6 +47,22 @@ impl TipLine {
         self
     }
 
+    /// Adds the start of the run that continues this one as a vertex, so that both cuts pass through it.
+    pub(super) fn by_way_of(mut self, next: &Run) -> Self {
+        let (start, along) = (next.points[0], polyline::direction(next.points[0], next.points[1]));
+        let is_on = |ends: &[Point]| polyline::distance_to_segment(start, ends[0], ends[1]) <= ON_EPSILON;
+        let Some((chord, along)) = self.points.windows(2).rposition(is_on).zip(along) else { return self };
+        let near = |point: Point| (start - point).norm() <= LENGTH_EPSILON;
+        let known = [chord, chord + 1].into_iter().find(|&vertex| near(self.points[vertex]));
+        let vertex = known.unwrap_or_else(|| {
+            self.points.insert(chord + 1, start);
+            self.chords.insert(chord, self.chords[chord]);
+            chord + 1
+        });
+        self.meets = (1..self.points.len() - 1).contains(&vertex).then_some((vertex, along));
+        self
+    }
+
     /// Once around, and on past the start by the front overlap.
     fn of_ring(run: &Run) -> Self {
         let n = run.points.len();
@@ -57,7 +78,7 @@ impl TipLine {
             left -= length;
             chord = (chord + 1) % (n - 1);
         }
-        Self { points, chords, heel: None }
+        Self { points, chords, heel: None, meets: None }
     }
 
     /// From where the tip stands while the heel plunges at the start of the heel overlap.
@@ -68,7 +89,7 @@ impl TipLine {
         let chord_of = |i: usize| i.saturating_sub(heel).min(n - 2);
         if width <= 0.0 {
             let chords = (0..extended.len() - 1).map(chord_of).collect();
-            return Self { points: extended, chords, heel: None };
+            return Self { points: extended, chords, heel: None, meets: None };
         }
         let last = extended.len() - 1;
         let (tip, first) = polyline::first_at_distance(&extended, width).unwrap_or((extended[last], last - 1));
@@ -86,7 +107,7 @@ impl TipLine {
             points.push(tip + along * LENGTH_EPSILON);
             chords.push(chord_of(last - 1));
         }
-        Self { points, chords, heel: Some(extended[0]) }
+        Self { points, chords, heel: Some(extended[0]), meets: None }
     }
 }
 
@@ -98,7 +119,8 @@ mod tests {
     fn a_bend_just_before_the_tip_is_straightened_and_others_stay() {
         let line = |first: f64, bent: f64| {
             let points = [(0.0, 0.0), (first, 0.0), (4.0, bent), (9.0, bent)].map(|(x, y)| Point::new(x, y));
-            let line = TipLine { points: points.to_vec(), chords: vec![0, 1, 2], heel: Some(Point::new(-6.6, 0.0)) };
+            let heel = Some(Point::new(-6.6, 0.0));
+            let line = TipLine { points: points.to_vec(), chords: vec![0, 1, 2], heel, meets: None };
             let TipLine { points, chords, .. } = line.without_bend_at_start([0.005, 0.001]);
             (points.len(), chords)
         };

@@ -15,6 +15,21 @@ const TURN_EPSILON: f64 = 1e-6;
 /// each other by one tolerance; two tips that are each off by a quarter use half of that.
 pub(in crate::plan) const JUNCTION_SHARES: [f64; 2] = [0.25, 0.5];
 
+/// How near to its line a tip keeps at an end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::plan) struct Near {
+    /// Length from the end of the overlap, mm; 0 = nowhere.
+    pub(in crate::plan) length: f64,
+    /// The part of the tolerance that is used there.
+    pub(in crate::plan) share: f64,
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self { length: 0.0, share: 1.0 }
+    }
+}
+
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct ToleranceBand {
@@ -28,6 +43,8 @@ pub(in crate::plan) struct ToleranceBand {
     sagittas: Vec<Vector>,
     /// The part of the tolerance that each chord may use.
     shares: Vec<f64>,
+    /// How near to it the tip keeps at its start and at its end.
+    near: [Near; 2],
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
     /// The lap of a ring, whose curve closes.
@@ -53,11 +70,10 @@ impl ToleranceBand {
         let turns = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
         let sagittas = vec![Vector::zeros(); points.len() - 1];
         let shares = vec![1.0; points.len() - 1];
-        Self { points, stations, turns, sagittas, shares, tolerance, lap: None }
+        Self { points, stations, turns, sagittas, shares, near: [Near::default(); 2], tolerance, lap: None }
     }
 
-    /// The same, with a share of the tolerance by the chords about which it crosses cuts of other parts; of these there may be
-    /// none.
+    /// The band with a smaller share of the tolerance on chords at junctions, if it has any.
     pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool], share: f64) -> Self {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
             (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share);
@@ -65,7 +81,13 @@ impl ToleranceBand {
         self
     }
 
-    /// The same of a ring.
+    /// The band narrowed at its start and its end.
+    pub(in crate::plan) fn with_ends(mut self, near: [Near; 2]) -> Self {
+        self.near = near;
+        self
+    }
+
+    /// The band of a ring.
     pub(in crate::plan) fn with_lap(mut self, lap: Option<Lap>) -> Self {
         self.lap = lap;
         self
@@ -104,7 +126,15 @@ impl ToleranceBand {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
         let base = self.points[chord] + (self.points[chord + 1] - self.points[chord]) * x;
-        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)), share: self.shares[chord] }
+        let [start, end] = self.near;
+        let mut share = self.shares[chord];
+        if u < start.length {
+            share = share.min(start.share);
+        }
+        if u > self.length() - end.length {
+            share = share.min(end.share);
+        }
+        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)), share }
     }
 }
 

@@ -9,6 +9,6 @@ mod knots;
 mod lap;
 mod smooth;
 
-pub(super) use band::{JUNCTION_SHARES, ToleranceBand};
+pub(super) use band::{JUNCTION_SHARES, Near, ToleranceBand};
 pub(super) use extended::{Blocks, Extended, LEAD};
 pub(super) use smooth::{Curve, Smooth, TooTight, has_room, smooth};

@@ -1,10 +1,9 @@
-//! Where cuts of two parts must meet so that a part comes free: whether the blade's own ways do.
+//! Joints of different cuts: where the drawing has them meet, whether the blade's own ways do.
 
 use rayon::prelude::*;
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
-use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::verify::reference::common::Joint;
 use crate::verify::worst::Worst;
@@ -14,22 +13,27 @@ use crate::verify::worst::Worst;
 pub(in crate::verify) struct Joints<'a> {
     all: &'a [Joint],
     boxes: Boxes,
-    /// The ways that come by each joint, with the cut that they are of.
-    ways: Vec<Vec<Way>>,
+    /// The ways that come by each joint; `None` once its cuts are known to cross.
+    ways: Vec<Option<Vec<Way>>>,
 }
 
-/// A part of a way.
+/// A part of a way that a blade cuts.
 #[derive(Debug)]
 struct Way {
+    /// The cut that it is of.
     cut: u32,
     points: Vec<Point>,
 }
 
 impl<'a> Joints<'a> {
-    /// Of these nothing is known yet.
+    /// Joints with no way seen yet.
     pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
         let extents = joints.iter().map(|joint| joint.about);
-        Self { all: joints, boxes: Boxes::new(extents.collect()), ways: joints.iter().map(|_| Vec::new()).collect() }
+        Self {
+            all: joints,
+            boxes: Boxes::new(extents.collect()),
+            ways: joints.iter().map(|_| Some(Vec::new())).collect(),
+        }
     }
 
     /// Sees what a stroke cuts, as a stretch of a cut of the marker.
@@ -38,39 +42,59 @@ impl<'a> Joints<'a> {
             return;
         }
         for i in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
-            let about = self.boxes.all()[i];
-            let mut way: Vec<Point> = Vec::new();
-            for ends in points.windows(2) {
-                let Some([from, to]) = about.clip([ends[0], ends[1]]) else { continue };
-                if way.last() != Some(&from) {
-                    let before = std::mem::replace(&mut way, vec![from]);
-                    self.ways[i].extend((before.len() > 1).then_some(Way { cut, points: before }));
-                }
-                way.push(to);
+            let Some(known) = &mut self.ways[i] else { continue };
+            let before = known.len();
+            known.extend(ways(points, cut, self.boxes.all()[i]));
+            let crosses = |way: &Way| known.iter().any(|other| self.all[i].is_of([way, other]) && way.crosses(other));
+            if known[before..].iter().any(crosses) {
+                self.ways[i] = None;
             }
-            self.ways[i].extend((way.len() > 1).then_some(Way { cut, points: way }));
         }
     }
 
-    /// How wide a thread is left at the joints at the most.
-    pub(in crate::verify) fn finding(&self, limit: f64) -> Finding {
-        let mut worst = Worst::new("verify/joint", "mm", Some(limit));
-        let gaps: Vec<f64> = self.all.par_iter().zip(&self.ways).map(|(joint, ways)| gap(joint, ways)).collect();
-        for (joint, gap) in self.all.iter().zip(gaps) {
+    /// Sees how wide a thread is left at each joint.
+    pub(super) fn see_gaps(&self, worst: &mut Worst) {
+        let open = self.all.par_iter().zip(&self.ways).filter_map(|(joint, ways)| Some((joint, ways.as_ref()?)));
+        let gaps: Vec<(&Joint, f64)> = open.map(|(joint, ways)| (joint, gap(joint, ways))).collect();
+        for (joint, gap) in gaps {
             worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
         }
-        worst.finding()
     }
+}
+
+impl Joint {
+    /// Whether two ways are of its two cuts.
+    fn is_of(&self, ways: [&Way; 2]) -> bool {
+        let cuts = ways.map(|way| way.cut);
+        cuts == self.cuts || cuts == [self.cuts[1], self.cuts[0]]
+    }
+}
+
+impl Way {
+    fn crosses(&self, other: &Self) -> bool {
+        apart(&self.points, &other.points, f64::MIN_POSITIVE) == 0.0
+    }
+}
+
+/// The parts of a way that lie in a box.
+fn ways(points: &[Point], cut: u32, about: Extent) -> Vec<Way> {
+    let mut found = Vec::new();
+    let mut way: Vec<Point> = Vec::new();
+    for ends in points.windows(2) {
+        let Some([from, to]) = about.clip([ends[0], ends[1]]) else { continue };
+        if way.last() != Some(&from) {
+            let before = std::mem::replace(&mut way, vec![from]);
+            found.extend((before.len() > 1).then_some(Way { cut, points: before }));
+        }
+        way.push(to);
+    }
+    found.extend((way.len() > 1).then_some(Way { cut, points: way }));
+    found
 }
 
 /// How wide the widest gap is on the best way from the one cut of a joint to the other over all that is cut about it, mm.
 fn gap(joint: &Joint, ways: &[Way]) -> f64 {
     let [from, to] = joint.cuts;
-    // As nearly all do the two cross each other.
-    let of = |cut: u32| ways.iter().filter(move |way| way.cut == cut);
-    if of(from).any(|one| of(to).any(|other| apart(&one.points, &other.points, f64::MIN_POSITIVE) == 0.0)) {
-        return 0.0;
-    }
     // What is not there at all is as far away as can be.
     let (width, height) = joint.about.size();
     let most = width.hypot(height);
@@ -92,8 +116,13 @@ fn gap(joint: &Joint, ways: &[Way]) -> f64 {
     most
 }
 
+/// Greatest distance that two ways can have, mm: that of their first points.
+pub(super) fn most_apart(one: &[Point], other: &[Point]) -> f64 {
+    (other[0] - one[0]).norm()
+}
+
 /// Distance of two ways, mm, surely where that is less than `limit`.
-fn apart(one: &[Point], other: &[Point], limit: f64) -> f64 {
+pub(super) fn apart(one: &[Point], other: &[Point], limit: f64) -> f64 {
     let mut least = limit;
     for a in one.windows(2) {
         let extent = Extent::between(a[0], a[1]).grown(least);

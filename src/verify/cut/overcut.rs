@@ -11,10 +11,10 @@ use super::heading::on_lap;
 use super::trial::Trial;
 use super::worsts::{Overcuts, Worsts};
 use crate::geom::{Point, Vector, polyline};
-use crate::ir::declaration::Kind;
+use crate::ir::declaration::{Declaration, Kind};
 use crate::ir::finding::Sighting;
 use crate::machine::{MachineProfile, Spare};
-use crate::verify::declared::Declared;
+use crate::verify::declared::{Declared, Stretch};
 use crate::verify::reference::grid::{Grid, Run};
 use crate::verify::reference::inside::Inside;
 use crate::verify::reference::line::Line;
@@ -49,6 +49,8 @@ pub(in crate::verify) struct Overcut<'a> {
     spare: Spare,
     /// How far the profile lets the blade cut into the part at a reflex corner, mm.
     reflex: f64,
+    /// Whether the blade is sharp at both ends.
+    is_alike: bool,
     /// How deep the profile lets it cut into the part itself and into others, mm.
     caps: [Option<f64>; 2],
 }
@@ -69,7 +71,7 @@ pub(in crate::verify) struct Ends<'a> {
 }
 
 /// How deep places lie in parts, mm: in the own one, and in another.
-type Depths = [f64; 2];
+pub(super) type Depths = [f64; 2];
 
 impl<'a> Overcut<'a> {
     /// For parts in which places lie, a tip that may leave its line by the tolerance, and places that are rounded to
@@ -91,6 +93,7 @@ impl<'a> Overcut<'a> {
             band: reference.band,
             shift: reference.common.max(reference.band),
             spare: knife.spare,
+            is_alike: knife.edges == 2,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             caps: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
         }
@@ -175,11 +178,27 @@ impl<'a> Overcut<'a> {
     ) {
         let Ends { cut, trial, line, .. } = *stroke;
         let kind = if cut.is_plunge_cut() { Kind::Surplus } else { Kind::Overcut };
-        let most = declared.most(kind, line, trial.reach);
         // Its own part a blade enters as the profile has it for reflex corners, without a word.
-        for (((depth, i), band), unsaid) in deepest.into_iter().zip(bands).zip([self.reflex, 0.0]) {
+        let unsaid = [self.reflex, 0.0].into_iter().zip(bands).enumerate();
+        for ((depth, i), (side, (unsaid, band))) in deepest.into_iter().zip(unsaid) {
+            // Of a blade that is sharp at both ends nobody sees which comes first when it does not move.
+            let end = if self.is_alike && cut.is_plunge_cut() { None } else { Some(trial.end_at(i)) };
+            let here = Stretch { line, stations: trial.reach, end };
+            let told = declared.find(kind, here).filter(|entry| self.is_in(entry, side == 0, line));
+            let most = told.map(|entry| entry.magnitude_mm).fold(0.0, f64::max);
             undeclared.see((depth - most.max(unsaid).max(band) - self.tolerance).max(0.0), || seen(i));
         }
+    }
+
+    /// Whether a declaration is of the own part of a line, or of another; one that names none may be of any.
+    pub(super) fn is_in(&self, entry: &Declaration, is_own: bool, line: &Line) -> bool {
+        let own = self.inside.part_of(line.piece as usize);
+        entry.part.is_none_or(|part| self.inside.find_part(part as usize).is_some_and(|part| (part == own) == is_own))
+    }
+
+    /// How deep a place of a stroke lies in its own part and in another, mm.
+    pub(super) fn depths_at(&self, place: usize, stroke: &Ends) -> Depths {
+        self.depths(stroke.cut.points[place], stroke.trial.beyond(stroke.cut, place), stroke)
     }
 
     /// Whether a straight way leads into a part, however narrow that is.

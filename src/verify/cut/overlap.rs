@@ -4,8 +4,9 @@ use super::body::Cut;
 use super::stroke::Judge;
 use super::trial::Trial;
 use crate::geom::{Point, polyline};
-use crate::ir::declaration::Kind;
+use crate::ir::declaration::{Kind, Which};
 use crate::ir::finding::Sighting;
+use crate::verify::declared::Stretch;
 use crate::verify::worst::Worst;
 
 impl Judge<'_> {
@@ -26,14 +27,7 @@ impl Judge<'_> {
         }
         let knife = self.knife;
         if trial.laps {
-            // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.
-            let [start, end] = trial.reach;
-            let lapped = lapped(cut, line.length()).max((end - start).abs() - line.length());
-            let missing = knife.front_overlap_mm.min(line.length()) - lapped;
-            // Its start and its end may both be off along it.
-            if missing > 2.0 * self.tracer.allowed {
-                overlap.see(missing - self.tracer.allowed, || seen(cut.points.len() - 1));
-            }
+            self.check_lap(cut, trial, seen, overlap);
         }
         if trial.laps || line.ring {
             return;
@@ -60,13 +54,15 @@ impl Judge<'_> {
             } else {
                 (line.point(line.chords()), line.direction(line.chords() - 1))
             };
-            let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, line, [station; 2]));
+            let end_here = if cut.is_plunge_cut() { None } else { Some([Which::Start, Which::End][i]) };
+            let here = Stretch { line, stations: [station; 2], end: end_here };
+            let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, here));
             // The heel of a blade that plunges on a curve would leave that.
             let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
             let has_cause = is_curved || self.has_neighbour(end, asked[i] + knife.clearance_mm);
             let told = if has_cause { told } else { 0.0 };
             // So near to an end of its line a cut may also be lifted, or begin, amid that.
-            let is_lift = self.tracer.declared.is_some_and(|told| told.has(Kind::Lift, line, [station; 2]));
+            let is_lift = self.tracer.declared.is_some_and(|told| told.has(Kind::Lift, here));
             let is_told = is_lift || self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
             let may = is_told
                 || is_curved && self.tracer.declared.is_none()
@@ -74,6 +70,19 @@ impl Judge<'_> {
             if !may {
                 overlap.see(missing, || seen(place));
             }
+        }
+    }
+
+    /// How much a ring goes on over its own start less than the profile asks for.
+    fn check_lap(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, overlap: &mut Worst) {
+        let length = self.reference.lines[trial.line].length();
+        // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.
+        let [start, end] = trial.reach;
+        let lapped = lapped(cut, length).max((end - start).abs() - length);
+        let missing = self.knife.front_overlap_mm.min(length) - lapped;
+        // Its start and its end may both be off along it.
+        if missing > 2.0 * self.tracer.allowed {
+            overlap.see(missing - self.tracer.allowed, || seen(cut.points.len() - 1));
         }
     }
 
@@ -92,7 +101,7 @@ impl Judge<'_> {
 }
 
 /// How far the tip goes on over its own start once it has gone round a ring of that length, mm.
-fn lapped(cut: &Cut, length: f64) -> f64 {
+pub(super) fn lapped(cut: &Cut, length: f64) -> f64 {
     let (start, last) = (cut.points[cut.body], cut.points.len() - 1);
     let end = cut.stations[last];
     let on_way = |k: usize| {

@@ -7,12 +7,14 @@ use super::stroke::Judge;
 use super::trial::{REACH, Trial};
 use super::worsts::Worsts;
 use crate::geom::{angle, polyline};
-use crate::ir::declaration::Kind;
+use crate::ir::declaration::{Kind, Which};
 use crate::ir::finding::Sighting;
-use crate::verify::declared::Declared;
+use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
 use crate::verify::worst::Worst;
 
+/// Part of the tolerance by which a line is off a straight one where it bends, however little.
+const SLIGHT_SHARE: f64 = 0.1;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-6;
 
@@ -81,7 +83,7 @@ impl Judge<'_> {
         let length = (to - from).abs();
         let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
         let may = match self.tracer.declared {
-            Some(declared) => declared.has(Kind::Nibbled, line, trial.reach),
+            Some(declared) => declared.has(Kind::Nibbled, Stretch { line, stations: trial.reach, end: None }),
             None => !is_straight,
         };
         if !is_all && !may {
@@ -90,16 +92,22 @@ impl Judge<'_> {
     }
 
     /// Whether a line is straight under a blade and for its width before and behind it.
-    pub(super) fn is_straight_about(&self, line: &Line, [a, b]: [f64; 2]) -> bool {
+    pub(super) fn is_straight_about(&self, line: &Line, stations: [f64; 2]) -> bool {
+        self.is_straight_within(line, stations, self.tracer.allowed)
+    }
+
+    /// The same within a distance, mm.
+    fn is_straight_within(&self, line: &Line, [a, b]: [f64; 2], slack: f64) -> bool {
         let (width, length) = (self.knife.width_mm, line.length());
         let (low, high) = (a.min(b) - width, a.max(b) + width);
         let [low, high] = if line.ring { [low, high] } else { [low.max(0.0), high.min(length)] };
         let [from, to] = [low, high].map(|station| line.place(on_lap(line, station)));
         let mut between = line.vertices(low, high).map(|vertex| line.point(vertex));
-        between.all(|point| polyline::distance_to_segment(point, from, to) <= self.tracer.allowed)
+        between.all(|point| polyline::distance_to_segment(point, from, to) <= slack)
     }
 
-    /// The knife is lifted amid a line where that is declared; where nothing is, anywhere: the line is cut all the same.
+    /// The knife is lifted amid a line where that has a cause and is declared; where nothing is, anywhere: the line is cut all the
+    /// same.
     pub(super) fn check_lifts(
         &self,
         cut: &Cut,
@@ -113,17 +121,27 @@ impl Judge<'_> {
         if trial.laps || line.ring && (to - from).abs() >= line.length() - 2.0 * self.tracer.allowed {
             return;
         }
-        for (station, place) in trial.reach.into_iter().zip([cut.body, cut.points.len() - 1]) {
+        let places = [cut.body, cut.points.len() - 1].into_iter().zip([Which::Start, Which::End]);
+        for (station, (place, end)) in trial.reach.into_iter().zip(places) {
             let inside = if line.ring { f64::INFINITY } else { station.min(line.length() - station) };
-            if inside > 2.0 * self.tracer.allowed && !is_declared_lift(declared, line, station) {
+            let is_declared = || {
+                let stretch = |end| Stretch { line, stations: [station; 2], end };
+                declared.has(Kind::Lift, stretch(Some(end))) || declared.has(Kind::Nibbled, stretch(None))
+            };
+            if inside > 2.0 * self.tracer.allowed && !(is_declared() && self.may_lift(line, station)) {
                 undeclared.see(inside.min(self.knife.width_mm.max(REACH)), || seen(place));
             }
         }
     }
-}
 
-fn is_declared_lift(declared: &Declared, line: &Line, station: f64) -> bool {
-    [Kind::Lift, Kind::Nibbled].into_iter().any(|kind| declared.has(kind, line, [station; 2]))
+    /// Whether the knife may have to be lifted amid a line: on a bend, and anywhere where the profile limits how long it stays
+    /// down, how far C turns, or how far the blade swings.
+    fn may_lift(&self, line: &Line, station: f64) -> bool {
+        self.knife.max_down_mm.is_some()
+            || self.knife.max_swing_mm.is_some()
+            || self.profile.c.range_deg.is_some()
+            || !self.is_straight_within(line, [station; 2], SLIGHT_SHARE * self.tracer.allowed)
+    }
 }
 
 /// How far a blade points away from its line under it, rad: no farther to either side than one of its chords there.

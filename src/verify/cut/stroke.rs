@@ -19,7 +19,7 @@ use crate::geom::{Point, Vector, cross, left};
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Follow, Knife, MachineProfile};
 use crate::verify::axes::crawl;
-use crate::verify::declared::Declared;
+use crate::verify::declared::{Account, Declared};
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::reference::common::Common;
 use crate::verify::reference::ground::Ground;
@@ -61,6 +61,11 @@ pub(in crate::verify) struct Traced {
 }
 
 impl Traced {
+    /// The rows of its stroke.
+    pub(super) fn rows_of(&self) -> &[Row] {
+        self.stroke.rows()
+    }
+
     /// Number of rows of its stroke.
     pub(in crate::verify) fn rows(&self) -> usize {
         self.stroke.rows().len()
@@ -76,7 +81,9 @@ pub(in crate::verify) struct Judge<'a> {
     pub(in crate::verify) held: &'a [Held],
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
-    profile: &'a MachineProfile,
+    pub(super) profile: &'a MachineProfile,
+    /// What was found of what the program declares.
+    pub(in crate::verify) account: Option<Account<'a>>,
     pub(super) knife: &'a Knife,
     period: f64,
     /// Rounding of a tip's place, mm.
@@ -125,6 +132,7 @@ impl<'a> Judge<'a> {
             held,
             rows_rounding: rounding,
             profile,
+            account: declared.map(Account::new),
             knife,
             period: profile.time.period(),
             rounding: place,
@@ -196,7 +204,7 @@ impl<'a> Judge<'a> {
         done.coverage.add_cores(best.line, &best.thin);
         done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
         done.coverage.add(best.line, &best.stretches, cut.is_plunge_cut());
-        done.joints.see(&cut.points, self.reference.lines[best.line].cut.index);
+        done.meetings.see(cut, &best);
         traced.best = Some(best);
     }
 
@@ -229,6 +237,7 @@ impl<'a> Judge<'a> {
         worsts.once.see(self.twice(cut, best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, worsts);
         self.check_body(traced, best, worsts);
+        self.find(traced, best);
         if stroke.goings().is_empty() {
             // Only rows with a time name their blocks one by one.
             self.check_names(rows, cut, best, &mut worsts.block);

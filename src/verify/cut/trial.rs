@@ -10,8 +10,8 @@ use super::heading::on_lap;
 use super::passing::{longest, passed, skipped};
 use super::plunged::Plunged;
 use crate::geom::Point;
-use crate::ir::declaration::Kind;
-use crate::verify::declared::Declared;
+use crate::ir::declaration::{Kind, Which};
+use crate::verify::declared::{Declared, Stretch};
 use crate::verify::reference::grid::Grid;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
@@ -278,7 +278,7 @@ impl Tracer<'_> {
     /// Whether a blade may lie over its line like that between two stations: no farther off than a curve that turns as much,
     /// and than is declared.
     fn permits(&self, over: &Plunged, line: &Line, stations: [f64; 2]) -> bool {
-        let told = |declared: &Declared| declared.most(Kind::Plunge, line, stations);
+        let told = |declared: &Declared| declared.most(Kind::Plunge, Stretch { line, stations, end: None });
         let permitted = over.bound.min(self.declared.map_or(f64::INFINITY, told));
         over.sagitta <= permitted + self.allowed
     }
@@ -472,6 +472,11 @@ impl Trial {
         }
         let edge = i.clamp(*self.held.start(), *self.held.end());
         self.feet[i].beyond.max((cut.points[i] - cut.points[edge]).norm() + self.feet[edge].beyond)
+    }
+
+    /// The end of the stroke that a place of it is at.
+    pub(super) fn end_at(&self, place: usize) -> Which {
+        if place <= *self.held.start() { Which::Start } else { Which::End }
     }
 
     /// Whether the blade of a plunge cut stands across its line, all along.

@@ -5,6 +5,7 @@ use super::grid::Grid;
 use super::held::{Held, held};
 use super::inside::Inside;
 use super::lines::Reference;
+use super::tees::tees;
 use crate::ir::Marker;
 use crate::machine::MachineProfile;
 
@@ -30,7 +31,8 @@ impl<'a> Ground<'a> {
             || Grid::new(&reference),
             || rayon::join(|| Inside::new(marker, profile.notch), || held(marker, &reference)),
         );
-        let common = Common::new(&reference.shared, &reference, &grid, reference.common);
+        let mut common = Common::new(&reference.shared, &reference, &grid, reference.common);
+        common.joints.extend(tees(&reference, &grid, &inside, profile.verify.max_uncut_mm));
         Self { reference, grid, inside, common, held }
     }
 }

@@ -70,6 +70,11 @@ impl<'a> Inside<'a> {
         self.part_of[piece]
     }
 
+    /// The same of a piece that may not be there.
+    pub(in crate::verify) fn find_part(&self, piece: usize) -> Option<usize> {
+        self.part_of.get(piece).copied()
+    }
+
     /// The parts whose cloth lies at a point: inside their outline, not inside a cut-out.
     pub(in crate::verify) fn pieces_at(&self, point: Point) -> Vec<usize> {
         let mut odd: Vec<usize> = Vec::new();

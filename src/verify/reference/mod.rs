@@ -19,5 +19,6 @@ pub(super) mod outline;
 pub(super) mod parts;
 pub(super) mod required;
 pub(super) mod shared;
+mod tees;
 pub(super) mod tight;
 pub(super) mod vertex;

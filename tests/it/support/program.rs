@@ -5,6 +5,7 @@ use std::io::Cursor;
 use cutc::analysis::cloth::Cloth;
 use cutc::analysis::declare;
 use cutc::back::{Context, SETPOINTS};
+use cutc::ir::declaration::Declaration;
 use cutc::ir::marker::Cut;
 use cutc::ir::toolpath::Step;
 use cutc::ir::{Marker, Toolpath};
@@ -28,8 +29,13 @@ pub(crate) fn setpoints(marker: &Marker, job: &Job) -> Vec<u8> {
     out.into_inner()
 }
 
-/// What the program of a marker does beside the drawing.
+/// What the program of a marker says that it does beside the drawing.
 pub(crate) fn declared(marker: &Marker, job: &Job) -> Declared {
+    Declared::new(declarations(marker, job))
+}
+
+/// The same, one by one.
+pub(crate) fn declarations(marker: &Marker, job: &Job) -> Vec<Declaration> {
     let marker = super::with_cuts(marker, job);
     let cloth = Cloth::new(&marker, &job.profile);
     let is_cut =
@@ -39,5 +45,5 @@ pub(crate) fn declared(marker: &Marker, job: &Job) -> Declared {
         let drawn = marker.list.points(cut.range);
         declare::declarations(&toolpath, index, &drawn, &job.profile.knife, &cloth)
     };
-    Declared::new(cuts.zip(marker.cuts.iter().zip(0..)).flat_map(of_cut).collect())
+    cuts.zip(marker.cuts.iter().zip(0..)).flat_map(of_cut).collect()
 }

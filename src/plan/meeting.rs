@@ -1,0 +1,165 @@
+//! Ends of runs that meet at a vertex of their contour: how near to its line each tip keeps, so that the cuts cross there.
+//!
+//! Each tip may be off its line by the tolerance, and two cuts that lie beside each other leave a thread between them. An
+//! overlap begins and ends at a known place. One of length o that leads back over a line under the angle a begins o sin a
+//! beside it, so the other cut passes between that place and the vertex when it is off its own line by less. Where o sin a is
+//! less than the tolerance - the contour hardly turns at a lift, or an overlap has no room - the tip keeps that near.
+
+use crate::geom::{Point, Vector, cross, polyline};
+use crate::ir::toolpath::{End, Run, Shape, Side};
+use crate::machine::Job;
+use crate::plan::spline::Near;
+
+/// Least deviation that a tip keeps to, in widths of the widest thread: two tips off to opposite sides are then 0.9 of a width
+/// apart.
+const LEAST: f64 = 0.45;
+/// Stretch before the vertex on which the tip keeps near, in tolerances, in addition to both overlaps: from there it may leave
+/// its line as far as the tolerance.
+const STRETCH: f64 = 2.0;
+
+/// Places that are nearer to each other are one, mm: rounding.
+pub(super) const SAME_EPSILON: f64 = 1e-6;
+
+/// A place at which a run ends.
+struct Place {
+    at: Point,
+    /// Unit vector along its chord.
+    along: Vector,
+    /// Length of its overlap, mm.
+    overlap: f64,
+}
+
+impl Place {
+    /// The start (0) or the end (1) of a run.
+    fn of(run: &Run, end: usize) -> Self {
+        let last = run.points.len() - 1;
+        let (at, chord, overlap) = [(0, 0, run.heel), (last, last - 1, run.front)][end];
+        let along = polyline::direction(run.points[chord], run.points[chord + 1]);
+        Self { at: run.points[at], along: along.expect("no chord of a run has length zero"), overlap }
+    }
+}
+
+/// How near the tips keep at the starts and at the ends of the runs of a contour, in order.
+pub(super) fn near(runs: &[&Run], tolerance: f64, job: &Job) -> Vec<[Near; 2]> {
+    let count = runs.len();
+    let least = (LEAST * job.profile.verify.max_uncut_mm / tolerance).min(1.0);
+    let near = |k: usize, end: usize| {
+        if runs[k].shape == Shape::Ring {
+            return Near::default();
+        }
+        let own = Place::of(runs[k], end);
+        let neighbours = [(k + count - 1) % count, (k + 1) % count];
+        let ends = neighbours.iter().flat_map(|&other| [(other, 0), (other, 1)]).filter(|&other| other != (k, end));
+        let met = ends.map(|(other, end)| Place::of(runs[other], end)).filter(|other| other.at == own.at);
+        met.fold(Near::default(), |near, other| {
+            let beside = other.overlap * cross(own.along, other.along).abs();
+            if beside >= tolerance {
+                return near;
+            }
+            let length = own.overlap + other.overlap + STRETCH * tolerance;
+            Near { length: length.max(near.length), share: (beside / tolerance).max(least).min(near.share) }
+        })
+    };
+    // Over a stretch that two runs share neither crosses the other.
+    let shared = |before: usize, behind: usize| {
+        let length = overlap(runs[before], runs[behind])?.length;
+        Some(Near { length: length + STRETCH * tolerance, share: least })
+    };
+    let ends = |k: usize| {
+        let [start, end] = [shared((k + count - 1) % count, k), shared(k, (k + 1) % count)];
+        [start.unwrap_or_else(|| near(k, 0)), end.unwrap_or_else(|| near(k, 1))]
+    };
+    (0..count).map(ends).collect()
+}
+
+/// The stretch over which two runs lie.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Overlap {
+    /// The chord of the first run on which the second one begins.
+    pub(super) chord: usize,
+    /// mm.
+    pub(super) length: f64,
+}
+
+/// The stretch over which a run ends and another one begins; `None` where it does not go on along it.
+pub(super) fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
+    let is_lifted = |end: End| end.bare && end.side == Side::Contour;
+    let are_alike = before.shape == Shape::Open
+        && behind.shape == Shape::Open
+        && [before.turned, behind.turned] == [false; 2]
+        && [before.front, behind.heel] == [0.0; 2]
+        && before.orientation == behind.orientation;
+    if !are_alike || !is_lifted(before.ends[1]) || !is_lifted(behind.ends[0]) {
+        return None;
+    }
+    let (points, first) = (&before.points, behind.points[0]);
+    let mut length = 0.0;
+    for chord in (0..points.len() - 1).rev() {
+        let [from, to] = [points[chord], points[chord + 1]];
+        if polyline::distance_to_segment(first, from, to) <= SAME_EPSILON {
+            length += (to - first).norm();
+            let is_along = length > SAME_EPSILON && goes_along(&points[chord + 1..], &behind.points);
+            return is_along.then_some(Overlap { chord, length });
+        }
+        length += (to - from).norm();
+    }
+    None
+}
+
+/// Whether the places at the end of a run are those behind the first one of another, up to the last, which lies amid a chord,
+/// and that one goes on.
+fn goes_along(end: &[Point], start: &[Point]) -> bool {
+    let (last, inner) = end.split_last().expect("a chord has an end");
+    start.len() > end.len()
+        && (start[start.len() - 1] - last).norm() > SAME_EPSILON
+        && inner.iter().zip(&start[1..]).all(|(a, b)| (a - b).norm() <= SAME_EPSILON)
+        && polyline::distance_to_segment(*last, start[end.len() - 1], start[end.len()]) <= SAME_EPSILON
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Rotation;
+    use crate::ir::list::Joint;
+    use crate::ir::toolpath::{Edge, OrientationMode, Pose};
+    use crate::source::Span;
+
+    fn run(points: [Point; 2], [heel, front]: [f64; 2]) -> Run {
+        let pose = Pose { centre: points[0], c: Rotation(0.0) };
+        Run {
+            points: points.to_vec(),
+            spans: vec![Span::default()],
+            joints: vec![Joint::default(); 2],
+            shape: Shape::Open,
+            orientation: OrientationMode::Tangent,
+            front,
+            heel,
+            feeds: vec![f64::INFINITY],
+            junctions: Vec::new(),
+            ends: [End::default(); 2],
+            turned: false,
+            edge: Edge::Front,
+            start: pose,
+            end: pose,
+        }
+    }
+
+    #[test]
+    fn ends_keep_near_where_overlaps_are_short_or_lines_go_on() {
+        let contour = |turn: f64, [front, heel]: [f64; 2]| {
+            let corner = Point::new(50.0, 0.0);
+            let (sin, cos) = turn.to_radians().sin_cos();
+            let before = run([Point::origin(), corner], [1.0, front]);
+            let behind = run([corner, corner + Vector::new(cos, sin) * 40.0], [heel, 1.0]);
+            let [[far, front], [heel, end]] = near(&[&before, &behind], 0.05, &Job::default())[..] else { panic!() };
+            assert_eq!([far, end], [Near::default(); 2]);
+            [front, heel].map(|near| [near.length, near.share].map(|value| (value * 1e6).round() / 1e6))
+        };
+        assert_eq!(contour(90.0, [0.5, 0.8]), [[0.0, 1.0]; 2]);
+        // The tip of the one keeps as near as the overlap of the other is long.
+        assert_eq!(contour(90.0, [0.03, 0.8]), [[0.0, 1.0], [0.93, 0.6]]);
+        assert_eq!(contour(30.0, [0.05, 0.05]), [[0.2, 0.5]; 2]);
+        assert_eq!(contour(0.0, [3.0, 3.0]), [[6.1, 0.09]; 2]);
+        assert_eq!(contour(170.0, [0.0, 3.0]), [[0.0, 1.0], [3.1, 0.09]]);
+    }
+}

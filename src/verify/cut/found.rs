@@ -1,0 +1,172 @@
+//! Deviations that a program declares, each measured at the place where it is declared.
+
+use super::body::Cut;
+use super::chord::{self, BODY_SHARES};
+use super::heading::on_lap;
+use super::overlap::lapped;
+use super::plunged::Plunged;
+use super::stroke::{Judge, Traced};
+use super::trial::Trial;
+use crate::geom::{Point, polyline};
+use crate::ir::declaration::{Kind, Which};
+use crate::machine::Follow;
+use crate::verify::declared::{Account, Stretch};
+
+/// Distance of two places at which the drawn line is looked at, mm.
+const SWING_STEP: f64 = 0.25;
+
+impl Judge<'_> {
+    /// Measures all that may be declared of a stroke, where anything is declared of its cut.
+    pub(super) fn find(&self, traced: &Traced, trial: &Trial) {
+        let (line, cut) = (&self.reference.lines[trial.line], &traced.cut);
+        let Some(account) = self.account.as_ref().filter(|account| !account.is_silent(line)) else { return };
+        let whole = Stretch { line, stations: trial.reach, end: None };
+        self.find_ends(cut, trial, account);
+        if self.knife.width_mm == 0.0 {
+            return;
+        }
+        let under = [0, cut.body].map(|place| trial.feet[place].station);
+        let plunged = if cut.is_plunge_cut() { whole } else { Stretch { stations: under, ..whole } };
+        // What the drawing makes of them is known at once, the rest where that is less than is declared.
+        if account.lacks(Kind::Plunge, plunged) {
+            account.see(Kind::Plunge, plunged, self.drawn_beside(cut, trial));
+        }
+        if account.lacks(Kind::Plunge, plunged) {
+            account.see(Kind::Plunge, plunged, self.beside(cut, trial));
+        }
+        if cut.is_plunge_cut() {
+            account.see(Kind::Nibbled, whole, (trial.reach[1] - trial.reach[0]).abs());
+            self.find_surplus(cut, trial, account);
+            return;
+        }
+        if account.lacks(Kind::Swing, whole) {
+            account.see(Kind::Swing, whole, self.drawn_swing(cut, trial));
+        }
+        if account.lacks(Kind::Swing, whole) {
+            account.see(Kind::Swing, whole, self.swing(traced, trial));
+        }
+    }
+
+    /// Measures how far a stroke goes past its ends, and where it ends amid its line.
+    fn find_ends(&self, cut: &Cut, trial: &Trial, account: &Account) {
+        let (knife, line) = (self.knife, &self.reference.lines[trial.line]);
+        let asked = [
+            [knife.heel_overlap_mm, knife.corner_heel_overlap_mm, knife.reflex_heel_overlap_mm],
+            [knife.front_overlap_mm, knife.corner_front_overlap_mm, knife.reflex_front_overlap_mm],
+        ];
+        let places = [0, cut.points.len() - 1];
+        for (i, which) in [Which::Start, Which::End].into_iter().enumerate() {
+            let station = trial.reach[i];
+            // The ends of a blade that does not move cannot be told apart.
+            let end = if cut.is_plunge_cut() { None } else { Some(which) };
+            let here = Stretch { line, stations: [station; 2], end };
+            let is_lap = trial.laps && which == Which::End;
+            let beyond = if is_lap { lapped(cut, line.length()) } else { trial.beyond(cut, places[i]) };
+            account.see(Kind::Overcut, here, beyond);
+            account.see(Kind::Shortened, here, asked[i].into_iter().fold(0.0, f64::max) - beyond);
+            let is_amid = || station.min(line.length() - station) > 2.0 * self.tracer.allowed;
+            if if line.ring { !trial.laps } else { is_amid() } {
+                account.see(Kind::Lift, here, 0.0);
+            }
+        }
+    }
+
+    /// How far blade and line are apart where it plunges, mm.
+    fn beside(&self, cut: &Cut, trial: &Trial) -> f64 {
+        let line = &self.reference.lines[trial.line];
+        let over = trial.over.or_else(|| Plunged::new(line, cut, &trial.feet, self.tracer.allowed));
+        let body = trial.feet[..cut.body].iter().filter(|foot| foot.beyond == 0.0).map(|foot| foot.deviation);
+        body.chain(over.map(|over| over.sagitta)).fold(0.0, f64::max)
+    }
+
+    /// How far blade and line are apart where it plunges at the start of what it cuts of the line as that is drawn, mm.
+    fn drawn_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
+        let led_on = self.drawn(cut, trial);
+        let alone = &led_on[usize::from(trial.beyond(cut, 0) > 0.0)..];
+        // About the start of a ring it lies before that or behind it.
+        let back: Vec<Point> = if trial.laps { alone.iter().rev().copied().collect() } else { Vec::new() };
+        let lines = [&led_on, alone, &back].into_iter().filter(|points| points.len() > 1);
+        lines.map(|points| bow(points, self.knife.width_mm)).fold(0.0, f64::max)
+    }
+
+    /// How far a body leaves what a stroke cuts of its line as that is drawn, at the most, while the blade lies along it or is a
+    /// chord of it, mm.
+    fn drawn_swing(&self, cut: &Cut, trial: &Trial) -> f64 {
+        let (points, width) = (self.drawn(cut, trial), self.knife.width_mm);
+        let stations = polyline::stations(&points);
+        let of_chord = |chord: usize| {
+            let Some(along) = polyline::direction(points[chord], points[chord + 1]) else { return 0.0 };
+            let steps = ((stations[chord + 1] - stations[chord]) / SWING_STEP).ceil().max(1.0);
+            let at = |step: f64| stations[chord] + (stations[chord + 1] - stations[chord]) * (step / steps);
+            let off = |station: f64| {
+                let first = stations.partition_point(|&passed| passed < station - 2.0 * width).saturating_sub(1);
+                let tip = polyline::place(&points, &stations, station);
+                let behind: Vec<Point> = points[first..=chord].iter().copied().chain([tip]).collect();
+                // Where a line is too tight for the chord mode, the blade lies along it in either.
+                let along_it = polyline::distance(tip - along * width, &behind);
+                let back = || behind.iter().rev().copied().collect::<Vec<Point>>();
+                if self.knife.follow == Follow::Chord { along_it.max(bow(&back(), width)) } else { along_it }
+            };
+            // Beyond one width the blade lies on the chord that it follows.
+            (0..=steps as usize)
+                .map(|step| at(step as f64))
+                .take_while(|at| at - stations[chord] <= width)
+                .map(off)
+                .fold(0.0, f64::max)
+        };
+        (0..points.len() - 1).map(of_chord).fold(0.0, f64::max)
+    }
+
+    /// The stretch of the drawn line that a stroke cuts, in its direction, with straight extensions by its overlaps.
+    fn drawn(&self, cut: &Cut, trial: &Trial) -> Vec<Point> {
+        let line = &self.reference.lines[trial.line];
+        let [from, to] = trial.reach;
+        let (low, high) = (from.min(to), from.max(to));
+        let inner = line.vertices(low, high).map(|vertex| line.point(vertex));
+        let place = |station: f64| line.place(on_lap(line, station));
+        let mut points: Vec<Point> = std::iter::once(place(low)).chain(inner).chain([place(high)]).collect();
+        if to < from {
+            points.reverse();
+        }
+        let last = points.len() - 1;
+        let led = |end: usize, next: usize, place: usize| {
+            let along = polyline::direction(points[next], points[end])?;
+            let beyond = trial.beyond(cut, place);
+            (beyond > 0.0).then(|| points[end] + along * beyond)
+        };
+        let [before, behind] = [led(0, 1, 0), led(last, last - 1, cut.points.len() - 1)];
+        before.into_iter().chain(points).chain(behind).collect()
+    }
+
+    /// How far the body of a blade that goes along leaves its line at the most, mm.
+    fn swing(&self, traced: &Traced, trial: &Trial) -> f64 {
+        let shares: &[f64] = match self.knife.follow {
+            Follow::Tangent => &[0.0],
+            Follow::Chord => &BODY_SHARES,
+        };
+        let feet = shares.iter().flat_map(|&share| chord::along(traced.rows_of(), self.blade(traced, trial), share));
+        feet.filter(|foot| foot.beyond == 0.0).map(|foot| foot.deviation).fold(0.0, f64::max)
+    }
+
+    /// Measures how deep the ends of a plunge cut lie in its own part and in others.
+    fn find_surplus(&self, cut: &Cut, trial: &Trial, account: &Account) {
+        let line = &self.reference.lines[trial.line];
+        let stroke = self.ends(cut, trial);
+        for end in [Which::Start, Which::End] {
+            let places = (0..cut.points.len()).filter(|&place| trial.end_at(place) == end);
+            let deepest = places.map(|place| self.overcut.depths_at(place, &stroke));
+            let deepest = deepest.fold([0.0_f64; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+            let here = Stretch { line, stations: trial.reach, end: Some(end).filter(|_| self.knife.edges == 1) };
+            for (side, depth) in deepest.into_iter().enumerate() {
+                account.see_where(Kind::Surplus, here, |entry| self.overcut.is_in(entry, side == 0, line), depth);
+            }
+        }
+    }
+}
+
+/// How far a polyline is off the blade that is its chord from its first point on, mm.
+fn bow(points: &[Point], width: f64) -> f64 {
+    let last = points.len() - 1;
+    let (end, chord) = polyline::first_at_distance(points, width).unwrap_or((points[last], last));
+    points[..=chord].iter().map(|&point| polyline::distance_to_segment(point, points[0], end)).fold(0.0, f64::max)
+}

@@ -1,0 +1,58 @@
+//! Tees: where the drawing has an open cut end on another cut, as a slit does on the edge of its part.
+
+use super::common::Joint;
+use super::grid::Grid;
+use super::inside::Inside;
+use super::line::Line;
+use super::lines::Reference;
+use crate::geom::{Extent, Point, Vector, cross};
+
+/// Least sine of the angle between two lines for which their crossing is looked for in full; below it the search ends where
+/// lines at that angle would cross.
+const LEAST_SINE: f64 = 0.1;
+
+/// Distance from its end at which a cut is tested for lying in a part, in tolerances.
+const LOOK: f64 = 2.0;
+
+/// The tees of the open cuts that come out of parts; lines meet that are drawn within `limit` mm. A slit in the waste frees
+/// nothing.
+pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, limit: f64) -> Vec<Joint> {
+    let mut found: Vec<Joint> = Vec::new();
+    let comes_out = |(end, along, ..): &(Point, Vector, &Line, u32)| {
+        !inside.pieces_at(end + along * (LOOK * reference.tolerance)).is_empty()
+    };
+    for (end, along, line, block) in ends(&reference.lines).filter(comes_out) {
+        let before = found.len();
+        for run in grid.near(end, limit) {
+            let other = &reference.lines[run.line()];
+            if other.cut.is_edge || other.cut.index == line.cut.index {
+                continue;
+            }
+            let cuts = [line.cut.index, other.cut.index];
+            let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= limit;
+            for chord in run.chords().filter(meets) {
+                // Both off by the tolerance they cross as far from there as they are askew.
+                let sine = cross(along, other.direction(chord)).abs().max(LEAST_SINE);
+                let about = Extent::between(end, end).grown(2.0 * (reference.tolerance + limit) / sine);
+                match found[before..].iter_mut().find(|joint| joint.cuts == cuts) {
+                    Some(joint) => joint.about.join(&about),
+                    None => found.push(Joint { at: end, block, cuts, about }),
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The ends of open cuts, each with the unit vector along its line from there and its block.
+fn ends<'a>(lines: &'a [Line<'a>]) -> impl Iterator<Item = (Point, Vector, &'a Line<'a>, u32)> {
+    let is_of_cut = |other: Option<&Line>, line: &Line| other.is_some_and(|other| other.cut.index == line.cut.index);
+    let open = lines.iter().enumerate().filter(|(_, line)| !line.cut.is_edge && line.cut.round.is_none());
+    open.flat_map(move |(i, line)| {
+        let last = line.chords() - 1;
+        let begins = !is_of_cut(i.checked_sub(1).map(|before| &lines[before]), line);
+        let ends = !is_of_cut(lines.get(i + 1), line);
+        let start = begins.then(|| (line.point(0), line.direction(0), line, line.block(0)));
+        start.into_iter().chain(ends.then(|| (line.point(last + 1), -line.direction(last), line, line.block(last))))
+    })
+}
