@@ -20,6 +20,9 @@ mod slow;
 #[expect(dead_code, reason = "no page is read here, and the program is not run")]
 mod support;
 #[cfg(feature = "heavy")]
+#[path = "../it/threads.rs"]
+mod threads;
+#[cfg(feature = "heavy")]
 #[path = "../it/verifier/mod.rs"]
 mod verifier;
 

@@ -1,5 +1,5 @@
-//! Threads: where a ring closes, and where the knife is lifted amid a line, the end of one cut meets the start of the next, so
-//! that no thread of cloth is left between the two. Measured by points and distances on the rows of the program.
+//! Threads: where a ring closes, where the knife is lifted amid a line and at corners, the end of one cut meets the start of the
+//! next, so that no thread of cloth is left between the two. Measured by points and distances on the rows of the program.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -13,6 +13,8 @@ use cutc::source::Source;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::ONE_IN;
+
 /// Head of a cut file, and its unit, mm.
 const UNITS: [(&str, f64); 3] = [("H1*G71*", 0.1), ("H1*", 0.254), ("H1*G70*", 0.0254)];
 /// Distance between end and start that rows may show, mm: they have six decimals, and chords of a tick.
@@ -20,6 +22,13 @@ const NONE: f64 = 1e-3;
 /// Length of the overlap that is looked at, back from the end, and of the start that it must lie on, mm.
 const TAIL: f64 = 0.4;
 const HEAD: f64 = 3.0;
+
+/// Contours of each kind in the long tests.
+const CONTOURS: usize = 1000;
+/// Widths of a blade and of its back, mm.
+const BLADES: [[f64; 2]; 4] = [[6.6, 6.35], [6.0, 4.0], [8.89, 6.35], [3.0, 1.5]];
+/// Widest thread that is left anywhere, mm.
+const WIDEST: f64 = 0.01;
 
 /// A smooth contour about (300, 300): a circle, an ellipse or one with three bays.
 fn outline(random: &mut ChaCha8Rng, unit: f64) -> Vec<[f64; 2]> {
@@ -140,8 +149,8 @@ fn follow(case: usize) -> Follow {
 #[test]
 fn the_end_of_a_ring_runs_over_its_start() {
     let mut random = ChaCha8Rng::seed_from_u64(45);
-    let mut measured = 0;
-    for case in 0..90 {
+    let (mut measured, count) = (0, CONTOURS / ONE_IN);
+    for case in 0..count {
         let unit = UNITS[case % UNITS.len()];
         let points = outline(&mut random, unit.1);
         let mut job = Job::default();
@@ -158,14 +167,14 @@ fn the_end_of_a_ring_runs_over_its_start() {
         assert!(worst <= NONE, "case {case}: the end is {worst} mm beside the start");
         measured += 1;
     }
-    assert!(measured >= 80, "only {measured} were cut in one stroke");
+    assert!(10 * measured >= 8 * count, "only {measured} of {count} were cut in one stroke");
 }
 
 #[test]
 fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
     let mut random = ChaCha8Rng::seed_from_u64(451);
-    let mut lifts = 0;
-    for case in 0..90 {
+    let (mut lifts, count) = (0, CONTOURS / ONE_IN);
+    for case in 0..count {
         let unit = UNITS[case % UNITS.len()];
         let points = outline(&mut random, unit.1);
         let mut job = Job::default();
@@ -188,5 +197,38 @@ fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
             lifts += 1;
         }
     }
-    assert!(lifts >= 150, "only {lifts} lifts");
+    assert!(lifts >= count, "only {lifts} lifts of {count} contours");
+}
+
+/// A contour of straight edges about (300, 300), with corners in and out, none sharper than some 40 degrees.
+fn corners(random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
+    let (count, radius) = (random.random_range(4..9), random.random_range(30.0..90.0));
+    let place = |k: i32| {
+        let angle = TAU * f64::from(k) / f64::from(count);
+        let reach = radius * random.random_range(0.6..1.0);
+        [300.0 + reach * angle.cos(), 300.0 + reach * angle.sin()]
+    };
+    (0..count).map(place).collect()
+}
+
+#[test]
+fn the_cuts_of_two_edges_meet_at_their_corner() {
+    let mut random = ChaCha8Rng::seed_from_u64(452);
+    let (mut met, count) = (0, CONTOURS / ONE_IN);
+    for case in 0..count {
+        let points = corners(&mut random);
+        let mut job = Job::default();
+        let [width, back] = BLADES[case / UNITS.len() % BLADES.len()];
+        (job.profile.knife.width_mm, job.profile.knife.back_mm) = (width, Some(back));
+        let strokes = cut(&points, UNITS[case % UNITS.len()], &job, case);
+        for (i, stroke) in strokes.iter().enumerate() {
+            let next = &strokes[(i + 1) % strokes.len()];
+            let lines = |points: &[[f64; 2]]| points.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<_>>();
+            let (one, other) = (lines(stroke), lines(next));
+            let least = one.iter().flat_map(|a| other.iter().map(|b| between(*a, *b))).fold(f64::INFINITY, f64::min);
+            assert!(least <= WIDEST, "case {case}, stroke {i}: {least} mm between the cuts of two edges");
+            met += 1;
+        }
+    }
+    assert!(met >= 4 * count, "only {met} corners of {count} contours");
 }

@@ -9,13 +9,15 @@
 //! blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating
 //! Algorithm*, 2013, doi 10.7690/bgzdh.2013.02.026.
 
+use std::collections::BTreeMap;
+
 use super::pass::ToolpathPass;
 use super::runs;
 use super::scene::Scene;
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::overlaps;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, polyline};
+use crate::geom::{Extent, bits, polyline};
 use crate::ir::marker::Notch;
 use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
@@ -30,10 +32,16 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
+    let mut met: BTreeMap<[u64; 2], usize> = BTreeMap::new();
+    for run in runs::each(toolpath) {
+        for end in [run.points[0], run.points[run.points.len() - 1]] {
+            *met.entry(bits(end)).or_default() += 1;
+        }
+    }
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
-        let [across, meeting] = [across(run, scene), meeting(run, &around)];
+        let [across, meeting] = [across(run, scene), meeting(run, &met, &around)];
         run.heel = heel.length.max(across[0]).max(meeting[0]);
         run.front = front.length.max(across[1]).max(meeting[1]);
         if run.shape == Shape::Ring {
@@ -56,15 +64,16 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
 }
 
 /// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, its own part at a reflex
-/// corner, too, and at the root of a slit.
-/// The cut that it must meet there may be off by that.
-fn meeting(run: &Run, around: &Surroundings) -> [f64; 2] {
+/// corner, too, and at the root of a slit. The cut that it must meet there may be off by that. `met` counts the ends of runs at
+/// each place.
+fn meeting(run: &Run, met: &BTreeMap<[u64; 2], usize>, around: &Surroundings) -> [f64; 2] {
     let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
     let has_root = is_slit && polyline::length(&run.points) <= Notch::LONGEST;
     let root = usize::from(run.turned);
     let is_meant = |k: usize| {
-        let End { side, bare, corner } = run.ends[k];
-        let is_narrow = side == Side::Gap || side == Side::Part && corner;
+        let End { side, bare, .. } = run.ends[k];
+        let end = run.points[[0, run.points.len() - 1][k]];
+        let is_narrow = side == Side::Gap || side == Side::Part && met.get(&bits(end)).is_some_and(|&ends| ends > 1);
         is_narrow && !bare || has_root && k == root
     };
     let least = |k: usize| if is_meant(k) { around.tolerance } else { 0.0 };

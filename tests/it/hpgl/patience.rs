@@ -84,7 +84,7 @@ fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said()
     check(
         "an outline with long segments",
         &format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}"),
-        &["hpgl/unit-doubtful", "drawing/search-ended"],
+        &["hpgl/unit-doubtful", "drawing/search-ended", "drawing/drawn-again"],
     );
     let way = many(200_000, &|i| format!("{},0,", 3 * (200_000 - i)));
     let back = many(200_000, &|i| format!(",{},0", 3 * (i + 1)));
