@@ -95,6 +95,7 @@ const OTHERWISE: [(&str, &str); 28] = [
     ("message", "its messages end at the terminator of labels, not at the semicolon"),
     ("pages", "it draws the first page alone"),
     ("polygons", "it leaves out the edge that PM 1 adds"),
+    ("raster-data", "it draws data that an escape sequence counts"),
     ("scaled-arcs-on-a-line", "its arcs by three points are not numbers"),
     ("scaled-from-a-moved-corner", "its corners are those of another device"),
     ("scaled-mirrored", "its chords are others"),
