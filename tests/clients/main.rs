@@ -77,7 +77,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 28] = [
+const OTHERWISE: [(&str, &str); 29] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
