@@ -47,7 +47,7 @@ fn code(text: &str, encoding: &'static Encoding) -> Option<(String, usize)> {
     Some((letters.to_owned(), 3))
 }
 
-/// The number that so many digits stand for.
+/// Number written by the first `digits` digits of a text; `None` where one of them is no digit.
 fn number(text: &str, digits: usize, radix: u32) -> Option<u32> {
     let digits = text.get(..digits).filter(|digits| digits.chars().all(|digit| digit.is_digit(radix)))?;
     u32::from_str_radix(digits, radix).ok()

@@ -19,7 +19,7 @@ pub struct Letters {
 const THREE_BYTES_FROM: char = '\u{800}';
 
 impl Letters {
-    /// The encoding of that name, one of the WHATWG standard; `None` where there is none that has ASCII.
+    /// Encoding by its name in the WHATWG standard; `None` for an unknown name, and for encodings without ASCII.
     pub fn named(name: &str) -> Option<Self> {
         encoding::find(name).map(|encoding| Self { encoding, has_codes: false })
     }

@@ -6,8 +6,9 @@ use crate::machine::labels::Labels;
 use crate::machine::letters::Letters;
 use crate::source::Source;
 
-/// What a code page of the header begins with that has a number, and names for the numbers that are no `windows-` encoding.
+/// Prefix of a numbered code page in the header.
 const NUMBERED: &[u8] = b"ANSI_";
+/// Numbers of code pages that are no `windows-` encoding, each with the name of its encoding.
 const PAGES: [(&str, &str); 4] = [("932", "shift_jis"), ("936", "gbk"), ("949", "euc-kr"), ("950", "big5")];
 /// Encodings in which a key that is not ASCII can be written, beside UTF-8.
 const OF_KEYS: [&str; 3] = ["gbk", "windows-1252", "macintosh"];

@@ -144,7 +144,7 @@ struct Fact<'a> {
     value: Span,
 }
 
-/// What the lines of a text say; of an attribute without a colon its tag is the key.
+/// Facts in the lines of a text; the key of an attribute without a colon is its tag.
 fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<Fact<'a>> {
     let Some(span) = entity.value(TEXT) else { return Vec::new() };
     let part = |range: Range<usize>| {
@@ -168,7 +168,7 @@ fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<F
     lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).filter_map(known).collect()
 }
 
-/// What stands before the colon of a line, and where what stands behind it begins. A wide colon is one behind a key alone.
+/// The name before the colon of a line, and the offset of the value behind it. A wide colon counts only behind a known key.
 fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     let is_key = |name: &[u8]| key(&letters.text(name)).is_some();
     let wide = WIDE_COLONS.iter().find_map(|colon| {

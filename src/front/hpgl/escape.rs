@@ -104,7 +104,7 @@ mod tests {
         check(b"\x1b*b0WIN;", "IN;");
         check(b"\x1b*t300RIN;", "IN;");
         assert_eq!(escape(b"\x1bE").map(|found| found.1), Ok(Escape::Reset));
-        // A count beyond the end is none.
+        // A count beyond the end of the file counts no data.
         assert!(escape(b"\x1b*b6WPU1,2").is_err());
         assert!(escape(b"\x1b").is_err() && escape(b"\x1b%").is_err());
         assert_eq!(job(b"@PJL ENTER LANGUAGE=HPGL2\r\nIN").map(|found| found.0), Ok(&b"\nIN"[..]));

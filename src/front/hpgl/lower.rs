@@ -453,7 +453,7 @@ impl Lowering<'_> {
         self.end_encoded(&body, self.reader.within(start, body.at));
     }
 
-    /// What is said of the end of an encoded polyline, or of what is at fault before it.
+    /// Diagnostics about the end of an encoded polyline, or about a fault before it.
     fn end_encoded(&mut self, body: &Body, span: Span) {
         match body.ending {
             Ending::Damaged => {

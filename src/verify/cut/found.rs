@@ -27,7 +27,7 @@ impl Judge<'_> {
         }
         let under = [0, cut.body].map(|place| trial.feet[place].station);
         let plunged = if cut.is_plunge_cut() { whole } else { Stretch { stations: under, ..whole } };
-        // What the drawing makes of them is known at once, the rest where that is less than is declared.
+        // Deviations of the drawn line are quick to measure; those of the rows are measured where they fall short.
         if account.lacks(Kind::Plunge, plunged) {
             account.see(Kind::Plunge, plunged, self.drawn_beside(cut, trial));
         }

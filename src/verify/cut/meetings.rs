@@ -25,7 +25,7 @@ const CROSSING: f64 = 12.0;
 /// Greatest share of a stroke that is an end of it where it meets its own other end.
 const END_SHARE: f64 = 0.3;
 
-/// What the strokes cut about the places where they must meet.
+/// Ends of strokes at the places where they must meet.
 #[derive(Debug)]
 pub(in crate::verify) struct Meetings<'a> {
     reference: &'a Reference<'a>,
@@ -208,7 +208,7 @@ fn widest(line: &Line, parts: &[Part], reach: f64) -> (f64, Sighting) {
             return (gap, sighting(line, parts[j].0[0]));
         }
     }
-    // What lies between strokes that far apart is uncut, of which another rule tells.
+    // Strokes farther apart leave a stretch uncut, which is the matter of `verify/complete`.
     (0.0, sighting(line, 0.0))
 }
 

@@ -73,7 +73,7 @@ impl Judge<'_> {
         }
     }
 
-    /// How much a ring goes on over its own start less than the profile asks for.
+    /// Shortfall of the overlap of a ring against the profile, mm.
     fn check_lap(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, overlap: &mut Worst) {
         let length = self.reference.lines[trial.line].length();
         // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.

@@ -82,7 +82,7 @@ pub(in crate::verify) struct Judge<'a> {
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
     pub(super) profile: &'a MachineProfile,
-    /// What was found of what the program declares.
+    /// Deviations found at the declarations of the program.
     pub(in crate::verify) account: Option<Account<'a>>,
     pub(super) knife: &'a Knife,
     period: f64,
