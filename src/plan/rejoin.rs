@@ -150,57 +150,51 @@ impl<'a> Line<'a> {
             };
             return self.parts.iter().map(cut).collect();
         }
-        let mut askew: Vec<bool> = vec![false; self.parts.len()];
-        for share in std::iter::once(1.0).chain(NARROWER) {
-            let (first, smooth) = self.smooth(share, &askew, tolerance, job)?;
+        let mut shares: Vec<f64> = vec![1.0; self.parts.len()];
+        loop {
+            let (first, smooth) = self.smooth(&shares, tolerance, job)?;
             let cuts = self.along(&smooth, first, tolerance, job);
             if cuts.iter().all(Option::is_some) {
                 return cuts.into_iter().collect();
             }
-            askew.iter_mut().zip(&cuts).for_each(|(askew, cut)| *askew |= cut.is_none());
+            for (share, _) in shares.iter_mut().zip(&cuts).filter(|(_, cut)| cut.is_none()) {
+                *share = NARROWER.into_iter().find(|narrower| narrower < share)?;
+            }
         }
-        None
     }
 
-    /// The chords of a polyline, all of the line or its ring, under the blade where some of the parts begin.
-    fn under_plunges(&self, points: &[Point], of: &[bool], width: f64) -> Vec<bool> {
+    /// The chords of a polyline under the blade where a part begins. The line begins at station `first` of it, and `lap` is the
+    /// length of the ring that it goes round, mm.
+    fn under_plunge(part: &Part, points: &[Point], first: f64, lap: Option<f64>, width: f64) -> Vec<bool> {
         let stations = polyline::stations(points);
-        let length = stations[stations.len() - 1];
-        let lap = if self.ring.is_some() { length } else { f64::INFINITY };
-        let starts = self.parts.iter().zip(of).filter(|(_, is_meant)| **is_meant).map(|(part, _)| part.start % lap);
-        let plunges: Vec<[f64; 2]> = starts.flat_map(|at| [[at, at + width], [at - lap, at - lap + width]]).collect();
-        let is_under = |ends: &[f64]| plunges.iter().any(|[low, high]| *low < ends[1] && ends[0] < *high);
+        let lap = lap.unwrap_or(2.0 * (stations[stations.len() - 1] + width));
+        let is_under = |ends: &[f64]| {
+            let way = (ends[0] - first - part.start).rem_euclid(lap);
+            way < width || way + ends[1] - ends[0] > lap
+        };
         stations.windows(2).map(is_under).collect()
     }
 
-    /// A smooth curve along the line, with a share of the tolerance where the blade is askew at the start of a part, and the
-    /// parameter at which the line begins.
-    fn smooth(&self, share: f64, askew: &[bool], tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
+    /// A smooth curve along the line, with a share of the tolerance under the blade where each part begins, and the parameter
+    /// at which the line begins.
+    fn smooth(&self, shares: &[f64], tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
         let width = job.profile.knife.width_mm;
-        let narrow = |points: &[Point]| self.under_plunges(points, askew, width);
-        let ring = self.ring.clone().map(|ring| match share {
-            1.0 => ring,
-            _ => Run { junctions: narrow(&ring.points), ..ring },
-        });
-        let extended = ring.as_ref().map(|ring| (run::extended(ring, tolerance, width), ring));
-        let (points, first, lap) = match &extended {
-            Some((extended, ring)) => (&extended.points, extended.start, extended.lap(ring)),
-            None => (&self.points, 0.0, None),
+        let ring = self.ring.as_ref().map(|ring| (run::extended(ring, tolerance, width), ring));
+        let (points, junctions, first, lap) = match &ring {
+            Some((ring, run)) => (&ring.points, &ring.junctions, ring.start, ring.lap(run)),
+            None => (&self.points, &self.junctions, 0.0, None),
         };
+        let length = self.ring.as_ref().map(|ring| polyline::length(&ring.points));
         let near = if lap.is_some() { [Near::default(); 2] } else { self.near };
         let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
         let band = || plain().with_ends(near);
-        let junctions = match &extended {
-            Some((extended, _)) => extended.junctions.clone(),
-            None if share < 1.0 => narrow(points),
-            None => self.junctions.clone(),
-        };
+        let under = |part: &Part| Self::under_plunge(part, points, first, length, width);
         let along = |band: &dyn Fn() -> ToleranceBand| {
-            if share < 1.0 {
-                smooth(&band().with_junctions(&junctions, share))
-            } else {
-                run::smoothed(band, &junctions)
+            if shares.iter().all(|share| *share == 1.0) {
+                return run::smoothed(band, junctions);
             }
+            let parts = self.parts.iter().zip(shares).filter(|(_, share)| **share < 1.0);
+            smooth(&parts.fold(band(), |band, (part, &share)| band.with_junctions(&under(part), share)))
         };
         Some((first, along(&band).or_else(|_| along(&plain)).ok()?))
     }
@@ -222,11 +216,13 @@ impl<'a> Line<'a> {
     }
 }
 
-/// How far a line turns under a blade that plunges at its start, rad.
+/// Turn of a line under a blade that plunges at its start and at the first vertex ahead of it, which a curve comes to before
+/// that, rad.
 fn turned(extended: &Extended, width: f64) -> f64 {
     let under = extended.stations().take_while(|(_, station)| *station < width).count();
+    let ahead = extended.stations().skip(under).take_while(|(_, station)| *station < 2.0 * width).take(1).count();
     let points = &extended.points;
-    let inner = 1..under.min(points.len() - 1);
+    let inner = 1..(under + ahead).min(points.len() - 1);
     inner.map(|k| polyline::turn_at(points[k - 1], points[k], points[k + 1]).abs()).sum()
 }
 

@@ -23,9 +23,8 @@ const NONE: f64 = 1e-3;
 const TAIL: f64 = 0.4;
 const HEAD: f64 = 3.0;
 
-/// Contours of each kind in the long tests, and those that are lifted amid a line.
+/// Contours of each kind in the long tests.
 const CONTOURS: usize = 1000;
-const LIFTED: usize = 300;
 /// Widths of a blade and of its back, mm.
 const BLADES: [[f64; 2]; 4] = [[6.6, 6.35], [6.0, 4.0], [8.89, 6.35], [3.0, 1.5]];
 /// Widest thread that is left anywhere, mm.
@@ -174,7 +173,7 @@ fn the_end_of_a_ring_runs_over_its_start() {
 #[test]
 fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
     let mut random = ChaCha8Rng::seed_from_u64(451);
-    let (mut lifts, count) = (0, LIFTED / ONE_IN.min(3));
+    let (mut lifts, count) = (0, CONTOURS / ONE_IN);
     for case in 0..count {
         let unit = UNITS[case % UNITS.len()];
         let points = outline(&mut random, unit.1);

@@ -14,4 +14,4 @@ mod overlaps;
 pub use blade::{PASSING_SHARE, Plunge, stands_across};
 pub use cut::BladePlacement;
 pub use deviation::{Deviation, REACH, WORTH_SHARE};
-pub use overlaps::{Overlap, overlaps};
+pub use overlaps::{Overlap, heel_share, overlaps};

@@ -44,7 +44,8 @@ pub fn overlaps(run: &Run, around: &Surroundings) -> [Overlap; 2] {
         Wanted { end, waste: front, part: part[1], from: run.points[n - 1], along: direction(n - 2, n - 1) },
     ];
     let [heel, front] = ends.map(|wanted| wanted.given(around));
-    [Overlap { length: heel.length * heel_share(run, heel.length, around), ..heel }, front]
+    let share = heel_share(run, heel.length, PASSING_SHARE * around.tolerance, knife.width_mm);
+    [Overlap { length: heel.length * share, ..heel }, front]
 }
 
 /// An overlap as the profile wants it.
@@ -91,11 +92,10 @@ impl Overlap {
     }
 }
 
-/// The part of a heel overlap with which the plunged blade passes the start of its run within the tolerance. A curve
-/// turns the blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the
+/// The part of a heel overlap with which the plunged blade of a width passes the start of its run within `allowed` mm. A
+/// curve turns the blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the
 /// corner.
-fn heel_share(run: &Run, heel: f64, around: &Surroundings) -> f64 {
-    let (width, allowed) = (around.knife.width_mm, PASSING_SHARE * around.tolerance);
+pub fn heel_share(run: &Run, heel: f64, allowed: f64, width: f64) -> f64 {
     // It turns the blade by no more than the run turns under it.
     if heel == 0.0 || heel >= width || heel * polyline::turn_within(&run.points, width) <= allowed {
         return 1.0;

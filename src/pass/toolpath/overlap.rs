@@ -15,13 +15,17 @@ use super::pass::ToolpathPass;
 use super::runs;
 use super::scene::Scene;
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::overlaps;
+use crate::analysis::plunge::{heel_share, overlaps};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, bits, polyline};
 use crate::ir::marker::Notch;
 use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
 use crate::units::number::fixed;
+
+/// Part of the tolerance by which a plunged blade may pass the start of its run where that must meet another cut: a small one
+/// of the widest thread.
+const MEETING_SHARE: f64 = 0.02;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "overlap",
@@ -64,8 +68,8 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
 }
 
 /// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, its own part at a reflex
-/// corner, too, and at the root of a slit. The cut that it must meet there may be off by that. `met` counts the ends of runs at
-/// each place.
+/// corner, too, and at the root of a slit. The cut that it must meet there may be off by that. A blade that a curve turns away
+/// from its start has less there, and passes it. `met` counts the ends of runs at each place.
 fn meeting(run: &Run, met: &BTreeMap<[u64; 2], usize>, around: &Surroundings) -> [f64; 2] {
     let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
     let has_root = is_slit && polyline::length(&run.points) <= Notch::LONGEST;
@@ -76,7 +80,9 @@ fn meeting(run: &Run, met: &BTreeMap<[u64; 2], usize>, around: &Surroundings) ->
         let is_narrow = side == Side::Gap || side == Side::Part && met.get(&bits(end)).is_some_and(|&ends| ends > 1);
         is_narrow && !bare || has_root && k == root
     };
-    let least = |k: usize| if is_meant(k) { around.tolerance } else { 0.0 };
+    let tolerance = around.tolerance;
+    let shares = || [heel_share(run, tolerance, MEETING_SHARE * tolerance, around.knife.width_mm), 1.0];
+    let least = |k: usize| if is_meant(k) { tolerance * shares()[k] } else { 0.0 };
     if run.shape == Shape::Open { [0, 1].map(least) } else { [0.0; 2] }
 }
 

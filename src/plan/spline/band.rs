@@ -76,7 +76,7 @@ impl ToleranceBand {
     /// The band with a smaller share of the tolerance on chords at junctions, if it has any.
     pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool], share: f64) -> Self {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
-            (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share);
+            (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share.min(self.shares[chord]));
         }
         self
     }

@@ -14,6 +14,8 @@ use crate::verify::declared::{Account, Stretch};
 
 /// Distance of two places at which the drawn line is looked at, mm.
 const SWING_STEP: f64 = 0.25;
+/// Length of the line behind the tip that is looked at, in widths of the blade.
+const BEHIND: f64 = 2.0;
 
 impl Judge<'_> {
     /// Measures all that may be declared of a stroke, where anything is declared of its cut.
@@ -79,27 +81,40 @@ impl Judge<'_> {
         body.chain(over.map(|over| over.sagitta)).fold(0.0, f64::max)
     }
 
-    /// How far blade and line are apart where it plunges at the start of what it cuts of the line as that is drawn, mm.
+    /// How far blade and line are apart where it plunges at the start of what it cuts of the line as that is drawn, mm: on a
+    /// narrow curve that depends on the start, which the heel beside the line tells only so well.
     fn drawn_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
-        let led_on = self.drawn(cut, trial);
-        let alone = &led_on[usize::from(trial.beyond(cut, 0) > 0.0)..];
-        // About the start of a ring it lies before that or behind it.
-        let back: Vec<Point> = if trial.laps { alone.iter().rev().copied().collect() } else { Vec::new() };
-        let lines = [&led_on, alone, &back].into_iter().filter(|points| points.len() > 1);
-        lines.map(|points| bow(points, self.knife.width_mm)).fold(0.0, f64::max)
+        let line = &self.reference.lines[trial.line];
+        let [from, to] = trial.reach;
+        let beside = |from: f64| {
+            let from = if line.ring { from } else { from.clamp(0.0, line.length()) };
+            let led_on = self.drawn(cut, trial, [from, to]);
+            let alone = &led_on[usize::from(trial.beyond(cut, 0) > 0.0 && !trial.laps)..];
+            // About the start of a ring it lies behind that or before it, on the lap before.
+            let lap = if from < to { -line.length() } else { line.length() };
+            let back = if trial.laps { self.drawn(cut, trial, [from, from + lap]) } else { Vec::new() };
+            let lines = [&led_on, alone, &back].into_iter().filter(|points| points.len() > 1);
+            lines.map(|points| bow(points, self.knife.width_mm)).fold(0.0, f64::max)
+        };
+        let aside = 2.0 * self.tracer.allowed;
+        [from, from - aside, from + aside].map(beside).into_iter().fold(0.0, f64::max)
     }
 
     /// How far a body leaves what a stroke cuts of its line as that is drawn, at the most, while the blade lies along it or is a
-    /// chord of it, mm.
+    /// chord of it, mm: from where it has left the place of its plunge, on a ring from the start on.
     fn drawn_swing(&self, cut: &Cut, trial: &Trial) -> f64 {
-        let (points, width) = (self.drawn(cut, trial), self.knife.width_mm);
+        let width = self.knife.width_mm;
+        let behind = if trial.laps { BEHIND * width } else { 0.0 };
+        let [from, to] = trial.reach;
+        let points = self.drawn(cut, trial, [if from < to { from - behind } else { from + behind }, to]);
         let stations = polyline::stations(&points);
+        let first = behind.max(width);
         let of_chord = |chord: usize| {
             let Some(along) = polyline::direction(points[chord], points[chord + 1]) else { return 0.0 };
             let steps = ((stations[chord + 1] - stations[chord]) / SWING_STEP).ceil().max(1.0);
             let at = |step: f64| stations[chord] + (stations[chord + 1] - stations[chord]) * (step / steps);
             let off = |station: f64| {
-                let first = stations.partition_point(|&passed| passed < station - 2.0 * width).saturating_sub(1);
+                let first = stations.partition_point(|&passed| passed < station - BEHIND * width).saturating_sub(1);
                 let tip = polyline::place(&points, &stations, station);
                 let behind: Vec<Point> = points[first..=chord].iter().copied().chain([tip]).collect();
                 // Where a line is too tight for the chord mode, the blade lies along it in either.
@@ -111,16 +126,16 @@ impl Judge<'_> {
             (0..=steps as usize)
                 .map(|step| at(step as f64))
                 .take_while(|at| at - stations[chord] <= width)
+                .filter(|&at| at >= first)
                 .map(off)
                 .fold(0.0, f64::max)
         };
         (0..points.len() - 1).map(of_chord).fold(0.0, f64::max)
     }
 
-    /// The stretch of the drawn line that a stroke cuts, in its direction, with straight extensions by its overlaps.
-    fn drawn(&self, cut: &Cut, trial: &Trial) -> Vec<Point> {
+    /// The drawn line between two stations, from the one to the other, with straight extensions by the overlaps of a stroke.
+    fn drawn(&self, cut: &Cut, trial: &Trial, [from, to]: [f64; 2]) -> Vec<Point> {
         let line = &self.reference.lines[trial.line];
-        let [from, to] = trial.reach;
         let (low, high) = (from.min(to), from.max(to));
         let inner = line.vertices(low, high).map(|vertex| line.point(vertex));
         let place = |station: f64| line.place(on_lap(line, station));
@@ -132,7 +147,8 @@ impl Judge<'_> {
         let led = |end: usize, next: usize, place: usize| {
             let along = polyline::direction(points[next], points[end])?;
             let beyond = trial.beyond(cut, place);
-            (beyond > 0.0).then(|| points[end] + along * beyond)
+            // A ring has its overlap on itself.
+            (beyond > 0.0 && !trial.laps).then(|| points[end] + along * beyond)
         };
         let [before, behind] = [led(0, 1, 0), led(last, last - 1, cut.points.len() - 1)];
         before.into_iter().chain(points).chain(behind).collect()

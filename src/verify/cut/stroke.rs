@@ -87,7 +87,7 @@ pub(in crate::verify) struct Judge<'a> {
     pub(super) knife: &'a Knife,
     period: f64,
     /// Rounding of a tip's place, mm.
-    rounding: f64,
+    pub(super) rounding: f64,
     /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
     way_min: f64,
     noise_deg: f64,
@@ -356,7 +356,7 @@ impl<'a> Judge<'a> {
         if trial.laps || cut.is_plunge_cut() && self.knife.width_mm > 0.0 {
             return;
         }
-        let allowed = self.overlap + self.reference.tolerance;
+        let allowed = self.overlap + self.reference.tolerance + self.rounding;
         for i in 0..cut.points.len() {
             let beyond = trial.beyond(cut, i);
             if beyond > allowed {

@@ -148,8 +148,10 @@ impl Tracer<'_> {
         // its tip far from what it cuts.
         let enough = tolerance.max(cut.length() - self.slack);
         if cut.is_plunge_cut() || !trials.iter().any(|trial| trial.fresh >= enough) {
+            // Only so many lines are tried; the one that its row names is, however many lie nearer.
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
-            trials = candidates.iter().map(|candidate| self.follow(cut, candidate)).collect();
+            trials.retain(|named| candidates.iter().all(|other| other.line != named.line));
+            trials.extend(candidates.iter().map(|candidate| self.follow(cut, candidate)));
             self.weigh(&mut trials, coverage);
         }
         // A plunge is meant for a line that its blade lies over, however little of that is uncut. Lines that it crosses count
@@ -479,11 +481,12 @@ impl Trial {
         if place <= *self.held.start() { Which::Start } else { Which::End }
     }
 
-    /// Whether the blade of a plunge cut stands across its line, all along.
+    /// Whether the blade of a plunge cut stands across all that it cuts of its line.
     fn is_across(&self, cut: &Cut, line: &Line) -> bool {
         let blade = cut.blade().map(|end| end.coords);
         let along = (blade[1] - blade[0]).normalize();
-        self.held.clone().all(|i| line.direction(self.feet[i].chord).dot(&along).abs() < ALONG)
+        let mut chords = self.stretches.iter().flat_map(|&stretch| line.chords_between(stretch));
+        chords.all(|chord| line.direction(chord % line.chords()).dot(&along).abs() < ALONG)
     }
 
     fn note(&mut self, deviation: f64, place: usize) {
