@@ -24,7 +24,7 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The scene of a marker.
     pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
-        let (near, junctions) = (NearLines::new(marker), Junctions::new(marker));
+        let (near, junctions) = (NearLines::new(marker), Junctions::new(marker, &job.profile));
         Self { job, cloth: Cloth::new(marker, &job.profile), near, junctions, unit: marker.unit }
     }
 

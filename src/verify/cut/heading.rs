@@ -24,6 +24,8 @@ const CURVE_CHORD: f64 = 25.0;
 /// Farthest ahead that a bend is looked for, mm: a curve that far away does not bow the start of a way.
 const BEND_REACH: f64 = 100.0;
 
+/// Rows that are looked at for a second place on one side of the end of a way, at the most: a knife may rest.
+const LOOK: usize = 64;
 /// Part of an angle by which rounding may seem to make it less.
 const SURE_EPSILON: f64 = 1e-9;
 
@@ -91,7 +93,7 @@ impl Moving<'_> {
                 while behind < last && !is_clear(i, behind) {
                     behind += 1;
                 }
-                direction([tips[before], tips[i], tips[behind]], self.way_min)
+                self.direction([before, i, behind])
             };
             if along.norm() < self.way_min {
                 // A blade that goes nowhere turns nowhere.
@@ -111,6 +113,25 @@ impl Moving<'_> {
             // Rounding turns the direction of a short move, but not by as much that of the way which it is part of.
             let of_way = self.around(i, &stations).map_or(f64::INFINITY, |along| askew(along) - self.noise_deg);
             heading.see(askew(along).min(of_way.max(0.0)), || rows[i].sighting());
+        }
+    }
+
+    /// Direction of the way at the middle one of three rows, to the second order: that of the parabola through them; at an end
+    /// of the way that of the parabola through the rows on its one side. A place too near to show a direction gives none.
+    fn direction(&self, [before, here, behind]: [usize; 3]) -> Vector {
+        let (tips, last) = (self.tips, self.tips.len() - 1);
+        let is_clear = |i: usize, k: usize| (tips[k] - tips[i]).norm() >= self.way_min;
+        let (to, from) = (tips[here] - tips[before], tips[behind] - tips[here]);
+        let (a, b) = (to.norm(), from.norm());
+        let led = |near: usize, far: Option<usize>| far.map(|far| at_end([tips[far], tips[near], tips[here]]));
+        match [is_clear(here, before), is_clear(here, behind)] {
+            [true, true] => to * (b / a) + from * (a / b),
+            [true, false] => led(before, (0..before).rev().take(LOOK).find(|&far| is_clear(before, far))).unwrap_or(to),
+            [false, true] => {
+                let far = (behind + 1..=last).take(LOOK).find(|&far| is_clear(behind, far));
+                led(behind, far).map_or(from, |along| -along)
+            }
+            [false, false] => to + from,
         }
     }
 
@@ -134,12 +155,12 @@ impl Moving<'_> {
     }
 }
 
-/// Direction of a way at the middle one of three places, to the second order: that of the parabola through them. A place
-/// too near to show a direction gives none.
-fn direction([before, here, behind]: [Point; 3], way_min: f64) -> Vector {
-    let (to, from) = (here - before, behind - here);
-    let (a, b) = (to.norm(), from.norm());
-    if a < way_min || b < way_min { to + from } else { to * (b / a) + from * (a / b) }
+/// Direction of a way at the last of three places, to the second order: that of the parabola through them.
+fn at_end([far, near, end]: [Point; 3]) -> Vector {
+    let (first, last) = (near - far, end - near);
+    let (a, b) = (first.norm(), last.norm());
+    let along = last / b;
+    (along + (along - first / a) * (b / (a + b))) * b
 }
 
 /// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).
