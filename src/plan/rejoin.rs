@@ -210,7 +210,7 @@ impl<'a> Line<'a> {
             let width = job.profile.knife.width_mm;
             let ends = [part.start, part.start + width.min(part.extended.end)];
             let turned = turned(&part.extended, width) + ends.map(|station| band.bow_at(station)).iter().sum::<f64>();
-            (beside <= order.most_beside(tolerance) && lead <= turned + slack).then_some(cut)
+            (beside <= order.most_beside(tolerance) && lead.abs() <= turned + slack).then_some(cut)
         };
         self.parts.iter().map(cut).collect()
     }

@@ -97,6 +97,8 @@ const STRAIGHT_SHARE: f64 = 0.9;
 const RESERVE_SHARE: f64 = 0.03;
 /// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
 const NARROWER: [f64; 2] = [0.4, 0.15];
+/// Smaller turns are none, rad.
+const TURN_EPSILON: f64 = 1e-6;
 /// Most laps before the start and behind the end of a ring.
 const LEADS: u32 = 4;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
@@ -139,7 +141,7 @@ pub(super) fn solve(run: &Run, near: [Near; 2], tolerance: f64, job: &Job) -> Re
     let mut curved = order.curved(&extended, &found)?;
     let most = order.most_beside(tolerance);
     for share in NARROWER {
-        if curved.beside > most {
+        if curved.beside > most || order.bows_back(&extended, curved.lead, tolerance) {
             let band = || ToleranceBand::plain(points.clone(), share * tolerance);
             let nearer = near.map(|near| Near { share: (near.share / share).min(1.0), ..near });
             let found = smooth(&band().with_ends(nearer)).or_else(|_| smooth(&band()));
@@ -191,7 +193,7 @@ pub(super) struct Curved {
     pub(super) cut: Cut,
     /// How far its polyline lies beside the plunged blade, mm.
     pub(super) beside: f64,
-    /// How far the curve turns from the plunged blade, rad.
+    /// Turn from the plunged blade to the curve, left positive, rad.
     pub(super) lead: f64,
 }
 
@@ -263,6 +265,18 @@ impl<'a> Order<'a> {
             }
         };
         most - RESERVE_SHARE * tolerance
+    }
+
+    /// Whether a curve whose tangent leads the plunged blade by `lead` rad bows away from the first bend of its line by more than
+    /// it may: a way that stays within t of a straight line on a length l has at most the curvature 16 t / l^2, and leads the
+    /// blade by half of that times its width.
+    fn bows_back(&self, extended: &Extended, lead: f64, tolerance: f64) -> bool {
+        let (points, width) = (&extended.points, self.job.profile.knife.width_mm);
+        let turns = extended.stations().skip(1).zip(points.windows(3));
+        let mut bends = turns.map(|((_, station), ends)| (station, polyline::turn_at(ends[0], ends[1], ends[2])));
+        let Some((straight, turn)) = bends.find(|(_, turn)| turn.abs() > TURN_EPSILON) else { return false };
+        let may_bow = 8.0 * tolerance * width / (straight * straight);
+        self.run.shape == Shape::Open && straight > width && lead * turn < 0.0 && lead.abs() > may_bow
     }
 
     /// A straight run in closed form: the tightest axis decides. It is certified by its greatest derivatives.
@@ -337,7 +351,7 @@ impl<'a> Order<'a> {
         let under = extended.stations().take_while(|(_, station)| *station < way.from);
         let beside = under.map(|(point, _)| polyline::distance_to_segment(point, plunged[0], plunged[1]));
         let beside = beside.fold(0.0, f64::max);
-        Ok(Curved { cut: Cut { sagitta: *sagitta, ..self.along(&way)? }, beside, lead: way.lead().abs() })
+        Ok(Curved { cut: Cut { sagitta: *sagitta, ..self.along(&way)? }, beside, lead: way.lead() })
     }
 
     /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its

@@ -47,6 +47,7 @@ mod rewritten;
 mod route;
 mod sew;
 mod sheet;
+mod sound;
 mod spray;
 mod targets;
 mod threads;

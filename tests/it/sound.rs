@@ -1,0 +1,54 @@
+//! Sound drawings on which a compile was once refused as a fault of its own: each has a program that is verified.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::support::room::{DONE, Room};
+
+/// Drawings of `fixtures/sound` with the settings or options under which they were refused, and the habit that each shows.
+const DRAWINGS: &[(&str, &str)] = &[
+    ("bay.cut", ""),                                              // a bay narrower than the blade
+    ("bends.cut", "knife.max_down_mm=100"),                       // a lift in a bend that is followed
+    ("castles.cut", NO_OVERLAPS), // overlaps of one tolerance, written with six decimals
+    ("dense-blob.cut", ""),       // points as near as their rounding
+    ("dense-hole.cut", ""),       // the same around a hole narrower than the blade
+    ("flat-ellipse.cut", ""),     // the end of a cut in a tight curve
+    ("inch-hole.cut", ""),        // a ring whose end must run over its start
+    ("inch-nest.cut", ""),        // two cuts that end at one corner and go on the same way
+    ("lifted-blob.cut", "knife.max_down_mm=38"), // lifts right before bends
+    ("lifted-ring.cut", "knife.max_down_mm=30"), // lifts amid a ring
+    ("long-heel.cut", LONG_HEEL), // a heel overlap of half a blade
+    ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
+    ("noisy-circle.cut", ""),     // a digitised circle of 5 mm
+    ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
+    ("polygon.cut", ""),          // edges shorter than the blade
+    ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps
+    ("spike.plt", "--cut-all"),   // a chord of 0.18 mm at the point of a spike
+    ("tabs.cut", ""),             // a curve that begins at a reflex corner
+    ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
+];
+const NO_OVERLAPS: &str =
+    "knife.front_overlap_mm=0 knife.corner_front_overlap_mm=0 knife.heel_overlap_mm=0 knife.corner_heel_overlap_mm=0";
+const LONG_OVERLAPS: &str =
+    "knife.front_overlap_mm=3 knife.corner_front_overlap_mm=3 knife.heel_overlap_mm=3 knife.corner_heel_overlap_mm=3";
+const LONG_HEEL: &str = "knife.corner_heel_overlap_mm=3 path.tolerance_mm=0.15 nest.band_mm=0.3";
+
+#[test]
+fn every_sound_drawing_has_a_program_that_is_verified() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/sound");
+    let entries = std::fs::read_dir(&folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    assert_eq!(names, DRAWINGS.iter().map(|(name, _)| *name).collect::<Vec<_>>(), "each drawing has its row");
+    DRAWINGS.par_iter().for_each(|(name, settings)| {
+        let room = Room::new();
+        room.write(name, &std::fs::read(folder.join(name)).expect("readable"));
+        let argument = |word: &str| if word.starts_with("--") { format!(" {word}") } else { format!(" --set {word}") };
+        let settings: String = settings.split_whitespace().map(argument).collect();
+        room.expect(&format!("compile {name} -o program.csv{settings}"), DONE);
+        let said = room.text("program.csv.meta.json");
+        assert!(said.contains("\"verified\": \"yes\""), "{name}: {said}");
+    });
+}
