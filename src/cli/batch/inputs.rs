@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use globset::{GlobBuilder, GlobMatcher};
+use fast_glob::glob_match;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::back::{Proof, TARGETS};
@@ -100,9 +100,8 @@ fn find_sought(arguments: &[PathBuf], sought: Sought) -> anyhow::Result<Inputs> 
             inputs.push(Input::named(argument));
         } else if argument.is_dir() {
             walk(argument, |path, _| belongs(path), &mut inputs);
-        } else if let Some(pattern) = pattern(argument).filter(|_| !argument.exists()) {
-            let Pattern { folder, matcher } = pattern?;
-            walk(&folder, |path, name| matcher.is_match(name) && may(path), &mut inputs);
+        } else if let Some(Pattern { folder, names }) = pattern(argument).filter(|_| !argument.exists()) {
+            walk(&folder, |path, name| glob_match(&names, &*name.to_string_lossy()) && may(path), &mut inputs);
         } else {
             inputs.push(Input::named(argument));
         }
@@ -179,11 +178,11 @@ fn walk(folder: &Path, is_meant: impl Fn(&Path, &Path) -> bool, inputs: &mut Vec
 /// A pattern of names below a folder.
 struct Pattern {
     folder: PathBuf,
-    matcher: GlobMatcher,
+    names: String,
 }
 
 /// What a path means as a pattern; `None` when it is none.
-fn pattern(path: &Path) -> Option<anyhow::Result<Pattern>> {
+fn pattern(path: &Path) -> Option<Pattern> {
     let mut folder = PathBuf::new();
     for part in path.components() {
         let next = folder.join(part);
@@ -195,10 +194,7 @@ fn pattern(path: &Path) -> Option<anyhow::Result<Pattern>> {
     }
     let rest = path.strip_prefix(&folder).ok().filter(|rest| !rest.as_os_str().is_empty())?;
     let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-    let glob = GlobBuilder::new(&rest.to_string_lossy()).literal_separator(true).build();
-    Some(glob.map(|glob| Pattern { folder, matcher: glob.compile_matcher() }).map_err(|error| {
-        failure(format!("`{}` is no pattern: {}", path.display(), error.kind()), "quote it, as in `'in/**/*.cut'`")
-    }))
+    Some(Pattern { folder, names: rest.to_string_lossy().into_owned() })
 }
 
 #[cfg(test)]
@@ -272,6 +268,6 @@ mod tests {
         let of = |argument: &str| find(&[room.path().join(argument)], is_cutter_file, &hint());
         assert!(of("").expect_err("refused").to_string().contains(".cut"));
         assert!(of("*.cut").expect_err("refused").to_string().contains("no files"));
-        assert!(of("[.cut").expect_err("refused").to_string().contains("is no pattern"));
+        assert!(of("[.cut").expect_err("refused").to_string().contains("no files"));
     }
 }

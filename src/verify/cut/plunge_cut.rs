@@ -63,9 +63,9 @@ impl Judge<'_> {
             return;
         }
         let surplus = self.knife.width_mm - most[0].max(most[1]);
-        let allowed = self.overlap.max(surplus) + self.reference.tolerance + self.rounding;
+        let allowed = self.overlap.max(surplus) + self.reference.tolerance;
         for (place, beyond) in [0, cut.body].into_iter().zip(ends) {
-            stray.see(beyond - allowed, || seen(place));
+            stray.see(self.excess(beyond, allowed), || seen(place));
         }
     }
 

@@ -87,7 +87,7 @@ pub(in crate::verify) struct Judge<'a> {
     pub(super) knife: &'a Knife,
     period: f64,
     /// Rounding of a tip's place, mm.
-    pub(super) rounding: f64,
+    rounding: f64,
     /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
     way_min: f64,
     noise_deg: f64,
@@ -351,19 +351,25 @@ impl<'a> Judge<'a> {
         Plunge { line, heel, tip, sign, band: self.reference.tolerance + self.rounding + self.sagitta }
     }
 
+    /// Excess of a length over what is allowed, mm; rounding of the rows is none.
+    pub(super) fn excess(&self, length: f64, allowed: f64) -> f64 {
+        let excess = length - allowed;
+        if excess > self.rounding { excess } else { excess.min(0.0) }
+    }
+
     /// Beyond what it cuts of its line a stroke cuts overlaps, and no more.
     fn check_ends(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
         if trial.laps || cut.is_plunge_cut() && self.knife.width_mm > 0.0 {
             return;
         }
-        let allowed = self.overlap + self.reference.tolerance + self.rounding;
+        let allowed = self.overlap + self.reference.tolerance;
         for i in 0..cut.points.len() {
             let beyond = trial.beyond(cut, i);
             if beyond > allowed {
                 let end = self.reference.lines[trial.line].place(trial.feet[i].station);
-                stray.see(beyond - allowed.max(self.reference.across(end)), || seen(i));
+                stray.see(self.excess(beyond, allowed.max(self.reference.across(end))), || seen(i));
             } else {
-                stray.see(beyond - allowed, || seen(i));
+                stray.see(self.excess(beyond, allowed), || seen(i));
             }
         }
     }
