@@ -6,7 +6,7 @@
 //! less than the tolerance - the contour hardly turns at a lift, or an overlap has no room - the tip keeps that near.
 
 use crate::geom::{Point, Vector, cross, polyline};
-use crate::ir::toolpath::{End, Run, Shape, Side};
+use crate::ir::toolpath::{End, PlungeCut, Run, Shape, Side, Step, Toolpath};
 use crate::machine::Job;
 use crate::plan::spline::Near;
 
@@ -19,6 +19,32 @@ const STRETCH: f64 = 2.0;
 
 /// Places that are nearer to each other are one, mm: rounding.
 pub(super) const SAME_EPSILON: f64 = 1e-6;
+
+/// A cut as its neighbours on the contour see it: a run or a plunge cut.
+#[derive(Clone, Copy)]
+struct Stroke<'a> {
+    points: &'a [Point],
+    ends: [End; 2],
+    turned: bool,
+    /// The run; none for a plunge cut, whose straight blade lies along its points.
+    run: Option<&'a Run>,
+}
+
+impl<'a> Stroke<'a> {
+    fn of_step(step: &'a Step) -> Option<Self> {
+        match step {
+            Step::Run(run) => Some(Self::of(run)),
+            Step::PlungeCut(PlungeCut { points, ends, turned, .. }) => {
+                Some(Self { points, ends: *ends, turned: *turned, run: None })
+            }
+            Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+        }
+    }
+
+    fn of(run: &'a Run) -> Self {
+        Self { points: &run.points, ends: run.ends, turned: run.turned, run: Some(run) }
+    }
+}
 
 /// A place at which a run ends.
 struct Place {
@@ -39,8 +65,11 @@ impl Place {
     }
 }
 
-/// How near the tips keep at the starts and at the ends of the runs of a contour, in order.
-pub(super) fn near(runs: &[&Run], tolerance: f64, job: &Job) -> Vec<[Near; 2]> {
+/// How near the tips keep at the starts and at the ends of the runs of a toolpath, in order.
+pub(super) fn near(toolpath: &Toolpath, job: &Job) -> Vec<[Near; 2]> {
+    let tolerance = toolpath.tolerance;
+    let strokes: Vec<Stroke> = toolpath.steps.iter().filter_map(Stroke::of_step).collect();
+    let runs: Vec<&Run> = toolpath.runs().collect();
     let count = runs.len();
     let least = (LEAST * job.profile.verify.max_uncut_mm / tolerance).min(1.0);
     let near = |k: usize, end: usize| {
@@ -60,16 +89,18 @@ pub(super) fn near(runs: &[&Run], tolerance: f64, job: &Job) -> Vec<[Near; 2]> {
             Near { length: length.max(near.length), share: (beside / tolerance).max(least).min(near.share) }
         })
     };
-    // Over a stretch that two runs share neither crosses the other.
+    // Over a stretch that two strokes share neither crosses the other.
     let shared = |before: usize, behind: usize| {
-        let length = overlap(runs[before], runs[behind])?.length;
+        let length = shared(strokes[before], strokes[behind])?.length;
         Some(Near { length: length + STRETCH * tolerance, share: least })
     };
-    let ends = |k: usize| {
-        let [start, end] = [shared((k + count - 1) % count, k), shared(k, (k + 1) % count)];
+    let all = strokes.len();
+    let ends = |(k, i): (usize, usize)| {
+        let [start, end] = [shared((i + all - 1) % all, i), shared(i, (i + 1) % all)];
         [start.unwrap_or_else(|| near(k, 0)), end.unwrap_or_else(|| near(k, 1))]
     };
-    (0..count).map(ends).collect()
+    let of_runs = (0..all).filter(|&i| strokes[i].run.is_some());
+    (0..).zip(of_runs).map(ends).collect()
 }
 
 /// The stretch over which two runs lie.
@@ -83,22 +114,30 @@ pub(super) struct Overlap {
 
 /// The stretch over which a run ends and another one begins; `None` where it does not go on along it.
 pub(super) fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
+    shared(Stroke::of(before), Stroke::of(behind))
+}
+
+/// The stretch over which one stroke ends and another one begins.
+fn shared(before: Stroke, behind: Stroke) -> Option<Overlap> {
     let is_lifted = |end: End| end.bare && end.side == Side::Contour;
-    let are_alike = before.shape == Shape::Open
-        && behind.shape == Shape::Open
+    let is_open = |run: Option<&Run>| run.is_none_or(|run| run.shape == Shape::Open);
+    let runs = before.run.zip(behind.run);
+    let are_alike = is_open(before.run)
+        && is_open(behind.run)
         && [before.turned, behind.turned] == [false; 2]
-        && [before.front, behind.heel] == [0.0; 2]
-        && before.orientation == behind.orientation;
+        && before.run.is_none_or(|run| run.front == 0.0)
+        && behind.run.is_none_or(|run| run.heel == 0.0)
+        && runs.is_none_or(|(before, behind)| before.orientation == behind.orientation);
     if !are_alike || !is_lifted(before.ends[1]) || !is_lifted(behind.ends[0]) {
         return None;
     }
-    let (points, first) = (&before.points, behind.points[0]);
+    let (points, first) = (before.points, behind.points[0]);
     let mut length = 0.0;
     for chord in (0..points.len() - 1).rev() {
         let [from, to] = [points[chord], points[chord + 1]];
         if polyline::distance_to_segment(first, from, to) <= SAME_EPSILON {
             length += (to - first).norm();
-            let is_along = length > SAME_EPSILON && goes_along(&points[chord + 1..], &behind.points);
+            let is_along = length > SAME_EPSILON && goes_along(&points[chord + 1..], behind.points);
             return is_along.then_some(Overlap { chord, length });
         }
         length += (to - from).norm();
@@ -151,7 +190,9 @@ mod tests {
             let (sin, cos) = turn.to_radians().sin_cos();
             let before = run([Point::origin(), corner], [1.0, front]);
             let behind = run([corner, corner + Vector::new(cos, sin) * 40.0], [heel, 1.0]);
-            let [[far, front], [heel, end]] = near(&[&before, &behind], 0.05, &Job::default())[..] else { panic!() };
+            let steps = [before, behind].map(Step::Run).to_vec();
+            let toolpath = Toolpath { steps, tolerance: 0.05, ..Toolpath::default() };
+            let [[far, front], [heel, end]] = near(&toolpath, &Job::default())[..] else { panic!() };
             assert_eq!([far, end], [Near::default(); 2]);
             [front, heel].map(|near| [near.length, near.share].map(|value| (value * 1e6).round() / 1e6))
         };

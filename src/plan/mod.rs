@@ -23,10 +23,10 @@ pub use planner::{Planner, home};
 pub use run::Cut;
 
 use crate::diagnostic::Diagnostic;
-use crate::ir::toolpath::{Run, Toolpath};
+use crate::ir::toolpath::Toolpath;
 use crate::machine::Job;
 
 /// The runs of a toolpath as they will be cut, in order; a diagnostic for each that cannot be.
 pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
-    rejoin::solve(&toolpath.runs().collect::<Vec<&Run>>(), toolpath.tolerance, job)
+    rejoin::solve(toolpath, job)
 }

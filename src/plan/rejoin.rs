@@ -9,7 +9,7 @@ use super::spline::{Extended, Near, Smooth, ToleranceBand, smooth};
 use crate::diagnostic::Diagnostic;
 use crate::geom::{Point, polyline};
 use crate::ir::list::Joint;
-use crate::ir::toolpath::{Run, Shape};
+use crate::ir::toolpath::{Run, Shape, Toolpath};
 use crate::machine::Job;
 
 /// Shares of the tolerance that are tried where blades plunge, when all of it would let the curve turn from one.
@@ -17,11 +17,12 @@ const NARROWER: [f64; 3] = [0.4, 0.15, 0.05];
 /// Part of the greatest heading that a curve may turn from a plunged blade more than its line does.
 const LEAD_SHARE: f64 = 0.9;
 
-/// Solves the runs of one contour, in order. Those whose common line is too tight for one curve are solved each by itself.
-pub(super) fn solve(runs: &[&Run], tolerance: f64, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
+/// Solves the runs of a toolpath, in order. Those whose common line is too tight for one curve are solved each by itself.
+pub(super) fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
+    let (runs, tolerance) = (&toolpath.runs().collect::<Vec<&Run>>()[..], toolpath.tolerance);
     let mut cuts: Vec<Option<Cut>> = runs.iter().map(|_| None).collect();
     let mut refused = Vec::new();
-    let near = meeting::near(runs, tolerance, job);
+    let near = meeting::near(toolpath, job);
     for group in groups(runs) {
         let of_group: Vec<&Run> = group.iter().map(|&k| runs[k]).collect();
         let is_line = group.len() > 1 || overlap(of_group[0], of_group[0]).is_some();

@@ -16,7 +16,7 @@ pub(super) struct Stroke<'a> {
 /// The strokes of a toolpath, in order.
 pub(super) fn of<'a>(toolpath: &'a Toolpath, job: &Job) -> Vec<Stroke<'a>> {
     let runs: Vec<&Run> = toolpath.runs().collect();
-    let near = meeting::near(&runs, toolpath.tolerance, job);
+    let near = meeting::near(toolpath, job);
     let next = |k: usize| Some(runs[(k + 1) % runs.len()]).filter(|next| meeting::overlap(runs[k], next).is_some());
     (0..runs.len()).map(|k| Stroke { run: runs[k], next: next(k), share: near[k][1].share }).collect()
 }

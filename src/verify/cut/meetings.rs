@@ -24,6 +24,8 @@ use crate::verify::worst::Worst;
 const CROSSING: f64 = 12.0;
 /// Greatest share of a stroke that is an end of it where it meets its own other end.
 const END_SHARE: f64 = 0.3;
+/// Least share of a line that a stroke cuts which meets its own other end.
+const ROUND_SHARE: f64 = 0.5;
 
 /// Ends of strokes at the places where they must meet.
 #[derive(Debug)]
@@ -84,7 +86,8 @@ impl<'a> Meetings<'a> {
         let over = trial.stretches.iter().copied().reduce(|[a, b], [low, high]| [a.min(low), b.max(high)]);
         let Some(over @ [low, high]) = over else { return };
         let corners = [self.begins(trial.line), self.next(trial.line)];
-        let meets_itself = line.ring || corners[0].is_some() && corners[0] == corners[1];
+        let is_round = line.ring || corners[0].is_some() && corners[0] == corners[1];
+        let meets_itself = is_round && high - low > ROUND_SHARE * line.length();
         let [first, last] = self.ends(cut, meets_itself);
         if trial.laps {
             return self.worst.see(closing(&[first, last]), || sighting(line, low));
