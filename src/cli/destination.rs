@@ -204,15 +204,26 @@ pub(super) fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Whether the program at a path, if there is one, was made from an input of the same name.
+/// Whether what is at a path, if anything is, was made by the program from an input of the same name. An empty file holds
+/// nothing that could be lost.
 pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
+    const HINT: &str = "give the new program another place with -o, or say --force";
     let input = if is_dash(input) { STDIN.into() } else { input.file_name().unwrap_or_default().to_string_lossy() };
-    match provenance::source_of(path).filter(|made_from| path.exists() && *made_from != input) {
-        None => Ok(()),
+    if fs::metadata(path).map_or(true, |file| file.len() == 0) {
+        return Ok(());
+    }
+    let shown = path.display();
+    match provenance::source_of(path) {
+        Some(made_from) if made_from == input => Ok(()),
         Some(made_from) => Err(failure(
-            format!("`{}` was made from `{made_from}`, not from `{input}`: it is not overwritten", path.display()),
-            "give the new program another place with -o, or say --force",
+            format!("`{shown}` was made from `{made_from}`, not from `{input}`: it is not overwritten"),
+            HINT,
         )),
+        None => {
+            let meta = meta(path);
+            let name = meta.file_name().unwrap_or_default().to_string_lossy();
+            Err(failure(format!("`{shown}` is not overwritten: no `{name}` says that `cutc` made it"), HINT))
+        }
     }
 }
 
@@ -321,6 +332,12 @@ mod tests {
         let written = Ok(Place::Files(vec![program.clone()]));
         assert_eq!(find("in/m05.cut", false), written);
         assert_eq!(find("in/m05.plt", true), written);
+        // One that nothing calls ours is somebody's work, unless it is empty.
+        fs::remove_file(meta(&program)).expect("removable");
+        assert!(find("in/m05.cut", false).expect_err("refused").contains("no `m05.csv.meta.json` says"));
+        assert_eq!(find("in/m05.cut", true), written);
+        fs::write(&program, "").expect("writable");
+        assert_eq!(find("in/m05.cut", false), written);
         fs::remove_file(&program).expect("removable");
         assert_eq!(find("in/m05.plt", false), written);
     }

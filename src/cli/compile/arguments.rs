@@ -75,7 +75,7 @@ pub(in crate::cli) struct Making {
     )]
     pub(super) targets: Vec<&'static Target>,
 
-    /// Overwrite a program even if it was made from another input
+    /// Overwrite a file even if it was made from another input, or by somebody else
     #[arg(long)]
     pub(super) force: bool,
 

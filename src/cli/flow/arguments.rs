@@ -33,7 +33,7 @@ pub(in crate::cli) struct Arguments {
     #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::flow_targets(), value_delimiter = ',')]
     pub(super) targets: Vec<&'static Target>,
 
-    /// Overwrite a plan even if it was made from another input
+    /// Overwrite a plan even if it was made from another input, or by somebody else
     #[arg(long)]
     pub(super) force: bool,
 

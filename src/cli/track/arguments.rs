@@ -36,7 +36,7 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub(super) plot: Option<PathBuf>,
 
-    /// Overwrite a file even if it was made from another input
+    /// Overwrite a file even if it was made from another input, or by somebody else
     #[arg(long)]
     pub(super) force: bool,
 
