@@ -307,7 +307,7 @@ codes! {
     /// Layers that may be exchanged.
     DXF_SEAM_OUTSIDE = warning(Spoils, Shape, "dxf/seam-outside", "A seam line of a DXF file (layer 14) goes round its outline (layer 1).", "The knife follows layer 1. If that has the seam and layer 14 the edge, the parts are cut without their seam allowance. Compare the extent that `cutc info` prints with the pieces, and let the CAD system export layer 1 as the line of the knife.");
     /// A block without an outline.
-    DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
+    DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, or the name or quantity of a piece, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
     /// A line on a layer of points.
     DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83), of drill holes (13) or of turn and curve points (2, 3), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
     /// A quantity that is none.

@@ -21,6 +21,8 @@ pub(super) const MOST_PIECES: usize = 100_000;
 pub(super) struct Held {
     /// Whether it holds anything to cut, or a block that may.
     pub(super) is_cut: bool,
+    /// Whether it holds lines as pieces have them beside their outlines.
+    pub(super) has_lines: bool,
     /// The pens of what else is drawn in it.
     drawn: BTreeSet<String>,
 }
@@ -29,7 +31,8 @@ impl Held {
     pub(super) fn of(shapes: &Shapes, names: &Names) -> Self {
         let lines = shapes.lines.iter().map(|line| names.of(line.layer).to_owned());
         let unread = shapes.unread.iter().map(|unread| unread.pen.clone());
-        Self { is_cut: shapes.is_cut(), drawn: lines.chain(unread).collect() }
+        let has_lines = shapes.lines.iter().any(|line| line.layer.is_curved() || line.layer.is_fine());
+        Self { is_cut: shapes.is_cut(), has_lines, drawn: lines.chain(unread).collect() }
     }
 }
 

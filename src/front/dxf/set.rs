@@ -6,7 +6,7 @@ use super::chain::Chain;
 use super::choice::{Asked, Chosen};
 use super::curves::{CurveCounts, Drafting, Size, lend};
 use super::doubts;
-use super::entity::{Block, Entity, Sections, sections};
+use super::entity::{Block, Entity, NAME, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Does, Named, Names};
@@ -18,7 +18,7 @@ use super::retrace::say_retraced;
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
-use super::told::{plain, say_at_fault, say_curves, say_hidden, say_on_paper, say_text, say_unread};
+use super::told::{plain, say_at_fault, say_curves, say_hidden, say_on_paper, say_text, say_uncut, say_unread};
 use super::unit::{Lengths, doubt, unit};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::geom::budget::Budget;
@@ -147,10 +147,10 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let placing = Placing::of(source, blocks, bases, std::mem::take(&mut loose.inserts));
     borrow(&mut drawn, &mut said, &sizes_of(&own, &asked));
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
-    let own = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own));
+    let own: Vec<Facts> = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own)).collect();
     // What frames and legends say of sizes is of no piece.
     let is_cut = |k: usize| held[k].is_cut && placing.is_piece(k);
-    let facts: Vec<Facts> = own.enumerate().map(|(k, own)| if is_cut(k) { own } else { Facts::default() }).collect();
+    let facts: Vec<Facts> = (0..own.len()).map(|k| if is_cut(k) { own[k] } else { Facts::default() }).collect();
     let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
     let chosen = Chosen::of(&asked, &facts, placing.parts(&boxes), out);
     chosen.say_missing(&facts, out);
@@ -179,6 +179,8 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     set.is_plain = !file.says_anything() && set.pieces.is_empty();
     set.lay(&placing, loose, &mut making);
     making.report();
+    let uncut = if set.count() > 0 { uncut(blocks, &own, &held, &placing, &chosen) } else { Vec::new() };
+    say_uncut(&uncut, &asked, making.out);
     let Making { work, apart, .. } = making;
     set.apart = apart;
     say_unread(&set.unread, out);
@@ -186,6 +188,17 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     say_hidden(hidden, out);
     set.say(work.is_spent(), &asked, out);
     set
+}
+
+/// Names of the blocks that ask for no cut, though their texts say a name or a quantity of a piece and lines of one are drawn in
+/// them.
+fn uncut(blocks: &[Block], own: &[Facts], held: &[Held], placing: &Placing, chosen: &Chosen) -> Vec<Span> {
+    let is_uncut = |k: &usize| !held[*k].is_cut && held[*k].has_lines && placing.is_piece(*k) && chosen.has(&own[*k]);
+    let name = |k: usize| {
+        let Facts { name, quantity, .. } = own[k];
+        name.first.or(quantity.first.and_then(|_| blocks[k].head.value(NAME)))
+    };
+    (0..blocks.len()).filter(is_uncut).filter_map(name).collect()
 }
 
 /// The base points of blocks; what is at fault in one is said of its block.

@@ -168,12 +168,23 @@ fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<F
     lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).filter_map(known).collect()
 }
 
-/// The name before the colon of a line, and the offset of the value behind it. A wide colon counts only behind a known key.
+/// The name before the colon of a line, and the offset of the value behind it. A wide colon counts only behind a known key, and
+/// a number behind a quantity needs no colon.
 fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     let is_key = |name: &[u8]| key(&letters.text(name)).is_some();
     let wide = WIDE_COLONS.iter().find_map(|colon| {
         let at = memchr::memmem::find_iter(line, colon).find(|&at| is_key(&line[..at]))?;
         Some((&line[..at], at + colon.len()))
     });
-    wide.or_else(|| memchr::memchr(b':', line).map(|at| (&line[..at], at + 1)))
+    let colon = || memchr::memchr(b':', line).map(|at| (&line[..at], at + 1));
+    wide.or_else(colon).or_else(|| counted(line, letters))
+}
+
+/// The name before a number that stands behind a quantity and a blank or `=`, and the offset of the number.
+fn counted<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
+    let is_start = |at: &usize| line[*at].is_ascii_digit() && matches!(line[at - 1], b' ' | b'=');
+    let at = (1..line.len()).find(is_start)?;
+    let before = line[..at].trim_ascii_end();
+    let name = before.strip_suffix(b"=").unwrap_or(before).trim_ascii_end();
+    (key(&letters.text(name)) == Some(Key::Quantity)).then_some((name, at))
 }

@@ -10,8 +10,8 @@ use super::shape::Unread;
 use crate::diagnostic::{Diagnostic, Diagnostics, PieceName, code};
 use crate::source::Span;
 
-/// Letters of the names of layers in a message.
-const LAYERS_SHOWN: usize = 50;
+/// Letters of names in a message.
+const SHOWN: usize = 50;
 
 /// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
 pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Diagnostics) {
@@ -64,24 +64,44 @@ pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked
     }
 }
 
-/// The finding that a file is a plain drawing on these layers.
-pub(super) fn plain(names: &Names) -> Diagnostic {
-    let names: Vec<&String> = names.all().iter().filter(|name| !name.is_empty()).collect();
-    let word = if names.len() == 1 { "layer" } else { "layers" };
+/// Names one behind the other, as many as a message has room for.
+fn listed(names: impl Iterator<Item = String>) -> String {
     let mut shown = String::new();
     for name in names {
         let comma = if shown.is_empty() { "" } else { ", " };
-        if shown.len() + name.len() > LAYERS_SHOWN {
+        if shown.len() + name.len() > SHOWN {
             shown.push_str(comma);
             shown.push_str("...");
             break;
         }
         shown.push_str(comma);
-        shown.push_str(name);
+        shown.push_str(&name);
     }
+    shown
+}
+
+/// The finding that a file is a plain drawing on these layers.
+pub(super) fn plain(names: &Names) -> Diagnostic {
+    let names: Vec<&String> = names.all().iter().filter(|name| !name.is_empty()).collect();
+    let word = if names.len() == 1 { "layer" } else { "layers" };
+    let shown = listed(names.into_iter().cloned());
     let message = "the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM)";
     let finding = Diagnostic::new(&code::DXF_PLAIN, message).hint(format!("its lines are on {word} {shown}"));
     finding.hint("let the CAD system export AAMA or ASTM DXF, a cut file (ISO) or an HPGL plot")
+}
+
+/// Blocks of pieces of which nothing is cut, by the texts that name them.
+pub(super) fn say_uncut(names: &[Span], asked: &Asked, out: &mut Diagnostics) {
+    let Some(first) = names.first() else { return };
+    let text = |span: &Span| asked.letters.name(asked.source.slice(*span));
+    let message = match names.len() {
+        1 => "a piece has no outline on layer 1; nothing of it is cut".to_owned(),
+        count => format!("{count} pieces have no outline on layer 1; nothing of them is cut"),
+    };
+    let finding = Diagnostic::new(&code::DXF_NO_OUTLINE, message).at(*first);
+    let named = if names.len() == 1 { "its name is" } else { "their names are" };
+    let finding = finding.hint(format!("{named} {}", listed(names.iter().map(text))));
+    out.push(finding.hint("let the CAD system export each outline on layer 1"));
 }
 
 /// What kinds of entities are not read, and on which layers.

@@ -43,6 +43,35 @@ fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a)
 }
 
+/// Blanks that may stand for a lost digit: none but line breaks stand inside numbers, and NULs and end marks only between
+/// blocks.
+#[derive(Debug, Default)]
+struct Gaps {
+    blank: Option<usize>,
+    mark: Option<usize>,
+    /// The first that is no gap between words.
+    wrong: Option<usize>,
+}
+
+impl Gaps {
+    /// Sees a blank behind a byte of the block.
+    fn see(&mut self, byte: u8, at: usize) {
+        match byte {
+            b'\r' | b'\n' => {}
+            b' ' | b'\t' => self.blank = self.blank.or(Some(at)),
+            _ => self.mark = self.mark.or(Some(at)),
+        }
+    }
+
+    /// Sees that the block goes on, or ends, behind blanks.
+    fn close(&mut self, before: u8, behind: u8) {
+        let is_number = |byte: u8| byte.is_ascii_digit() || byte == b'.';
+        let is_amid = is_number(behind) && (is_number(before) || matches!(before, b'+' | b'-'));
+        self.wrong = self.wrong.or(self.mark).or(self.blank.filter(|_| is_amid));
+        (self.blank, self.mark) = (None, None);
+    }
+}
+
 impl<'a> Blocks<'a> {
     /// Starts before the first block.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
@@ -170,12 +199,12 @@ impl<'a> Blocks<'a> {
         text.clear();
         origins.clear();
         let mut end = self.bytes.len();
-        let mut asterisks = 0;
-        let mut unclosed = None;
+        let (mut asterisks, mut unclosed, mut gaps) = (0, None, Gaps::default());
         let mut at = self.at;
         while let Some(&byte) = self.bytes.get(at) {
             match byte {
                 b'*' => {
+                    text.last().into_iter().for_each(|&last| gaps.close(last, byte));
                     end = at;
                     break;
                 }
@@ -187,8 +216,9 @@ impl<'a> Blocks<'a> {
                     }
                     None => unclosed = Some(at),
                 },
-                _ if is_blank(byte) => {}
+                _ if is_blank(byte) => text.last().into_iter().for_each(|_| gaps.see(byte, at)),
                 _ => {
+                    text.last().into_iter().for_each(|&last| gaps.close(last, byte));
                     text.push(byte);
                     origins.push(at);
                 }
@@ -208,16 +238,17 @@ impl<'a> Blocks<'a> {
         let span = Span { start: origins.first().map_or(end, |&at| at) as u32, end: end as u32, block };
         text.push(b'*');
         origins.push(end);
-        let words = match (unclosed, syntax::block(&text)) {
-            (Some(at), _) => Err(self
+        let words = match (unclosed, gaps.wrong, syntax::block(&text)) {
+            (Some(at), _, _) => Err(self
                 .fault_at(at, block, "the passage that `/` deletes has no end")
                 .hint("put a second `/` behind what is to be left out, or take this one away")),
-            (None, Ok((_, words))) => Ok(words),
-            (None, Err(Err::Error(fault) | Err::Failure(fault))) => {
+            (None, Some(at), Ok(_)) => Err(self.gap_at(at, block)),
+            (None, None, Ok((_, words))) => Ok(words),
+            (None, _, Err(Err::Error(fault) | Err::Failure(fault))) => {
                 let at = origins[text.len() - fault.at.len()];
                 Err(self.diagnose(&fault, at, block))
             }
-            (None, Err(Err::Incomplete(_))) => Err(self.fault_at(end, block, "the block is cut short")),
+            (None, _, Err(Err::Incomplete(_))) => Err(self.fault_at(end, block, "the block is cut short")),
         };
         (self.text, self.origins) = (text, origins);
         Some(Block { span, words })
@@ -226,6 +257,15 @@ impl<'a> Blocks<'a> {
     fn fault_at(&self, at: usize, block: u32, message: impl Into<String>) -> Diagnostic {
         let end = (at + 1).min(self.bytes.len());
         Diagnostic::new(&code::ISO_SYNTAX, message).at(Span { start: at as u32, end: end as u32, block })
+    }
+
+    fn gap_at(&self, at: usize, block: u32) -> Diagnostic {
+        let message = match self.bytes[at] {
+            b' ' => "a blank stands inside a number".to_owned(),
+            b'\t' => "a tab stands inside a number".to_owned(),
+            byte => format!("byte 0x{byte:02x} stands inside a block"),
+        };
+        self.fault_at(at, block, message).hint("a digit may be lost here, and the file damaged; export it again")
     }
 
     fn diagnose(&self, fault: &Fault<'_>, at: usize, block: u32) -> Diagnostic {
@@ -294,6 +334,28 @@ mod tests {
     #[test]
     fn line_breaks_may_stand_inside_numbers() {
         assert_eq!(points("\u{feff}X10\r\n5Y 20*\n\0 X1*\x1a\n"), [(1, Some(105.0), Some(20.0)), (2, Some(1.0), None)]);
+    }
+
+    #[test]
+    fn blanks_that_may_be_lost_digits_are_told() {
+        let faults = |text: &str| {
+            let mut blocks = Blocks::new(text.as_bytes());
+            let mut found = Vec::new();
+            while let Some(block) = blocks.next() {
+                found.extend(block.words.err().and_then(|fault| fault.span).map(|span| span.start));
+            }
+            found
+        };
+        for sound in ["X1 Y2*", " X 1\tY -2 *", "X1\r\n0*", "X1*\0\0X2*\0", "\0X1*\x1a", "X1/2 3\0/Y2*"] {
+            assert!(faults(sound).is_empty(), "{sound:?}");
+        }
+        for damaged in
+            ["X1 0*", "X1\t0*", "X1\00*", "X1 .5*", "X1. 5*", "X1\n 0*", "X- 10*", "X1\0Y2*", "M1 4*", "X1\r\n\00*"]
+        {
+            assert_eq!(faults(damaged).len(), 1, "{damaged:?}");
+        }
+        assert_eq!(faults("X1*X1\0*"), [5]);
+        assert_eq!(faults("X\x1a1*"), [1]);
     }
 
     #[test]

@@ -165,15 +165,25 @@ impl<'a> Blocks<'a> {
         }
         let mut text = Vec::with_capacity(BLOCK_ROOM);
         let mut sound = true;
+        // Blanks since the last byte that is none, but line breaks.
+        let (mut has_blank, mut has_mark) = (false, false);
         while let Some(&byte) = self.bytes.get(self.at) {
             self.at += 1;
+            if byte != b'/' && !is_blank(byte) {
+                let is_in_number = |byte: &u8| byte.is_ascii_digit() || b"+-.".contains(byte);
+                let is_parted = has_blank && text.last().is_some_and(is_in_number) && is_in_number(&byte);
+                sound &= text.is_empty() || !has_mark && !is_parted;
+                (has_blank, has_mark) = (false, false);
+            }
             match byte {
                 b'*' => break,
                 b'/' => match self.bytes[self.at..].iter().position(|&byte| byte == b'/') {
                     Some(length) => self.at += length + 1,
                     None => sound = false,
                 },
-                _ if is_blank(byte) => {}
+                b'\r' | b'\n' => {}
+                b' ' | b'\t' => has_blank = true,
+                _ if is_blank(byte) => has_mark = true,
                 _ => text.push(byte),
             }
         }

@@ -140,6 +140,32 @@ fn a_control_polygon_on_layer_84_leaves_an_outline_that_is_fine_itself() {
     assert_eq!(broken(&source, &marker, &Job::default()), [""; 0]);
 }
 
+#[test]
+fn a_fine_line_beside_the_vertices_of_its_outline_is_told_and_curves_are_laid_without_it() {
+    let mut random = Rng::with_seed(3);
+    let outline = flower(&mut random, 5);
+    let read = |fine: Option<Vec<Place>>| {
+        let mut file = Writer::begin();
+        file.block("A");
+        outline.write(&mut file, 1, Drawn::Closed);
+        fine.iter().for_each(|fine| _ = file.outline(84, fine, Drawn::Closed));
+        file.end_block();
+        let source = source(file.end(&["UNITS: METRIC"]));
+        let (marker, found) = as_read(&source, &Job::default());
+        assert_eq!(broken(&source, &marker, &Job::default()), [""; 0]);
+        (points(&marker), found)
+    };
+    let (laid, _) = read(None);
+    let rounded =
+        |unit: f64| outline.fine.iter().map(|place| place.map(|value| (value / unit).round() * unit)).collect();
+    let moved = |by: Place| outline.fine.iter().map(|&[x, y]| [x + by[0], y + by[1]]).collect();
+    for fine in [rounded(0.1), moved([0.02, 0.0]), moved([0.0, 0.02]), moved([0.0, 0.5]), moved([1.0, 0.0])] {
+        let (cut, found) = read(Some(fine));
+        assert_eq!(found, ["dxf/curve-missed", "dxf/curves-guessed"]);
+        assert_eq!(cut, laid);
+    }
+}
+
 /// The natural cubic spline over the lengths of chords, at so many places a span: its bends by repeated averaging.
 fn natural(knots: &[Place], places: usize) -> Vec<Place> {
     let points: Vec<Point> = knots.iter().map(|&knot| knot.into()).collect();

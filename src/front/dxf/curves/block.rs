@@ -12,9 +12,12 @@ use crate::front::dxf::chain::Chain;
 use crate::front::dxf::fold::Fold;
 use crate::front::dxf::layer::{Layer, Named};
 use crate::geom::budget::Budget;
+use crate::geom::polyline;
 
 /// Least number of vertices of a ring.
 const LEAST_RING: usize = 3;
+/// Least height of a round curve over the chords at a vertex where a line is not fine, mm.
+const HIGH: f64 = 0.2;
 
 /// Curves of a block: its fine lines and its nodes.
 #[derive(Debug, Default)]
@@ -57,10 +60,10 @@ impl Curves {
         if let Some(legs) = own.iter().chain(&others).find_map(|fine| fine.legs(&coarse.line, work)) {
             return Curve::of(&coarse, legs, Origin::Fine);
         }
-        // A fine line with only a few vertices of the line on it is its control polygon: the line is fine itself.
+        // A control polygon has a few vertices of the line as its own: the line is fine itself.
         let vertices = &coarse.line.vertices;
-        let held = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.holds(vertex.at, work))).count();
-        let is_fine_itself = held > 0 && 2 * held <= vertices.len();
+        let shared = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.turns_at(vertex.at, work))).count();
+        let is_fine_itself = shared > 0 && 2 * shared <= vertices.len() && self.has_small_chords(&coarse.line);
         let about = own.iter().find(|fine| fine.lies_about(&coarse.line)).filter(|_| !is_fine_itself);
         let missed = about.map(|fine| fine.span());
         let mut curved = match self.laid(&coarse.line, drafting, work).filter(|_| !is_fine_itself) {
@@ -69,6 +72,22 @@ impl Curves {
         };
         curved.missed = missed;
         curved
+    }
+
+    /// Whether chords are within [`HIGH`] of a round curve at half of the curve points of a line or more.
+    fn has_small_chords(&self, line: &Chain) -> bool {
+        let count = line.vertices.len();
+        let inner = if line.is_closed { 0..count } else { 1..count - 1 };
+        let place = |k: usize| line.vertices[k % count].at;
+        let (mut points, mut high) = (0, 0);
+        for k in inner.filter(|&k| self.nodes.at(place(k)) == Node::Smooth) {
+            let [before, at, behind] = [place(k + count - 1), place(k), place(k + 1)];
+            let length = (at - before).norm().min((behind - at).norm());
+            // A curve stands an eighth of its turn over each chord, in parts of its length.
+            points += 1;
+            high += usize::from(polyline::turn_at(before, at, behind).abs() * length / 8.0 >= HIGH);
+        }
+        2 * high <= points
     }
 
     /// Curve by the rule of the CAD system, as one leg a vertex; `None` for a line without curve points.

@@ -71,9 +71,12 @@ impl FineLine {
         stations
     }
 
-    /// Whether a place lies on it.
-    pub(super) fn holds(&self, at: Point, work: &mut Budget) -> bool {
-        !self.stations_of(at, work).is_empty()
+    /// Whether one of its own vertices is at a place.
+    pub(super) fn turns_at(&self, at: Point, work: &mut Budget) -> bool {
+        if !self.extent.holds(at) || !work.spend(self.edges.cost_at(at)) {
+            return false;
+        }
+        self.edges.at(at).any(|k| self.points[k..=k + 1].iter().any(|end| (end - at).norm() <= ON))
     }
 
     /// Legs from each vertex of a coarse line to the next one; `None` unless the fine line goes through all of them in their

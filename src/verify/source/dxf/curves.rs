@@ -108,17 +108,20 @@ impl Curves {
                 return Course::Fine([whole, spikes].concat());
             }
         }
-        // A control polygon goes through a few vertices of a line that is fine itself.
-        let own: Vec<Path> =
-            self.fine.iter().filter(|(layer, _)| *layer == usual).flat_map(|(_, fine)| closed(fine, &bare)).collect();
-        let count = held(&own, &places);
-        let is_coarse_fine = count > 0 && 2 * count <= places.len();
-        let (mut bows, mut bends, mut passed) = (Vec::new(), Vec::new(), Vec::new());
-        if self.may_bow && !is_coarse_fine {
+        // A control polygon has a few vertices of a line that is fine itself: most of its curve points bend little.
+        let own = self.fine.iter().filter(|(layer, _)| *layer == usual).flat_map(|(_, fine)| fine);
+        let own = Lookup::of(own.flat_map(|path| path.points.iter().copied()), ON);
+        let count = places.iter().filter(|at| own.has(**at)).count();
+        let may_be_polygon = count > 0 && 2 * count <= places.len();
+        let (mut bows, mut bends, mut passed, mut smooth) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        if self.may_bow {
             for path in &bare {
-                self.see(path, &mut bows, &mut bends);
+                smooth += self.see(path, &mut bows, &mut bends);
                 passed.extend(path.points.iter().filter(|at| self.smooth.has(**at) && self.notches.has(**at)));
             }
+        }
+        if may_be_polygon && 2 * bends.len() <= smooth {
+            return Course::Own { bows: Vec::new(), bends: Vec::new(), passed: Vec::new() };
         }
         Course::Own { bows, bends, passed }
     }
@@ -128,7 +131,10 @@ impl Curves {
         self.smooth.has(at) || self.notches.has(at) && !self.turns.has(at)
     }
 
-    fn see(&self, path: &Path, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) {
+    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by [`HIGH`] at least. Returns the count of
+    /// all curve points between chords.
+    fn see(&self, path: &Path, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) -> usize {
+        let mut smooth = 0;
         let count = path.points.len();
         for k in 0..path.curves.len() {
             let ends = path.edge(k);
@@ -142,10 +148,12 @@ impl Curves {
             let turn = polyline::turn_at(before, at, behind).abs();
             let is_smooth = self.smooth.has(at) && !self.notches.has(at) && !path.doubled.contains(&at);
             // A round curve that turns so much from chord to chord stands an eighth of that over each, in parts of its length.
+            smooth += usize::from(is_smooth);
             if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
                 bends.push(Bend { at, turn });
             }
         }
+        smooth
     }
 }
 

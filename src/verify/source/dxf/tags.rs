@@ -25,10 +25,10 @@ pub(super) struct Item<'a> {
 /// Other words of some keys, as CAD systems of other countries write them.
 #[rustfmt::skip] // a table: a row a key
 const ALSO: [(&str, &[&str]); 5] = [
-    ("SIZE", &["SIZE NAME", "GROESSE", "GRÖSSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "号型", "尺码"]),
+    ("SIZE", &["SIZE NAME", "GROESSE", "GRÖSSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "TAMAÑO", "TAMANO", "MISURA", "GR.", "GROSSE", "号型", "尺码"]),
     ("SAMPLE SIZE", &["BASE SIZE", "BASISGROESSE", "BASISGRÖSSE", "GRUNDGROESSE", "GRUNDGRÖSSE", "TAGLIA BASE", "TAILLE DE BASE", "TALLA BASE", "TAMANHO BASE", "基码", "样板尺码"]),
     ("UNITS", &["UNIT", "EINHEIT", "EINHEITEN", "UNIDAD", "UNIDADE", "UNIDADES", "UNITA", "UNITE", "UNITES", "UNITÀ", "UNITÉ", "UNITÉS", "单位"]),
-    ("QUANTITY", &["QTY", "QTY.", "ANZAHL", "CANT.", "CANTIDAD", "MENGE", "QTÉ", "QUANTIDADE", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "数量"]),
+    ("QUANTITY", &["QTY", "QTY.", "ANZAHL", "CANT.", "CANTIDAD", "MENGE", "QTÉ", "QUANTIDADE", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "QTE", "QTD", "Q.TÀ", "ANZ.", "STUECK", "STUECKZAHL", "STÜCK", "STÜCKZAHL", "份数", "数量", "裁片数量"]),
     ("PIECE NAME", &["NOM DE PIECE", "NOM DE PIÈCE", "NOMBRE DE PIEZA", "NOME DA PEÇA", "NOME PEZZO", "TEIL", "TEILENAME", "裁片名称"]),
 ];
 
@@ -143,11 +143,11 @@ impl<'a> Item<'a> {
             let is = |word: &str| name.split_whitespace().eq(word.split_whitespace());
             is(key) || also.iter().any(|word| is(word))
         };
-        let text = self.text(1);
+        let (text, is_count) = (self.text(1), key == "QUANTITY");
         if self.kind == b"MTEXT" {
-            return behind(text, is_key);
+            return behind(text, is_count, is_key);
         }
-        match colon(text, is_key) {
+        match colon(text, is_key).or_else(|| bare_count(text).filter(|(name, _)| is_count && is_key(name))) {
             Some((name, value)) if is_key(name) => Some(value.trim_ascii()).filter(|text| !text.is_empty()),
             None if self.kind != b"TEXT" && is_key(self.text(2)) => Some(text).filter(|text| !text.is_empty()),
             _ => None,
@@ -168,13 +168,22 @@ fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> 
     Some((&line[..at], &line[at + 1..]))
 }
 
+/// What stands before and behind the first blank or `=` before a digit.
+fn bare_count(line: &[u8]) -> Option<(&[u8], &[u8])> {
+    let at = line.windows(2).position(|pair| matches!(pair[0], b' ' | b'=') && pair[1].is_ascii_digit())?;
+    let name = line[..at].trim_ascii_end();
+    let name = if line[at] == b' ' { name.strip_suffix(b"=").unwrap_or(name) } else { name };
+    Some((name.trim_ascii_end(), &line[at + 1..]))
+}
+
 /// What stands behind a key and its colon in a text whose lines end at `\P`, and in which codes with a backslash and braces say
 /// how letters look.
-fn behind(mut text: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<&[u8]> {
+fn behind(mut text: &[u8], is_count: bool, is_key: impl Fn(&[u8]) -> bool) -> Option<&[u8]> {
     while !text.is_empty() {
         let end = text.windows(2).position(|pair| pair == b"\\P").unwrap_or(text.len());
         let line = &text[..end];
-        if let Some((name, value)) = colon(line, |name| is_key(bare(name))) {
+        let count = || bare_count(bare(line)).filter(|(name, _)| is_count && is_key(name));
+        if let Some((name, value)) = colon(line, |name| is_key(bare(name))).or_else(count) {
             let value = bare(value).split(|&byte| byte == b'}').next().unwrap_or_default().trim_ascii();
             if is_key(bare(name)) && !value.is_empty() {
                 return Some(value);
