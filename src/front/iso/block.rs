@@ -350,7 +350,7 @@ mod tests {
             assert!(faults(sound).is_empty(), "{sound:?}");
         }
         for damaged in
-            ["X1 0*", "X1\t0*", "X1\00*", "X1 .5*", "X1. 5*", "X1\n 0*", "X- 10*", "X1\0Y2*", "M1 4*", "X1\r\n\00*"]
+            ["X1 0*", "X1\t0*", "X1\x000*", "X1 .5*", "X1. 5*", "X1\n 0*", "X- 10*", "X1\0Y2*", "M1 4*", "X1\r\n\x000*"]
         {
             assert_eq!(faults(damaged).len(), 1, "{damaged:?}");
         }

@@ -148,7 +148,9 @@ fn a_fine_line_beside_the_vertices_of_its_outline_is_told_and_curves_are_laid_wi
         let mut file = Writer::begin();
         file.block("A");
         outline.write(&mut file, 1, Drawn::Closed);
-        fine.iter().for_each(|fine| _ = file.outline(84, fine, Drawn::Closed));
+        if let Some(fine) = fine {
+            file.outline(84, &fine, Drawn::Closed);
+        }
         file.end_block();
         let source = source(file.end(&["UNITS: METRIC"]));
         let (marker, found) = as_read(&source, &Job::default());
