@@ -199,7 +199,7 @@ fn a_cut_that_is_lifted_amid_a_line_meets_the_next_one() {
         }
     }
     assert!(lifts >= count, "only {lifts} lifts of {count} contours");
-    assert!(1000 * wide <= lifts, "{wide} of {lifts} are wider than {NONE} mm");
+    assert!(1000 * wide <= count, "{wide} of {lifts} are wider than {NONE} mm");
 }
 
 /// A contour of straight edges about (300, 300), with corners in and out, none sharper than some 40 degrees.

@@ -351,7 +351,7 @@ impl<'a> Judge<'a> {
         Plunge { line, heel, tip, sign, band: self.reference.tolerance + self.rounding + self.sagitta }
     }
 
-    /// Excess of a length over what is allowed, mm; rounding of the rows is none.
+    /// Excess of a length over the one that is allowed, mm; 0 where rounding of the rows explains it.
     pub(super) fn excess(&self, length: f64, allowed: f64) -> f64 {
         let excess = length - allowed;
         if excess > self.rounding { excess } else { excess.min(0.0) }

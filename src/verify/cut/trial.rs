@@ -148,7 +148,7 @@ impl Tracer<'_> {
         // its tip far from what it cuts.
         let enough = tolerance.max(cut.length() - self.slack);
         if cut.is_plunge_cut() || !trials.iter().any(|trial| trial.fresh >= enough) {
-            // Only so many lines are tried; the one that its row names is, however many lie nearer.
+            // The line that its row names is tried, however many others lie nearer.
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials.retain(|named| candidates.iter().all(|other| other.line != named.line));
             trials.extend(candidates.iter().map(|candidate| self.follow(cut, candidate)));

@@ -165,7 +165,7 @@ impl<'a> Blocks<'a> {
         }
         let mut text = Vec::with_capacity(BLOCK_ROOM);
         let mut sound = true;
-        // Blanks since the last byte that is none, but line breaks.
+        // Blanks and marks since the last other byte; line breaks may stand anywhere.
         let (mut has_blank, mut has_mark) = (false, false);
         while let Some(&byte) = self.bytes.get(self.at) {
             self.at += 1;

@@ -168,7 +168,7 @@ fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> 
     Some((&line[..at], &line[at + 1..]))
 }
 
-/// What stands before and behind the first blank or `=` before a digit.
+/// Name and value of a count without a colon: the texts before and behind the first blank or `=` that a digit follows.
 fn bare_count(line: &[u8]) -> Option<(&[u8], &[u8])> {
     let at = line.windows(2).position(|pair| matches!(pair[0], b' ' | b'=') && pair[1].is_ascii_digit())?;
     let name = line[..at].trim_ascii_end();
