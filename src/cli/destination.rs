@@ -204,8 +204,8 @@ pub(super) fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Whether what is at a path, if anything is, was made by the program from an input of the same name. An empty file holds
-/// nothing that could be lost.
+/// Check that a file at a path, if there is one, was made by `cutc` from an input of the same name. An empty file holds nothing
+/// that could be lost.
 pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
     const HINT: &str = "give the new program another place with -o, or say --force";
     let input = if is_dash(input) { STDIN.into() } else { input.file_name().unwrap_or_default().to_string_lossy() };
@@ -332,7 +332,7 @@ mod tests {
         let written = Ok(Place::Files(vec![program.clone()]));
         assert_eq!(find("in/m05.cut", false), written);
         assert_eq!(find("in/m05.plt", true), written);
-        // One that nothing calls ours is somebody's work, unless it is empty.
+        // A file without provenance is somebody's work, unless it is empty.
         fs::remove_file(meta(&program)).expect("removable");
         assert!(find("in/m05.cut", false).expect_err("refused").contains("no `m05.csv.meta.json` says"));
         assert_eq!(find("in/m05.cut", true), written);

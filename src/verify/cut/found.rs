@@ -81,8 +81,8 @@ impl Judge<'_> {
         body.chain(over.map(|over| over.sagitta)).fold(0.0, f64::max)
     }
 
-    /// How far blade and line are apart where it plunges at the start of what it cuts of the line as that is drawn, mm: on a
-    /// narrow curve that depends on the start, which the heel beside the line tells only so well.
+    /// Distance of blade and drawn line where it plunges at the start of its stretch, mm. On a narrow curve that depends on the
+    /// start, which the heel shows to within the tolerance only: the greatest of three starts.
     fn drawn_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
         let line = &self.reference.lines[trial.line];
         let [from, to] = trial.reach;
@@ -90,7 +90,7 @@ impl Judge<'_> {
             let from = if line.ring { from } else { from.clamp(0.0, line.length()) };
             let led_on = self.drawn(cut, trial, [from, to]);
             let alone = &led_on[usize::from(trial.beyond(cut, 0) > 0.0 && !trial.laps)..];
-            // About the start of a ring it lies behind that or before it, on the lap before.
+            // The body at the start of a ring lies behind that, or before it on the lap before.
             let lap = if from < to { -line.length() } else { line.length() };
             let back = if trial.laps { self.drawn(cut, trial, [from, from + lap]) } else { Vec::new() };
             let lines = [&led_on, alone, &back].into_iter().filter(|points| points.len() > 1);
