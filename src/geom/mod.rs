@@ -3,6 +3,8 @@
 //! Receives plain numbers, promises exact conventions (which angle is wrapped, which end of a segment is included),
 //! never knows what the geometry is for.
 
+pub mod again;
+pub mod along;
 pub mod angle;
 pub mod boxes;
 pub mod budget;

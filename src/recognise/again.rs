@@ -1,5 +1,5 @@
 //! Strokes that are drawn again: each has the places of one before it, in the same direction or the other, and a pen of
-//! the same use. A whole plot may be drawn twice, an outline, or a notch.
+//! the same use. A whole plot may be drawn twice, an outline, or a notch; and one stroke may go there and back.
 //!
 //! Two parts that share an edge may both draw it, and then it is no repetition: other strokes go on from its ends to
 //! both sides. So the copies of a stroke are taken out where no place is left at which more than two strokes meet.
@@ -9,8 +9,10 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::pens::Use;
-use crate::geom::{Point, bits};
-use crate::ir::drawing::{Drawing, PenStroke};
+use crate::geom::again::{Course, MOST_PLACES, Step, course};
+use crate::geom::{Point, bits, polyline};
+use crate::ir::drawing::{Drawing, PenStroke, Vertex};
+use crate::ir::marker::Notch;
 
 /// Ends in one cell that are compared: more are the middle of a star, and nothing is taken out there.
 const MOST_ENDS: usize = 32;
@@ -21,9 +23,10 @@ type Set = Vec<usize>;
 /// Takes the strokes out of a drawing that are drawn again. Ends within `reach` of each other, mm, may belong to one
 /// line.
 pub(super) fn take(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Vec<PenStroke> {
+    let mut again = there_and_back(drawing);
     let sets = sets(drawing, uses);
     if sets.is_empty() {
-        return Vec::new();
+        return again;
     }
     let mut taken = vec![false; drawing.strokes.len()];
     let (closed, open): (Vec<Set>, Vec<Set>) = sets.into_iter().partition(|set| is_closed(drawing, set[0]));
@@ -32,7 +35,41 @@ pub(super) fn take(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Vec<PenSt
         taken[stroke] = true;
     }
     let mut flags = taken.iter();
-    drawing.strokes.extract_if(.., |_| flags.next().is_some_and(|&is_taken| is_taken)).collect()
+    again.extend(drawing.strokes.extract_if(.., |_| flags.next().is_some_and(|&is_taken| is_taken)));
+    again
+}
+
+/// Puts the lines that a stroke there and back draws in its place, and takes out what it draws again. A short straight
+/// one is a notch as it is.
+fn there_and_back(drawing: &mut Drawing) -> Vec<PenStroke> {
+    let mut again = Vec::new();
+    for k in 0..drawing.strokes.len() {
+        let stroke = drawing.strokes[k];
+        let vertices = drawing.vertices[stroke.range()].to_vec();
+        if vertices.len() > MOST_PLACES {
+            continue;
+        }
+        let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
+        let Some(course) = course(&places).filter(|course| !may_be_slit(course, &places)) else { continue };
+        let mut add = |row: &[Step]| {
+            let first = drawing.vertices.len() as u32;
+            let vertex = |step: &Step| Vertex { at: places[step.place], span: vertices[step.led].span };
+            drawing.vertices.extend(row.iter().map(vertex));
+            PenStroke { first, end: first + row.len() as u32, pen: stroke.pen }
+        };
+        again.extend(course.again.iter().map(|row| add(row)));
+        let paths: Vec<PenStroke> = course.paths.iter().map(|path| add(path)).collect();
+        drawing.strokes[k] = paths[0];
+        drawing.strokes.extend(&paths[1..]);
+    }
+    again
+}
+
+/// Whether a stroke there and back is as long and straight as a slit.
+fn may_be_slit(course: &Course, places: &[Point]) -> bool {
+    let [path] = &course.paths[..] else { return false };
+    let drawn: Vec<Point> = path.iter().map(|step| places[step.place]).collect();
+    polyline::length(&drawn) <= Notch::LONGEST && polyline::is_straight(&drawn, 0.0)
 }
 
 fn is_closed(drawing: &Drawing, stroke: usize) -> bool {

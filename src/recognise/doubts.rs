@@ -259,6 +259,18 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
         hints: &[MEASURES],
     },
     EdgeDoubt {
+        lie: Lie::Letters,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one stroke, off the edge as a letter is,", "strokes, off the edge and as letters stand,"],
+        hints: &["if they are notches, let them begin on the edge; `--cut-all` cuts every line but a frame"],
+    },
+    EdgeDoubt {
+        lie: Lie::Crosses,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one stroke stands across the outline", "strokes stand across the outline"],
+        hints: &["if they are notches, let them begin on the edge; `--cut-all` cuts every line but a frame"],
+    },
+    EdgeDoubt {
         lie: Lie::Ends,
         code: &code::DRAWING_LINE_FROM_EDGE,
         does: ["one open line ends at the outline", "open lines end at the outline"],

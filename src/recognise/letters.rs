@@ -1,10 +1,12 @@
-//! Letters drawn as lines: rows of small strokes.
+//! Letters drawn as lines: rows of small strokes. A text may stand so near to an edge that its strokes have the shape of
+//! notches: then they begin off the edge, and stand in a row or have a bar from stroke to stroke.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::line::{Class, Line, is_straight};
-use crate::geom::Extent;
+use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
 
 /// Largest letter, mm: what is larger is a part or an inner line, whatever stands beside it.
@@ -58,6 +60,57 @@ fn row(first: usize, lines: &[Line], cells: &mut BTreeMap<[i64; 2], Vec<usize>>,
         }
     }
     row
+}
+
+/// Strokes with the shape of notches that are letters, among those that begin off their edge, in order: those in a row of
+/// small strokes, and those that a bar joins amid their length.
+pub(super) fn among(
+    off: &[usize],
+    lines: &[Line],
+    vertices: &[Vertex],
+    touch: f64,
+    work: &mut Budget,
+) -> BTreeSet<usize> {
+    let mut letters = BTreeSet::new();
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    let is_off = |i: &usize| off.binary_search(i).is_ok();
+    let may_be = |i: &usize| lines[*i].size() <= LARGEST && (lines[*i].is_open_question() || is_off(i));
+    for i in (0..lines.len()).filter(may_be) {
+        cells.entry(cell(&lines[i])).or_default().push(i);
+    }
+    for &first in off {
+        let row = row(first, lines, &mut cells, work);
+        if row.len() >= ROW {
+            letters.extend(row.into_iter().filter(is_off));
+        }
+    }
+    let bars = (0..lines.len()).filter(|&i| is_bar(&lines[i], vertices));
+    let boxes = Boxes::new(off.iter().map(|&i| lines[i].extent.grown(touch)).collect());
+    for bar in bars {
+        let ends = [0, 1].map(|k| lines[bar].vertices(vertices)[k].at);
+        let mut joined = Vec::new();
+        for end in ends {
+            if !work.spend(boxes.cost_at(end)) {
+                return letters;
+            }
+            let stroke = boxes.at(end).map(|k| off[k]).find(|&i| is_amid(end, &lines[i].points(vertices), touch));
+            joined.extend(stroke);
+        }
+        if joined.len() == ends.len() {
+            letters.extend(joined);
+        }
+    }
+    letters
+}
+
+/// Whether a line may be the bar of a letter.
+fn is_bar(line: &Line, vertices: &[Vertex]) -> bool {
+    !line.is_closed && line.is_open_question() && line.size() <= LARGEST && line.vertices(vertices).len() == 2
+}
+
+/// Whether a place lies on a stroke, and not on one of its vertices.
+fn is_amid(at: Point, stroke: &[Point], touch: f64) -> bool {
+    polyline::distance(at, stroke) <= touch && stroke.iter().all(|vertex| (vertex - at).norm() > touch)
 }
 
 fn take(i: usize, lines: &[Line], cells: &mut BTreeMap<[i64; 2], Vec<usize>>) -> bool {

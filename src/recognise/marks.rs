@@ -6,15 +6,20 @@ use super::line::{Class, Line, ROUNDING, SHORTEST_NOTCH, is_straight};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::near::{Near, sorted};
+use crate::geom::polyline::distance_of_segments;
 use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Notch;
 
 /// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from
 /// edge to edge.
-const TOUCH: f64 = 0.1;
+pub(super) const TOUCH: f64 = 0.1;
+/// Farthest that a place of a crossbar lies off the straight line between its ends, mm: rounding of decimals.
+const ON_LINE: f64 = 1e-6;
 /// How far from an outline a stroke as long as a notch ends and is named, mm: it may be a notch that misses its edge.
 const NEAR: f64 = 2.0;
+/// Longest stroke across an edge that may be a notch, mm: as far outside as inside.
+const LONGEST_ACROSS: f64 = 2.0 * Notch::LONGEST;
 /// Where lines are looked at that may divide a part, as shares of their length.
 const PROBES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Outlines that meet at one place, at the most.
@@ -32,6 +37,8 @@ pub(super) struct Mark {
     pub(super) leg: usize,
     /// The line that is its crossbar.
     pub(super) bar: Option<usize>,
+    /// How far from its edge it begins, mm.
+    pub(super) miss: f64,
 }
 
 /// A stroke that may be a notch, by its shape: one line, or one of two legs.
@@ -194,12 +201,17 @@ fn mark(candidate: &Candidate, search: Search, touch: f64, work: &mut Budget) ->
             let is_in = ring::contains(&points(), tip);
             if is_in == (lines[outline].class == Class::Part) {
                 let Candidate { line, leg, ends, .. } = *candidate;
-                let mark = Mark { line, outline, cut: [ends[from], ends[to]], leg, bar: None };
+                let mark = Mark { line, outline, cut: [ends[from], ends[to]], leg, bar: None, miss: distance };
                 best = Some((distance, mark));
             }
         }
     }
     best.map(|(_, mark)| mark)
+}
+
+/// Whether a stroke goes straight from its first place to its last: those of a T in one stroke have a place amid.
+fn goes_straight(places: &[Vertex]) -> bool {
+    places.len() == 2 || polyline::is_straight(&places.iter().map(|place| place.at).collect::<Vec<Point>>(), ON_LINE)
 }
 
 /// Gives the strokes that the tip of a notch divides to that notch, as its crossbar: the lines that are such.
@@ -210,10 +222,11 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     let mut bars = Vec::new();
     let is_bar = |&i: &usize| {
         let line = &lines[i];
-        line.is_open_question() && line.end - line.first == 2 && line.length <= Notch::LONGEST
+        line.is_open_question() && line.length <= Notch::LONGEST && goes_straight(line.vertices(vertices))
     };
     for bar in (0..lines.len()).filter(is_bar) {
-        let [a, b] = [0, 1].map(|k| lines[bar].vertices(vertices)[k].at);
+        let places = lines[bar].vertices(vertices);
+        let [a, b] = [places[0].at, places[places.len() - 1].at];
         let mut divided = None;
         near.each(&tips, [a, b], |i| divided = divided.or(Some(i)));
         let stem = divided.map(|i| &mut marks[i]);
@@ -246,6 +259,10 @@ pub(super) enum Lie {
     Along,
     /// A small closed line has an edge on it.
     Stands,
+    /// A straight stroke as short as a notch begins outside, passes it, and ends inside.
+    Crosses,
+    /// Strokes as long as notches begin near it, and stand as letters do.
+    Letters,
 }
 
 /// A line at an outline that was taken for no notch.
@@ -267,8 +284,12 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     };
     let open = (0..lines.len()).filter(|&i| is_open(&lines[i]));
     let open = open.map(|line| Candidate::whole(line, ends(line)));
-    let (mut short, mut candidates): (Vec<Candidate>, Vec<Candidate>) =
-        open.partition(|candidate| (SHORTEST_NOTCH..=Notch::LONGEST).contains(&lines[candidate.line].length));
+    let is_short = |candidate: &Candidate| {
+        let (length, [a, b]) = (lines[candidate.line].length, candidate.ends);
+        let is_bent = length <= Notch::LONGEST_STROKE && (SHORTEST_NOTCH..=Notch::WIDEST).contains(&(b - a).norm());
+        (SHORTEST_NOTCH..=Notch::LONGEST).contains(&length) || is_bent
+    };
+    let (mut short, mut candidates): (Vec<Candidate>, Vec<Candidate>) = open.partition(is_short);
     for (candidates, reach) in [(&mut short, NEAR), (&mut candidates, TOUCH)] {
         if !candidates.is_empty() {
             meet(candidates, search, reach + ROUNDING * unit, work);
@@ -287,7 +308,46 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
         Some(EdgeLine { line: *line, outline, lie })
     };
     let mut found: Vec<EdgeLine> = candidates.iter().filter_map(&mut edge_line).collect();
+    let free = candidates.iter().filter(|candidate| candidate.on.iter().all(ArrayVec::is_empty));
+    found.extend(crossing(free.map(|candidate| (candidate.line, candidate.ends)).collect(), search, work));
     found.extend(standing(search, work));
+    found
+}
+
+/// Short straight strokes across an outline that end at none: each at the first outline that it crosses.
+fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Budget) -> Vec<EdgeLine> {
+    let Search { lines, vertices, outlines, .. } = search;
+    strokes.retain(|&(line, _)| {
+        let length = lines[line].length;
+        (SHORTEST_NOTCH..=LONGEST_ACROSS).contains(&length) && is_straight(lines[line].vertices(vertices))
+    });
+    if strokes.is_empty() {
+        return Vec::new();
+    }
+    let boxes = Boxes::new(strokes.iter().map(|(_, [a, b])| Extent::between(*a, *b)).collect());
+    let mut crossed: Vec<Option<usize>> = vec![None; strokes.len()];
+    'all: for &outline in outlines {
+        let extent = lines[outline].extent;
+        if !work.spend(boxes.cost_near(&extent)) || !boxes.near(extent).any(|_| true) {
+            continue;
+        }
+        for edge in lines[outline].vertices(vertices).windows(2).map(|ends| [ends[0].at, ends[1].at]) {
+            let beside = Extent::between(edge[0], edge[1]);
+            if !work.spend(1 + boxes.cost_near(&beside)) {
+                break 'all;
+            }
+            for k in boxes.near(beside) {
+                if crossed[k].is_none() && work.spend(1) && distance_of_segments(strokes[k].1, edge) == 0.0 {
+                    crossed[k] = Some(outline);
+                }
+            }
+        }
+    }
+    let crossing = |(k, outline): (usize, Option<usize>)| {
+        Some(EdgeLine { line: strokes[k].0, outline: outline?, lie: Lie::Crosses })
+    };
+    let mut found: Vec<EdgeLine> = crossed.into_iter().enumerate().filter_map(crossing).collect();
+    found.sort_by_key(|edge| edge.line);
     found
 }
 

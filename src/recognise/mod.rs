@@ -46,7 +46,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     let (mut lines, moved) = join::join(&mut drawing, job);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     let mut work = Budget::of_a_marker();
-    twins::mark(&mut lines, &drawing.vertices, join::reach(drawing.unit), &mut work);
+    twins::mark(&mut lines, &drawing.vertices, sheet::band(drawing.unit), &mut work);
     let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
     let mut sheet = Sheet {
         vertices,

@@ -191,7 +191,8 @@ fn notch(mark: &Mark, sheet: &Sheet) -> Notch {
     let [root, tip] = mark.cut;
     let kind = mark.bar.map_or(NotchKind::Slit, |bar| {
         let vertices = sheet.lines[bar].vertices(&sheet.vertices);
-        NotchKind::T(NotchStroke { from: vertices[0].at, to: vertices[1].at, span: vertices[1].span })
+        let last = vertices[vertices.len() - 1];
+        NotchKind::T(NotchStroke { from: vertices[0].at, to: last.at, span: last.span })
     });
     let span = sheet.lines[mark.line].vertices(&sheet.vertices)[mark.leg].span;
     Notch { kind, root, tip, percent: FULL_SPEED, span }
@@ -226,6 +227,10 @@ fn aside(sheet: &Sheet) -> Aside {
     }
     // Two legs of one line are both cut.
     for marks in sheet.marks.chunk_by(|a, b| a.line == b.line) {
+        // The places of a crossbar amid its length are none of the marker's.
+        for bar in marks.iter().filter_map(|mark| mark.bar).filter(|&bar| sheet.lines[bar].is_cut) {
+            aside.moved.points += sheet.lines[bar].vertices(&sheet.vertices).len() - 2;
+        }
         if let [mark] = marks
             && sheet.lines[mark.line].is_cut
         {

@@ -27,6 +27,9 @@ const SHORTEST_CUT_SHORT: f64 = 25.0;
 const DOUBTFUL: usize = 2;
 /// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
 const LEAST_SINGLE_FILL: f64 = 0.15;
+/// Widest allowance of a seam, mm; hems are wider, but seldom on three sides of four.
+const WIDEST_SEAM: f64 = 15.0;
+const WIDE_MARGINS: usize = 3;
 /// Parts in a frame that make nobody doubt that it is one.
 const SURE_PARTS: usize = 4;
 /// Most pens that a message names.
@@ -91,12 +94,17 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let mut by_part: BTreeMap<usize, Vec<&Line>> = BTreeMap::new();
     // Closed lines that stand on an outline have a warning of their own.
     let standing = standing(sheet);
-    let is_inner = |line: &Line| line.class == Class::Inner && !line.is_cut && line.usage != Use::Drawn;
-    for i in sheet.indices(is_inner).into_iter().filter(|i| !standing.contains(i)) {
-        by_part.entry(sheet.nest.outermost(i).unwrap_or(i)).or_default().push(&sheet.lines[i]);
-    }
     // A rectangle that is all there is may be the edge of the cloth around one part.
     let is_alone = sheet.lines.iter().filter(|line| line.class == Class::Part).count() == 1;
+    let is_left = |line: &Line| !line.is_cut && line.usage != Use::Drawn;
+    let is_inner = |&i: &usize| {
+        let line = &sheet.lines[i];
+        let is_far_seam = || is_alone && line.class == Class::Seam && has_wide_margins(sheet, i);
+        is_left(line) && (line.class == Class::Inner || is_far_seam())
+    };
+    for i in (0..sheet.lines.len()).filter(is_inner).filter(|i| !standing.contains(i)) {
+        by_part.entry(sheet.nest.outermost(i).unwrap_or(i)).or_default().push(&sheet.lines[i]);
+    }
     let may_be_frame = |part: usize, held: &[&Line]| {
         let part = &sheet.lines[part];
         let is_filled = held[0].area >= LEAST_SINGLE_FILL * part.area;
@@ -138,6 +146,17 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         };
         out.push(finding(&code::DRAWING_INNER_LINES, message, first, sheet).hint(hint));
     }
+}
+
+/// Whether a seam line lies farther from most sides of a rectangle than seams are wide: that may be a frame around a part.
+fn has_wide_margins(sheet: &Sheet, seam: usize) -> bool {
+    let inner = sheet.lines[seam].extent;
+    sheet.nest.outermost(seam).is_some_and(|part| {
+        let outer = sheet.lines[part].extent;
+        let (low, high) = (inner.min - outer.min, outer.max - inner.max);
+        let wide = [low.x, low.y, high.x, high.y].iter().filter(|margin| **margin > WIDEST_SEAM).count();
+        wide >= WIDE_MARGINS && sheet.lines[part].is_rectangle(sheet.band())
+    })
 }
 
 /// Small closed lines, and long open ones, that are in no part.

@@ -24,6 +24,11 @@ const HOLE_FILL: f64 = 0.7;
 /// Share of its part that an inner line takes at most to be cut: more is the part itself, drawn once more.
 const LARGEST_INNER: f64 = 0.5;
 
+/// Distance within which lines are at one place in a file with that unit, mm.
+pub(super) fn band(unit: f64) -> f64 {
+    BAND.max(ROUNDING * unit)
+}
+
 /// A drawing whose lines are sorted out.
 #[derive(Debug)]
 pub(super) struct Sheet {
@@ -87,7 +92,8 @@ impl Sheet {
         }
         self.find_parts_of_knives(&mut work);
         let parts = self.indices(|line| line.class == Class::Part);
-        self.from_edges = marks::from_edges(self.search(&parts), &mut work);
+        let from_edges = marks::from_edges(self.search(&parts), &mut work);
+        self.from_edges.extend(from_edges);
         // A closed line stays what it is.
         for &EdgeLine { line, .. } in self.from_edges.iter().filter(|edge| edge.lie != Lie::Stands) {
             self.lines[line].class = Class::FromEdge;
@@ -97,7 +103,7 @@ impl Sheet {
 
     /// Depth to which lines that touch may lie in one another, mm.
     pub(super) fn band(&self) -> f64 {
-        BAND.max(ROUNDING * self.unit)
+        band(self.unit)
     }
 
     /// The lines of some kind.
@@ -126,12 +132,17 @@ impl Sheet {
     }
 
     fn find_marks_on(&mut self, parts: &[usize], work: &mut Budget) {
-        let strokes = strokes::on_outlines(self.search(parts), work);
+        let mut strokes = strokes::on_outlines(self.search(parts), work);
         for stroke in &strokes {
             self.lines[stroke.line].class = Class::Notch;
         }
-        self.strokes.extend(strokes);
         let mut marks = marks::on_outlines(self.search(parts), work);
+        let ends = strokes.iter().map(|stroke| (stroke.line, stroke.outline, stroke.miss));
+        let ends = ends.chain(marks.iter().map(|mark| (mark.line, mark.outline, mark.miss)));
+        let letters = self.letters(ends.collect(), work);
+        strokes.retain(|stroke| !letters.contains(&stroke.line));
+        marks.retain(|mark| !letters.contains(&mark.line));
+        self.strokes.extend(strokes);
         for mark in &marks {
             self.lines[mark.line].class = Class::Notch;
         }
@@ -139,6 +150,24 @@ impl Sheet {
             self.lines[bar].class = Class::Notch;
         }
         self.marks.extend(marks);
+    }
+
+    /// Sets those strokes apart that have the shape of notches and are letters: each comes with its outline, and how far
+    /// from that it begins, mm.
+    fn letters(&mut self, strokes: Vec<(usize, usize, f64)>, work: &mut Budget) -> BTreeSet<usize> {
+        let touch = marks::TOUCH + ROUNDING * self.unit;
+        let mut off: Vec<usize> = strokes.iter().filter(|stroke| stroke.2 > touch).map(|stroke| stroke.0).collect();
+        off.sort_unstable();
+        off.dedup();
+        if off.is_empty() {
+            return BTreeSet::new(); // as in nearly all
+        }
+        let letters = letters::among(&off, &self.lines, &self.vertices, touch, work);
+        for &(line, outline, _) in strokes.iter().filter(|stroke| letters.contains(&stroke.0)) {
+            self.lines[line].class = Class::FromEdge;
+            self.from_edges.push(EdgeLine { line, outline, lie: Lie::Letters });
+        }
+        letters
     }
 
     /// Takes the outermost lines of a pen that is a knife for parts, whatever others draw around them: the edge of a

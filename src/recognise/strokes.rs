@@ -14,6 +14,30 @@ pub(super) struct Stroke {
     pub(super) outline: usize,
     /// Its place farthest from the mouth.
     pub(super) tip: Point,
+    /// The greater distance of its ends from their edge, mm.
+    pub(super) miss: f64,
+}
+
+/// How much less deep a notch may be amid two deeper places, mm: more is an M or a W.
+const DENT: f64 = 0.5;
+
+/// Whether a stroke gets no less deep before its deepest place, and no deeper behind it: depths, mm.
+fn has_one_tip(depths: &[f64]) -> bool {
+    let mut deepest = 0;
+    for (k, depth) in depths.iter().enumerate() {
+        if *depth > depths[deepest] {
+            deepest = k;
+        }
+    }
+    rises(depths[..=deepest].iter().copied()) && rises(depths[deepest..].iter().rev().copied())
+}
+
+fn rises(mut depths: impl Iterator<Item = f64>) -> bool {
+    let mut most = 0.0_f64;
+    depths.all(|depth| {
+        most = most.max(depth);
+        depth >= most - DENT
+    })
 }
 
 /// The notches among the open lines that were not taken for anything yet.
@@ -33,7 +57,11 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
         }
         let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
         let deepest = places.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
-        if let Some(&tip) = deepest.filter(|tip| (SHORTEST_NOTCH..=Notch::LONGEST).contains(&depth(tip))) {
+        let is_notch = |tip: &&Point| {
+            (SHORTEST_NOTCH..=Notch::LONGEST).contains(&depth(tip))
+                && has_one_tip(&places.iter().map(depth).collect::<Vec<f64>>())
+        };
+        if let Some(&tip) = deepest.filter(is_notch) {
             candidates.push(Candidate::whole(line, [first, last]));
             tips.push(tip);
         }
@@ -45,15 +73,16 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     let stroke = |(Candidate { line, on, .. }, tip): (&Candidate, Point)| {
         let both = on[0].iter().filter_map(|&(near, outline)| {
             let other = on[1].iter().find(|(_, other)| *other == outline);
-            other.map(|(other, _)| (near + other, outline))
+            other.map(|&(other, _)| ([near, other], outline))
         });
         // Into a part, and from a cut-out into what is around it.
         let leads_in = both.filter(|&(_, outline)| {
             let points = lines[outline].points(vertices);
             work.spend(points.len()) && ring::contains(&points, tip) == (lines[outline].class == Class::Part)
         });
-        let nearest = leads_in.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        nearest.map(|(_, outline)| Stroke { line: *line, outline, tip })
+        let sum = |[one, other]: [f64; 2]| one + other;
+        let nearest = leads_in.min_by(|a, b| sum(a.0).total_cmp(&sum(b.0)).then(a.1.cmp(&b.1)));
+        nearest.map(|([one, other], outline)| Stroke { line: *line, outline, tip, miss: one.max(other) })
     };
     candidates.iter().zip(tips).filter_map(stroke).collect()
 }

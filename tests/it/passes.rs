@@ -232,9 +232,9 @@ fn a_contour_is_known_again_from_any_start_and_either_way() {
         if random.flag() {
             again.reverse();
         }
-        // One vertex elsewhere makes another contour.
+        // One vertex elsewhere makes another contour; within the band it would be the same edge.
         let mut other = again.clone();
-        other[random.below(n) as usize].y -= 0.1;
+        other[random.below(n) as usize].y -= 1.0;
         for ring in [&ring, &again, &other] {
             let next = ring.iter().cycle().skip(1);
             let chain = ring.iter().zip(next).map(|(&from, &to)| Segment {

@@ -125,6 +125,27 @@ impl<'a> Chosen<'a> {
         out.push(finding.hint("see its sizes with `cutc info --size all`, and name those that are cut with `--size`"));
     }
 
+    /// Tells which pieces are cut of a block of a size and of another that says none, of blocks with these texts.
+    pub(super) fn say_unsaid(&self, facts: &[Facts], out: &mut Diagnostics) {
+        let mut pieces: BTreeMap<String, [Option<Span>; 2]> = BTreeMap::new();
+        let facts = if self.sizes.is_some() { facts } else { &[] };
+        for facts in facts.iter().filter(|facts| self.has(facts)) {
+            if let Some(span) = facts.name.first {
+                let name = self.letters.text(self.source.slice(span)).trim().to_owned();
+                pieces.entry(name).or_default()[usize::from(facts.size.first.is_none())].get_or_insert(span);
+            }
+        }
+        let twice: Vec<(&String, Span)> =
+            pieces.iter().filter_map(|(name, spans)| Some((name, spans[0].and(spans[1])?))).collect();
+        let Some(&(_, first)) = twice.first() else { return };
+        let names: Vec<&str> = twice.iter().take(SHOWN).map(|(name, _)| name.as_str()).collect();
+        let dots = if twice.len() > SHOWN { ", ..." } else { "" };
+        let message =
+            format!("cut{}, and once more of a block without a size: {}{dots}", self.told(), names.join(", "));
+        let finding = Diagnostic::new(&code::DXF_SIZE_UNSAID, message).at(first);
+        out.push(finding.hint("see in `cutc info` which pieces they are, and leave the others out with `--skip`"));
+    }
+
     /// The sizes that are cut, as they are told; empty when all are.
     pub(super) fn told(&self) -> String {
         match self.sizes.as_deref() {
@@ -146,7 +167,9 @@ fn its_sizes(known: &[String]) -> String {
 /// How often a piece is cut as it is drawn, and how often mirrored: `1,1` is right and left. `None` when it is no such
 /// text or names none at all.
 fn quantity(text: &str) -> Option<[u32; 2]> {
-    let mut numbers = text.split(',').map(|number| number.trim().parse::<u32>().ok());
+    // Some systems write whole numbers with decimals.
+    let whole = |number: &str| number.trim_end_matches('0').strip_suffix('.').unwrap_or(number).parse::<u32>().ok();
+    let mut numbers = text.split(',').map(|number| whole(number.trim()));
     let right = numbers.next()??;
     let left = match numbers.next() {
         None => 0,
@@ -193,6 +216,9 @@ mod tests {
         let check = |text: &str, expected: Option<[u32; 2]>| assert_eq!(quantity(text), expected, "{text}");
         check("1,1", Some([1, 1]));
         check("2", Some([2, 0]));
+        check("2.0", Some([2, 0]));
+        check("20", Some([20, 0]));
+        check("1.5", None);
         check(" 0 , 1 ", Some([0, 1]));
         check("0", None);
         check("1,", None);

@@ -11,13 +11,13 @@ pub(super) enum Key {
     Author,
 }
 
-/// The keys in English, German, French, Italian, Spanish, Portuguese and Chinese, in capitals with one blank between words.
+/// The keys in English, German, French, Italian, Spanish, Portuguese, Dutch, Polish, Turkish, Russian, Ukrainian and Chinese, in capitals with one blank between words.
 #[rustfmt::skip] // a table: a row a fact
 const KEYS: [(Key, &[&str]); 6] = [
-    (Key::Size, &["SIZE", "SIZE NAME", "GRÖSSE", "GROESSE", "TAILLE", "TAGLIA", "TALLA", "TAMANHO", "TAMAÑO", "TAMANO", "MISURA", "GR.", "GROSSE", "尺码", "号型"]),
+    (Key::Size, &["SIZE", "SIZE NAME", "GRÖSSE", "GROESSE", "TAILLE", "TAGLIA", "TALLA", "TAMANHO", "TAMAÑO", "TAMANO", "MISURA", "GR.", "GROSSE", "MAAT", "ROZMIAR", "BEDEN", "РАЗМЕР", "РОЗМІР", "尺码", "号型"]),
     (Key::SampleSize, &["SAMPLE SIZE", "BASE SIZE", "BASISGRÖSSE", "BASISGROESSE", "GRUNDGRÖSSE", "GRUNDGROESSE", "TAILLE DE BASE", "TAGLIA BASE", "TALLA BASE", "TAMANHO BASE", "基码", "样板尺码"]),
     (Key::Units, &["UNITS", "UNIT", "EINHEIT", "EINHEITEN", "UNITÉ", "UNITÉS", "UNITE", "UNITES", "UNITÀ", "UNITA", "UNIDAD", "UNIDADES", "UNIDADE", "单位"]),
-    (Key::Quantity, &["QUANTITY", "QTY", "QTY.", "ANZAHL", "MENGE", "QUANTITÉ", "QUANTITE", "QTÉ", "QUANTITÀ", "QUANTITA", "CANTIDAD", "CANT.", "QUANTIDADE", "QTE", "STÜCK", "STUECK", "STÜCKZAHL", "STUECKZAHL", "ANZ.", "QTD", "Q.TÀ", "数量", "份数", "裁片数量"]),
+    (Key::Quantity, &["QUANTITY", "QTY", "QTY.", "ANZAHL", "MENGE", "QUANTITÉ", "QUANTITE", "QTÉ", "QUANTITÀ", "QUANTITA", "CANTIDAD", "CANT.", "QUANTIDADE", "QTE", "STÜCK", "STUECK", "STÜCKZAHL", "STUECKZAHL", "ANZ.", "QTD", "Q.TÀ", "PIECES", "PCS", "AANTAL", "ILOŚĆ", "ADET", "КОЛИЧЕСТВО", "КІЛЬКІСТЬ", "数量", "份数", "裁片数量"]),
     (Key::PieceName, &["PIECE NAME", "TEILENAME", "TEIL", "NOM DE PIÈCE", "NOM DE PIECE", "NOME PEZZO", "NOMBRE DE PIEZA", "NOME DA PEÇA", "裁片名称"]),
     (Key::Author, &["AUTHOR", "PRODUCT", "PRODUCT NAME"]),
 ];
@@ -39,7 +39,7 @@ mod tests {
         for text in ["Size Name", " size  name ", "Größe", "GROESSE", "taille", "尺码"] {
             assert_eq!(key(text), Some(Key::Size), "{text}");
         }
-        for text in ["Tamaño", "TAMANO", "Misura", "Gr.", "GROSSE", "große"] {
+        for text in ["Tamaño", "TAMANO", "Misura", "Gr.", "GROSSE", "große", "Maat", "Розмір", "Размер"] {
             assert_eq!(key(text), Some(Key::Size), "{text}");
         }
         assert_eq!([key("Qty"), key("Quantité"), key("cantidad")], [Some(Key::Quantity); 3]);

@@ -168,6 +168,19 @@ impl<'a> Placing<'a> {
         is_placing.then_some(placed)
     }
 
+    /// Wants pieces as often as insertions have them, as drawn and mirrored, where the file says no quantity.
+    pub(super) fn as_often(&self, drawn: &mut [Drawn]) {
+        let mut counts = vec![[0_u32; 2]; self.blocks.len()];
+        for insert in self.inserts.iter().flatten() {
+            if let Some(k) = self.block(insert.name) {
+                counts[k][usize::from(insert.scale[0] * insert.scale[1] < 0.0)] += 1;
+            }
+        }
+        for (drawn, count) in drawn.iter_mut().zip(counts).filter(|(_, count)| *count != [0, 0]) {
+            drawn.quantity.get_or_insert(count);
+        }
+    }
+
     /// Tells blocks that are placed more or less often than their quantities say.
     pub(super) fn count(&self, drawn: &[Drawn], tally: &mut Tally) {
         let mut counts = vec![0; self.blocks.len()];

@@ -26,7 +26,7 @@ use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;
 use crate::machine::Job;
 use crate::machine::letters::Letters;
-use crate::machine::patterns::Dxf;
+use crate::machine::patterns::{Dxf, Quantity};
 use crate::source::{Source, Span};
 
 /// The pieces of a file.
@@ -41,6 +41,8 @@ pub(super) struct Set {
     loose: usize,
     /// Whether neither texts nor blocks say that it is a set of patterns.
     is_plain: bool,
+    /// What says how often each is cut.
+    quantity: Quantity,
     /// Room between those that lie in a row, mm.
     gap: f64,
     /// Its sizes, as they are told.
@@ -154,8 +156,10 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
     let chosen = Chosen::of(&asked, &facts, placing.parts(&boxes), out);
     chosen.say_missing(&facts, out);
+    chosen.say_unsaid(&facts, out);
     let mut making = Making::of(&asked, out);
     let mut set = Set {
+        quantity: job.patterns.quantity.unwrap_or(job.profile.dxf.quantity),
         gap: job.profile.dxf.gap_mm,
         sizes: chosen.told(),
         names,
@@ -315,10 +319,13 @@ impl Set {
                 let message =
                     format!("INSERTs put {} of {count} pieces on each other: they are no places", on_others.count);
                 let finding = Diagnostic::new(&code::DXF_NO_PLACES, message);
-                making
-                    .out
-                    .push(finding.hint("the pieces lie in a row; for a lay make a marker of them in the CAD system"));
+                making.out.push(
+                    finding.hint("they lie in a row, as often; for a lay make a marker of them in the CAD system"),
+                );
                 self.placed = None;
+                if self.quantity == Quantity::File {
+                    placing.as_often(&mut self.drawn);
+                }
                 return;
             }
             on_others.spans.into_iter().for_each(|span| making.tally.add(Thing::OnAnother, span));

@@ -5,11 +5,15 @@
 //! - A contour does not close. Where coordinates lie on a grid (a cutter file) contours outline parts, so every gap is
 //!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
+//! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
+//!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
 
 use rayon::prelude::*;
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::along::Lines;
+use crate::geom::budget::Budget;
 use crate::geom::{Extent, bits};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
@@ -23,14 +27,17 @@ pub(super) const PASS: MarkerPass =
 const GAP_SHARE: f64 = 0.05;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
 const GAP_DECIMALS: u32 = 3;
+/// Decimals of how far a contour runs beside another one, mm.
+const BESIDE_DECIMALS: u32 = 2;
 /// The smallest gap that these decimals show, mm.
 const GAP_SHOWN: f64 = 0.001;
 
-fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     for (piece, contour) in marker.contours().filter(|(_, contour)| !contour.closed) {
         open_contour(marker, piece, contour, diagnostics);
     }
     twice(marker, diagnostics);
+    beside(marker, job.profile.band(marker.unit), diagnostics);
 }
 
 fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &mut Diagnostics) {
@@ -97,6 +104,36 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
                 .hint("delete one of the two unless the cloth needs two cuts"),
         );
     }
+}
+
+/// Tells closed contours that run beside another one within a reach, mm, and are not the same segments.
+fn beside(marker: &Marker, reach: f64, diagnostics: &mut Diagnostics) {
+    let closed: Vec<(usize, &Contour)> = marker.contours().filter(|(_, contour)| contour.closed).collect();
+    let points = |k: usize| marker.list.points(closed[k].1.range);
+    let all = Lines {
+        extents: (0..closed.len()).into_par_iter().map(|k| Extent::of(&points(k))).collect(),
+        points: |k| points(k).into_owned(),
+        may_be: |one: usize, other: usize| !is_same(marker, [closed[one].1, closed[other].1]),
+    };
+    for [earlier, later] in all.twins(reach, &mut Budget::of_a_marker()) {
+        let number = |k: usize| marker.pieces[closed[k].0].number;
+        let span = |k: usize| first(&marker.list, closed[k].1.range).span;
+        let message = format!(
+            "a contour of piece {} runs beside the one of piece {} in block {}, nowhere farther than {} mm from it",
+            number(later),
+            number(earlier),
+            span(earlier).block,
+            number::fixed(reach, BESIDE_DECIMALS)
+        );
+        let finding = Diagnostic::new(&code::MARKER_TWICE, message).at(span(later));
+        diagnostics.push(finding.hint("delete one of the two unless the cloth needs two cuts"));
+    }
+}
+
+/// Whether two contours are the same segments.
+fn is_same(marker: &Marker, contours: [&Contour; 2]) -> bool {
+    let [one, other] = contours.map(|contour| edges(&marker.list, contour.range));
+    one == other
 }
 
 /// A segment as its two ends, the lesser first: the same whichever way it is cut.

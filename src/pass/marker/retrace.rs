@@ -1,15 +1,18 @@
-//! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour.
+//! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour, and a line there and
+//! back the line that it draws.
 //!
 //! Needs: welded contours. Other software lays an overcut at the end of an outline, plotters draw bold lines by going round
 //! twice, or there and back. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts
-//! once. Leaves true: such a contour ends where it starts, and keeps its start and direction.
+//! once. Leaves true: such a contour ends where it starts, and keeps its start and direction; every edge of an open line is
+//! there once.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
 use crate::geom::Point;
+use crate::geom::again::{Step, course};
 use crate::geom::closing::{self, Retrace};
-use crate::ir::list::Segment;
-use crate::ir::marker::Marker;
+use crate::ir::list::{Segment, SegmentList};
+use crate::ir::marker::{Contour, Marker, Notch, Piece};
 use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -22,8 +25,9 @@ const DECIMALS: u32 = 1;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let reach = closing::reach(marker.unit);
-    let [mut past, mut again, mut back] = [(); 3].map(|()| Found::default());
+    let [mut past, mut again, mut back, mut lines] = [(); 4].map(|()| Found::default());
     for piece in &mut marker.pieces {
+        there_and_back(piece, &mut marker.list, &mut lines);
         for contour in &mut piece.contours {
             let points = marker.list.points(contour.range);
             let points: &[Point] = &points;
@@ -51,11 +55,43 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
             }
         }
     }
-    past.say(&code::MARKER_OVERRUN, diagnostics, |longest| {
+    past.say(&code::MARKER_OVERRUN, "outline", diagnostics, |longest| {
         format!("past the start, by up to {} mm", fixed(longest, DECIMALS))
     });
-    again.say(&code::MARKER_ROUND_AGAIN, diagnostics, |most| format!("round {} times in one stroke", fixed(most, 0)));
-    back.say(&code::MARKER_ROUND_AGAIN, diagnostics, |_| "round and back in one stroke".to_owned());
+    let round = |most| format!("round {} times in one stroke", fixed(most, 0));
+    again.say(&code::MARKER_ROUND_AGAIN, "outline", diagnostics, round);
+    back.say(&code::MARKER_ROUND_AGAIN, "outline", diagnostics, |_| "round and back in one stroke".to_owned());
+    lines.say(&code::MARKER_ROUND_AGAIN, "line", diagnostics, |longest| {
+        format!("there and back, for up to {} mm", fixed(longest, DECIMALS))
+    });
+}
+
+/// Puts the lines that a line there and back draws in its place. One that may be a slit is left to the pass that finds
+/// slits.
+fn there_and_back(piece: &mut Piece, list: &mut SegmentList, found: &mut Found) {
+    for k in 0..piece.contours.len() {
+        let range = piece.contours[k].range;
+        let points = list.points(range);
+        let Some(course) = course(&points) else { continue };
+        let step = |ends: &[Step]| (points[ends[1].place] - points[ends[0].place]).norm();
+        let length = |row: &Vec<Step>| row.windows(2).map(step).sum::<f64>();
+        let drawn: f64 = course.paths.iter().map(length).sum();
+        if matches!(&course.paths[..], [path] if path.len() == 2) && drawn <= Notch::LONGEST {
+            continue;
+        }
+        let again: f64 = course.again.iter().map(length).sum();
+        let all: Vec<Segment> = list.walk(range).map(|(_, segment)| segment).collect();
+        let segment = |ends: &[Step]| {
+            let [from, to] = [ends[0], ends[1]].map(|step| points[step.place]);
+            Segment { from, to, ..all[ends[1].led - 1] }
+        };
+        let paths: Vec<Vec<Segment>> = course.paths.iter().map(|path| path.windows(2).map(segment).collect()).collect();
+        found.add(piece.number, again, all[0].span);
+        let ranges = paths.into_iter().filter_map(|path| list.append(path));
+        let mut contours = ranges.map(|range| Contour { range, closed: false });
+        piece.contours.splice(k..=k, contours.next());
+        piece.contours.extend(contours);
+    }
 }
 
 /// Whether a line ends where it starts and has not been near there before, as nearly all have not.
@@ -64,7 +100,7 @@ fn never_returns(points: &[Point], reach: f64) -> bool {
     first == last && !inner.iter().any(|at| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach)
 }
 
-/// Outlines that something was found about.
+/// Outlines or lines that something was found about.
 #[derive(Default)]
 struct Found {
     pieces: Vec<u32>,
@@ -83,11 +119,11 @@ impl Found {
         }
     }
 
-    fn say(&self, code: &'static Code, diagnostics: &mut Diagnostics, how: impl Fn(f64) -> String) {
+    fn say(&self, code: &'static Code, noun: &str, diagnostics: &mut Diagnostics, how: impl Fn(f64) -> String) {
         let Some(first) = self.first else { return };
-        let (outlines, verb) = if self.count == 1 { ("outline", "runs") } else { ("outlines", "run") };
-        let message =
-            format!("{} {outlines} {verb} {}, {}: cut once", self.count, how(self.worst), pieces::listed(&self.pieces));
+        let (plural, verb) = if self.count == 1 { ("", "runs") } else { ("s", "run") };
+        let pieces = pieces::listed(&self.pieces);
+        let message = format!("{} {noun}{plural} {verb} {}, {pieces}: cut once", self.count, how(self.worst));
         diagnostics.push(Diagnostic::new(code, message).at(first));
     }
 }

@@ -3,7 +3,7 @@
 use crate::analysis::outlines::Outlines;
 use crate::geom::budget::Budget;
 use crate::geom::polyline::{distance_of_segments, distance_to_segment};
-use crate::geom::{Extent, Point};
+use crate::geom::{Extent, Point, cross};
 use crate::ir::marker::{Notch, Piece};
 
 /// Cloth that is left between two cuts below this tears at the next touch, mm.
@@ -19,7 +19,8 @@ pub(super) fn severing(piece: &Piece, part: &Outlines, work: &mut Budget) -> Opt
     (0..slits.len())
         .find(|&i| {
             let others = Others { slits: &slits[..i], deepest, part };
-            others.meet(&slits[i], work) || meets_edge(&slits[i], part, work)
+            let is_branch = slits.iter().any(|other| *other != slits[i] && begins_on_slit(&slits[i], other));
+            others.meet(&slits[i], work) || meets_edge(&slits[i], is_branch, part, work)
         })
         .map(|i| slits[i])
 }
@@ -54,18 +55,36 @@ impl Others<'_> {
 
     /// Whether a slit begins on another one, and not on the edge.
     fn is_branch(&self, slit: &Notch, other: &Notch, work: &mut Budget) -> bool {
-        let [root, tip] = ends(other);
         let around = Extent::between(slit.root, slit.root).grown(AT_ROOT);
         let is_near = |[from, to]: [Point; 2]| distance_to_segment(slit.root, from, to) <= AT_ROOT;
-        distance_to_segment(slit.root, root, tip) < LEAST_BRIDGE
-            && !self.part.edges_near(around).any(|edge| work.spend(1) && is_near(edge))
+        begins_on_slit(slit, other) && !self.part.edges_near(around).any(|edge| work.spend(1) && is_near(edge))
     }
 }
 
-/// Whether a slit comes to an edge that it does not begin on.
-fn meets_edge(slit: &Notch, part: &Outlines, work: &mut Budget) -> bool {
+/// Whether a slit begins on another one.
+fn begins_on_slit(slit: &Notch, other: &Notch) -> bool {
+    distance_to_segment(slit.root, other.root, other.tip) < LEAST_BRIDGE
+}
+
+/// Whether a slit comes to an edge beside the one that it begins on. One that begins on no edge, nor as a branch of another
+/// slit, does so where it first passes an edge.
+fn meets_edge(slit: &Notch, is_branch: bool, part: &Outlines, work: &mut Budget) -> bool {
     let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
-    let is_across = |[from, to]: [Point; 2]| distance_to_segment(slit.root, from, to) > AT_ROOT;
-    let comes_to = |edge: [Point; 2]| distance_of_segments(ends(slit), edge) < LEAST_BRIDGE;
-    part.edges_near(around).any(|edge| work.spend(1) && is_across(edge) && comes_to(edge))
+    let near: Vec<[Point; 2]> = part.edges_near(around).take_while(|_| work.spend(1)).collect();
+    let comes_to = |edge: &&[Point; 2]| distance_of_segments(ends(slit), **edge) < LEAST_BRIDGE;
+    let begins_on = |at: Point| move |edge: &[Point; 2]| distance_to_segment(at, edge[0], edge[1]) <= AT_ROOT;
+    let root = if is_branch || near.iter().any(begins_on(slit.root)) { slit.root } else { first_passed(slit, &near) };
+    near.iter().filter(comes_to).any(|edge| !begins_on(root)(edge))
+}
+
+/// Where a slit first passes an edge; its root where it passes none.
+fn first_passed(slit: &Notch, edges: &[[Point; 2]]) -> Point {
+    let way = slit.tip - slit.root;
+    let share = |[a, b]: &[Point; 2]| {
+        let across = cross(way, b - a);
+        let [share, place] = [b - a, way].map(|line| cross(a - slit.root, line) / across);
+        [share, place].iter().all(|share| (0.0..=1.0).contains(share)).then_some(share)
+    };
+    let first = edges.iter().filter_map(share).min_by(f64::total_cmp);
+    slit.root + way * first.unwrap_or(0.0)
 }

@@ -144,3 +144,67 @@ fn a_mark_beside_a_cut_out_is_no_notch() {
     let found = slits(&format!("{}{}PU8000,8000;PD8000,7800;", part(), rectangle(7000, 8000, 2000, 2000)), &job);
     assert!(found[0].is_empty() && found.len() == 1, "{found:?}");
 }
+
+/// Letters as plots draw them: strokes on a grid 4 wide and 6 high.
+const LETTERS: [(char, &[&[[i64; 2]]]); 12] = [
+    ('A', &[&[[0, 0], [2, 6], [4, 0]], &[[1, 3], [3, 3]]]),
+    ('E', &[&[[4, 0], [0, 0], [0, 6], [4, 6]], &[[0, 3], [3, 3]]]),
+    ('F', &[&[[0, 0], [0, 6], [4, 6]], &[[0, 3], [3, 3]]]),
+    ('H', &[&[[0, 0], [0, 6]], &[[4, 0], [4, 6]], &[[0, 3], [4, 3]]]),
+    ('I', &[&[[2, 0], [2, 6]]]),
+    ('K', &[&[[0, 0], [0, 6]], &[[4, 6], [0, 3], [4, 0]]]),
+    ('L', &[&[[0, 6], [0, 0], [4, 0]]]),
+    ('M', &[&[[0, 0], [0, 6], [2, 3], [4, 6], [4, 0]]]),
+    ('N', &[&[[0, 0], [0, 6], [4, 0], [4, 6]]]),
+    ('T', &[&[[2, 0], [2, 6]], &[[0, 6], [4, 6]]]),
+    ('V', &[&[[0, 6], [2, 0], [4, 6]]]),
+    ('W', &[&[[0, 6], [1, 0], [2, 3], [3, 0], [4, 6]]]),
+];
+
+#[test]
+fn words_that_stand_beside_an_edge_are_never_cut() {
+    let mut random = fastrand::Rng::with_seed(44);
+    for case in 0..300 {
+        // 3 to 9 mm high, 0.2 to 0.45 mm off the edge.
+        let (scale, off, count) = (random.i64(20..60), random.i64(8..18), random.usize(3..9));
+        let mut word = String::new();
+        let mut text = part();
+        for k in 0..count as i64 {
+            let (letter, strokes) = LETTERS[random.usize(..LETTERS.len())];
+            word.push(letter);
+            for stroke in strokes {
+                let at = |[x, y]: [i64; 2]| format!("{},{}", 6000 + (5 * k + x) * scale, 4000 + off + y * scale);
+                let places: Vec<String> = stroke.iter().map(|&place| at(place)).collect();
+                text += &format!("PU{};PD{};", places[0], places[1..].join(","));
+            }
+        }
+        let found = slits(&text, &Job::default());
+        assert_eq!(
+            found,
+            [Vec::<[[i64; 2]; 2]>::new()],
+            "case {case}: {word} at {off} units, {scale} a unit of its grid"
+        );
+        let marker = read(&source(format!("IN;SP1;{text}PU;SP0;")), &Job::default()).0;
+        assert_eq!(super::outlines(&marker)[0].len(), 5, "case {case}: {word}");
+    }
+}
+
+#[test]
+fn strokes_across_an_edge_are_named_and_a_stroke_there_and_back_is_taken_once() {
+    for mark in ["PU8000,3900;PD8000,4240;", "PU8000,3700;PD8000,4200;"] {
+        let codes = read(&source(format!("IN;SP1;{}{mark}PU;SP0;", part())), &Job::default()).1;
+        assert_eq!(codes, ["drawing/line-from-edge"], "{mark}");
+    }
+    let once = "PU8000,4000;PD8100,4240,8200,4000;";
+    let cut =
+        |mark: &str| super::outlines(&read(&source(format!("IN;SP1;{}{mark}PU;SP0;", part())), &Job::default()).0);
+    for mark in [
+        "PU8000,4000;PD8100,4240,8200,4000,8100,4240,8000,4000;",
+        "PU8100,4240;PD8000,4000,8100,4240,8200,4000,8100,4240;",
+        "PU8200,4000;PD8100,4240,8000,4000,8100,4240;",
+    ] {
+        assert_eq!(cut(mark), cut(once), "{mark}");
+    }
+    let t = "PU8000,4000;PD8000,4240,7900,4240,8000,4240,8100,4240,8000,4240,8000,4000;";
+    check(t, Some([[8000, 4000], [8000, 4240]]));
+}

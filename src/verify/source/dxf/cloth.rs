@@ -40,6 +40,8 @@ const NOTCHED: f64 = 1.0;
 /// How a block is moved: where its X and its Y go, and its origin.
 type Move = [Vector; 3];
 
+/// How often a block is cut of which nothing is said: as it is drawn, and mirrored.
+const ONCE: [u32; 2] = [1, 0];
 const AS_DRAWN: Move = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0), Vector::new(0.0, 0.0)];
 const MIRRORED: Move = [Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0), Vector::new(0.0, 0.0)];
 
@@ -205,10 +207,25 @@ impl<'a> Sheets<'a> {
         (all, off)
     }
 
-    /// How often each block is cut.
+    /// How often each block is cut in a row, as it is drawn and mirrored: as it says, else as often as insertions that put
+    /// blocks somewhere have it.
     fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
-        let quantity = |told: Option<&[u8]>| quantity(&self.letters.read(told.unwrap_or_default()), job);
-        self.of_each("QUANTITY").into_iter().map(quantity).collect()
+        if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
+            return vec![ONCE; self.blocks.len()];
+        }
+        let mut inserted = vec![[0; 2]; self.blocks.len()];
+        for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT" && self.has_places()) {
+            if let Some(k) = self.block(item) {
+                let is_mirrored = item.number(41).unwrap_or(1.0) * item.number(42).unwrap_or(1.0) < 0.0;
+                inserted[k][usize::from(is_mirrored)] += 1;
+            }
+        }
+        let wanted = |(told, inserted): (Option<&[u8]>, [u32; 2])| match told {
+            Some(told) => quantity(&self.letters.read(told)),
+            None if inserted == [0; 2] => ONCE,
+            None => inserted,
+        };
+        self.of_each("QUANTITY").into_iter().zip(inserted).map(wanted).collect()
     }
 
     /// The block of each piece that lies in a row, in their order.
@@ -353,15 +370,16 @@ fn unit_of(name: &str) -> f64 {
 }
 
 /// How often a text wants a block cut as it is drawn, and mirrored.
-fn quantity(text: &str, job: &Job) -> [u32; 2] {
-    if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
-        return [1, 0];
-    }
-    let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+fn quantity(text: &str) -> [u32; 2] {
+    let whole = |number: &str| {
+        let (whole, share) = number.trim().split_once('.').unwrap_or((number.trim(), ""));
+        whole.parse().ok().filter(|_| share.bytes().all(|digit| digit == b'0'))
+    };
+    let numbers: Option<Vec<u32>> = text.split(',').map(whole).collect();
     match numbers.as_deref() {
         Some(&[right]) if right > 0 => [right, 0],
         Some(&[right, left]) if right > 0 || left > 0 => [right, left],
-        _ => [1, 0],
+        _ => ONCE,
     }
 }
 

@@ -41,6 +41,13 @@ const STROKE_MOUTH: [f64; 2] = [0.6, 11.5];
 const STROKE_DEPTH: [f64; 2] = [1.5, 14.5];
 /// How near to the outline both its ends lie, mm.
 const ON_EDGE: f64 = 0.4;
+/// How far off its edge a stroke begins that may be a letter of a text beside the edge, mm.
+const OFF_EDGE: f64 = 0.13;
+/// Letters that make a text, at least, and how far from one the others stand at the most, as a multiple of its size.
+const LETTERS: usize = 3;
+const ROOM: f64 = 3.0;
+/// How much the depth of a stroke falls and rises again amid it that is no notch but an M, mm.
+const DENT: f64 = 0.6;
 /// How near to the ends of a cut those of its stroke lie, mm.
 const SAME_END: f64 = 0.05;
 
@@ -238,13 +245,29 @@ impl<'a> Judging<'a> {
             let [first, .., last] = stroke[..] else { continue };
             if !is_among(&ends, [first, last])
                 && !is_among(&ends, [last, first])
-                && self.is_on_part([first, last], tip)
+                && self.is_on_part([first, last], tip, ON_EDGE)
                 && !self.is_along_a_cut(stroke)
+                && (self.is_on_part([first, last], tip, OFF_EDGE) || !self.is_in_text(stroke))
             {
                 found.push(tip);
             }
         }
         found
+    }
+
+    /// Whether a stroke that begins off its edge is a letter: others as large stand beside it, or one stands in it.
+    fn is_in_text(&self, stroke: &[Point]) -> bool {
+        let extent = Extent::of(stroke);
+        let size = |extent: &Extent| extent.size().0.max(extent.size().1);
+        let around = extent.grown(ROOM * size(&extent));
+        let is_beside = |other: &Extent| other.meets(&around) && (size(&extent) / 2.0..).contains(&size(other));
+        let is_text = |other: &Vec<Point>| other.len() > 1 && size(&Extent::of(other)) <= STROKE_DEPTH[1];
+        let small = || self.drawn.iter().filter(|other| is_text(other)).map(|other| Extent::of(other));
+        if !self.work.borrow_mut().spend(self.drawn.len()) {
+            return false;
+        }
+        small().filter(is_beside).count() >= LETTERS
+            || small().any(|other| other != extent && extent.grown(OFF_EDGE).covers(&other))
     }
 
     /// Whether one cut goes along all of a stroke, place by place and from edge to edge: the outline that is lifted
@@ -262,10 +285,10 @@ impl<'a> Judging<'a> {
         })
     }
 
-    /// Whether two places lie on the edge of one part and a third one in it, in no other cut inside, or no work is left
-    /// to find out.
-    fn is_on_part(&self, ends: [Point; 2], tip: Point) -> bool {
-        let around = Extent::between(ends[0], ends[1]).grown(ON_EDGE);
+    /// Whether two places lie within a reach, mm, of the edge of one part and a third one in it, in no other cut inside, or
+    /// no work is left to find out.
+    fn is_on_part(&self, ends: [Point; 2], tip: Point, reach: f64) -> bool {
+        let around = Extent::between(ends[0], ends[1]).grown(reach);
         let near: Vec<usize> = self.boxes.near(around).collect();
         near.into_iter().any(|k| {
             let points = &self.cuts.contours[k];
@@ -275,7 +298,7 @@ impl<'a> Judging<'a> {
             if !self.work.borrow_mut().spend(3 * points.len()) {
                 return true;
             }
-            let is_near = |end: &Point| polyline::distance(*end, points) <= ON_EDGE;
+            let is_near = |end: &Point| polyline::distance(*end, points) <= reach;
             ends.iter().all(is_near) && ring::contains(points, tip)
         })
     }
@@ -311,7 +334,15 @@ fn tip(stroke: &[Point]) -> Option<Point> {
     }
     let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
     let deepest = stroke.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
-    is_within(depth(deepest), STROKE_DEPTH).then_some(*deepest)
+    let depths: Vec<f64> = stroke.iter().map(depth).collect();
+    (is_within(depth(deepest), STROKE_DEPTH) && !has_dent(&depths)).then_some(*deepest)
+}
+
+/// Whether some depth lies below deeper ones on both sides.
+fn has_dent(depths: &[f64]) -> bool {
+    let most = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
+    let is_dent = |k: usize| most(&depths[..k]).min(most(&depths[k + 1..])) - depths[k] > DENT;
+    (0..depths.len()).any(is_dent)
 }
 
 /// Whether a cut goes from one place to another; the cuts stand in the order of the X of their starts.
