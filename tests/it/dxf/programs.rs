@@ -166,6 +166,11 @@ fn keys_say_the_same_in_every_language() {
         ["Taglia", "Taglia base", "Unità", "Quantità"],
         ["Talla", "Talla base", "Unidades", "Cantidad"],
         ["Tamanho", "Tamanho base", "Unidade", "Quantidade"],
+        ["Maat", "Basismaat", "Eenheid", "Aantal"],
+        ["Rozmiar", "Rozmiar bazowy", "Jednostki", "Ilość"],
+        ["Beden", "Baz beden", "BIRIM", "Adet"],
+        ["Размер", "Базовый размер", "Единицы", "Количество"],
+        ["Розмір", "Базовий розмір", "Одиниці", "Кількість"],
         ["尺码", "基码", "单位", "数量"],
     ] {
         let (marker, found) = read(&set(keys), &Job::default());
