@@ -151,9 +151,16 @@ impl<'a> Line<'a> {
             };
             return self.parts.iter().map(cut).collect();
         }
+        // Where the curve of a ring cannot be led onto its own start, it keeps near to its line there.
+        let ring = self.ring.as_ref().and_then(|ring| self.cuts_along(Some(ring), tolerance, job));
+        ring.or_else(|| self.cuts_along(None, tolerance, job))
+    }
+
+    /// The cuts of its runs along one curve: that of the ring that they go round, if one is given; `None` where none was found.
+    fn cuts_along(&self, ring: Option<&Run>, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let mut shares: Vec<f64> = vec![1.0; self.parts.len()];
         loop {
-            let (first, smooth) = self.smooth(&shares, tolerance, job)?;
+            let (first, smooth) = self.smooth(ring, &shares, tolerance, job)?;
             let cuts = self.along(&smooth, first, tolerance, job);
             if cuts.iter().all(Option::is_some) {
                 return cuts.into_iter().collect();
@@ -178,14 +185,14 @@ impl<'a> Line<'a> {
 
     /// A smooth curve along the line, with a share of the tolerance under the blade where each part begins, and the parameter
     /// at which the line begins.
-    fn smooth(&self, shares: &[f64], tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
+    fn smooth(&self, ring: Option<&Run>, shares: &[f64], tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
         let width = job.profile.knife.width_mm;
-        let ring = self.ring.as_ref().map(|ring| (run::extended(ring, tolerance, width), ring));
+        let length = ring.map(|ring| polyline::length(&ring.points));
+        let ring = ring.map(|ring| (run::extended(ring, tolerance, width), ring));
         let (points, junctions, first, lap) = match &ring {
             Some((ring, run)) => (&ring.points, &ring.junctions, ring.start, ring.lap(run)),
             None => (&self.points, &self.junctions, 0.0, None),
         };
-        let length = self.ring.as_ref().map(|ring| polyline::length(&ring.points));
         let near = if lap.is_some() { [Near::default(); 2] } else { self.near };
         let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
         let band = || plain().with_ends(near);

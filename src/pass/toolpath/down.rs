@@ -33,32 +33,39 @@ fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
     let way = Way::new(&run);
     let length = way.length();
     let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
-    let last = if way.is_ring() { length + front } else { length };
     if length <= longest {
         return vec![run];
     }
     let mut parts: Vec<Run> = Vec::new();
     let lead = |station: f64| way.lead(station, knife);
-    let mut at = 0.0;
+    let spans = [heel + front, knife.width_mm];
+    // Where the blade cannot enter, the first stretch would be a cut of its own over what is cut already. Over one bend of a
+    // curve it lies straight, and beside it the smoothed curve bulges away.
+    let enters = |place: f64, is_good: fn(&Deviation) -> bool| {
+        let next = way.part(place - lead(place)[0], place + LOOK * knife.width_mm, [REJOINED; 2]);
+        Deviation::of(&next, around).is_none_or(|deviation| is_good(&deviation))
+    };
+    let goods: [fn(&Deviation) -> bool; 2] = [|deviation| deviation.fits && deviation.is_curve, |deviation| deviation.fits];
+    let entered = |range| goods.into_iter().find_map(|good| way.gentlest(range, spans, |place| enters(place, good)));
+    // A ring begins where the file has it, or behind that.
+    let begins_elsewhere = way.is_ring() && !enters(0.0, goods[0]);
+    let start = if begins_elsewhere { entered([0.0, length / (length / longest).ceil()]) } else { None };
+    let start = start.unwrap_or(0.0);
+    let end = start + length;
+    let mut at = start;
     loop {
         let is_start = parts.is_empty() && !way.is_ring();
         let (from, first) = if is_start { (0.0, run.ends[0]) } else { (at - lead(at)[0], REJOINED) };
-        let rest = length - at;
+        let rest = end - at;
         let count = (rest / longest).ceil();
         if count <= 1.0 {
-            let end = if way.is_ring() { REJOINED } else { run.ends[1] };
-            parts.push(way.part(from, last, [first, end]));
+            let (last, ends) = if way.is_ring() { (end + front, REJOINED) } else { (end, run.ends[1]) };
+            parts.push(way.part(from, last, [first, ends]));
             return parts;
         }
         // At the least as long as leaves the rest no part more, and half of what is alike; at the most what is alike.
         let least = (rest - (count - 1.0) * longest).max(SHARE_MIN * rest / count);
-        let (range, spans) = ([at + least.min(rest / count), at + rest / count], [heel + front, knife.width_mm]);
-        // Where the blade cannot enter, the first stretch would be a cut of its own over what is cut already.
-        let is_entered = |place: f64| {
-            let next = way.part(place - lead(place)[0], place + LOOK * knife.width_mm, [REJOINED; 2]);
-            Deviation::of(&next, around).is_none_or(|deviation| deviation.fits)
-        };
-        let entered = |range| way.gentlest(range, spans, is_entered);
+        let range = [at + least.min(rest / count), at + rest / count];
         // Rather a part more than one that the blade cannot enter.
         let to = entered(range).or_else(|| entered([at + SHARE_MIN * rest / count, range[1]]));
         let to = to.or_else(|| way.gentlest(range, spans, |_| true)).unwrap_or(range[1]);

@@ -23,6 +23,9 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
+/// Part of the longest stretch that may be left uncut by which strokes may be apart that meet: rounding takes some of the rest.
+const THREAD_SHARE: f64 = 0.2;
+
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
     for step in &mut toolpath.steps {
@@ -35,12 +38,12 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
             Step::Run(_) | Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }
-    spare::leave_out(&mut toolpath.steps, &around);
+    let verify = &scene.job.profile.verify;
+    spare::leave_out(&mut toolpath.steps, &around, THREAD_SHARE * verify.max_uncut_mm);
     let plunge_cuts = toolpath.steps.iter().filter_map(|step| match step {
         Step::PlungeCut(plunge_cut) => Some(plunge_cut),
         Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     });
-    let verify = &scene.job.profile.verify;
     let exceeds = |depth: f64, cap: Option<f64>| cap.is_some_and(|cap| depth > cap);
     for plunge_cut in plunge_cuts.filter(|plunge_cut| depth(plunge_cut).deepest() > 0.0) {
         let Overcut { own, other } = depth(plunge_cut);

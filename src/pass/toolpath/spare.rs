@@ -1,44 +1,111 @@
 //! Plunge cuts that nobody needs: the blade before, or those before and behind together, cut all of their stretch, as on a
-//! nibbled curve whose steps are shorter than the blade.
+//! nibbled curve whose steps are shorter than the blade. The blades before and behind must meet without them.
 
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::{PASSING_SHARE, Plunge};
-use crate::geom::{Point, Vector, cross};
+use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 
 /// Leaves those out of the steps of a toolpath, but never two in a row: the second may be what cuts the stretch of the first.
-pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
-    let is_spare = |steps: &[Step], i: usize| {
-        let [Step::PlungeCut(before), Step::PlungeCut(cut)] = &steps[i - 1..=i] else { return false };
-        // A line from corner to corner is cut by itself, even beside another one, but for one that goes straight back.
-        let goes_back = || before.points.first() == cut.points.last() && before.points.last() == cut.points.first();
-        if cut.ends.iter().all(|end| end.side != Side::Contour) && !goes_back() {
-            return false;
-        }
-        let before = Blade::of(before, around);
-        // Of one that ends at a corner the overlap there is asked for, which two others may not give.
-        let is_amid = || cut.ends.iter().all(|end| end.side == Side::Contour);
-        let behind = || steps.get(i + 1).and_then(|step| Blade::at_start(step, around));
-        let are_over = |behind: Blade| are_over(&[before, behind], cut, around);
-        // Where the part itself lies beyond, nothing is overcut unless the profile asks for it.
-        let knife = around.knife;
-        let spares_parts = knife.reflex_front_overlap_mm == 0.0 && knife.reflex_heel_overlap_mm == 0.0;
-        let asks_no_overlap = || {
-            cut.ends.iter().all(|end| match end.side {
-                Side::Contour => true,
-                Side::Part => end.bare || spares_parts,
-                Side::Waste | Side::Gap => end.bare,
-            })
-        };
-        asks_no_overlap() && is_over(&before, cut, around) || is_amid() && behind().is_some_and(are_over)
-    };
+/// Without them no thread wider than `thread` mm may be left.
+pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings, thread: f64) {
     let mut i = 1;
     while i < steps.len() {
-        if is_spare(steps, i) {
+        if (Strokes { steps, around, thread }).is_spare(i) {
             steps.remove(i);
         }
         i += 1;
     }
+    while (Strokes { steps, around, thread }).ends_over_start() {
+        steps.pop();
+    }
+}
+
+/// The strokes of a toolpath.
+struct Strokes<'a> {
+    steps: &'a [Step],
+    around: &'a Surroundings<'a>,
+    /// Greatest distance of two strokes that meet, mm.
+    thread: f64,
+}
+
+impl Strokes<'_> {
+    /// Whether a step is a plunge cut that nobody needs.
+    fn is_spare(&self, i: usize) -> bool {
+        let Self { steps, around, .. } = *self;
+        let [Step::PlungeCut(before), Step::PlungeCut(cut)] = &steps[i - 1..=i] else { return false };
+        // A line from corner to corner is cut by itself, even beside another one, but for one that goes straight back.
+        let goes_back = before.points.first() == cut.points.last() && before.points.last() == cut.points.first();
+        if goes_back {
+            return asks_no_overlap(cut, around) && is_over(&Blade::of(before, around), cut, around);
+        }
+        // So is the first stretch of a line, however near the one before ends beside it.
+        let goes_on = cut.ends[usize::from(cut.turned)].side == Side::Contour;
+        if !goes_on || !asks_no_overlap(cut, around) {
+            return false;
+        }
+        let (before, behind) = (Blade::of(before, around), self.behind(i, cut));
+        // Of one that ends at a corner the overlap there is asked for, which two others may not give.
+        let is_amid = cut.ends.iter().all(|end| end.side == Side::Contour);
+        let behind_starts = || steps.get(i + 1).and_then(|step| Blade::at_start(step, around));
+        let are_over = |behind: Blade| are_over(&[before, behind], cut, around);
+        let is_cut = is_over(&before, cut, around) || is_amid && behind_starts().is_some_and(are_over);
+        is_cut && behind.is_none_or(|step| self.meets(&before, step))
+    }
+
+    /// Whether the last step is a plunge cut amid a contour that the first blade of it lies over: where a contour that is closed
+    /// ends over its own start.
+    fn ends_over_start(&self) -> bool {
+        let [first, .., before, Step::PlungeCut(cut)] = self.steps else { return false };
+        let Some(start) = Blade::at_start(first, self.around) else { return false };
+        let is_amid = cut.ends.iter().all(|end| end.side == Side::Contour);
+        is_amid && is_over(&start, cut, self.around) && self.meets(&start, before)
+    }
+
+    /// The stroke that goes on from the end of a cut; of the last one of a contour that is closed the first.
+    fn behind(&self, i: usize, cut: &PlungeCut) -> Option<&Step> {
+        let end = drawn(&cut.points, cut.turned)[1];
+        let goes_on = |step: &&Step| match step {
+            Step::Run(run) => drawn(&run.points, run.turned)[0] == end,
+            Step::PlungeCut(next) => drawn(&next.points, next.turned)[0] == end,
+            Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => false,
+        };
+        self.steps.get(i + 1).filter(goes_on).or_else(|| self.steps.first().filter(goes_on))
+    }
+
+    /// Whether a blade comes as near to a stroke as two that meet.
+    fn meets(&self, blade: &Blade, step: &Step) -> bool {
+        let width = self.around.knife.width_mm;
+        let way = match step {
+            Step::PlungeCut(cut) => Blade::of(cut, self.around).ends(width).to_vec(),
+            Step::Run(run) if run.shape == Shape::Open => {
+                // The blade lies from the start of the way to its tip.
+                let path = run.extended();
+                std::iter::once(Plunge::at_start(&path, width).tip).chain(path).collect()
+            }
+            Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => return false,
+        };
+        let blade = blade.ends(width);
+        way.windows(2).any(|ends| polyline::distance_of_segments(blade, [ends[0], ends[1]]) <= self.thread)
+    }
+}
+
+/// The first and the last place of a stroke as the file has it.
+fn drawn(points: &[Point], turned: bool) -> [Point; 2] {
+    let ends = [points[0], points[points.len() - 1]];
+    if turned { [ends[1], ends[0]] } else { ends }
+}
+
+/// Whether the profile asks for no overlap at either end of a plunge cut.
+fn asks_no_overlap(cut: &PlungeCut, around: &Surroundings) -> bool {
+    // Where the part itself lies beyond, nothing is overcut unless the profile asks for it.
+    let knife = around.knife;
+    let spares_parts = knife.reflex_front_overlap_mm == 0.0 && knife.reflex_heel_overlap_mm == 0.0;
+    cut.ends.iter().all(|end| match end.side {
+        Side::Contour => true,
+        Side::Part => end.bare || spares_parts,
+        Side::Waste | Side::Gap => end.bare,
+    })
 }
 
 /// A blade that is plunged.
@@ -53,6 +120,11 @@ impl Blade {
     /// That of a plunge cut.
     fn of(cut: &PlungeCut, around: &Surroundings) -> Self {
         Self { tip: cut.pose.centre + cut.along * around.knife.radius(), along: cut.along }
+    }
+
+    /// Its heel and its tip.
+    fn ends(&self, width: f64) -> [Point; 2] {
+        [self.tip - self.along * width, self.tip]
     }
 
     /// Where a step begins; `None` when it does not with a plunge.

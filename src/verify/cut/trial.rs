@@ -188,10 +188,21 @@ impl Tracer<'_> {
     /// Where to begin following: the lines `meant` that pass near some places of the stroke, the nearest first.
     fn candidates(&self, cut: &Cut, probes: &[usize], meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
+        let add = |found: &mut Vec<Candidate>, next: Candidate| {
+            let line = &self.reference.lines[next.line];
+            let known = |known: &&mut Candidate| known.line == next.line && next.continues(known, cut, line);
+            match found.iter_mut().find(known) {
+                Some(known) if next.away < known.away => *known = next,
+                Some(_) => {}
+                None => found.push(next),
+            }
+        };
         // Runs of one line come one after the other.
         let mut last = (usize::MAX, false);
         for &probe in probes {
             let point = cut.points[probe];
+            // Of the chords about a place the nearest alone is where the line passes it.
+            let mut here: Vec<Candidate> = Vec::new();
             for run in self.grid.near(point, REACH) {
                 if last.0 != run.line() {
                     let is_edge = self.reference.lines[run.line()].cut.is_edge;
@@ -204,18 +215,12 @@ impl Tracer<'_> {
                 for chord in run.chords().filter(|&chord| line.may_reach(chord, point, REACH)) {
                     let foot = line.chord(chord).foot(line, point);
                     let away = if foot.beyond > 0.0 { foot.deviation.hypot(foot.beyond) } else { foot.deviation };
-                    if away > REACH {
-                        continue;
-                    }
-                    let next = Candidate { line: run.line(), chord, probe, station: foot.station, away };
-                    let known = |known: &&mut Candidate| known.line == next.line && next.continues(known, cut, line);
-                    match found.iter_mut().find(known) {
-                        Some(known) if next.away < known.away => *known = next,
-                        Some(_) => {}
-                        None => found.push(next),
+                    if away <= REACH {
+                        add(&mut here, Candidate { line: run.line(), chord, probe, station: foot.station, away });
                     }
                 }
             }
+            here.into_iter().for_each(|next| add(&mut found, next));
         }
         found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
         found.truncate(TRIALS);
