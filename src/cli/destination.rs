@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use super::files::{STDIN, directory, is_dash, meta, stale};
+use super::files::{STDIN, directory, is_dash, meta, path_from, stale};
 use super::finished::failure;
 use super::provenance;
 use crate::back::{TARGETS, Target};
@@ -204,19 +204,31 @@ pub(super) fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Check that a file at a path, if there is one, was made by `cutc` from an input of the same name. An empty file holds nothing
-/// that could be lost.
+/// Check that a file at a path, if there is one, was made by `cutc` from the same input: one of the same name, in the same place
+/// if that is known, or with the same bytes. An empty file holds nothing that could be lost.
 pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
     const HINT: &str = "give the new program another place with -o, or say --force";
-    let input = if is_dash(input) { STDIN.into() } else { input.file_name().unwrap_or_default().to_string_lossy() };
+    let name = if is_dash(input) { STDIN.into() } else { input.file_name().unwrap_or_default().to_string_lossy() };
     if fs::metadata(path).map_or(true, |file| file.len() == 0) {
         return Ok(());
     }
     let shown = path.display();
     match provenance::source_of(path) {
-        Some(made_from) if made_from == input => Ok(()),
+        Some(made_from) if made_from == name => {
+            let (known, here) = (provenance::source_path_of(path), path_from(directory(path), input));
+            let is_same = || fs::read(input).is_ok_and(|bytes| provenance::is_made_from(path, &bytes));
+            match (known, here) {
+                (Some(known), Some(here)) if known != here && !is_same() => Err(failure(
+                    format!(
+                        "`{shown}` was made from `{known}`, not from `{here}` (paths from its folder): it is not overwritten"
+                    ),
+                    HINT,
+                )),
+                _ => Ok(()),
+            }
+        }
         Some(made_from) => Err(failure(
-            format!("`{shown}` was made from `{made_from}`, not from `{input}`: it is not overwritten"),
+            format!("`{shown}` was made from `{made_from}`, not from `{name}`: it is not overwritten"),
             HINT,
         )),
         None => {
@@ -340,6 +352,30 @@ mod tests {
         assert_eq!(find("in/m05.cut", false), written);
         fs::remove_file(&program).expect("removable");
         assert_eq!(find("in/m05.plt", false), written);
+    }
+
+    #[test]
+    fn inputs_of_one_name_are_told_apart_by_their_place() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let at = |name: &str| directory.path().join(name);
+        for (folder, bytes) in [("a", "one"), ("b", "two"), ("c", "one")] {
+            fs::create_dir(at(folder)).expect("writable");
+            fs::write(at(folder).join("m.cut"), bytes).expect("writable");
+        }
+        fs::create_dir(at("out")).expect("writable");
+        let program = at("out/m.csv");
+        fs::write(&program, "t_s").expect("writable");
+        let digest = crate::machine::sha256_hex(b"one");
+        let made = format!(r#"{{"source": "m.cut", "source_path": "../a/m.cut", "source_sha256": "{digest}"}}"#);
+        fs::write(meta(&program), made).expect("writable");
+        let check = |input: &str| not_of_another(&program, &at(input)).map_err(|error| error.to_string());
+        assert_eq!(check("a/m.cut"), Ok(()));
+        assert_eq!(check("c/m.cut"), Ok(()), "a copy of it");
+        assert!(check("b/m.cut").expect_err("refused").contains("made from `../a/m.cut`, not from `../b/m.cut`"));
+        fs::write(at("a/m.cut"), "edited").expect("writable");
+        assert_eq!(check("a/m.cut"), Ok(()));
+        fs::write(meta(&program), r#"{"source": "m.cut"}"#).expect("writable");
+        assert_eq!(check("b/m.cut"), Ok(()), "the place is not known");
     }
 
     #[test]

@@ -110,6 +110,19 @@ pub(super) fn directory(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// The path of a file from a folder, with `/` between its names; the whole path where nothing is common to both, `None` where
+/// either is not there.
+pub(super) fn path_from(folder: &Path, file: &Path) -> Option<String> {
+    let (folder, file) = (folder.canonicalize().ok()?, file.canonicalize().ok()?);
+    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return Some(file.to_string_lossy().into_owned());
+    }
+    let up = folder.components().skip(common).map(|_| "..".into());
+    let down = file.components().skip(common).map(|name| name.as_os_str().to_string_lossy());
+    Some(up.chain(down).collect::<Vec<_>>().join("/"))
+}
+
 /// What the name of a provenance ends in.
 const META: &str = ".meta.json";
 

@@ -14,13 +14,17 @@ use crate::ir::declaration::Declaration;
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
 
-/// Everything that made a program, for whoever finds it later. No date and no path: the same input gives the same bytes.
+/// Everything that made a program, for whoever finds it later. No date, and no path but from the program to its input: folders
+/// that are moved together keep their bytes.
 #[derive(Serialize)]
 struct Provenance<'a> {
     /// Version of this program.
     version: &'static str,
     /// Name of the input, without its directory.
     source: String,
+    /// Path of the input from the folder of the program; not there of standard input.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source_path: Option<String>,
     source_sha256: String,
     /// Name of the machine profile, without its directory, or that of the default machine.
     profile: &'a str,
@@ -91,6 +95,8 @@ pub(super) enum Verified {
 /// What a program was made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Made<'a> {
+    /// Where the provenance stands: beside the program.
+    pub(super) beside: &'a Path,
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
     /// Name of the target.
@@ -113,12 +119,13 @@ pub(super) struct Cut<'a> {
 }
 
 /// The provenance of a program as JSON.
-pub(super) fn json(Made { source, job, target, verified, blake3, cut, options }: &Made) -> String {
+pub(super) fn json(Made { beside, source, job, target, verified, blake3, cut, options }: &Made) -> String {
     let scale =
         || Scale { period_ms: job.profile.time.period_ms, units: Units { time: "s", length: "mm", angle: "deg" } };
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
         source: file_name(source),
+        source_path: path_of(source, beside),
         source_sha256: sha256_hex(source.bytes()),
         profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
@@ -135,6 +142,25 @@ pub(super) fn json(Made { source, job, target, verified, blake3, cut, options }:
 /// Name of the input that a program was made from, if that stands beside it.
 pub(super) fn source_of(program: &Path) -> Option<String> {
     told(program, "source")
+}
+
+/// Path of the input that a program was made from, from the folder of the program, if that stands beside it.
+pub(super) fn source_path_of(program: &Path) -> Option<String> {
+    told(program, "source_path")
+}
+
+/// Whether a program was made from these bytes.
+pub(super) fn is_made_from(program: &Path, bytes: &[u8]) -> bool {
+    told(program, "source_sha256").is_some_and(|digest| digest == sha256_hex(bytes))
+}
+
+/// Path of an input from the folder of a file; `None` of standard input.
+pub(super) fn path_of(source: &Source, beside: &Path) -> Option<String> {
+    if source.name() == files::STDIN {
+        None
+    } else {
+        files::path_from(files::directory(beside), source.name().as_ref())
+    }
 }
 
 /// Whether a program is one that can be judged, by the target that it was made by; `None` when nothing beside it says so.

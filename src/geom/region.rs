@@ -20,8 +20,10 @@ const SAME_EPSILON: f64 = 1e-9;
 const STRIP_SHARE: f64 = 0.25;
 /// Least cosine between the two edges of a strip (10 degrees): of those of a corner one ends where the other begins.
 const PARALLEL: f64 = 0.985;
-/// Where between two crossings it is seen whether a way lies well inside.
-const PROBES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Number of places between two crossings at which it is seen whether a way lies well inside, at the least, and their greatest
+/// distance, mm: no farther than the corner of a small notch is deep.
+const PROBES: f64 = 4.0;
+const PROBE_STEP: f64 = 0.25;
 
 /// Regions, indexed.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -190,7 +192,9 @@ impl<'a> Regions<'a> {
             let middle = at(f64::midpoint(from, b));
             for region in near.iter().filter(|region| region.holds(middle)) {
                 let (so_far, slack) = if region.owner == owner { (room.own, slack[0]) } else { (room.other, slack[1]) };
-                if from >= so_far || !PROBES.iter().any(|share| region.is_deep(at(from + (b - from) * share), slack)) {
+                let probes = ((b - from) / PROBE_STEP).ceil().max(PROBES);
+                let is_deep = |i: usize| region.is_deep(at(from + (b - from) * (i as f64 / probes)), slack);
+                if from >= so_far || !(1..=probes as usize).any(is_deep) {
                     continue;
                 }
                 if region.owner == owner {

@@ -90,7 +90,7 @@ impl Done<'_> {
         let known = &self.worsts;
         let check = |strokes: &[Traced]| {
             // What is no worse than anything so far need not be known.
-            let mut worsts = known.clone();
+            let mut worsts = known.known();
             for stroke in strokes {
                 judge.check(stroke, &mut worsts);
             }
@@ -156,6 +156,7 @@ pub(super) fn simulate(
         given_back = strokes;
     }
     drop(given_back);
+    done.worsts.settle(&done.coverage, judge.allowed());
     if let Some(account) = &judge.account {
         account.settle(reference, &mut done.worsts.declared);
     }

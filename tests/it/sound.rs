@@ -8,30 +8,41 @@ use crate::support::room::{DONE, Room};
 
 /// Drawings of `fixtures/sound` with the settings or options under which they were refused, and the habit that each shows.
 const DRAWINGS: &[(&str, &str)] = &[
-    ("bay.cut", ""),                                              // a bay narrower than the blade
-    ("bends.cut", "knife.max_down_mm=100"),                       // a lift in a bend that is followed
-    ("castles.cut", NO_OVERLAPS), // overlaps of one tolerance, written with six decimals
-    ("dense-blob.cut", ""),       // points as near as their rounding
-    ("dense-hole.cut", ""),       // the same around a hole narrower than the blade
-    ("flat-ellipse.cut", ""),     // the end of a cut in a tight curve
-    ("inch-hole.cut", ""),        // a ring whose end must run over its start
-    ("inch-nest.cut", ""),        // two cuts that end at one corner and go on the same way
+    ("barbs.cut", LONG_OVERLAPS),           // a long overlap along an edge and through a barb
+    ("bay.cut", ""),                        // a bay narrower than the blade
+    ("bends.cut", "knife.max_down_mm=100"), // a lift in a bend that is followed
+    ("castles.cut", NO_OVERLAPS),           // overlaps of one tolerance, written with six decimals
+    ("deep-end.cut", "path.tolerance_mm=0.02"), // a blade that is deepest in the part before its end
+    ("dense-blob.cut", ""),                 // points as near as their rounding
+    ("dense-hole.cut", ""),                 // the same around a hole narrower than the blade
+    ("dense-ring.cut", LONG_OVERLAPS),      // a ring that is longer than the way along it
+    ("flat-ellipse.cut", ""),               // the end of a cut in a tight curve
+    ("inch-hole.cut", ""),                  // a ring whose end must run over its start
+    ("inch-nest.cut", ""),                  // two cuts that end at one corner and go on the same way
+    ("lifted-bends.cut", "knife.max_down_mm=60"), // a lift over one bend of a coarse circle
     ("lifted-blob.cut", "knife.max_down_mm=38"), // lifts right before bends
     ("lifted-ring.cut", "knife.max_down_mm=30"), // lifts amid a ring
-    ("long-heel.cut", LONG_HEEL), // a heel overlap of half a blade
+    ("lifted-start.cut", "knife.max_down_mm=60"), // a ring that begins where no blade can enter it
+    ("long-heel.cut", LONG_HEEL),           // a heel overlap of half a blade
+    ("narrow-spike.cut", COARSE),           // a leg of a spike beside the other leg
+    ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
-    ("noisy-circle.cut", ""),     // a digitised circle of 5 mm
+    ("noisy-circle.cut", ""),               // a digitised circle of 5 mm
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
-    ("polygon.cut", ""),          // edges shorter than the blade
-    ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps
-    ("spike.plt", "--cut-all"),   // a chord of 0.18 mm at the point of a spike
-    ("tabs.cut", ""),             // a curve that begins at a reflex corner
+    ("polygon.cut", ""),                    // edges shorter than the blade
+    ("scallops.cut", COARSE),               // a chord that the blade before covers and the one behind does not meet
+    ("small-holes.cut", LONG_OVERLAPS),     // holes narrower than the blade with long overlaps
+    ("spike.plt", "--cut-all"),             // a chord of 0.18 mm at the point of a spike
+    ("straight-edge.cut", COARSE),          // an edge as long as the blade that bends a little
+    ("tabs.cut", ""),                       // a curve that begins at a reflex corner
+    ("two-plunges.cut", COARSE),            // a line whose last two plunges reach its end
     ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
 ];
 const NO_OVERLAPS: &str =
     "knife.front_overlap_mm=0 knife.corner_front_overlap_mm=0 knife.heel_overlap_mm=0 knife.corner_heel_overlap_mm=0";
 const LONG_OVERLAPS: &str =
     "knife.front_overlap_mm=3 knife.corner_front_overlap_mm=3 knife.heel_overlap_mm=3 knife.corner_heel_overlap_mm=3";
+const COARSE: &str = "path.tolerance_mm=0.3";
 const LONG_HEEL: &str = "knife.corner_heel_overlap_mm=3 path.tolerance_mm=0.15 nest.band_mm=0.3";
 
 #[test]

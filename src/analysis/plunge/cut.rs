@@ -11,6 +11,8 @@ use crate::machine::Spare;
 const OVERCUT_EPSILON: f64 = 1e-6;
 /// Distance of two places for the blade that are weighed, mm.
 const STEP: f64 = 0.1;
+/// Accuracy of the depth of the deepest place, mm: a part of the least tolerance of a file.
+const DEPTH_ACCURACY: f64 = 0.004;
 /// How much deeper than the least deep of them places for a blade may lie in the parts that `knife.spare` names, and be as good
 /// for these, mm.
 const ALIKE: f64 = 0.1;
@@ -36,6 +38,12 @@ impl BladePlacement {
     /// past the end, and first past the end where the start alone may have no overlap. What finds no room there lies
     /// where the deepest of its places is least deep in any part.
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
+        Self::led_on(run, overlaps, [0.0; 2], around)
+    }
+
+    /// The same where the line of the run goes on straight by so many mm before its start and behind its end: there the surplus
+    /// lies first, over what is cut anyway.
+    pub fn led_on(run: &Run, overlaps: [f64; 2], led: [f64; 2], around: &Surroundings) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
         if width == 0.0 || Plunge::at_start(&path, width).has_way(&path, around.least_way) {
@@ -53,8 +61,11 @@ impl BladePlacement {
         let rays = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
         let rooms = rays.each_ref().map(|ray| around.room(ray));
         let order = if run.ends[0].bare && !run.ends[1].bare { [1, 0] } else { [0, 1] };
-        let (shared, left) = shared(surplus, order.map(|end| rooms[end]), around.knife.clearance_mm);
-        let (mut shares, mut overcut) = (order.map(|end| shared[end]), [Overcut::default(); 2]);
+        let before = surplus.min(led[0]);
+        let led = [before, (surplus - before).min(led[1])];
+        let rest = surplus - led[0] - led[1];
+        let (shared, left) = shared(rest, order.map(|end| rooms[end]), around.knife.clearance_mm);
+        let (mut shares, mut overcut) = ([0, 1].map(|end| led[end] + shared[order[end]]), [Overcut::default(); 2]);
         let surplus = Surplus { length: surplus, overlaps, rays, around };
         // A line that ends in another part is drawn there: nothing bars a way on into that, but deep it is.
         if left > 0.0 || surplus.is_deep(shares) {
@@ -107,6 +118,28 @@ impl Surplus<'_> {
         self.around.depths(from + along * way, self.overlaps[end] + way)
     }
 
+    /// How deep the blade lies up to so far beyond an overlap at the most, to within an accuracy: a place is deeper than another by
+    /// no more than the two are apart.
+    fn deepest(&self, end: usize, way: f64) -> Overcut {
+        let count = (way / STEP).ceil().max(1.0) as usize;
+        let places: Vec<(f64, Overcut)> =
+            (0..=count).map(|i| way * i as f64 / count as f64).map(|way| (way, self.depths(end, way))).collect();
+        let mut deepest = places.iter().fold(Overcut::default(), |deepest, place| deepest.max(place.1));
+        let mut open: Vec<[(f64, Overcut); 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        while let Some([a, b]) = open.pop() {
+            let may_be_deeper = |deepest: f64, [x, y]: [f64; 2]| {
+                x.max(y) > 0.0 && f64::midpoint(x + y, b.0 - a.0) > deepest + DEPTH_ACCURACY
+            };
+            if may_be_deeper(deepest.own, [a.1.own, b.1.own]) || may_be_deeper(deepest.other, [a.1.other, b.1.other]) {
+                let way = f64::midpoint(a.0, b.0);
+                let middle = (way, self.depths(end, way));
+                deepest = deepest.max(middle.1);
+                open.extend([[a, middle], [middle, b]]);
+            }
+        }
+        deepest
+    }
+
     /// How it is shared out to the two ends so that the deepest of its places lies least deep in any part, or in those that
     /// `knife.spare` names, and how deep that is beyond either end; of shares that are alike in this the one that goes least
     /// deep into the others, then the one that is nearest to `preferred`.
@@ -133,7 +166,8 @@ impl Surplus<'_> {
         let alike = all.iter().enumerate().filter(|(_, harm)| harm[0] <= least + slack);
         let best = alike.min_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]).then(a[2].total_cmp(&b[2])));
         let i = best.map_or(0, |(i, _)| i);
-        ([way(i), self.length - way(i)], at(i))
+        let shares = [way(i), self.length - way(i)];
+        (shares, [0, 1].map(|end| self.deepest(end, shares[end])))
     }
 }
 

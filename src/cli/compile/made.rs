@@ -133,7 +133,8 @@ impl Compile<'_> {
             let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
             let cut = Some(Cut { declared: is_moved.then_some(declared) });
             let (target, options) = (target.name, &typed(job));
-            let text = provenance::json(&Made { source, job, target, verified, blake3: &blake3, cut, options });
+            let text =
+                provenance::json(&Made { beside: path, source, job, target, verified, blake3: &blake3, cut, options });
             meta.file().write_all(text.as_bytes())
         });
         written.map_err(|error| files::cannot_write(path, &error))?;

@@ -12,7 +12,7 @@ use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::finished::failure;
 use crate::cli::options::typed;
-use crate::cli::provenance::CentreFile;
+use crate::cli::provenance::{CentreFile, path_of};
 use crate::cli::report::pretty;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::flow::verify::{self, Bytes, Ground, Seen, Verdict};
@@ -47,11 +47,14 @@ pub(super) struct Written {
     pub(super) said: String,
 }
 
-/// Everything that made a plan. No date and no path: the same input gives the same bytes.
+/// Everything that made a plan. No date, and no path but from the plan to its input: folders that are moved together keep their
+/// bytes.
 #[derive(Serialize)]
 struct Provenance<'a> {
     version: &'static str,
     source: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source_path: Option<String>,
     source_sha256: String,
     profile: &'a str,
     profile_sha256: String,
@@ -146,6 +149,7 @@ impl Made<'_> {
             let text = pretty(&Provenance {
                 version: env!("CARGO_PKG_VERSION"),
                 source: name.unwrap_or_else(|| self.source.name().to_owned()),
+                source_path: path_of(self.source, &path),
                 source_sha256: sha256_hex(self.source.bytes()),
                 profile: self.job.origin.name(),
                 profile_sha256: self.job.profile.digest(),

@@ -95,8 +95,8 @@ impl Writing<'_> {
         let written = program.rewind().and_then(|()| blake3_of(&mut *program)).and_then(|blake3| {
             let (target, options) = (target.name, self.options);
             let blake3 = &blake3;
-            let text =
-                provenance::json(&provenance::Made { source, job, target, verified, blake3, cut: None, options });
+            let made = provenance::Made { beside: path, source, job, target, verified, blake3, cut: None, options };
+            let text = provenance::json(&made);
             meta.file().write_all(text.as_bytes())
         });
         written.map_err(|error| files::cannot_write(path, &error))?;

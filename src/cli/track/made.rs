@@ -91,8 +91,8 @@ impl Made<'_> {
         let done = written.rewind().and_then(|()| blake3_of(&mut *written)).and_then(|blake3| {
             let verified = if target.is_judged { Verified::Yes } else { Verified::No };
             let (target, blake3) = (target.name, &blake3[..]);
-            let text =
-                provenance::json(&provenance::Made { source, job, target, verified, blake3, cut: None, options: "" });
+            let made = provenance::Made { beside: path, source, job, target, verified, blake3, cut: None, options: "" };
+            let text = provenance::json(&made);
             meta.file().write_all(text.as_bytes())
         });
         done.map_err(|error| files::cannot_write(path, &error))?;

@@ -45,7 +45,8 @@ fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
         let next = way.part(place - lead(place)[0], place + LOOK * knife.width_mm, [REJOINED; 2]);
         Deviation::of(&next, around).is_none_or(|deviation| is_good(&deviation))
     };
-    let goods: [fn(&Deviation) -> bool; 2] = [|deviation| deviation.fits && deviation.is_curve, |deviation| deviation.fits];
+    let goods: [fn(&Deviation) -> bool; 2] =
+        [|deviation| deviation.fits && deviation.is_curve, |deviation| deviation.fits];
     let entered = |range| goods.into_iter().find_map(|good| way.gentlest(range, spans, |place| enters(place, good)));
     // A ring begins where the file has it, or behind that.
     let begins_elsewhere = way.is_ring() && !enters(0.0, goods[0]);

@@ -10,6 +10,7 @@ mod entry;
 mod frame;
 mod junctions;
 mod lap;
+mod led;
 mod meet;
 mod near;
 mod nibble;

@@ -2,9 +2,11 @@
 //!
 //! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight
 //! one, no point of the path at the distance w from its start on a curved one. What the blade is longer by goes into
-//! the waste as far as there is room, and else where it lies least deep in any part. Plunges of a nibbled curve that cut
+//! the waste as far as there is room, and else where it lies least deep in any part; but first along its own line where that goes on
+//! straight. Plunges of a nibbled curve that cut
 //! nothing new are left out. What cuts into a part is warned of, and refused where the profile does not allow it.
 
+use super::led::led;
 use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::spare;
@@ -28,14 +30,13 @@ const THREAD_SHARE: f64 = 0.2;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
-    for step in &mut toolpath.steps {
-        match step {
-            Step::Run(run) if run.shape == Shape::Open => {
-                if let Some(cut) = BladePlacement::of(run, [run.heel, run.front], &around) {
-                    *step = Step::PlungeCut(plunge_cut(run, &cut, &around));
-                }
+    for i in 0..toolpath.steps.len() {
+        let Step::Run(run) = &toolpath.steps[i] else { continue };
+        if run.shape == Shape::Open {
+            let led = led(&toolpath.steps, i, run, &around);
+            if let Some(cut) = BladePlacement::led_on(run, [run.heel, run.front], led, &around) {
+                toolpath.steps[i] = Step::PlungeCut(plunge_cut(run, &cut, &around));
             }
-            Step::Run(_) | Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }
     let verify = &scene.job.profile.verify;

@@ -91,7 +91,7 @@ impl Strokes<'_> {
 }
 
 /// The first and the last place of a stroke as the file has it.
-fn drawn(points: &[Point], turned: bool) -> [Point; 2] {
+pub(super) fn drawn(points: &[Point], turned: bool) -> [Point; 2] {
     let ends = [points[0], points[points.len() - 1]];
     if turned { [ends[1], ends[0]] } else { ends }
 }

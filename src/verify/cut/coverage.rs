@@ -26,6 +26,8 @@ pub(in crate::verify) struct Coverage<'a> {
     ways: Vec<Stretches>,
     /// Stretches that lay on a plunged blade itself, not only within the tolerance of one.
     cores: Vec<Stretches>,
+    /// How far past its start and its end a blade has gone, mm.
+    beyond: Vec<[f64; 2]>,
 }
 
 /// Disjoint stretches of the stations of a line, in order.
@@ -69,7 +71,18 @@ impl<'a> Coverage<'a> {
     /// Nothing is cut yet.
     pub(in crate::verify) fn new(reference: &'a Reference) -> Self {
         let none = vec![Stretches::NONE; reference.lines.len()];
-        Self { reference, cut: none.clone(), ways: none.clone(), cores: none }
+        let beyond = vec![[0.0; 2]; reference.lines.len()];
+        Self { reference, cut: none.clone(), ways: none.clone(), cores: none, beyond }
+    }
+
+    /// Sees how far a blade goes past the start (0) or the end (1) of a line, mm.
+    pub(in crate::verify) fn see_beyond(&mut self, line: usize, end: usize, beyond: f64) {
+        self.beyond[line][end] = self.beyond[line][end].max(beyond);
+    }
+
+    /// How far a blade has gone past the start (0) or the end (1) of a line at the most, mm.
+    pub(in crate::verify) fn beyond(&self, line: usize, end: usize) -> f64 {
+        self.beyond[line][end]
     }
 
     /// How much of the stretches was not cut before, mm.

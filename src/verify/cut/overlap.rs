@@ -1,12 +1,15 @@
 //! How far the blade goes past the ends of a line, against what the profile asks for.
 
 use super::body::Cut;
+use super::coverage::Coverage;
 use super::stroke::Judge;
 use super::trial::Trial;
+use super::worsts::{Lacking, Worsts};
 use crate::geom::{Point, polyline};
 use crate::ir::declaration::{Kind, Which};
 use crate::ir::finding::Sighting;
 use crate::verify::declared::Stretch;
+use crate::verify::reference::line::Line;
 use crate::verify::worst::Worst;
 
 impl Judge<'_> {
@@ -17,8 +20,9 @@ impl Judge<'_> {
         cut: &Cut,
         trial: &Trial,
         seen: &impl Fn(usize) -> Sighting,
-        overlap: &mut Worst,
+        worsts: &mut Worsts,
     ) {
+        let Worsts { overlap, lacking, .. } = worsts;
         let line = &self.reference.lines[trial.line];
         // Within the tolerance of both its ends a line shows neither.
         let is_short = line.length() <= 2.0 * self.tracer.allowed;
@@ -41,10 +45,8 @@ impl Judge<'_> {
         let last = cut.points.len() - 1;
         for (i, place) in [0, last].into_iter().enumerate() {
             let station = trial.reach[i];
-            let at_start = station <= self.tracer.allowed;
-            if !at_start && line.length() - station > self.tracer.allowed {
-                continue;
-            }
+            let Some(end_of_line) = self.end_of_line(line, station) else { continue };
+            let at_start = end_of_line == 0;
             let missing = asked[i] - trial.beyond(cut, place);
             if missing <= self.tracer.allowed {
                 continue;
@@ -67,8 +69,32 @@ impl Judge<'_> {
             let may = is_told
                 || is_curved && self.tracer.declared.is_none()
                 || self.overcut.leads_into_part([end, end + along * (asked[i] + knife.clearance_mm)]);
-            if !may {
+            if !may && cut.is_plunge_cut() {
+                let (line, place) = (trial.line, seen(place));
+                lacking.push(Lacking { line, end: end_of_line, asked: asked[i], missing, place });
+            } else if !may {
                 overlap.see(missing, || seen(place));
+            }
+        }
+    }
+
+    /// The end of a line that is near a station of it: its start (0) or its end (1); `None` amid it.
+    fn end_of_line(&self, line: &Line, station: f64) -> Option<usize> {
+        if station <= self.tracer.allowed {
+            return Some(0);
+        }
+        (line.length() - station <= self.tracer.allowed).then_some(1)
+    }
+
+    /// Marks how far a stroke goes past the ends of its line.
+    pub(super) fn see_beyond(&self, cut: &Cut, trial: &Trial, coverage: &mut Coverage) {
+        let line = &self.reference.lines[trial.line];
+        if trial.laps || line.ring {
+            return;
+        }
+        for (station, place) in trial.reach.into_iter().zip([0, cut.points.len() - 1]) {
+            if let Some(end) = self.end_of_line(line, station) {
+                coverage.see_beyond(trial.line, end, trial.beyond(cut, place));
             }
         }
     }

@@ -205,6 +205,7 @@ impl<'a> Judge<'a> {
         done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
         done.coverage.add(best.line, &best.stretches, cut.is_plunge_cut());
         done.meetings.see(cut, &best);
+        self.see_beyond(cut, &best, &mut done.coverage);
         traced.best = Some(best);
     }
 
@@ -233,7 +234,7 @@ impl<'a> Judge<'a> {
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(cut, best, &seen, &mut worsts.stray);
-        self.check_overlaps(cut, best, &seen, &mut worsts.overlap);
+        self.check_overlaps(cut, best, &seen, worsts);
         worsts.once.see(self.twice(cut, best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, worsts);
         self.check_body(traced, best, worsts);
@@ -341,6 +342,11 @@ impl<'a> Judge<'a> {
     pub(super) fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
         let line = &self.reference.lines[trial.line];
         Blade { line, ends: traced.ends, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
+    }
+
+    /// How far a cut may be off its line, mm.
+    pub(in crate::verify) fn allowed(&self) -> f64 {
+        self.tracer.allowed
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {

@@ -1,7 +1,9 @@
 //! The worst values that strokes show, rule by rule.
 
+use super::coverage::Coverage;
 use super::naming::Naming;
 use crate::ir::Finding;
+use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
 use crate::verify::axes::crawl;
 use crate::verify::program::row::Rounding;
@@ -23,6 +25,21 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) overcuts: Overcuts,
     pub(in crate::verify) overlap: Worst,
     pub(in crate::verify) declared: Worst,
+    /// Overlaps that some strokes lack and others may have.
+    pub(in crate::verify) lacking: Vec<Lacking>,
+}
+
+/// An overlap that a plunge cut lacks at an end of its line: of several on one line the last one there has it.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Lacking {
+    pub(in crate::verify) line: usize,
+    /// The start (0) or the end (1) of the line.
+    pub(in crate::verify) end: usize,
+    /// How far a blade goes past that, mm.
+    pub(in crate::verify) asked: f64,
+    /// By how much this one goes less far, mm.
+    pub(in crate::verify) missing: f64,
+    pub(in crate::verify) place: Sighting,
 }
 
 impl Worsts {
@@ -46,13 +63,29 @@ impl Worsts {
             overcuts: Overcuts::new(profile, tolerance),
             overlap: Worst::new("verify/overlap", "mm missing", Some(tolerance + place)),
             declared: Worst::new("verify/declared", "mm", Some(0.0)),
+            lacking: Vec::new(),
         }
     }
 
     /// Takes what later strokes showed.
-    pub(in crate::verify) fn add(&mut self, later: Self) {
+    pub(in crate::verify) fn add(&mut self, mut later: Self) {
+        self.lacking.append(&mut later.lacking);
         for (worst, later) in self.all_mut().into_iter().zip(later.all()) {
             worst.add(&later);
+        }
+    }
+
+    /// The same with no overlap that is lacking.
+    pub(in crate::verify) fn known(&self) -> Self {
+        Self { lacking: Vec::new(), ..self.clone() }
+    }
+
+    /// Sees the overlaps that no stroke of a line has, each to within `allowed` mm.
+    pub(in crate::verify) fn settle(&mut self, coverage: &Coverage, allowed: f64) {
+        for Lacking { line, end, asked, missing, place } in std::mem::take(&mut self.lacking) {
+            if asked - coverage.beyond(line, end) > allowed {
+                self.overlap.see(missing, || place);
+            }
         }
     }
 
@@ -62,8 +95,22 @@ impl Worsts {
     }
 
     fn all(self) -> [Worst; 15] {
-        let Self { on_path, stray, once, heading, down, body, swing, feed, crawl, block, overcuts, overlap, declared } =
-            self;
+        let Self {
+            on_path,
+            stray,
+            once,
+            heading,
+            down,
+            body,
+            swing,
+            feed,
+            crawl,
+            block,
+            overcuts,
+            overlap,
+            declared,
+            ..
+        } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
         [
             on_path, stray, once, heading, down, body, swing, feed, crawl, block, part, neighbour, waste, overlap,
@@ -72,8 +119,22 @@ impl Worsts {
     }
 
     fn all_mut(&mut self) -> [&mut Worst; 15] {
-        let Self { on_path, stray, once, heading, down, body, swing, feed, crawl, block, overcuts, overlap, declared } =
-            self;
+        let Self {
+            on_path,
+            stray,
+            once,
+            heading,
+            down,
+            body,
+            swing,
+            feed,
+            crawl,
+            block,
+            overcuts,
+            overlap,
+            declared,
+            ..
+        } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
         [
             on_path, stray, once, heading, down, body, swing, feed, crawl, block, part, neighbour, waste, overlap,

@@ -1,0 +1,107 @@
+//! A line that goes on straight beyond a short cut of it: there a blade that is longer than the cut lies over what is cut anyway.
+
+use super::spare::drawn;
+use crate::analysis::cloth::Surroundings;
+use crate::geom::{Point, Vector, cross, polyline};
+use crate::ir::toolpath::{Run, Side, Step};
+
+/// Tolerances by which the straight stretch of a line may be shorter than the blade that lies on it: one at either end, and one
+/// for where it bends.
+const SHORT: f64 = 3.0;
+
+/// How far its line goes on straight before the start and behind the end of the run that is a step, mm; nowhere where a blade's
+/// width of the line is not straight.
+pub(super) fn led(steps: &[Step], step: usize, run: &Run, around: &Surroundings) -> [f64; 2] {
+    let width = around.knife.width_mm;
+    let ends = [run.points[0], run.points[run.points.len() - 1]];
+    let Some(along) = polyline::direction(ends[0], ends[1]) else { return [0.0; 2] };
+    let length = polyline::length(&run.points);
+    if length > width {
+        return [0.0; 2];
+    }
+    let led = [0, 1].map(|end| {
+        if run.ends[end].side != Side::Contour {
+            return 0.0;
+        }
+        let way = Way { from: ends[end], along: if end == 0 { -along } else { along }, beside: around.tolerance };
+        let is_before = (end == 0) != run.turned;
+        way.straight(points_from(steps, step, is_before), width - length)
+    });
+    let is_long = led[0] + length + led[1] >= width - SHORT * around.tolerance;
+    if is_long { led } else { [0.0; 2] }
+}
+
+/// The points of the strokes before or behind a step, away from it, as long as each goes on where the one nearer to it ends.
+fn points_from(steps: &[Step], step: usize, is_before: bool) -> impl Iterator<Item = Point> + '_ {
+    let others: Box<dyn Iterator<Item = &Step>> =
+        if is_before { Box::new(steps[..step].iter().rev()) } else { Box::new(steps[step + 1..].iter()) };
+    let mut place = points_of(&steps[step]).map(|(points, turned)| drawn(points, turned)[usize::from(!is_before)]);
+    let next = move |other: &Step| {
+        let (points, turned) = points_of(other)?;
+        let [first, last] = drawn(points, turned);
+        let [near, far] = if is_before { [last, first] } else { [first, last] };
+        if Some(near) != place {
+            return None;
+        }
+        place = Some(far);
+        let mut points = points.to_vec();
+        if points[0] != near {
+            points.reverse();
+        }
+        Some(points)
+    };
+    others.map_while(next).flat_map(|points| points.into_iter().skip(1))
+}
+
+/// The points of a stroke, and whether it is cut against the order of the file.
+fn points_of(step: &Step) -> Option<(&[Point], bool)> {
+    match step {
+        Step::Run(run) => Some((&run.points, run.turned)),
+        Step::PlungeCut(cut) => Some((&cut.points, cut.turned)),
+        Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+    }
+}
+
+/// A straight way.
+struct Way {
+    from: Point,
+    /// Unit vector.
+    along: Vector,
+    /// How far beside it a place may lie and still be on it, mm.
+    beside: f64,
+}
+
+impl Way {
+    /// How far some points that follow each other from its start lie on it, mm, `reach` at the most.
+    fn straight(&self, points: impl Iterator<Item = Point>, reach: f64) -> f64 {
+        let [mut way, mut aside] = [0.0; 2];
+        for point in points {
+            let [next, beside] = [self.along.dot(&(point - self.from)), cross(self.along, point - self.from)];
+            if way >= reach || next <= way {
+                break;
+            }
+            if beside.abs() > self.beside {
+                way += (next - way) * (self.beside * beside.signum() - aside) / (beside - aside);
+                break;
+            }
+            [way, aside] = [next, beside];
+        }
+        way.min(reach)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_is_straight_up_to_where_it_leaves_its_band() {
+        let way = Way { from: Point::origin(), along: Vector::new(1.0, 0.0), beside: 0.1 };
+        let straight = |points: &[[f64; 2]], reach| way.straight(points.iter().map(|&at| Point::from(at)), reach);
+        assert_eq!(straight(&[[2.0, 0.05], [3.0, 0.0]], 9.0), 3.0);
+        assert_eq!(straight(&[[2.0, 0.05], [3.0, 0.0]], 2.5), 2.5);
+        assert_eq!(straight(&[[2.0, 0.0], [4.0, 0.2], [9.0, 0.0]], 9.0), 3.0);
+        assert_eq!(straight(&[[2.0, 0.0], [1.0, 0.0]], 9.0), 2.0);
+        assert_eq!(straight(&[], 9.0), 0.0);
+    }
+}
