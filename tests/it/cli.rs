@@ -45,8 +45,9 @@ fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
     assert_eq!(meta["period_ms"], 1.0);
     assert_eq!(meta["program_blake3"], blake3_of(&room.read("circle.csv")[..]).expect("memory is read"));
     assert_eq!(meta["declared"][0]["kind"], "plunge", "the blade is straight and the circle is not: {meta}");
-    let expected =
-        "declared period_ms profile profile_sha256 program_blake3 source source_sha256 target units verified version";
+    assert_eq!(meta["source_path"], "circle.cut", "as seen from the program");
+    let expected = "declared period_ms profile profile_sha256 program_blake3 source source_path source_sha256 target \
+                    units verified version";
     assert_eq!(keys(&meta).join(" "), expected);
 }
 

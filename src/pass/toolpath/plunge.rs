@@ -25,8 +25,8 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// Part of the longest stretch that may be left uncut by which strokes may be apart that meet: rounding takes some of the rest.
-const THREAD_SHARE: f64 = 0.2;
+/// Part of the longest stretch that may be left uncut by which blades may be apart that meet: rounding takes some of the rest.
+const THREAD_SHARE: f64 = 0.9;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);

@@ -11,7 +11,7 @@ use super::heading::on_lap;
 use super::trial::Trial;
 use super::worsts::{Overcuts, Worsts};
 use crate::geom::{Point, Vector, polyline};
-use crate::ir::declaration::{Declaration, Kind};
+use crate::ir::declaration::{Declaration, Kind, Which};
 use crate::ir::finding::Sighting;
 use crate::machine::{MachineProfile, Spare};
 use crate::verify::declared::{Declared, Stretch};
@@ -73,6 +73,9 @@ pub(in crate::verify) struct Ends<'a> {
 /// How deep places lie in parts, mm: in the own one, and in another.
 pub(super) type Depths = [f64; 2];
 
+/// The deepest places in the own part and in another: how deep each is, mm, and its index.
+type Deepest = [(f64, usize); 2];
+
 impl<'a> Overcut<'a> {
     /// For parts in which places lie, a tip that may leave its line by the tolerance, and places that are rounded to
     /// `rounding` mm.
@@ -103,7 +106,7 @@ impl<'a> Overcut<'a> {
     pub(in crate::verify) fn see(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         let Worsts { overcuts, declared: undeclared, .. } = worsts;
         let Ends { cut, trial, .. } = *stroke;
-        let mut deepest = [(0.0, 0); 2];
+        let mut ends = [[(0.0, 0); 2]; 2];
         self.see_aside(stroke, seen, overcuts);
         for (i, &point) in cut.points.iter().enumerate() {
             let beyond = trial.beyond(cut, i);
@@ -115,22 +118,19 @@ impl<'a> Overcut<'a> {
             if depths == [0.0; 2] {
                 overcuts.waste.see(beyond, || seen(i));
             }
-            for (deepest, depth) in deepest.iter_mut().zip(depths) {
+            for (deepest, depth) in ends[trial.end_at(i) as usize].iter_mut().zip(depths) {
                 if depth > deepest.0 {
                     *deepest = (depth, i);
                 }
             }
         }
+        let [start, end] = ends;
+        let deepest = [0, 1].map(|side| if end[side].0 > start[side].0 { end[side] } else { start[side] });
         if deepest.iter().all(|(depth, _)| *depth == 0.0) {
             return;
         }
         let least = if cut.is_plunge_cut() { self.least(stroke).map(|least| least + SHIFT) } else { [0.0; 2] };
-        // What is as deep as the band one way is in it the other.
-        let bands = deepest.map(|(depth, i)| match depth > self.band {
-            true if Self::is_across(i, stroke) => self.shift,
-            true => self.band,
-            false => self.band_at(cut.points[i], stroke),
-        });
+        let bands = self.bands(deepest, stroke);
         let [own, other] = [0, 1].map(|k| least[k].max(bands[k]));
         let bounds = [own.max(self.reflex), other].map(|bound| bound + self.tolerance);
         let worsts = [&mut overcuts.part, &mut overcuts.neighbour];
@@ -142,8 +142,18 @@ impl<'a> Overcut<'a> {
             }
         }
         if let Some(declared) = self.declared {
-            self.hold(deepest, bands, stroke, declared, seen, undeclared);
+            self.hold(ends, stroke, declared, seen, undeclared);
         }
+    }
+
+    /// How deep a place may lie in its own part and in another and still be at the edge, mm, by the deepest of a stroke in each.
+    /// What is as deep as the band one way is in it the other.
+    fn bands(&self, deepest: Deepest, stroke: &Ends) -> Depths {
+        deepest.map(|(depth, i)| match depth > self.band {
+            true if Self::is_across(i, stroke) => self.shift,
+            true => self.band,
+            false => self.band_at(stroke.cut.points[i], stroke),
+        })
     }
 
     /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, which
@@ -166,11 +176,10 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// Holds how deep a stroke cuts into parts against what is declared.
+    /// Holds how deep each end of a stroke cuts into parts against what is declared of that end.
     fn hold(
         &self,
-        deepest: [(f64, usize); 2],
-        bands: [f64; 2],
+        ends: [Deepest; 2],
         stroke: &Ends,
         declared: &Declared,
         seen: &impl Fn(usize) -> Sighting,
@@ -178,15 +187,28 @@ impl<'a> Overcut<'a> {
     ) {
         let Ends { cut, trial, line, .. } = *stroke;
         let kind = if cut.is_plunge_cut() { Kind::Surplus } else { Kind::Overcut };
+        let bands = ends.map(|deepest| self.bands(deepest, stroke));
         // Its own part a blade enters as the profile has it for reflex corners, without a word.
-        let unsaid = [self.reflex, 0.0].into_iter().zip(bands).enumerate();
-        for ((depth, i), (side, (unsaid, band))) in deepest.into_iter().zip(unsaid) {
+        for (side, unsaid) in [self.reflex, 0.0].into_iter().enumerate() {
+            let told = |end: Which| {
+                let here = Stretch { line, stations: trial.reach, end: Some(end) };
+                let told = declared.find(kind, here).filter(|entry| self.is_in(entry, side == 0, line));
+                told.map(|entry| entry.magnitude_mm).fold(0.0, f64::max)
+            };
+            let told = [Which::Start, Which::End].map(told);
+            let more = |told: [f64; 2]| {
+                let more =
+                    |end: usize| ends[end][side].0 - told[end].max(unsaid).max(bands[end][side]) - self.tolerance;
+                [more(0), more(1)].map(|more| more.max(0.0))
+            };
             // Of a blade that is sharp at both ends nobody sees which comes first when it does not move.
-            let end = if self.is_alike && cut.is_plunge_cut() { None } else { Some(trial.end_at(i)) };
-            let here = Stretch { line, stations: trial.reach, end };
-            let told = declared.find(kind, here).filter(|entry| self.is_in(entry, side == 0, line));
-            let most = told.map(|entry| entry.magnitude_mm).fold(0.0, f64::max);
-            undeclared.see((depth - most.max(unsaid).max(band) - self.tolerance).max(0.0), || seen(i));
+            let [mut excess, turned] = [more(told), more([told[1], told[0]])];
+            if self.is_alike && cut.is_plunge_cut() && turned[0].max(turned[1]) < excess[0].max(excess[1]) {
+                excess = turned;
+            }
+            for (excess, deepest) in excess.into_iter().zip(ends) {
+                undeclared.see(excess, || seen(deepest[side].1));
+            }
         }
     }
 

@@ -38,6 +38,25 @@ fn a_ring_goes_on_over_its_own_start() {
     }
 }
 
+/// A line of 8 mm from X 100 on that is cut by plunges with their tips at these X.
+fn plunged(tips: &[f64]) -> Vec<&'static str> {
+    let mut program = Program::new(&Job::default());
+    for &tip in tips {
+        program.plunge_cut(p(tip, 50.0), 0.0, 1);
+    }
+    broken(&program.judge(&support::marker(&[p(100.0, 50.0), p(108.0, 50.0)])))
+}
+
+#[test]
+fn one_of_the_plunges_that_reach_an_end_has_its_overlap() {
+    for tips in [[106.1, 107.95, 108.8], [106.1, 108.8, 107.95], [107.95, 106.1, 108.8]] {
+        assert!(!plunged(&tips).contains(&"verify/overlap"), "{tips:?}");
+    }
+    for tips in [[106.1, 107.95], [107.95, 106.1], [106.6, 108.8]] {
+        assert!(plunged(&tips).contains(&"verify/overlap"), "{tips:?}");
+    }
+}
+
 /// The line from X 100 to 200 with an overlap of 0.01 mm at its end, which is declared as shortened.
 fn shortened(marker: &Marker) -> Vec<&'static str> {
     let mut program = Program::new(&Job::default());
@@ -67,5 +86,41 @@ fn a_shortened_overlap_needs_something_in_its_way() {
         let range = marker.list.append(chain).expect("four sides");
         marker.pieces.push(Piece { number: 2, contours: vec![Contour { range, closed: true }], ..Piece::default() });
         assert_eq!(!shortened(&marker).contains(&"verify/overlap"), is_cause, "{ahead}");
+    }
+}
+
+/// What is found of a plunge over a slit of 3 mm amid a part, which goes 1.8 mm into that at either end and says so of some.
+fn declared_at(job: &Job, ends: &[Which]) -> Vec<&'static str> {
+    let corners = [p(100.0, 0.0), p(200.0, 0.0), p(200.0, 100.0), p(100.0, 100.0), p(100.0, 0.0)];
+    let mut marker = support::marker(&corners);
+    let slit = support::marker(&[p(150.0, 50.0), p(153.0, 50.0)]);
+    let chain: Vec<Segment> = slit.list.walk(slit.pieces[0].contours[0].range).map(|(_, one)| one).collect();
+    let range = marker.list.append(chain).expect("one side");
+    marker.pieces[0].contours.insert(0, Contour { range, closed: false });
+    let mut program = Program::new(job);
+    program.plunge_cut(p(154.8, 50.0), 0.0, 1);
+    let entry = |&end: &Which| Declaration {
+        kind: Kind::Surplus,
+        cut: 0,
+        from_mm: 0.0,
+        to_mm: 3.0,
+        end: Some(end),
+        part: Some(0),
+        magnitude_mm: 1.8,
+    };
+    program.declared = Some(Declared::new(ends.iter().map(entry).collect()));
+    broken(&program.judge(&marker))
+}
+
+#[test]
+fn the_surplus_of_each_end_is_declared_by_itself() {
+    let mut two_edges = Job::default();
+    two_edges.profile.knife.edges = 2;
+    for job in [&Job::default(), &two_edges] {
+        let both = declared_at(job, &[Which::Start, Which::End]);
+        assert!(!both.contains(&"verify/declared"), "{both:?}");
+        for ends in [&[Which::Start][..], &[Which::End], &[]] {
+            assert!(declared_at(job, ends).contains(&"verify/declared"), "{ends:?}");
+        }
     }
 }
