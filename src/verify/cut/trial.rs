@@ -220,7 +220,9 @@ impl Tracer<'_> {
                     }
                 }
             }
-            here.into_iter().for_each(|next| add(&mut found, next));
+            for next in here {
+                add(&mut found, next);
+            }
         }
         found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
         found.truncate(TRIALS);
