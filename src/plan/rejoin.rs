@@ -204,7 +204,10 @@ impl<'a> Line<'a> {
             let parts = self.parts.iter().zip(shares).filter(|(_, share)| **share < 1.0);
             smooth(&parts.fold(band(), |band, (part, &share)| band.with_junctions(&under(part), share)))
         };
-        Some((first, along(&band).or_else(|_| along(&plain)).ok()?))
+        // The curve of a ring that is not closed is worth nothing where its ends leave the line.
+        let is_parted = ring.is_none() && self.ring.is_some();
+        let found = along(&band).or_else(|tight| if is_parted { Err(tight) } else { along(&plain) });
+        Some((first, found.ok()?))
     }
 
     /// The cuts of its runs along a curve on which the line begins at a parameter; `None` of each whose blade would plunge too
