@@ -132,6 +132,11 @@ impl Surroundings<'_> {
         depths
     }
 
+    /// Depth up to which a place in a part counts as on its edge, mm.
+    pub fn band(&self) -> f64 {
+        self.cloth.band
+    }
+
     /// Whether a straight way leads into the part to which the piece belongs from its very start.
     pub fn leads_inside(&self, ray: &Ray) -> bool {
         begins_inside(self.room(ray))

@@ -297,7 +297,7 @@ codes! {
     /// A piece of other sizes only.
     DXF_SIZE_MISSING = warning(Spares, Shape, "dxf/size-missing", "A piece of a set has none of the sizes that are cut, and is not cut.", "A set holds each piece in its sizes, and those of one size are a garment. A piece that is there in other sizes only would be missing: some CAD systems name sizes of accessories otherwise. Name all that are wanted.\n  cutc compile pattern.dxf --size 38,40");
     /// A block without a size beside one of a size.
-    DXF_SIZE_UNSAID = warning(Spares, Shape, "dxf/size-unsaid", "A piece of a set is drawn in a size that is cut and once more in a block without a size; both are cut.", "A block without a size goes with every size. Where another block of that name has one, its size is most likely said in words that cutc does not know, and it is of another one. See in the picture (-t svg) which is right, and leave the other out.\n  cutc compile pattern.dxf --skip 2");
+    DXF_SIZE_UNSAID = warning(Spares, Shape, "dxf/size-unsaid", "A piece of a set is drawn in a size that is cut and once more in a block without a size; both are cut.", "A block without a size goes with every size. Where another block of that name has one, its size most likely stands under a key that cutc does not know, and it is another size. See in the picture (-t svg) which is right, and leave the other out.\n  cutc compile pattern.dxf --skip 2");
     /// A notch that is not cut.
     DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one or at its place.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
     /// A notch that becomes a slit.
@@ -355,7 +355,7 @@ codes! {
     /// An outline with several rounds.
     MARKER_ROUND_AGAIN = warning(Spares, Shape, "marker/round-again", "Outlines go round two times or more in one stroke, or there and back, and so do lines; they are cut once.", "Some plots draw an outline twice to make the line bold, some go back along it, and some cutters go twice through thick cloth. A second cut frays the edge and may shift the part, which is free by then. Draw each outline once in the CAD system.");
     /// The same contour twice.
-    MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
+    MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "A contour stands twice in the file, or runs within `nest.band_mm` of another one all the way, and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.
     MARKER_EQUAL_POINTS = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped, in files without a grid those within 0.01 mm of it, too; the message gives their count.", "Harmless: a direction cannot be taken from two points at one place, so one of them goes. Many of them hint at an export in too coarse a unit.");
     /// A slit again.

@@ -1,16 +1,17 @@
-//! The course of a line that goes along itself again: a slit in and out, a V there and back, a T in one stroke.
+//! The course of a line that goes along itself again and encloses nothing, as one there and back.
 //!
-//! Such a line encloses nothing, and each of its edges is meant once. What it draws is a tree of edges; its course is the
-//! paths that draw the tree once.
+//! Each edge of such a line is meant once. The edges make a tree; the course is the paths that draw the tree once.
 
 use std::collections::BTreeMap;
 
-use crate::geom::{Point, bits};
+use crate::geom::{Point, bits, polyline};
 
-/// Most places of a line that has a course: notches and slits have few.
+/// Most places of a line that has a course: those of longer lines are drawings.
 pub const MOST_PLACES: usize = 64;
+/// Farthest that a place of a straight path lies off it, mm: the rounding of sums of decimals.
+const ON_LINE: f64 = 1e-6;
 
-/// A line apart: its paths, and the stretches that go along them again.
+/// Decomposition of a line that retraces itself: paths that draw each edge once, and the stretches that repeat edges.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Course {
     /// Paths that draw every edge once.
@@ -19,24 +20,34 @@ pub struct Course {
     pub again: Vec<Vec<Step>>,
 }
 
+impl Course {
+    /// The length, mm, of the one straight path that the line draws; `None` when it draws anything else.
+    pub fn straight(&self, places: &[Point]) -> Option<f64> {
+        let [path] = &self.paths[..] else { return None };
+        let path: Vec<Point> = path.iter().map(|step| places[step.place]).collect();
+        polyline::is_straight(&path, ON_LINE).then(|| polyline::length(&path))
+    }
+}
+
 /// A place of a row of steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
     /// The place of the line, by its number.
     pub place: usize,
-    /// The later place of the edge of the line that leads here; at the start of a row the place itself.
+    /// The later end, in the line, of the edge that leads here; at the start of a row the place itself.
     pub led: usize,
 }
 
-/// An edge that the line draws for the first time: the numbers of its places, and the later of them in the line.
+/// An edge that the line draws for the first time, by the numbers of its places.
 #[derive(Debug, Clone, Copy)]
 struct Edge {
     ends: [usize; 2],
+    /// The later of them in the line.
     led: usize,
 }
 
-/// Course of a line that goes along itself again and encloses nothing; `None` for every other line. Edges are the same
-/// whose ends are equal to the bit.
+/// Course of a line that goes along itself again and encloses nothing; `None` for every other line. Two edges are one
+/// when their ends are equal to the bit.
 pub fn course(places: &[Point]) -> Option<Course> {
     if !(3..=MOST_PLACES).contains(&places.len()) {
         return None;

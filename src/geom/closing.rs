@@ -12,7 +12,7 @@ pub const LONGEST_PAST: f64 = 100.0;
 pub const LONGEST_STRAIGHT: f64 = 10.0;
 /// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
 /// places miss the head by that.
-pub const LEAST_REACH: f64 = 0.1;
+pub const LEAST_REACH: f64 = 0.2;
 /// Distance that rounding to the grid of a file may put between two places, in units: the diagonal.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
 /// Places that are compared at the most, as a multiple of those of the line: later rounds may have fewer than the first.

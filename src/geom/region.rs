@@ -59,6 +59,13 @@ impl Room {
     pub fn least(self) -> f64 {
         self.own.min(self.other)
     }
+
+    /// What is left of it behind the first `way` mm.
+    #[must_use]
+    pub fn without(self, way: f64) -> Self {
+        let [own, other] = [self.own, self.other].map(|room| (room - way).max(0.0));
+        Self { own, other }
+    }
 }
 
 /// A straight piece of a ring.

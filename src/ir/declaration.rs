@@ -120,3 +120,14 @@ pub enum Which {
     /// Where it is lifted.
     End,
 }
+
+impl Which {
+    /// The other end.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Start => Self::End,
+            Self::End => Self::Start,
+        }
+    }
+}

@@ -51,7 +51,7 @@ impl Dxf {
     /// Longest such stretch that goes straight on where the outline turns at its start, mm.
     pub const PAST_CORNER: f64 = 10.0;
     /// Farthest that such a stretch, or another round, lies from the first round, mm.
-    pub const RETRACE_OFF: f64 = 0.1;
+    pub const RETRACE_OFF: f64 = 0.2;
 }
 
 impl Default for Dxf {

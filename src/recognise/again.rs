@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::pens::Use;
 use crate::geom::again::{Course, MOST_PLACES, Step, course};
-use crate::geom::{Point, bits, polyline};
+use crate::geom::{Point, bits};
 use crate::ir::drawing::{Drawing, PenStroke, Vertex};
 use crate::ir::marker::Notch;
 
@@ -50,7 +50,8 @@ fn there_and_back(drawing: &mut Drawing) -> Vec<PenStroke> {
             continue;
         }
         let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
-        let Some(course) = course(&places).filter(|course| !may_be_slit(course, &places)) else { continue };
+        let is_slit = |course: &Course| course.straight(&places).is_some_and(|length| length <= Notch::LONGEST);
+        let Some(course) = course(&places).filter(|course| !is_slit(course)) else { continue };
         let mut add = |row: &[Step]| {
             let first = drawing.vertices.len() as u32;
             let vertex = |step: &Step| Vertex { at: places[step.place], span: vertices[step.led].span };
@@ -63,13 +64,6 @@ fn there_and_back(drawing: &mut Drawing) -> Vec<PenStroke> {
         drawing.strokes.extend(&paths[1..]);
     }
     again
-}
-
-/// Whether a stroke there and back is as long and straight as a slit.
-fn may_be_slit(course: &Course, places: &[Point]) -> bool {
-    let [path] = &course.paths[..] else { return false };
-    let drawn: Vec<Point> = path.iter().map(|step| places[step.place]).collect();
-    polyline::length(&drawn) <= Notch::LONGEST && polyline::is_straight(&drawn, 0.0)
 }
 
 fn is_closed(drawing: &Drawing, stroke: usize) -> bool {

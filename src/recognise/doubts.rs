@@ -261,7 +261,7 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
     EdgeDoubt {
         lie: Lie::Letters,
         code: &code::DRAWING_LINE_FROM_EDGE,
-        does: ["one stroke, off the edge as a letter is,", "strokes, off the edge and as letters stand,"],
+        does: ["one stroke like a letter beside the edge", "strokes like letters beside the edge"],
         hints: &["if they are notches, let them begin on the edge; `--cut-all` cuts every line but a frame"],
     },
     EdgeDoubt {

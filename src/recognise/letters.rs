@@ -15,6 +15,11 @@ const LARGEST: f64 = 15.0;
 const RATIO: f64 = 2.0;
 /// Share of its height that a letter stands beside another, at least, and of its width that it stands over it, at the most.
 const BESIDE: f64 = 0.5;
+/// Gaps between letters, as multiples of their height: those of any text, and those of narrow letters in wide columns.
+const CLOSE: f64 = 0.5;
+const WIDE: f64 = 1.3;
+/// Share of their size by which lines of one shape may differ.
+const ALIKE: f64 = 0.1;
 /// Strokes that make a row at least.
 const ROW: usize = 3;
 
@@ -33,15 +38,19 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
         if work.is_spent() {
             return;
         }
-        let row = row(first, lines, &mut cells, work);
+        let row = row(first, lines, (&mut cells, 1.0), work);
         let is_shaped = |&i: &usize| !is_straight(lines[i].vertices(vertices));
         let is_text = row.len() >= ROW && row.iter().any(|&i| !lines[i].is_closed) && row.iter().any(is_shaped);
         row.into_iter().filter(|_| is_text).for_each(|i| lines[i].class = Class::Letter);
     }
 }
 
-/// The lines that stand in a row with one, itself included; they are taken out of the cells.
-fn row(first: usize, lines: &[Line], cells: &mut BTreeMap<[i64; 2], Vec<usize>>, work: &mut Budget) -> Vec<usize> {
+/// Small lines by the cells that their middles are in.
+type Cells = BTreeMap<[i64; 2], Vec<usize>>;
+
+/// The lines that stand in a row with one, itself included, with gaps of so many times their height at the most; they are
+/// taken out of the cells.
+fn row(first: usize, lines: &[Line], (cells, gap): (&mut Cells, f64), work: &mut Budget) -> Vec<usize> {
     if !take(first, lines, cells) {
         return Vec::new();
     }
@@ -55,7 +64,7 @@ fn row(first: usize, lines: &[Line], cells: &mut BTreeMap<[i64; 2], Vec<usize>>,
             if !work.spend(there.len()) {
                 return row;
             }
-            let beside: Vec<usize> = there.extract_if(.., |k| are_beside(&lines[letter], &lines[*k])).collect();
+            let beside: Vec<usize> = there.extract_if(.., |k| are_beside(&lines[letter], &lines[*k], gap)).collect();
             row.extend(beside);
         }
     }
@@ -72,17 +81,11 @@ pub(super) fn among(
     work: &mut Budget,
 ) -> BTreeSet<usize> {
     let mut letters = BTreeSet::new();
-    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    let mut cells = Cells::new();
     let is_off = |i: &usize| off.binary_search(i).is_ok();
     let may_be = |i: &usize| lines[*i].size() <= LARGEST && (lines[*i].is_open_question() || is_off(i));
     for i in (0..lines.len()).filter(may_be) {
         cells.entry(cell(&lines[i])).or_default().push(i);
-    }
-    for &first in off {
-        let row = row(first, lines, &mut cells, work);
-        if row.len() >= ROW {
-            letters.extend(row.into_iter().filter(is_off));
-        }
     }
     let bars = (0..lines.len()).filter(|&i| is_bar(&lines[i], vertices));
     let boxes = Boxes::new(off.iter().map(|&i| lines[i].extent.grown(touch)).collect());
@@ -93,11 +96,25 @@ pub(super) fn among(
             if !work.spend(boxes.cost_at(end)) {
                 return letters;
             }
-            let stroke = boxes.at(end).map(|k| off[k]).find(|&i| is_amid(end, &lines[i].points(vertices), touch));
-            joined.extend(stroke);
+            let is_joined = |&i: &usize| {
+                work.spend(lines[i].vertices(vertices).len()) && is_amid(end, &lines[i].points(vertices), touch)
+            };
+            joined.extend(boxes.at(end).map(|k| off[k]).find(is_joined));
         }
         if joined.len() == ends.len() {
             letters.extend(joined);
+        }
+    }
+    // Notches in a row are alike, and farther apart than letters; words of many letters are of several shapes.
+    for gap in [CLOSE, WIDE] {
+        let mut cells = cells.clone();
+        for &first in off {
+            let row = row(first, lines, (&mut cells, gap), work);
+            let has_letter = || row.iter().any(|i| letters.contains(i));
+            let is_word = || row.iter().any(|&i| !are_alike([&lines[row[0]], &lines[i]]));
+            if row.len() >= ROW && (gap == CLOSE || is_word() || has_letter()) {
+                letters.extend(row.into_iter().filter(is_off));
+            }
         }
     }
     letters
@@ -125,24 +142,31 @@ fn cell(line: &Line) -> [i64; 2] {
     [f64::midpoint(min.x, max.x), f64::midpoint(min.y, max.y)].map(|mm| (mm / LARGEST).floor() as i64)
 }
 
+/// Whether two lines have as many vertices and boxes of one size, as notches of one part have.
+fn are_alike([a, b]: [&Line; 2]) -> bool {
+    let [(width, height), (other_width, other_height)] = [a, b].map(|line| line.extent.size());
+    a.end - a.first == b.end - b.first
+        && (width - other_width).abs().max((height - other_height).abs()) <= ALIKE * width.max(height)
+}
+
 /// Whether two lines stand as letters of a text do that runs along X or along Y.
-fn are_beside(a: &Line, b: &Line) -> bool {
+fn are_beside(a: &Line, b: &Line, gap: f64) -> bool {
     let spans = |line: &Line| {
         let Extent { min, max } = line.extent;
         [[min.x, max.x], [min.y, max.y]]
     };
     let ([ax, ay], [bx, by]) = (spans(a), spans(b));
-    along([ax, ay], [bx, by]) || along([ay, ax], [by, bx])
+    along([ax, ay], [bx, by], gap) || along([ay, ax], [by, bx], gap)
 }
 
-/// The same for a text in one direction: the spans of each line along it and across it.
-fn along([a, a_across]: [[f64; 2]; 2], [b, b_across]: [[f64; 2]; 2]) -> bool {
+/// Whether lines stand so in a text in one direction, by the spans of each along it and across it.
+fn along([a, a_across]: [[f64; 2]; 2], [b, b_across]: [[f64; 2]; 2], gap: f64) -> bool {
     let size = |span: [f64; 2]| span[1] - span[0];
     let common = |a: [f64; 2], b: [f64; 2]| a[1].min(b[1]) - a[0].max(b[0]);
     let (less, greater) = (size(a_across).min(size(b_across)), size(a_across).max(size(b_across)));
     less > 0.0
         && greater <= RATIO * less
         && common(a_across, b_across) >= BESIDE * less
-        && common(a, b) >= -greater
+        && common(a, b) >= -gap * greater
         && common(a, b) <= BESIDE * size(a).min(size(b))
 }

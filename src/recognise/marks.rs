@@ -259,7 +259,7 @@ pub(super) enum Lie {
     Along,
     /// A small closed line has an edge on it.
     Stands,
-    /// A straight stroke as short as a notch begins outside, passes it, and ends inside.
+    /// A straight stroke of up to twice the length of a notch crosses it, and ends on none.
     Crosses,
     /// Strokes as long as notches begin near it, and stand as letters do.
     Letters,

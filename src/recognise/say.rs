@@ -27,9 +27,12 @@ const SHORTEST_CUT_SHORT: f64 = 25.0;
 const DOUBTFUL: usize = 2;
 /// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
 const LEAST_SINGLE_FILL: f64 = 0.15;
-/// Widest allowance of a seam, mm; hems are wider, but seldom on three sides of four.
+/// Widest allowance of a seam, mm; hems are wider.
 const WIDEST_SEAM: f64 = 15.0;
-const WIDE_MARGINS: usize = 3;
+/// Farthest that two even margins differ, mm.
+const EVEN: f64 = 1.0;
+/// Margins of four that are wide or of a width of their own, at the least, where the outline may be a frame.
+const ODD_MARGINS: usize = 3;
 /// Parts in a frame that make nobody doubt that it is one.
 const SURE_PARTS: usize = 4;
 /// Most pens that a message names.
@@ -148,14 +151,17 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     }
 }
 
-/// Whether a seam line lies farther from most sides of a rectangle than seams are wide: that may be a frame around a part.
+/// Whether the outline of a seam line is a rectangle that may be a frame around a part: most of its sides lie farther off than
+/// seams are wide, or at distances of their own.
 fn has_wide_margins(sheet: &Sheet, seam: usize) -> bool {
     let inner = sheet.lines[seam].extent;
     sheet.nest.outermost(seam).is_some_and(|part| {
         let outer = sheet.lines[part].extent;
         let (low, high) = (inner.min - outer.min, outer.max - inner.max);
-        let wide = [low.x, low.y, high.x, high.y].iter().filter(|margin| **margin > WIDEST_SEAM).count();
-        wide >= WIDE_MARGINS && sheet.lines[part].is_rectangle(sheet.band())
+        let margins = [low.x, low.y, high.x, high.y];
+        let is_equal = |one: f64| margins.iter().filter(|other| (**other - one).abs() <= EVEN).count() > 1;
+        let odd = margins.iter().filter(|&&margin| margin > WIDEST_SEAM || !is_equal(margin)).count();
+        odd >= ODD_MARGINS && sheet.lines[part].is_rectangle(sheet.band())
     })
 }
 

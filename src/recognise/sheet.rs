@@ -164,8 +164,11 @@ impl Sheet {
         }
         let letters = letters::among(&off, &self.lines, &self.vertices, touch, work);
         for &(line, outline, _) in strokes.iter().filter(|stroke| letters.contains(&stroke.0)) {
-            self.lines[line].class = Class::FromEdge;
-            self.from_edges.push(EdgeLine { line, outline, lie: Lie::Letters });
+            // Of two legs the other one has told it.
+            if self.lines[line].class != Class::FromEdge {
+                self.lines[line].class = Class::FromEdge;
+                self.from_edges.push(EdgeLine { line, outline, lie: Lie::Letters });
+            }
         }
         letters
     }

@@ -38,12 +38,12 @@ impl BladePlacement {
     /// past the end, and first past the end where the start alone may have no overlap. What finds no room there lies
     /// where the deepest of its places is least deep in any part.
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
-        Self::led_on(run, overlaps, [0.0; 2], around)
+        Self::along_line(run, overlaps, [0.0; 2], around)
     }
 
-    /// The same where the line of the run goes on straight by so many mm before its start and behind its end: there the surplus
-    /// lies first, over what is cut anyway.
-    pub fn led_on(run: &Run, overlaps: [f64; 2], led: [f64; 2], around: &Surroundings) -> Option<Self> {
+    /// Placement where the line goes on straight, by `continued` mm before its start and behind its end: the surplus lies there
+    /// first, since that is cut anyway.
+    pub fn along_line(run: &Run, overlaps: [f64; 2], continued: [f64; 2], around: &Surroundings) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
         if width == 0.0 || Plunge::at_start(&path, width).has_way(&path, around.least_way) {
@@ -61,11 +61,12 @@ impl BladePlacement {
         let rays = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
         let rooms = rays.each_ref().map(|ray| around.room(ray));
         let order = if run.ends[0].bare && !run.ends[1].bare { [1, 0] } else { [0, 1] };
-        let before = surplus.min(led[0]);
-        let led = [before, (surplus - before).min(led[1])];
-        let rest = surplus - led[0] - led[1];
+        let before = surplus.min(continued[0]);
+        let on_line = [before, (surplus - before).min(continued[1])];
+        let rest = surplus - on_line[0] - on_line[1];
+        let rooms = [0, 1].map(|end| rooms[end].without(on_line[end]));
         let (shared, left) = shared(rest, order.map(|end| rooms[end]), around.knife.clearance_mm);
-        let (mut shares, mut overcut) = ([0, 1].map(|end| led[end] + shared[order[end]]), [Overcut::default(); 2]);
+        let (mut shares, mut overcut) = ([0, 1].map(|end| on_line[end] + shared[order[end]]), [Overcut::default(); 2]);
         let surplus = Surplus { length: surplus, overlaps, rays, around };
         // A line that ends in another part is drawn there: nothing bars a way on into that, but deep it is.
         if left > 0.0 || surplus.is_deep(shares) {
@@ -118,8 +119,8 @@ impl Surplus<'_> {
         self.around.depths(from + along * way, self.overlaps[end] + way)
     }
 
-    /// How deep the blade lies up to so far beyond an overlap at the most, to within an accuracy: a place is deeper than another by
-    /// no more than the two are apart.
+    /// Greatest depth of the blade from an overlap to `way` mm beyond it: a place is deeper than another by no more than the two
+    /// are apart. Depths up to the band count as none, so that a place of none may lie as deep as that.
     fn deepest(&self, end: usize, way: f64) -> Overcut {
         let count = (way / STEP).ceil().max(1.0) as usize;
         let places: Vec<(f64, Overcut)> =
@@ -127,8 +128,10 @@ impl Surplus<'_> {
         let mut deepest = places.iter().fold(Overcut::default(), |deepest, place| deepest.max(place.1));
         let mut open: Vec<[(f64, Overcut); 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         while let Some([a, b]) = open.pop() {
+            let band = self.around.band();
+            let most = |depth: f64| if depth == 0.0 { band } else { depth };
             let may_be_deeper = |deepest: f64, [x, y]: [f64; 2]| {
-                x.max(y) > 0.0 && f64::midpoint(x + y, b.0 - a.0) > deepest + DEPTH_ACCURACY
+                f64::midpoint(most(x) + most(y), b.0 - a.0) > deepest.max(band) + DEPTH_ACCURACY
             };
             if may_be_deeper(deepest.own, [a.1.own, b.1.own]) || may_be_deeper(deepest.other, [a.1.other, b.1.other]) {
                 let way = f64::midpoint(a.0, b.0);

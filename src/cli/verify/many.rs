@@ -152,6 +152,12 @@ pub(super) fn run(
 /// Where the source of a program stands in a folder: below it as the program below its own folder, under the name that its
 /// provenance tells.
 pub(super) fn source_in(folder: &Path, program: &Input) -> anyhow::Result<PathBuf> {
+    if !program.path.exists() {
+        return Err(failure(
+            format!("cannot read `{}`: there is no such file or folder", program.path.display()),
+            "name programs that were compiled to files, or the folder that they are in",
+        ));
+    }
     let name = provenance::source_of(&program.path);
     // A name is none of another place.
     let name = name.as_deref().map(Path::new).and_then(Path::file_name).ok_or_else(|| {

@@ -102,8 +102,14 @@ impl<'a> Chosen<'a> {
         }
     }
 
-    /// Tells which pieces have none of the sizes that are cut, of blocks with these texts.
-    pub(super) fn say_missing(&self, facts: &[Facts], out: &mut Diagnostics) {
+    /// Tells which pieces are not cut, or cut twice, for what blocks with these texts say of their sizes.
+    pub(super) fn say(&self, facts: &[Facts], out: &mut Diagnostics) {
+        self.say_missing(facts, out);
+        self.say_unsaid(facts, out);
+    }
+
+    /// Tells which pieces have none of the sizes that are cut.
+    fn say_missing(&self, facts: &[Facts], out: &mut Diagnostics) {
         let mut pieces: BTreeMap<String, (bool, Span)> = BTreeMap::new();
         let facts = if self.sizes.is_some() { facts } else { &[] };
         for facts in facts {
@@ -125,10 +131,9 @@ impl<'a> Chosen<'a> {
         out.push(finding.hint("see its sizes with `cutc info --size all`, and name those that are cut with `--size`"));
     }
 
-    /// Tells which pieces are cut of a block of a size and of another that says none, of blocks with these texts.
-    pub(super) fn say_unsaid(&self, facts: &[Facts], out: &mut Diagnostics) {
+    /// Tells which pieces are cut of a block of a size and of another that says none.
+    fn say_unsaid(&self, facts: &[Facts], out: &mut Diagnostics) {
         let mut pieces: BTreeMap<String, [Option<Span>; 2]> = BTreeMap::new();
-        let facts = if self.sizes.is_some() { facts } else { &[] };
         for facts in facts.iter().filter(|facts| self.has(facts)) {
             if let Some(span) = facts.name.first {
                 let name = self.letters.text(self.source.slice(span)).trim().to_owned();
@@ -140,8 +145,9 @@ impl<'a> Chosen<'a> {
         let Some(&(_, first)) = twice.first() else { return };
         let names: Vec<&str> = twice.iter().take(SHOWN).map(|(name, _)| name.as_str()).collect();
         let dots = if twice.len() > SHOWN { ", ..." } else { "" };
-        let message =
-            format!("cut{}, and once more of a block without a size: {}{dots}", self.told(), names.join(", "));
+        let pieces = if twice.len() == 1 { "1 piece".to_owned() } else { format!("{} pieces", twice.len()) };
+        let (told, names) = (self.told(), names.join(", "));
+        let message = format!("{pieces}{told} and once more in a block without a size, both are cut: {names}{dots}");
         let finding = Diagnostic::new(&code::DXF_SIZE_UNSAID, message).at(first);
         out.push(finding.hint("see in `cutc info` which pieces they are, and leave the others out with `--skip`"));
     }

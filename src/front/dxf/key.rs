@@ -17,9 +17,9 @@ pub(super) enum Key {
 const KEYS: [(Key, &[&str]); 6] = [
     (Key::Size, &["SIZE", "SIZE NAME", "GRÖSSE", "GROESSE", "TAILLE", "TAGLIA", "TALLA", "TAMANHO", "TAMAÑO", "TAMANO", "MISURA", "GR.", "GROSSE", "MAAT", "ROZMIAR", "BEDEN", "РАЗМЕР", "РОЗМІР", "尺码", "号型"]),
     (Key::SampleSize, &["SAMPLE SIZE", "BASE SIZE", "BASISGRÖSSE", "BASISGROESSE", "GRUNDGRÖSSE", "GRUNDGROESSE", "TAILLE DE BASE", "TAGLIA BASE", "TALLA BASE", "TAMANHO BASE", "基码", "样板尺码", "BASISMAAT", "ROZMIAR BAZOWY", "BAZ BEDEN", "БАЗОВЫЙ РАЗМЕР", "БАЗОВИЙ РОЗМІР"]),
-    (Key::Units, &["UNITS", "UNIT", "EINHEIT", "EINHEITEN", "UNITÉ", "UNITÉS", "UNITE", "UNITES", "UNITÀ", "UNITA", "UNIDAD", "UNIDADES", "UNIDADE", "单位", "EENHEID", "EENHEDEN", "JEDNOSTKA", "JEDNOSTKI", "BIRIM", "ЕДИНИЦЫ", "ОДИНИЦІ"]),
-    (Key::Quantity, &["QUANTITY", "QTY", "QTY.", "ANZAHL", "MENGE", "QUANTITÉ", "QUANTITE", "QTÉ", "QUANTITÀ", "QUANTITA", "CANTIDAD", "CANT.", "QUANTIDADE", "QTE", "STÜCK", "STUECK", "STÜCKZAHL", "STUECKZAHL", "ANZ.", "QTD", "Q.TÀ", "PIECES", "PCS", "AANTAL", "ILOŚĆ", "ADET", "КОЛИЧЕСТВО", "КІЛЬКІСТЬ", "数量", "份数", "裁片数量"]),
-    (Key::PieceName, &["PIECE NAME", "TEILENAME", "TEIL", "NOM DE PIÈCE", "NOM DE PIECE", "NOME PEZZO", "NOMBRE DE PIEZA", "NOME DA PEÇA", "裁片名称", "ONDERDEEL", "NAZWA CZĘŚCI", "PARÇA", "ДЕТАЛЬ", "НАЗВА ДЕТАЛІ"]),
+    (Key::Units, &["UNITS", "UNIT", "EINHEIT", "EINHEITEN", "UNITÉ", "UNITÉS", "UNITE", "UNITES", "UNITÀ", "UNITA", "UNIDAD", "UNIDADES", "UNIDADE", "单位", "EENHEID", "EENHEDEN", "JEDNOSTKA", "JEDNOSTKI", "BIRIM", "BİRİM", "ЕДИНИЦЫ", "ОДИНИЦІ"]),
+    (Key::Quantity, &["QUANTITY", "QTY", "QTY.", "ANZAHL", "MENGE", "QUANTITÉ", "QUANTITE", "QTÉ", "QUANTITÀ", "QUANTITA", "CANTIDAD", "CANT.", "QUANTIDADE", "QTE", "STÜCK", "STUECK", "STÜCKZAHL", "STUECKZAHL", "ANZ.", "QTD", "Q.TÀ", "PIECES", "PCS", "AANTAL", "ILOŚĆ", "ILOSC", "ADET", "КОЛИЧЕСТВО", "КІЛЬКІСТЬ", "数量", "份数", "裁片数量"]),
+    (Key::PieceName, &["PIECE NAME", "TEILENAME", "TEIL", "NOM DE PIÈCE", "NOM DE PIECE", "NOME PEZZO", "NOMBRE DE PIEZA", "NOME DA PEÇA", "裁片名称", "ONDERDEEL", "NAZWA CZĘŚCI", "NAZWA CZESCI", "PARÇA", "PARCA", "ДЕТАЛЬ", "НАЗВА ДЕТАЛІ"]),
     (Key::Author, &["AUTHOR", "PRODUCT", "PRODUCT NAME"]),
 ];
 

@@ -15,6 +15,8 @@ use crate::source::{Source, Span};
 
 /// Most pieces that are laid.
 pub(super) const MOST_PIECES: usize = 100_000;
+/// Most copies of one piece: an order of more is cut in plies.
+pub(super) const MOST_COPIES: usize = 2000;
 
 /// What a block holds, whichever piece it would be in.
 #[derive(Debug)]

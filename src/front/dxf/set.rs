@@ -13,7 +13,7 @@ use super::layer::{Does, Named, Names};
 use super::letters::letters;
 use super::over;
 use super::piece::{Making, Piece};
-use super::placing::{Held, MOST_PIECES, Placing};
+use super::placing::{Held, MOST_COPIES, MOST_PIECES, Placing};
 use super::retrace::say_retraced;
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
@@ -144,9 +144,8 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let mut reader = parts.reader(unit, out);
     let mut loose = reader.shapes(entities);
     let (mut drawn, mut said): (Vec<Shapes>, Vec<Diagnostics>) = blocks.iter().map(|block| reader.block(block)).unzip();
-    let bases = bases(&reader, blocks, &mut said);
+    let placing = Placing::of(source, blocks, bases(&reader, blocks, &mut said), std::mem::take(&mut loose.inserts));
     let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
-    let placing = Placing::of(source, blocks, bases, std::mem::take(&mut loose.inserts));
     borrow(&mut drawn, &mut said, &sizes_of(&own, &asked));
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
     let own: Vec<Facts> = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own)).collect();
@@ -155,8 +154,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let facts: Vec<Facts> = (0..own.len()).map(|k| if is_cut(k) { own[k] } else { Facts::default() }).collect();
     let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
     let chosen = Chosen::of(&asked, &facts, placing.parts(&boxes), out);
-    chosen.say_missing(&facts, out);
-    chosen.say_unsaid(&facts, out);
+    chosen.say(&facts, out);
     let mut making = Making::of(&asked, out);
     let mut set = Set {
         quantity: job.patterns.quantity.unwrap_or(job.profile.dxf.quantity),
@@ -310,6 +308,7 @@ impl Set {
             self.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
         }
         if self.placed.is_none() {
+            self.count_inserts(placing);
             return;
         }
         if self.count() <= MOST_PIECES && !making.out.has_errors() {
@@ -320,17 +319,23 @@ impl Set {
                     format!("INSERTs put {} of {count} pieces on each other: they are no places", on_others.count);
                 let finding = Diagnostic::new(&code::DXF_NO_PLACES, message);
                 making.out.push(
-                    finding.hint("they lie in a row, as often; for a lay make a marker of them in the CAD system"),
+                    finding
+                        .hint("each lies in a row once an INSERT; for a lay make a marker of them in the CAD system"),
                 );
                 self.placed = None;
-                if self.quantity == Quantity::File {
-                    placing.as_often(&mut self.drawn);
-                }
+                self.count_inserts(placing);
                 return;
             }
             on_others.spans.into_iter().for_each(|span| making.tally.add(Thing::OnAnother, span));
         }
         placing.count(&self.drawn, &mut making.tally);
+    }
+
+    /// Wants pieces that lie in a row as often as they are inserted, where their blocks say no quantity.
+    fn count_inserts(&mut self, placing: &Placing) {
+        if self.quantity == Quantity::File {
+            placing.as_often(&mut self.drawn);
+        }
     }
 
     /// How many pieces lie on the cloth.
@@ -358,7 +363,7 @@ impl Set {
     /// What is to be said of the set as a whole.
     fn say(&self, is_spent: bool, asked: &Asked, out: &mut Diagnostics) {
         let count = self.count();
-        if is_spent || count > MOST_PIECES {
+        if is_spent || count > MOST_PIECES || self.drawn.iter().any(|drawn| drawn.times() > MOST_COPIES) {
             let message = "the file has more pieces, notches or outlines than can be told apart";
             out.push(Diagnostic::new(&code::DXF_TOO_MANY, message).hint("look at the quantities, and split the file"));
             return;

@@ -8,9 +8,12 @@
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 
 use super::pass::MarkerPass;
+use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::along::Lines;
 use crate::geom::budget::Budget;
@@ -36,8 +39,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     for (piece, contour) in marker.contours().filter(|(_, contour)| !contour.closed) {
         open_contour(marker, piece, contour, diagnostics);
     }
-    twice(marker, diagnostics);
-    beside(marker, job.profile.band(marker.unit), diagnostics);
+    let boxed = Boxed::of(marker);
+    let repeats = twice(marker, &boxed, diagnostics);
+    beside(marker, &boxed, &repeats, job.profile.band(marker.unit), diagnostics);
 }
 
 fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &mut Diagnostics) {
@@ -64,19 +68,35 @@ type ContourPlace = [u32; 2];
 /// start and whichever way they go; and the contour.
 type Print = (u64, ContourPlace);
 
-fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
+/// Contours of a marker with the boxes around them, in the order of the marker.
+struct Boxed {
+    places: Vec<ContourPlace>,
+    extents: Vec<Extent>,
+}
+
+impl Boxed {
+    fn of(marker: &Marker) -> Self {
+        // Counted first: what a vector grows by is new memory each time, and that is slow.
+        let mut places = Vec::with_capacity(marker.contours().count());
+        for (piece, i) in marker.pieces.iter().zip(0..) {
+            places.extend((0..piece.contours.len() as u32).map(|k| [i, k]));
+        }
+        let range = |[piece, k]: ContourPlace| marker.pieces[piece as usize].contours[k as usize].range;
+        let extent = |place: &ContourPlace| Extent::of(&marker.list.points(range(*place)));
+        let extents = places.par_iter().map(extent).collect();
+        Self { places, extents }
+    }
+}
+
+/// Tells contours that stand again: which they are.
+fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> BTreeSet<ContourPlace> {
     let piece = |[piece, _]: ContourPlace| &marker.pieces[piece as usize];
     let range = |contour: ContourPlace| piece(contour).contours[contour[1] as usize].range;
-    let print = |contour: ContourPlace| {
-        let [x, y] = bits(Extent::of(&marker.list.points(range(contour))).min);
+    let print = |extent: &Extent| {
+        let [x, y] = bits(extent.min);
         x ^ y.rotate_left(u64::BITS / 2)
     };
-    // Counted first: what a vector grows by is new memory each time, and that is slow.
-    let mut prints: Vec<Print> = Vec::with_capacity(marker.contours().count());
-    for (piece, i) in marker.pieces.iter().zip(0..) {
-        prints.extend((0..piece.contours.len() as u32).map(|k| (0, [i, k])));
-    }
-    prints.par_iter_mut().for_each(|(number, contour)| *number = print(*contour));
+    let mut prints: Vec<Print> = boxed.extents.iter().map(print).zip(boxed.places.iter().copied()).collect();
     prints.sort_unstable();
     let mut repeats: Vec<(ContourPlace, ContourPlace)> = Vec::new();
     for alike in prints.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
@@ -89,7 +109,7 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
         }
     }
     repeats.sort_unstable();
-    for (later, earlier) in repeats {
+    for &(later, earlier) in &repeats {
         let number = |contour: ContourPlace| piece(contour).number;
         let before = first(&marker.list, range(earlier)).span;
         let message = format!(
@@ -104,20 +124,24 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
                 .hint("delete one of the two unless the cloth needs two cuts"),
         );
     }
+    repeats.into_iter().map(|(later, _)| later).collect()
 }
 
-/// Tells closed contours that run beside another one within a reach, mm, and are not the same segments.
-fn beside(marker: &Marker, reach: f64, diagnostics: &mut Diagnostics) {
-    let closed: Vec<(usize, &Contour)> = marker.contours().filter(|(_, contour)| contour.closed).collect();
-    let points = |k: usize| marker.list.points(closed[k].1.range);
+/// Tells closed contours that run beside another one within a reach, mm; those that stand again are told already.
+fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reach: f64, diagnostics: &mut Diagnostics) {
+    let contour = |[piece, k]: ContourPlace| &marker.pieces[piece as usize].contours[k as usize];
+    let is_looked_at = |k: &usize| contour(boxed.places[*k]).closed && !repeats.contains(&boxed.places[*k]);
+    let closed: Vec<usize> = (0..boxed.places.len()).filter(is_looked_at).collect();
+    let range = |k: usize| contour(boxed.places[closed[k]]).range;
     let all = Lines {
-        extents: (0..closed.len()).into_par_iter().map(|k| Extent::of(&points(k))).collect(),
-        points: |k| points(k).into_owned(),
-        may_be: |one: usize, other: usize| !is_same(marker, [closed[one].1, closed[other].1]),
+        extents: closed.iter().map(|&k| boxed.extents[k]).collect(),
+        points: |k| marker.list.points(range(k)).into_owned(),
+        may_be: |_, _| true,
     };
-    for [earlier, later] in all.twins(reach, &mut Budget::of_a_marker()) {
-        let number = |k: usize| marker.pieces[closed[k].0].number;
-        let span = |k: usize| first(&marker.list, closed[k].1.range).span;
+    let mut work = Budget::of_a_marker();
+    for [earlier, later] in all.twins(reach, &mut work) {
+        let span = |k: usize| first(&marker.list, range(k)).span;
+        let number = |k: usize| marker.pieces[boxed.places[closed[k]][0] as usize].number;
         let message = format!(
             "a contour of piece {} runs beside the one of piece {} in block {}, nowhere farther than {} mm from it",
             number(later),
@@ -128,12 +152,9 @@ fn beside(marker: &Marker, reach: f64, diagnostics: &mut Diagnostics) {
         let finding = Diagnostic::new(&code::MARKER_TWICE, message).at(span(later));
         diagnostics.push(finding.hint("delete one of the two unless the cloth needs two cuts"));
     }
-}
-
-/// Whether two contours are the same segments.
-fn is_same(marker: &Marker, contours: [&Contour; 2]) -> bool {
-    let [one, other] = contours.map(|contour| edges(&marker.list, contour.range));
-    one == other
+    if work.is_spent() {
+        diagnostics.push(search_ended("some contours may run beside others and be cut twice"));
+    }
 }
 
 /// A segment as its two ends, the lesser first: the same whichever way it is cut.

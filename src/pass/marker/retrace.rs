@@ -75,8 +75,7 @@ fn there_and_back(piece: &mut Piece, list: &mut SegmentList, found: &mut Found) 
         let Some(course) = course(&points) else { continue };
         let step = |ends: &[Step]| (points[ends[1].place] - points[ends[0].place]).norm();
         let length = |row: &Vec<Step>| row.windows(2).map(step).sum::<f64>();
-        let drawn: f64 = course.paths.iter().map(length).sum();
-        if matches!(&course.paths[..], [path] if path.len() == 2) && drawn <= Notch::LONGEST {
+        if course.straight(&points).is_some_and(|length| length <= Notch::LONGEST) {
             continue;
         }
         let again: f64 = course.again.iter().map(length).sum();

@@ -19,8 +19,7 @@ pub(super) fn severing(piece: &Piece, part: &Outlines, work: &mut Budget) -> Opt
     (0..slits.len())
         .find(|&i| {
             let others = Others { slits: &slits[..i], deepest, part };
-            let is_branch = slits.iter().any(|other| *other != slits[i] && begins_on_slit(&slits[i], other));
-            others.meet(&slits[i], work) || meets_edge(&slits[i], is_branch, part, work)
+            others.meet(&slits[i], work) || meets_edge(slits, i, part, work)
         })
         .map(|i| slits[i])
 }
@@ -68,12 +67,18 @@ fn begins_on_slit(slit: &Notch, other: &Notch) -> bool {
 
 /// Whether a slit comes to an edge beside the one that it begins on. One that begins on no edge, nor as a branch of another
 /// slit, does so where it first passes an edge.
-fn meets_edge(slit: &Notch, is_branch: bool, part: &Outlines, work: &mut Budget) -> bool {
+fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget) -> bool {
+    let slit = &slits[place];
     let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
     let near: Vec<[Point; 2]> = part.edges_near(around).take_while(|_| work.spend(1)).collect();
     let comes_to = |edge: &&[Point; 2]| distance_of_segments(ends(slit), **edge) < LEAST_BRIDGE;
     let begins_on = |at: Point| move |edge: &[Point; 2]| distance_to_segment(at, edge[0], edge[1]) <= AT_ROOT;
-    let root = if is_branch || near.iter().any(begins_on(slit.root)) { slit.root } else { first_passed(slit, &near) };
+    let is_branch = |work: &mut Budget| {
+        let mut others = slits.iter().enumerate().filter(|(k, _)| *k != place);
+        work.spend(slits.len()) && others.any(|(_, other)| begins_on_slit(slit, other))
+    };
+    let is_at_root = near.iter().any(begins_on(slit.root)) || !near.is_empty() && is_branch(work);
+    let root = if is_at_root { slit.root } else { first_passed(slit, &near) };
     near.iter().filter(comes_to).any(|edge| !begins_on(root)(edge))
 }
 

@@ -4,13 +4,13 @@
 //! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
 
 mod bend;
+mod continuation;
 mod corner;
 mod down;
 mod entry;
 mod frame;
 mod junctions;
 mod lap;
-mod led;
 mod meet;
 mod near;
 mod nibble;

@@ -1,12 +1,12 @@
 //! Pass `plunge`: runs on which the blade has nowhere to go between plunge and lift become one plunge cut, without motion.
 //!
 //! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight
-//! one, no point of the path at the distance w from its start on a curved one. What the blade is longer by goes into
-//! the waste as far as there is room, and else where it lies least deep in any part; but first along its own line where that goes on
-//! straight. Plunges of a nibbled curve that cut
-//! nothing new are left out. What cuts into a part is warned of, and refused where the profile does not allow it.
+//! one, no point of the path at the distance w from its start on a curved one. The surplus of the blade lies first along its
+//! own line where that goes on straight, then in the waste as far as there is room, then where it is least deep in any
+//! part. Plunges of a nibbled curve that cut nothing new are left out. A surplus in a part is warned of, and refused where
+//! the profile does not allow it.
 
-use super::led::led;
+use super::continuation::continuations;
 use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::spare;
@@ -25,7 +25,7 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// Part of the longest stretch that may be left uncut by which blades may be apart that meet: rounding takes some of the rest.
+/// Share of `verify.max_uncut_mm` within which two blades count as meeting; the rest is left for rounding.
 const THREAD_SHARE: f64 = 0.9;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
@@ -33,8 +33,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     for i in 0..toolpath.steps.len() {
         let Step::Run(run) = &toolpath.steps[i] else { continue };
         if run.shape == Shape::Open {
-            let led = led(&toolpath.steps, i, run, &around);
-            if let Some(cut) = BladePlacement::led_on(run, [run.heel, run.front], led, &around) {
+            let beyond = continuations(&toolpath.steps, i, run, &around);
+            if let Some(cut) = BladePlacement::along_line(run, [run.heel, run.front], beyond, &around) {
                 toolpath.steps[i] = Step::PlungeCut(plunge_cut(run, &cut, &around));
             }
         }

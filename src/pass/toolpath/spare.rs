@@ -6,8 +6,8 @@ use crate::analysis::plunge::{PASSING_SHARE, Plunge};
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 
-/// Leaves those out of the steps of a toolpath, but never two in a row: the second may be what cuts the stretch of the first.
-/// Without them no thread wider than `thread` mm may be left.
+/// Removes plunge cuts whose stretch other blades cut, but never two in a row: the second may be what cuts the stretch of the
+/// first. One whose removal would leave a gap wider than `thread` mm stays.
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings, thread: f64) {
     let mut i = 1;
     while i < steps.len() {
@@ -39,7 +39,7 @@ impl Strokes<'_> {
         if goes_back {
             return asks_no_overlap(cut, around) && is_over(&Blade::of(before, around), cut, around);
         }
-        // So is the first stretch of a line, however near the one before ends beside it.
+        // The first stretch of a line is cut by itself, too, however near the line before it ends.
         let goes_on = cut.ends[usize::from(cut.turned)].side == Side::Contour;
         if !goes_on || !asks_no_overlap(cut, around) {
             return false;
@@ -53,8 +53,7 @@ impl Strokes<'_> {
         is_cut && behind.is_none_or(|step| self.meets(&before, step))
     }
 
-    /// Whether the last step is a plunge cut amid a contour that the first blade of it lies over: where a contour that is closed
-    /// ends over its own start.
+    /// Whether the last step is a plunge cut amid a closed contour, and the blade that begins this contour lies over it.
     fn ends_over_start(&self) -> bool {
         let [first, .., before, Step::PlungeCut(cut)] = self.steps else { return false };
         let Some(start) = Blade::at_start(first, self.around) else { return false };

@@ -118,7 +118,11 @@ impl<'a> Overcut<'a> {
             if depths == [0.0; 2] {
                 overcuts.waste.see(beyond, || seen(i));
             }
-            for (deepest, depth) in ends[trial.end_at(i) as usize].iter_mut().zip(depths) {
+            let end = match trial.end_at(i) {
+                Which::Start => 0,
+                Which::End => 1,
+            };
+            for (deepest, depth) in ends[end].iter_mut().zip(depths) {
                 if depth > deepest.0 {
                     *deepest = (depth, i);
                 }
@@ -146,8 +150,8 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// How deep a place may lie in its own part and in another and still be at the edge, mm, by the deepest of a stroke in each.
-    /// What is as deep as the band one way is in it the other.
+    /// Greatest depths in its own part and in another that still count as on the edge, mm, by the deepest place of a stroke in
+    /// each.
     fn bands(&self, deepest: Deepest, stroke: &Ends) -> Depths {
         deepest.map(|(depth, i)| match depth > self.band {
             true if Self::is_across(i, stroke) => self.shift,
@@ -188,25 +192,29 @@ impl<'a> Overcut<'a> {
         let Ends { cut, trial, line, .. } = *stroke;
         let kind = if cut.is_plunge_cut() { Kind::Surplus } else { Kind::Overcut };
         let bands = ends.map(|deepest| self.bands(deepest, stroke));
-        // Its own part a blade enters as the profile has it for reflex corners, without a word.
-        for (side, unsaid) in [self.reflex, 0.0].into_iter().enumerate() {
-            let told = |end: Which| {
-                let here = Stretch { line, stations: trial.reach, end: Some(end) };
-                let told = declared.find(kind, here).filter(|entry| self.is_in(entry, side == 0, line));
-                told.map(|entry| entry.magnitude_mm).fold(0.0, f64::max)
-            };
-            let told = [Which::Start, Which::End].map(told);
-            let more = |told: [f64; 2]| {
-                let more =
-                    |end: usize| ends[end][side].0 - told[end].max(unsaid).max(bands[end][side]) - self.tolerance;
-                [more(0), more(1)].map(|more| more.max(0.0))
-            };
-            // Of a blade that is sharp at both ends nobody sees which comes first when it does not move.
-            let [mut excess, turned] = [more(told), more([told[1], told[0]])];
-            if self.is_alike && cut.is_plunge_cut() && turned[0].max(turned[1]) < excess[0].max(excess[1]) {
-                excess = turned;
+        let excess = |is_turned: bool| {
+            // Its own part a blade enters as the profile has it for reflex corners, without a word.
+            [(0, self.reflex), (1, 0.0)].map(|(side, unsaid)| {
+                [(0, Which::Start), (1, Which::End)].map(|(end, which)| {
+                    let which = if is_turned { which.other() } else { which };
+                    let here = Stretch { line, stations: trial.reach, end: Some(which) };
+                    let entries = declared.find(kind, here).filter(|entry| self.is_in(entry, side == 0, line));
+                    let declared = entries.map(|entry| entry.magnitude_mm).fold(0.0, f64::max);
+                    (ends[end][side].0 - declared.max(unsaid).max(bands[end][side]) - self.tolerance).max(0.0)
+                })
+            })
+        };
+        let most = |excess: &[[f64; 2]; 2]| excess.iter().flatten().copied().fold(0.0, f64::max);
+        let mut found = excess(false);
+        // Of a blade that is sharp at both ends nobody sees which comes first when it does not move.
+        if self.is_alike && cut.is_plunge_cut() {
+            let turned = excess(true);
+            if most(&turned) < most(&found) {
+                found = turned;
             }
-            for (excess, deepest) in excess.into_iter().zip(ends) {
+        }
+        for (side, ends_of) in found.into_iter().enumerate() {
+            for (excess, deepest) in ends_of.into_iter().zip(ends) {
                 undeclared.see(excess, || seen(deepest[side].1));
             }
         }

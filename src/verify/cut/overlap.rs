@@ -51,24 +51,18 @@ impl Judge<'_> {
             if missing <= self.tracer.allowed {
                 continue;
             }
-            let (end, along) = if at_start {
-                (line.point(0), -line.direction(0))
-            } else {
-                (line.point(line.chords()), line.direction(line.chords() - 1))
-            };
+            let way = way_on(line, at_start, asked[i] + knife.clearance_mm);
             let end_here = if cut.is_plunge_cut() { None } else { Some([Which::Start, Which::End][i]) };
             let here = Stretch { line, stations: [station; 2], end: end_here };
             let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, here));
             // The heel of a blade that plunges on a curve would leave that.
             let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
-            let has_cause = is_curved || self.has_neighbour(end, asked[i] + knife.clearance_mm);
+            let has_cause = is_curved || self.has_neighbour(way[0], asked[i] + knife.clearance_mm);
             let told = if has_cause { told } else { 0.0 };
             // So near to an end of its line a cut may also be lifted, or begin, amid that.
             let is_lift = self.tracer.declared.is_some_and(|told| told.has(Kind::Lift, here));
             let is_told = is_lift || self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
-            let may = is_told
-                || is_curved && self.tracer.declared.is_none()
-                || self.overcut.leads_into_part([end, end + along * (asked[i] + knife.clearance_mm)]);
+            let may = is_told || is_curved && self.tracer.declared.is_none() || self.overcut.leads_into_part(way);
             if !may && cut.is_plunge_cut() {
                 let (line, place) = (trial.line, seen(place));
                 lacking.push(Lacking { line, end: end_of_line, asked: asked[i], missing, place });
@@ -140,4 +134,14 @@ pub(super) fn lapped(cut: &Cut, length: f64) -> f64 {
     let behind = (cut.body..last).rev().take_while(|&k| cut.stations[k] - cut.stations[cut.body] >= length / 2.0);
     let nearest = behind.map(on_way).min_by(|a, b| a.0.total_cmp(&b.0));
     nearest.map_or(0.0, |(_, station)| end - station)
+}
+
+/// The straight way by which a line goes on beyond its start, or its end, by so many mm.
+fn way_on(line: &Line, at_start: bool, length: f64) -> [Point; 2] {
+    let (end, along) = if at_start {
+        (line.point(0), -line.direction(0))
+    } else {
+        (line.point(line.chords()), line.direction(line.chords() - 1))
+    };
+    [end, end + along * length]
 }

@@ -29,13 +29,13 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) lacking: Vec<Lacking>,
 }
 
-/// An overlap that a plunge cut lacks at an end of its line: of several on one line the last one there has it.
+/// An overlap that a plunge cut lacks at an end of its line; another stroke of the line may have it.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Lacking {
     pub(in crate::verify) line: usize,
     /// The start (0) or the end (1) of the line.
     pub(in crate::verify) end: usize,
-    /// How far a blade goes past that, mm.
+    /// The overlap that the profile asks for, mm.
     pub(in crate::verify) asked: f64,
     /// By how much this one goes less far, mm.
     pub(in crate::verify) missing: f64,
@@ -75,12 +75,12 @@ impl Worsts {
         }
     }
 
-    /// The same with no overlap that is lacking.
+    /// A copy without the overlaps that strokes lack.
     pub(in crate::verify) fn known(&self) -> Self {
         Self { lacking: Vec::new(), ..self.clone() }
     }
 
-    /// Sees the overlaps that no stroke of a line has, each to within `allowed` mm.
+    /// Reports each overlap that every stroke of its line lacks by more than `allowed` mm.
     pub(in crate::verify) fn settle(&mut self, coverage: &Coverage, allowed: f64) {
         for Lacking { line, end, asked, missing, place } in std::mem::take(&mut self.lacking) {
             if asked - coverage.beyond(line, end) > allowed {
@@ -109,7 +109,7 @@ impl Worsts {
             overcuts,
             overlap,
             declared,
-            ..
+            lacking: _,
         } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
         [
@@ -133,7 +133,7 @@ impl Worsts {
             overcuts,
             overlap,
             declared,
-            ..
+            lacking: _,
         } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
         [

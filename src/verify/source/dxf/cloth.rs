@@ -86,8 +86,9 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
     }
     of_blocks.push(cuts_of(&sheets.loose, &Default::default()));
     // How far laid curves reach is not known here: each piece must lie where its vertices are.
-    let row = Row { of_all: &of_blocks, read, has_bows: of_blocks.iter().any(|cuts| !cuts.bows.is_empty()), sagitta };
     let placed = sheets.placed(&of_blocks).map(|placed| (placed, 0.0));
+    let has_bows = of_blocks.iter().any(|cuts| !cuts.bows.is_empty());
+    let row = Row { of_all: &of_blocks, read, has_bows, sagitta };
     let is_in_a_row = placed.is_none() || sheets.met(&of_blocks).is_some_and(|(met, _)| met > 0);
     // Somebody must have asked for pieces to be left out.
     let mut cloths = Vec::new();
@@ -184,7 +185,7 @@ impl<'a> Sheets<'a> {
     fn in_a_row(&self, row: &Row, job: &Job) -> (Cuts, f64) {
         let mut all = Cuts::default();
         let (mut x, mut laid, mut behind) = (0.0, 0, 0);
-        let wanted = self.wanted(job).into_iter().chain([[1, 0]]);
+        let wanted = self.wanted(job).into_iter().chain([ONCE]);
         for (cuts, count) in row.of_all.iter().zip(wanted).filter(|(cuts, _)| !cuts.places.is_empty()) {
             for (axes, count) in [AS_DRAWN, MIRRORED].into_iter().zip(count) {
                 let extent = cuts.extent(axes);
@@ -207,23 +208,21 @@ impl<'a> Sheets<'a> {
         (all, off)
     }
 
-    /// How often each block is cut in a row, as it is drawn and mirrored: as it says, else as often as insertions that put
-    /// blocks somewhere have it.
+    /// How often each block is cut in a row, as it is drawn and mirrored: as it says, else as often as insertions have it.
     fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
         if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
             return vec![ONCE; self.blocks.len()];
         }
         let mut inserted = vec![[0; 2]; self.blocks.len()];
-        for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT" && self.has_places()) {
+        for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT") {
             if let Some(k) = self.block(item) {
                 let is_mirrored = item.number(41).unwrap_or(1.0) * item.number(42).unwrap_or(1.0) < 0.0;
                 inserted[k][usize::from(is_mirrored)] += 1;
             }
         }
-        let wanted = |(told, inserted): (Option<&[u8]>, [u32; 2])| match told {
-            Some(told) => quantity(&self.letters.read(told)),
-            None if inserted == [0; 2] => ONCE,
-            None => inserted,
+        let wanted = |(told, inserted): (Option<&[u8]>, [u32; 2])| {
+            let inserted = if inserted == [0; 2] { ONCE } else { inserted };
+            told.and_then(|told| quantity(&self.letters.read(told))).unwrap_or(inserted)
         };
         self.of_each("QUANTITY").into_iter().zip(inserted).map(wanted).collect()
     }
@@ -369,17 +368,17 @@ fn unit_of(name: &str) -> f64 {
     }
 }
 
-/// How often a text wants a block cut as it is drawn, and mirrored.
-fn quantity(text: &str) -> [u32; 2] {
+/// How often a text wants a block cut as it is drawn, and mirrored; `None` when it does not say.
+fn quantity(text: &str) -> Option<[u32; 2]> {
     let whole = |number: &str| {
         let (whole, share) = number.trim().split_once('.').unwrap_or((number.trim(), ""));
         whole.parse().ok().filter(|_| share.bytes().all(|digit| digit == b'0'))
     };
     let numbers: Option<Vec<u32>> = text.split(',').map(whole).collect();
     match numbers.as_deref() {
-        Some(&[right]) if right > 0 => [right, 0],
-        Some(&[right, left]) if right > 0 || left > 0 => [right, left],
-        _ => ONCE,
+        Some(&[right]) if right > 0 => Some([right, 0]),
+        Some(&[right, left]) if right > 0 || left > 0 => Some([right, left]),
+        _ => None,
     }
 }
 

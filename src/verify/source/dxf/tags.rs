@@ -27,9 +27,9 @@ pub(super) struct Item<'a> {
 const ALSO: [(&str, &[&str]); 5] = [
     ("SIZE", &["SIZE NAME", "GROESSE", "GRÖSSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "TAMAÑO", "TAMANO", "MISURA", "GR.", "GROSSE", "号型", "尺码", "BEDEN", "MAAT", "ROZMIAR", "РАЗМЕР", "РОЗМІР"]),
     ("SAMPLE SIZE", &["BASE SIZE", "BASISGROESSE", "BASISGRÖSSE", "GRUNDGROESSE", "GRUNDGRÖSSE", "TAGLIA BASE", "TAILLE DE BASE", "TALLA BASE", "TAMANHO BASE", "基码", "样板尺码", "BASISMAAT", "BAZ BEDEN", "ROZMIAR BAZOWY", "БАЗОВИЙ РОЗМІР", "БАЗОВЫЙ РАЗМЕР"]),
-    ("UNITS", &["UNIT", "EINHEIT", "EINHEITEN", "UNIDAD", "UNIDADE", "UNIDADES", "UNITA", "UNITE", "UNITES", "UNITÀ", "UNITÉ", "UNITÉS", "单位", "BIRIM", "EENHEDEN", "EENHEID", "JEDNOSTKA", "JEDNOSTKI", "ЕДИНИЦЫ", "ОДИНИЦІ"]),
-    ("QUANTITY", &["QTY", "QTY.", "ANZAHL", "CANT.", "CANTIDAD", "MENGE", "QTÉ", "QUANTIDADE", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "QTE", "QTD", "Q.TÀ", "ANZ.", "STUECK", "STUECKZAHL", "STÜCK", "STÜCKZAHL", "份数", "数量", "裁片数量", "AANTAL", "ADET", "ILOŚĆ", "PCS", "PIECES", "КІЛЬКІСТЬ", "КОЛИЧЕСТВО"]),
-    ("PIECE NAME", &["NOM DE PIECE", "NOM DE PIÈCE", "NOMBRE DE PIEZA", "NOME DA PEÇA", "NOME PEZZO", "TEIL", "TEILENAME", "裁片名称", "NAZWA CZĘŚCI", "ONDERDEEL", "PARÇA", "ДЕТАЛЬ", "НАЗВА ДЕТАЛІ"]),
+    ("UNITS", &["UNIT", "EINHEIT", "EINHEITEN", "UNIDAD", "UNIDADE", "UNIDADES", "UNITA", "UNITE", "UNITES", "UNITÀ", "UNITÉ", "UNITÉS", "单位", "BIRIM", "BİRİM", "EENHEDEN", "EENHEID", "JEDNOSTKA", "JEDNOSTKI", "ЕДИНИЦЫ", "ОДИНИЦІ"]),
+    ("QUANTITY", &["QTY", "QTY.", "ANZAHL", "CANT.", "CANTIDAD", "MENGE", "QTÉ", "QUANTIDADE", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "QTE", "QTD", "Q.TÀ", "ANZ.", "STUECK", "STUECKZAHL", "STÜCK", "STÜCKZAHL", "份数", "数量", "裁片数量", "AANTAL", "ADET", "ILOSC", "ILOŚĆ", "PCS", "PIECES", "КІЛЬКІСТЬ", "КОЛИЧЕСТВО"]),
+    ("PIECE NAME", &["NOM DE PIECE", "NOM DE PIÈCE", "NOMBRE DE PIEZA", "NOME DA PEÇA", "NOME PEZZO", "TEIL", "TEILENAME", "裁片名称", "NAZWA CZESCI", "NAZWA CZĘŚCI", "ONDERDEEL", "PARCA", "PARÇA", "ДЕТАЛЬ", "НАЗВА ДЕТАЛІ"]),
 ];
 
 /// A block, or what stands in none.

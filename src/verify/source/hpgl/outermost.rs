@@ -4,7 +4,7 @@
 //! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are judged by whether they
 //! go around a cut. Where somebody gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 
 use super::{around, rectangle};
 use crate::geom::boxes::Boxes;
@@ -42,9 +42,8 @@ const STROKE_DEPTH: [f64; 2] = [1.5, 14.5];
 /// How near to the outline both its ends lie, mm.
 const ON_EDGE: f64 = 0.4;
 /// How far off its edge a stroke begins that may be a letter of a text beside the edge, mm.
-const OFF_EDGE: f64 = 0.13;
-/// Letters that make a text, at least, and how far from one the others stand at the most, as a multiple of its size.
-const LETTERS: usize = 3;
+const OFF_EDGE: f64 = 0.1;
+/// How far from a letter another one of its text stands at the most, as a multiple of its size.
 const ROOM: f64 = 3.0;
 /// How much the depth of a stroke falls and rises again amid it that is no notch but an M, mm.
 const DENT: f64 = 0.6;
@@ -99,13 +98,22 @@ struct Judging<'a> {
     job: &'a Job,
     /// The boxes of the contours that are cut.
     boxes: Boxes,
+    /// The boxes of strokes as small as letters, once they are asked for.
+    small: OnceCell<Boxes>,
     work: RefCell<Budget>,
 }
 
 impl<'a> Judging<'a> {
     fn new(drawn: &'a [Vec<Point>], cuts: &'a PlotCuts, job: &'a Job) -> Self {
         let boxes = Boxes::new(cuts.contours.iter().map(|points| Extent::of(points)).collect());
-        Self { drawn, cuts, job, boxes, work: RefCell::new(Budget::of_lines(drawn.len() + cuts.contours.len())) }
+        Self {
+            drawn,
+            cuts,
+            job,
+            boxes,
+            small: OnceCell::new(),
+            work: RefCell::new(Budget::of_lines(drawn.len() + cuts.contours.len())),
+        }
     }
 
     /// Where a line is cut inside an outline that is not.
@@ -255,19 +263,21 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Whether a stroke that begins off its edge is a letter: others as large stand beside it, or one stands in it.
+    /// Whether a stroke that begins off its edge may be a letter: another small stroke stands near it.
     fn is_in_text(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
         let size = |extent: &Extent| extent.size().0.max(extent.size().1);
         let around = extent.grown(ROOM * size(&extent));
-        let is_beside = |other: &Extent| other.meets(&around) && (size(&extent) / 2.0..).contains(&size(other));
-        let is_text = |other: &Vec<Point>| other.len() > 1 && size(&Extent::of(other)) <= STROKE_DEPTH[1];
-        let small = || self.drawn.iter().filter(|other| is_text(other)).map(|other| Extent::of(other));
-        if !self.work.borrow_mut().spend(self.drawn.len()) {
+        let is_text = |other: &Extent| size(other) <= STROKE_DEPTH[1];
+        let small = self.small.get_or_init(|| {
+            let strokes = self.drawn.iter().filter(|other| other.len() > 1).map(|other| Extent::of(other));
+            Boxes::new(strokes.filter(is_text).collect())
+        });
+        if !self.work.borrow_mut().spend(small.cost_near(&around)) {
             return false;
         }
-        small().filter(is_beside).count() >= LETTERS
-            || small().any(|other| other != extent && extent.grown(OFF_EDGE).covers(&other))
+        let near = || small.near(around).map(|k| small.all()[k]);
+        near().any(|other| other != extent)
     }
 
     /// Whether one cut goes along all of a stroke, place by place and from edge to edge: the outline that is lifted
@@ -340,9 +350,14 @@ fn tip(stroke: &[Point]) -> Option<Point> {
 
 /// Whether some depth lies below deeper ones on both sides.
 fn has_dent(depths: &[f64]) -> bool {
-    let most = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
-    let is_dent = |k: usize| most(&depths[..k]).min(most(&depths[k + 1..])) - depths[k] > DENT;
-    (0..depths.len()).any(is_dent)
+    let greatest = |most: &mut f64, depth: &f64| {
+        *most = most.max(*depth);
+        Some(*most)
+    };
+    let before: Vec<f64> = depths.iter().scan(0.0, greatest).collect();
+    let behind: Vec<f64> = depths.iter().rev().scan(0.0, greatest).collect();
+    let around = before.iter().zip(behind.iter().rev());
+    around.zip(depths).any(|((before, behind), depth)| before.min(*behind) - depth > DENT)
 }
 
 /// Whether a cut goes from one place to another; the cuts stand in the order of the X of their starts.

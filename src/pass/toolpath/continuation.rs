@@ -1,4 +1,5 @@
-//! A line that goes on straight beyond a short cut of it: there a blade that is longer than the cut lies over what is cut anyway.
+//! Continuation of a short cut: the straight stretches of its line before and behind it, over which a blade that is longer
+//! than the cut may lie, since they are cut anyway.
 
 use super::spare::drawn;
 use crate::analysis::cloth::Surroundings;
@@ -9,9 +10,9 @@ use crate::ir::toolpath::{Run, Side, Step};
 /// for where it bends.
 const SHORT: f64 = 3.0;
 
-/// How far its line goes on straight before the start and behind the end of the run that is a step, mm; nowhere where a blade's
-/// width of the line is not straight.
-pub(super) fn led(steps: &[Step], step: usize, run: &Run, around: &Surroundings) -> [f64; 2] {
+/// Straight continuations of the line before the start and behind the end of the run that is a step, mm; none where the run and
+/// they together are shorter than the blade.
+pub(super) fn continuations(steps: &[Step], step: usize, run: &Run, around: &Surroundings) -> [f64; 2] {
     let width = around.knife.width_mm;
     let ends = [run.points[0], run.points[run.points.len() - 1]];
     let Some(along) = polyline::direction(ends[0], ends[1]) else { return [0.0; 2] };
@@ -19,16 +20,16 @@ pub(super) fn led(steps: &[Step], step: usize, run: &Run, around: &Surroundings)
     if length > width {
         return [0.0; 2];
     }
-    let led = [0, 1].map(|end| {
+    let beyond = [0, 1].map(|end| {
         if run.ends[end].side != Side::Contour {
             return 0.0;
         }
-        let way = Way { from: ends[end], along: if end == 0 { -along } else { along }, beside: around.tolerance };
+        let band = Band { from: ends[end], along: if end == 0 { -along } else { along }, beside: around.tolerance };
         let is_before = (end == 0) != run.turned;
-        way.straight(points_from(steps, step, is_before), width - length)
+        band.straight(points_from(steps, step, is_before), width - length)
     });
-    let is_long = led[0] + length + led[1] >= width - SHORT * around.tolerance;
-    if is_long { led } else { [0.0; 2] }
+    let is_long = beyond[0] + length + beyond[1] >= width - SHORT * around.tolerance;
+    if is_long { beyond } else { [0.0; 2] }
 }
 
 /// The points of the strokes before or behind a step, away from it, as long as each goes on where the one nearer to it ends.
@@ -62,8 +63,8 @@ fn points_of(step: &Step) -> Option<(&[Point], bool)> {
     }
 }
 
-/// A straight way.
-struct Way {
+/// Band along a straight way.
+struct Band {
     from: Point,
     /// Unit vector.
     along: Vector,
@@ -71,7 +72,7 @@ struct Way {
     beside: f64,
 }
 
-impl Way {
+impl Band {
     /// How far some points that follow each other from its start lie on it, mm, `reach` at the most.
     fn straight(&self, points: impl Iterator<Item = Point>, reach: f64) -> f64 {
         let [mut way, mut aside] = [0.0; 2];
@@ -96,8 +97,8 @@ mod tests {
 
     #[test]
     fn a_way_is_straight_up_to_where_it_leaves_its_band() {
-        let way = Way { from: Point::origin(), along: Vector::new(1.0, 0.0), beside: 0.1 };
-        let straight = |points: &[[f64; 2]], reach| way.straight(points.iter().map(|&at| Point::from(at)), reach);
+        let band = Band { from: Point::origin(), along: Vector::new(1.0, 0.0), beside: 0.1 };
+        let straight = |points: &[[f64; 2]], reach| band.straight(points.iter().map(|&at| Point::from(at)), reach);
         assert_eq!(straight(&[[2.0, 0.05], [3.0, 0.0]], 9.0), 3.0);
         assert_eq!(straight(&[[2.0, 0.05], [3.0, 0.0]], 2.5), 2.5);
         assert_eq!(straight(&[[2.0, 0.0], [4.0, 0.2], [9.0, 0.0]], 9.0), 3.0);
