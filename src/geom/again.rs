@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 use crate::geom::{Point, bits, polyline};
 
 /// Most places of a line that has a course: those of longer lines are drawings.
-pub const MOST_PLACES: usize = 64;
+const MOST_PLACES: usize = 64;
+/// Places of a line every one of which is looked at.
+const FEW_PLACES: usize = 8;
 /// Farthest that a place of a straight path lies off it, mm: the rounding of sums of decimals.
 const ON_LINE: f64 = 1e-6;
 
@@ -49,7 +51,7 @@ struct Edge {
 /// Course of a line that goes along itself again and encloses nothing; `None` for every other line. Two edges are one
 /// when their ends are equal to the bit.
 pub fn course(places: &[Point]) -> Option<Course> {
-    if !(3..=MOST_PLACES).contains(&places.len()) {
+    if !turns_back(places.len(), |k| places[k]) {
         return None;
     }
     let mut known = BTreeMap::new();
@@ -70,6 +72,16 @@ pub fn course(places: &[Point]) -> Option<Course> {
     }
     // Edges that hang together and are one fewer than their places make no ring.
     (!again.is_empty() && edges.len() + 1 == known.len()).then(|| Course { paths: paths(places, &edges), again })
+}
+
+/// Whether a line of `count` places turns back where one that has a course does: at either end, or half way, or anywhere when
+/// it has few places. Nearly every line does not, and costs a few comparisons.
+pub fn turns_back(count: usize, at: impl Fn(usize) -> Point) -> bool {
+    (3..=MOST_PLACES).contains(&count)
+        && (at(0) == at(2)
+            || at(1) == at(count - 2)
+            || at(count - 3) == at(count - 1)
+            || count <= FEW_PLACES && (1..count - 1).any(|k| at(k - 1) == at(k + 1)))
 }
 
 /// The paths of a tree of edges. At each place the two edges that go on straightest are of one path.

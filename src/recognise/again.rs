@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::pens::Use;
-use crate::geom::again::{Course, MOST_PLACES, Step, course};
+use crate::geom::again::{Course, Step, course, turns_back};
 use crate::geom::{Point, bits};
 use crate::ir::drawing::{Drawing, PenStroke, Vertex};
 use crate::ir::marker::Notch;
@@ -45,10 +45,11 @@ fn there_and_back(drawing: &mut Drawing) -> Vec<PenStroke> {
     let mut again = Vec::new();
     for k in 0..drawing.strokes.len() {
         let stroke = drawing.strokes[k];
-        let vertices = drawing.vertices[stroke.range()].to_vec();
-        if vertices.len() > MOST_PLACES {
-            continue;
+        let range = stroke.range();
+        if !turns_back(range.len(), |place| drawing.vertices[range.start + place].at) {
+            continue; // as nearly all
         }
+        let vertices = drawing.vertices[range].to_vec();
         let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
         let is_slit = |course: &Course| course.straight(&places).is_some_and(|length| length <= Notch::LONGEST);
         let Some(course) = course(&places).filter(|course| !is_slit(course)) else { continue };

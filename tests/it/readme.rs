@@ -33,7 +33,7 @@ fn shell(line: &str, directory: &Path) -> Output {
 #[test]
 fn the_first_two_commands_are_the_main_job_and_the_tests() {
     let commands = commands("cargo ");
-    assert_eq!(commands[..2], ["cargo run --release -- compile fixtures/iso/seed-circle.cut", "cargo test"]);
+    assert_eq!(commands[..2], ["cargo run -- compile fixtures/iso/seed-circle.cut", "cargo test"]);
     // The same as the first, with the binary of this test run.
     let folder = tempfile::tempdir().expect("a temporary folder");
     let input = root().join("fixtures/iso/seed-circle.cut");
