@@ -139,7 +139,7 @@ impl Sheet {
         let mut marks = marks::on_outlines(self.search(parts), work);
         let ends = strokes.iter().map(|stroke| (stroke.line, stroke.outline, stroke.miss));
         let ends = ends.chain(marks.iter().map(|mark| (mark.line, mark.outline, mark.miss)));
-        let letters = self.letters(ends.collect(), work);
+        let letters = self.letters(&ends.collect::<Vec<_>>(), work);
         strokes.retain(|stroke| !letters.contains(&stroke.line));
         marks.retain(|mark| !letters.contains(&mark.line));
         self.strokes.extend(strokes);
@@ -154,7 +154,7 @@ impl Sheet {
 
     /// Sets those strokes apart that have the shape of notches and are letters: each comes with its outline, and how far
     /// from that it begins, mm.
-    fn letters(&mut self, strokes: Vec<(usize, usize, f64)>, work: &mut Budget) -> BTreeSet<usize> {
+    fn letters(&mut self, strokes: &[(usize, usize, f64)], work: &mut Budget) -> BTreeSet<usize> {
         let touch = marks::TOUCH + ROUNDING * self.unit;
         let mut off: Vec<usize> = strokes.iter().filter(|stroke| stroke.2 > touch).map(|stroke| stroke.0).collect();
         off.sort_unstable();

@@ -30,6 +30,8 @@ pub(super) const PASS: MarkerPass =
 const GAP_SHARE: f64 = 0.05;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
 const GAP_DECIMALS: u32 = 3;
+/// Boxes that begin beside one and are compared with it.
+const MOST_COMPARED: usize = 16;
 /// Decimals of how far a contour runs beside another one, mm.
 const BESIDE_DECIMALS: u32 = 2;
 /// The smallest gap that these decimals show, mm.
@@ -132,6 +134,9 @@ fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reac
     let contour = |[piece, k]: ContourPlace| &marker.pieces[piece as usize].contours[k as usize];
     let is_looked_at = |k: &usize| contour(boxed.places[*k]).closed && !repeats.contains(&boxed.places[*k]);
     let closed: Vec<usize> = (0..boxed.places.len()).filter(is_looked_at).collect();
+    if !may_be_beside(closed.iter().map(|&k| boxed.extents[k]).collect(), reach) {
+        return; // as in nearly all markers
+    }
     let range = |k: usize| contour(boxed.places[closed[k]]).range;
     let all = Lines {
         extents: closed.iter().map(|&k| boxed.extents[k]).collect(),
@@ -155,6 +160,16 @@ fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reac
     if work.is_spent() {
         diagnostics.push(search_ended("some contours may run beside others and be cut twice"));
     }
+}
+
+/// Whether two boxes nearly agree, or so many begin beside each other that only a search can tell.
+fn may_be_beside(mut boxes: Vec<Extent>, reach: f64) -> bool {
+    boxes.sort_unstable_by(|a, b| a.min.x.total_cmp(&b.min.x));
+    let off = |a: &Extent, b: &Extent| (b.min - a.min).amax().max((b.max - a.max).amax());
+    (0..boxes.len()).any(|k| {
+        let near = boxes[k + 1..].iter().take_while(|other| other.min.x - boxes[k].min.x <= reach);
+        near.enumerate().any(|(count, other)| count == MOST_COMPARED || off(&boxes[k], other) <= reach)
+    })
 }
 
 /// A segment as its two ends, the lesser first: the same whichever way it is cut.

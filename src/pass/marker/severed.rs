@@ -70,16 +70,23 @@ fn begins_on_slit(slit: &Notch, other: &Notch) -> bool {
 fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget) -> bool {
     let slit = &slits[place];
     let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
-    let near: Vec<[Point; 2]> = part.edges_near(around).take_while(|_| work.spend(1)).collect();
-    let comes_to = |edge: &&[Point; 2]| distance_of_segments(ends(slit), **edge) < LEAST_BRIDGE;
     let begins_on = |at: Point| move |edge: &[Point; 2]| distance_to_segment(at, edge[0], edge[1]) <= AT_ROOT;
+    let comes_to = |edge: [Point; 2]| distance_of_segments(ends(slit), edge) < LEAST_BRIDGE;
+    let is_across = |root: Point| move |edge: [Point; 2]| !begins_on(root)(&edge) && comes_to(edge);
+    let mut edges = part.edges_near(around);
+    if !edges.any(|edge| work.spend(1) && is_across(slit.root)(edge)) {
+        return false; // as nearly all
+    }
     let is_branch = |work: &mut Budget| {
         let mut others = slits.iter().enumerate().filter(|(k, _)| *k != place);
         work.spend(slits.len()) && others.any(|(_, other)| begins_on_slit(slit, other))
     };
-    let is_at_root = near.iter().any(begins_on(slit.root)) || !near.is_empty() && is_branch(work);
-    let root = if is_at_root { slit.root } else { first_passed(slit, &near) };
-    near.iter().filter(comes_to).any(|edge| !begins_on(root)(edge))
+    let near: Vec<[Point; 2]> = part.edges_near(around).take_while(|_| work.spend(1)).collect();
+    if near.iter().any(begins_on(slit.root)) || is_branch(work) {
+        return true;
+    }
+    let root = first_passed(slit, &near);
+    near.into_iter().any(is_across(root))
 }
 
 /// Where a slit first passes an edge; its root where it passes none.

@@ -166,16 +166,16 @@ fn words_that_stand_beside_an_edge_are_never_cut() {
     let mut random = fastrand::Rng::with_seed(44);
     for case in 0..300 {
         // 3 to 9 mm high, 0.2 to 0.45 mm off the edge.
-        let (scale, off, count) = (random.i64(20..60), random.i64(8..18), random.usize(3..9));
+        let (scale, off, count) = (random.i64(20..60), random.i64(8..18), random.i64(3..9));
         let mut word = String::new();
         let mut text = part();
-        for k in 0..count as i64 {
+        for k in 0..count {
             let (letter, strokes) = LETTERS[random.usize(..LETTERS.len())];
             word.push(letter);
             for stroke in strokes {
                 let at = |[x, y]: [i64; 2]| format!("{},{}", 6000 + (5 * k + x) * scale, 4000 + off + y * scale);
                 let places: Vec<String> = stroke.iter().map(|&place| at(place)).collect();
-                text += &format!("PU{};PD{};", places[0], places[1..].join(","));
+                text.extend(["PU", &places[0], ";PD", &places[1..].join(","), ";"]);
             }
         }
         let found = slits(&text, &Job::default());
