@@ -16,8 +16,9 @@ fn rectangle([left, low, right, high]: [u32; 4]) -> String {
     format!("M15*X{left}Y{low}*M14*X{right}Y{low}*X{right}Y{high}*X{left}Y{high}*X{left}Y{low}*M15*")
 }
 
-/// A rectangle that lies deeper in all others with each step.
+/// A rectangle that lies deeper in all others with each step, farther than contours that are one edge.
 fn nested(depth: u32) -> [u32; 4] {
+    let depth = 3 * depth;
     [depth, depth, 30_000 - depth, 30_000 - depth]
 }
 
