@@ -60,7 +60,7 @@ impl Room {
         self.own.min(self.other)
     }
 
-    /// What is left of it behind the first `way` mm.
+    /// Room behind the first `way` mm.
     #[must_use]
     pub fn without(self, way: f64) -> Self {
         let [own, other] = [self.own, self.other].map(|room| (room - way).max(0.0));

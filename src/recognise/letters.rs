@@ -48,8 +48,8 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
 /// Small lines by the cells that their middles are in.
 type Cells = BTreeMap<[i64; 2], Vec<usize>>;
 
-/// The lines that stand in a row with one, itself included, with gaps of so many times their height at the most; they are
-/// taken out of the cells.
+/// Row of lines around one of them, with gaps of so many times their height at the most; its lines are taken out of the
+/// cells.
 fn row(first: usize, lines: &[Line], (cells, gap): (&mut Cells, f64), work: &mut Budget) -> Vec<usize> {
     if !take(first, lines, cells) {
         return Vec::new();

@@ -18,7 +18,7 @@ pub(super) struct Stroke {
     pub(super) miss: f64,
 }
 
-/// How much less deep a notch may be amid two deeper places, mm: more is an M or a W.
+/// Greatest fall of the depth of a notch between two deeper places, mm: strokes with a greater one are an M or a W.
 const DENT: f64 = 0.5;
 
 /// Whether a stroke gets no less deep before its deepest place, and no deeper behind it: depths, mm.

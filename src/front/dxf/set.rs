@@ -41,7 +41,7 @@ pub(super) struct Set {
     loose: usize,
     /// Whether neither texts nor blocks say that it is a set of patterns.
     is_plain: bool,
-    /// What says how often each is cut.
+    /// Source of the quantities: the file, or one of each.
     quantity: Quantity,
     /// Room between those that lie in a row, mm.
     gap: f64,

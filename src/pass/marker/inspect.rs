@@ -162,7 +162,7 @@ fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reac
     }
 }
 
-/// Whether two boxes nearly agree, or so many begin beside each other that only a search can tell.
+/// Quick test for boxes that nearly agree; true also where many begin beside each other, so that a search must tell.
 fn may_be_beside(mut boxes: Vec<Extent>, reach: f64) -> bool {
     boxes.sort_unstable_by(|a, b| a.min.x.total_cmp(&b.min.x));
     let off = |a: &Extent, b: &Extent| (b.min - a.min).amax().max((b.max - a.max).amax());

@@ -136,7 +136,7 @@ pub(super) fn lapped(cut: &Cut, length: f64) -> f64 {
     nearest.map_or(0.0, |(_, station)| end - station)
 }
 
-/// The straight way by which a line goes on beyond its start, or its end, by so many mm.
+/// Straight continuation of a line beyond its start or its end, so many mm long.
 fn way_on(line: &Line, at_start: bool, length: f64) -> [Point; 2] {
     let (end, along) = if at_start {
         (line.point(0), -line.direction(0))

@@ -94,28 +94,8 @@ impl Worsts {
         self.all().into_iter().map(Worst::finding)
     }
 
-    fn all(self) -> [Worst; 15] {
-        let Self {
-            on_path,
-            stray,
-            once,
-            heading,
-            down,
-            body,
-            swing,
-            feed,
-            crawl,
-            block,
-            overcuts,
-            overlap,
-            declared,
-            lacking: _,
-        } = self;
-        let Overcuts { part, neighbour, waste } = overcuts;
-        [
-            on_path, stray, once, heading, down, body, swing, feed, crawl, block, part, neighbour, waste, overlap,
-            declared,
-        ]
+    fn all(mut self) -> [Worst; 15] {
+        self.all_mut().map(|worst| worst.clone())
     }
 
     fn all_mut(&mut self) -> [&mut Worst; 15] {

@@ -89,7 +89,8 @@ fn a_shortened_overlap_needs_something_in_its_way() {
     }
 }
 
-/// What is found of a plunge over a slit of 3 mm amid a part, which goes 1.8 mm into that at either end and says so of some.
+/// Codes of the rules that a plunge over a slit of 3 mm amid a part breaks: it goes 1.8 mm into the part at either end, and
+/// declares some of these ends.
 fn declared_at(job: &Job, ends: &[Which]) -> Vec<&'static str> {
     let corners = [p(100.0, 0.0), p(200.0, 0.0), p(200.0, 100.0), p(100.0, 100.0), p(100.0, 0.0)];
     let mut marker = support::marker(&corners);

@@ -45,7 +45,7 @@ const ON_EDGE: f64 = 0.4;
 const OFF_EDGE: f64 = 0.1;
 /// How far from a letter another one of its text stands at the most, as a multiple of its size.
 const ROOM: f64 = 3.0;
-/// How much the depth of a stroke falls and rises again amid it that is no notch but an M, mm.
+/// Least fall of the depth between two deeper places of a stroke that makes it an M and no notch, mm.
 const DENT: f64 = 0.6;
 /// How near to the ends of a cut those of its stroke lie, mm.
 const SAME_END: f64 = 0.05;
