@@ -1,5 +1,5 @@
 //! Writes a made-up garment marker of any size to standard output, to measure the compiler with:
-//! `cargo run --release --example marker -- --pieces 40 > marker.cut`.
+//! `cargo run --release --features bench --example marker -- --pieces 40 > marker.cut`.
 
 mod garment;
 

@@ -1,4 +1,4 @@
-//! How long planning takes: `cargo run --release --example motion`; with numbers behind `--`, runs of that many vertices
+//! How long planning takes: `cargo run --release --features bench --example motion`; with numbers behind `--`, runs of that many vertices
 //! alone, so that `/usr/bin/time -v` says what memory one takes.
 //!
 //! Medians over rounds in one process; the page `figures` of the manual holds them.

@@ -1,9 +1,10 @@
 """Compiles nests of touching parts with several blades and tells what is refused.
 
-    python3 tests/bench/nests.py target/release/cutc MAKER [--pieces N] [--every N] [--set KEY=VALUE ...]
+    python3 tests/bench/nests.py target/release/cutc MAKER [--pieces N] [--seeds N] [--every N] [--set KEY=VALUE ...]
 
-MAKER is a program that prints a nest: it takes --dialect, --gap, --notch, --pieces and the flags below. Every file is
-compiled to setpoints with each blade, and with the first blade to G-code; `--every N` takes each Nth case.
+MAKER is a program that prints a nest: it takes --dialect, --gap, --notch, --pieces, --seed and the flags below. Every file
+is compiled to setpoints with each blade, and with the first blade to G-code. The cases take seeds from 1 to `--seeds` in
+turn; `--every N` takes each Nth case.
 """
 
 import argparse
@@ -27,10 +28,12 @@ def main():
     parser.add_argument("cutc")
     parser.add_argument("maker")
     parser.add_argument("--pieces", default="12")
+    parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--set", action="append", default=[])
     options = parser.parse_args()
-    cases = list(itertools.product(DIALECTS, GAPS, NOTCHES, FLAGS))[:: options.every]
+    cases = itertools.product(DIALECTS, GAPS, NOTCHES, FLAGS)
+    cases = [(1 + place % options.seeds, *case) for place, case in enumerate(cases)][:: options.every]
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         run = lambda case: compiled(options, folder, case)
         outcomes = collections.Counter()
@@ -43,9 +46,9 @@ def main():
 
 
 def compiled(options, folder, case):
-    dialect, gap, notch, flags = case
+    seed, dialect, gap, notch, flags = case
     path = os.path.join(folder, f"{abs(hash(repr(case)))}.{DIALECTS[dialect]}")
-    make = [sys.executable, options.maker, "--pieces", options.pieces, "--dialect", dialect, f"--gap={gap}"]
+    make = [sys.executable, options.maker, "--pieces", options.pieces, "--dialect", dialect, f"--gap={gap}", f"--seed={seed}"]
     with open(path, "wb") as out:
         subprocess.run([*make, "--notch", notch, *flags], stdout=out, check=True)
     results = {}

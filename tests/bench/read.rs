@@ -1,5 +1,5 @@
 //! Measures how fast files are read into markers, passes not counted:
-//! `cargo run --release --example read -- marker.plt`.
+//! `cargo run --release --features bench --example read -- marker.plt`.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

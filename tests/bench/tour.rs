@@ -1,6 +1,6 @@
 //! Orders points as the pass `route` orders visits, for `tests/bench/tours.py`: reads a point a line, `x y`, and writes how long
 //! ordering them took, s, then their places in the tour, one a line:
-//! `cargo run --release --example tour < points.txt`.
+//! `cargo run --release --features bench --example tour < points.txt`.
 
 #[path = "../../src/pass/marker/route/near.rs"]
 mod near;

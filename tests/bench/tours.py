@@ -2,7 +2,7 @@
 those of LKH (Helsgaun's Lin-Kernighan heuristic, as `elkai` has it: `pip install elkai numpy`) or, of more points than that
 can take, than what the shortest tend to from above.
 
-    cargo build --release --example tour
+    cargo build --release --features bench --example tour
     python3 tests/bench/tours.py target/release/examples/tour
 """
 

@@ -6,10 +6,18 @@
 #[cfg(feature = "heavy")]
 mod crowded;
 #[cfg(feature = "heavy")]
+#[path = "../it/damaged.rs"]
+mod damaged;
+#[cfg(feature = "heavy")]
+#[path = "../it/entries.rs"]
+mod entries;
+#[cfg(feature = "heavy")]
 #[path = "../it/motion.rs"]
 mod motion;
 #[cfg(feature = "heavy")]
 mod nests;
+#[cfg(feature = "heavy")]
+mod patience;
 #[cfg(feature = "heavy")]
 #[path = "../it/properties/mod.rs"]
 mod properties;

@@ -15,6 +15,8 @@ use cutc::source::Source;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::ONE_IN;
+
 /// A worn knife, the same with its axis far behind its tip, and a new one: width and back, mm.
 const BLADES: [(f64, f64); 3] = [(6.6, 6.35), (6.6, 2.2), (8.89, 6.35)];
 /// In bows that are worth a word, how far a curve must lie beside the blade, by the formula for slight ones, to be sure of
@@ -163,7 +165,7 @@ fn rounded(random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
 #[test]
 fn rounded_outlines_as_coarse_as_files_have_them_become_programs_of_every_kind() {
     let mut random = ChaCha8Rng::seed_from_u64(6);
-    for case in 0..60 {
+    for case in 0..60 / ONE_IN {
         let points = rounded(&mut random);
         let source = source(&points);
         for blade in BLADES {
@@ -180,7 +182,7 @@ fn rounded_outlines_as_coarse_as_files_have_them_become_programs_of_every_kind()
 fn no_heel_leaves_its_line_by_more_than_the_profile_permits() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut lifted = 0;
-    for case in 0..30 {
+    for case in 0..30 / ONE_IN {
         let source = source(&rounded(&mut random));
         for blade in BLADES {
             for (follow, target) in [(Follow::Tangent, "gcode"), (Follow::Tangent, "csv"), (Follow::Chord, "csv")] {
@@ -199,7 +201,7 @@ fn no_heel_leaves_its_line_by_more_than_the_profile_permits() {
             }
         }
     }
-    assert!(lifted > 30, "only {lifted} of the jobs have a bend to lift at");
+    assert!(lifted > 30 / ONE_IN, "only {lifted} of the jobs have a bend to lift at");
 }
 
 /// A piece on whose upper edge a short curve stands between two V notches.

@@ -14,6 +14,7 @@ mod cli;
 mod coarse;
 mod codes;
 mod common;
+mod damaged;
 mod drives;
 mod dxf;
 mod edits;

@@ -22,6 +22,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("lifted-bends.cut", "knife.max_down_mm=60"), // a lift over one bend of a coarse circle
     ("lifted-blob.cut", "knife.max_down_mm=38"), // lifts right before bends
     ("lifted-ring.cut", "knife.max_down_mm=30"), // lifts amid a ring
+    ("lifted-slit.csv", "knife.max_down_mm=10"), // a slit that ends on a curve where the blade is plunged
     ("lifted-start.cut", "knife.max_down_mm=60"), // a ring that begins where no blade can enter it
     ("long-heel.cut", LONG_HEEL),           // a heel overlap of half a blade
     ("narrow-spike.cut", COARSE),           // a leg of a spike beside the other leg

@@ -69,7 +69,8 @@ impl<'a> Follower<'a> {
         let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
         let here = self.chord.index;
-        if self.foot.chord == here && low > line.station(here) && high < line.station(here + 1) {
+        let [from, long] = self.chord.stations();
+        if self.foot.chord == here && low > from && high < from + long {
             // Amid a chord there is no other within reach.
             self.foot = self.chord.foot(line, point);
             return self.foot;

@@ -108,29 +108,31 @@ impl Judge<'_> {
         let [from, to] = trial.reach;
         let points = self.drawn(cut, trial, [if from < to { from - behind } else { from + behind }, to]);
         let stations = polyline::stations(&points);
-        let first = behind.max(width);
-        let of_chord = |chord: usize| {
-            let Some(along) = polyline::direction(points[chord], points[chord + 1]) else { return 0.0 };
-            let steps = ((stations[chord + 1] - stations[chord]) / SWING_STEP).ceil().max(1.0);
-            let at = |step: f64| stations[chord] + (stations[chord + 1] - stations[chord]) * (step / steps);
-            let off = |station: f64| {
-                let first = stations.partition_point(|&passed| passed < station - BEHIND * width).saturating_sub(1);
-                let tip = polyline::place(&points, &stations, station);
-                let behind: Vec<Point> = points[first..=chord].iter().copied().chain([tip]).collect();
-                // Where a line is too tight for the chord mode, the blade lies along it in either.
-                let along_it = polyline::distance(tip - along * width, &behind);
-                let back = || behind.iter().rev().copied().collect::<Vec<Point>>();
-                if self.knife.follow == Follow::Chord { along_it.max(bow(&back(), width)) } else { along_it }
-            };
+        let mut most = 0.0_f64;
+        for chord in 0..points.len() - 1 {
+            let Some(along) = polyline::direction(points[chord], points[chord + 1]) else { continue };
+            let (start, length) = (stations[chord], stations[chord + 1] - stations[chord]);
+            let steps = (length / SWING_STEP).ceil().max(1.0);
             // Beyond one width the blade lies on the chord that it follows.
-            (0..=steps as usize)
-                .map(|step| at(step as f64))
-                .take_while(|at| at - stations[chord] <= width)
-                .filter(|&at| at >= first)
-                .map(off)
-                .fold(0.0, f64::max)
-        };
-        (0..points.len() - 1).map(of_chord).fold(0.0, f64::max)
+            let tips = (0..=steps as usize).map(|step| start + length * (step as f64 / steps));
+            let mut from = behind.max(width);
+            for tip in tips.take_while(|tip| tip - start <= width) {
+                if tip < from {
+                    continue;
+                }
+                let first = stations.partition_point(|&passed| passed < tip - BEHIND * width).saturating_sub(1);
+                let followed = Followed { points: &points[first..=chord], tip: points[chord] + along * (tip - start) };
+                let off = followed.off(followed.tip - along * width);
+                most = most.max(off);
+                match self.knife.follow {
+                    // The heel leaves what is followed by no more than the tip goes: nearer than that nothing is farther off.
+                    Follow::Tangent => from = tip + (most - off),
+                    // Where a line is too tight for the chord mode, the blade lies along it in either.
+                    Follow::Chord => most = most.max(followed.bow(width)),
+                }
+            }
+        }
+        most
     }
 
     /// The drawn line between two stations, from the one to the other, with straight extensions by the overlaps of a stroke.
@@ -177,6 +179,28 @@ impl Judge<'_> {
                 account.see_where(Kind::Surplus, here, |entry| self.overcut.is_in(entry, side == 0, line), depth);
             }
         }
+    }
+}
+
+/// What lies behind the tip of a blade that goes along a drawn line.
+struct Followed<'a> {
+    /// The points of the line up to the start of the chord that the tip is on.
+    points: &'a [Point],
+    tip: Point,
+}
+
+impl Followed<'_> {
+    /// Distance of a place from it, mm.
+    fn off(&self, place: Point) -> f64 {
+        let last = polyline::distance_to_segment(place, self.points[self.points.len() - 1], self.tip);
+        let before = self.points.windows(2).map(|ends| polyline::distance_to_segment(place, ends[0], ends[1]));
+        before.fold(last, f64::min)
+    }
+
+    /// How far it is off a blade of a width that is a chord of it, from the tip back, mm.
+    fn bow(&self, width: f64) -> f64 {
+        let back: Vec<Point> = std::iter::once(self.tip).chain(self.points.iter().rev().copied()).collect();
+        bow(&back, width)
     }
 }
 

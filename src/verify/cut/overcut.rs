@@ -339,7 +339,12 @@ impl<'a> Overcut<'a> {
 impl Lines<'_> {
     /// Whether a place is farther than `slack` mm from all that is cut.
     fn is_away(self, point: Point, slack: f64) -> bool {
-        self.grid.near(point, slack).all(|run| self.distance_to_run(run, point) > slack)
+        let is_near = |run: &Run| {
+            let line = &self.reference.lines[run.line()];
+            run.chords()
+                .any(|chord| line.may_reach(chord, point, slack) && line.distance_to_chord(chord, point) <= slack)
+        };
+        !self.grid.near(point, slack).any(is_near)
     }
 
     /// How far a place is from the edges of some pieces, mm, surely where that is less than `reach`.

@@ -50,8 +50,8 @@ pub(in crate::verify) fn passed(line: &Line, places: &[Point], feet: &[Foot], al
     let (a, b) = (feet[0].station, feet[1].station);
     let (low, high) = (a.min(b), a.max(b));
     let chord = feet[0].chord;
-    if feet[1].chord == chord && low > line.station(chord) && high < line.station(chord + 1) {
-        // Between two places amid one chord there is no vertex.
+    if low == high || feet[1].chord == chord && low > line.station(chord) && high < line.station(chord + 1) {
+        // Between two places amid one chord there is no vertex, and past the end of a line nothing is cut of it.
         return None;
     }
     let is_cut = |vertex: &usize| polyline::distance_to_segment(line.point(*vertex), places[0], places[1]) <= allowed;

@@ -13,7 +13,7 @@ use crate::geom::Point;
 use crate::ir::declaration::{Kind, Which};
 use crate::verify::declared::{Declared, Stretch};
 use crate::verify::reference::grid::Grid;
-use crate::verify::reference::line::Line;
+use crate::verify::reference::line::{Chord, Line};
 use crate::verify::reference::lines::Reference;
 
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
@@ -121,12 +121,19 @@ pub(in crate::verify) struct Trace {
 }
 
 impl Tracer<'_> {
-    /// Follows a cut along the line that has `block`. Nearly always the tip shows where; if it does not, the blade may.
+    /// Follows a cut along the line that has `block`. Nearly always the tip shows where; if it does not, the blade may. Of a
+    /// plunge cut all may be surplus, and its tip far from what it cuts: it is followed along all lines near it.
     pub(in crate::verify) fn trace(&self, cut: &Cut, block: u32) -> Trace {
         let named = |probes: &[usize]| self.candidates(cut, probes, |line| self.is_named(line, block));
         let mut candidates = named(&cut.tip_probes());
         if candidates.is_empty() {
             candidates = named(&cut.probes());
+        }
+        if cut.is_plunge_cut() {
+            let all = self.candidates(cut, &cut.probes(), |_| true);
+            // The line that its row names is tried, however many others lie nearer.
+            candidates.retain(|named| all.iter().all(|other| other.line != named.line));
+            candidates.extend(all);
         }
         Trace { trials: candidates.iter().map(|candidate| self.follow(cut, candidate)).collect(), block }
     }
@@ -144,10 +151,9 @@ impl Tracer<'_> {
         let mut trials = std::mem::take(&mut trace.trials);
         self.weigh(&mut trials, coverage);
         // What a stroke cuts of the line that it names cannot be much exceeded by what it cuts of another when it is about
-        // all that it cuts: nearly always, and then the others need not be looked at. Of a plunge cut all may be surplus, and
-        // its tip far from what it cuts.
+        // all that it cuts: nearly always, and then the others need not be looked at.
         let enough = tolerance.max(cut.length() - self.slack);
-        if cut.is_plunge_cut() || !trials.iter().any(|trial| trial.fresh >= enough) {
+        if !cut.is_plunge_cut() && !trials.iter().any(|trial| trial.fresh >= enough) {
             // The line that its row names is tried, however many others lie nearer.
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials.retain(|named| candidates.iter().all(|other| other.line != named.line));
@@ -305,18 +311,22 @@ impl Tracer<'_> {
         let stretches = covered(line, blade, station, self.near());
         let whole = [stretches.first()?[0], stretches.last()?[1]];
         let longest = stretches.iter().copied().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-        let lain = Lain::new(line, cut, whole);
-        let over = Some(Plunged::over(line, cut, [*lain.held.start(), *lain.held.end()], whole, self.allowed));
         // A blade covers a curve that is all of its line, or none.
         let is_all = whole[1] - whole[0] >= line.length() - 2.0 * self.allowed;
-        let over = over.filter(|over| stretches.len() > 1 && is_all && self.permits(over, line, whole));
+        let lain = (stretches.len() > 1 && is_all).then(|| Lain::new(line, cut, whole)).and_then(|lain| {
+            let ends = [*lain.held.start(), *lain.held.end()];
+            let over = Plunged::over(line, cut, ends, whole, self.allowed);
+            self.permits(&over, line, whole).then_some((lain, over))
+        });
+        let (lain, over) =
+            lain.map_or_else(|| (Lain::new(line, cut, longest), None), |(lain, over)| (lain, Some(over)));
         // Where the line lies on the blade itself, from the first place to the last.
         let thin = Near { beside: self.near().beyond + ON_SHARE * self.reference.tolerance, ..self.near() };
         let [low, high] = if over.is_some() { whole } else { longest };
         let mut on = covered(line, blade, station, thin);
         on.retain(|[a, b]| *a >= low && *b <= high);
         let core = on.iter().copied().reduce(|[a, _], [_, b]| [a, b]);
-        let Lain { feet, held, reach } = if over.is_some() { lain } else { Lain::new(line, cut, longest) };
+        let Lain { feet, held, reach } = lain;
         let mut trial = Trial {
             line: index,
             feet,
@@ -442,6 +452,11 @@ impl Lain {
         let is_turned = way(low) > way(high);
         let [first, last] = if is_turned { [high, low] } else { [low, high] };
         let (from, to) = (way(first), way(last));
+        let laps_before = if line.ring { (low / line.length()).floor() } else { 0.0 };
+        let lap =
+            |chord: usize| if line.ring { (laps_before + (chord / line.chords()) as f64) * line.length() } else { 0.0 };
+        let under: Vec<(Chord, f64)> =
+            line.chords_between([low, high]).map(|i| (line.chord(i % line.chords()), lap(i))).collect();
         let foot = |&point: &Point| {
             let along = (point - heel).dot(&axis);
             let beyond = (from - along).max(along - to).max(0.0);
@@ -449,12 +464,9 @@ impl Lain {
             if beyond > 0.0 {
                 return Foot { station: end, deviation: 0.0, beyond, chord: line.chord_at(on_lap(line, end)) };
             }
-            let under = line.chords_between([low, high]).map(|i| (i % line.chords(), i / line.chords()));
-            let feet = under.map(|(chord, lap)| {
-                let (deviation, station) = line.chord(chord).deviation(point);
-                let before = (low / line.length()).floor() + lap as f64;
-                let station = if line.ring { station + before * line.length() } else { station };
-                Foot { station: station.clamp(low, high), deviation, beyond: 0.0, chord }
+            let feet = under.iter().map(|(chord, lap)| {
+                let (deviation, station) = chord.deviation(point);
+                Foot { station: (station + lap).clamp(low, high), deviation, beyond: 0.0, chord: chord.index }
             });
             let nearest = feet.min_by(|a, b| a.deviation.total_cmp(&b.deviation));
             nearest.expect("a stretch has a chord")

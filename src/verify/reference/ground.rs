@@ -32,7 +32,8 @@ impl<'a> Ground<'a> {
             || rayon::join(|| Inside::new(marker, profile.notch), || held(marker, &reference)),
         );
         let mut common = Common::new(&reference.shared, &reference, &grid, reference.common);
-        common.joints.extend(tees(&reference, &grid, &inside, profile.verify.max_uncut_mm));
+        let sizes = [profile.knife.width_mm, profile.verify.max_uncut_mm];
+        common.joints.extend(tees(&reference, &grid, &inside, sizes));
         Self { reference, grid, inside, common, held }
     }
 }

@@ -15,7 +15,7 @@ use crate::ir::marker::{Contour, Piece};
 use crate::machine::{NotchStyle, Notches};
 
 /// Edges that a band of a part holds on average, at the least.
-const EDGES_A_BAND: usize = 8;
+const EDGES_A_BAND: usize = 4;
 /// Bands that an edge reaches into on average, at the most.
 const BANDS_AN_EDGE: f64 = 4.0;
 
@@ -172,7 +172,8 @@ impl<'a> Part<'a> {
 
     /// The ends of an edge.
     fn ends(&self, edge: u32) -> [Point; 2] {
-        let ring = self.firsts.partition_point(|&first| first <= edge) - 1;
+        // Nearly all parts have one ring.
+        let ring = if self.rings.len() == 1 { 0 } else { self.firsts.partition_point(|&first| first <= edge) - 1 };
         let place = (edge - self.firsts[ring]) as usize;
         let [from, to] = self.rings[ring][place..place + 2] else { unreachable!("an edge has two ends") };
         [from, to]

@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::inside::Inside;
 use super::line::Line;
 use super::lines::Reference;
-use crate::geom::{Extent, Point, Vector, cross};
+use crate::geom::{Extent, Point, Vector, cross, polyline};
 
 /// Least sine of the angle between two lines for which their crossing is looked for in full; below it the search ends where
 /// lines at that angle would cross.
@@ -14,9 +14,9 @@ const LEAST_SINE: f64 = 0.1;
 /// Distance from its end at which a cut is tested for lying in a part, in tolerances.
 const LOOK: f64 = 2.0;
 
-/// The tees of the open cuts that come out of parts; lines meet that are drawn within `limit` mm. A slit in the waste frees
-/// nothing.
-pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, limit: f64) -> Vec<Joint> {
+/// The tees of the open cuts that come out of parts; lines meet that are drawn within `limit` mm, and a blade of `width` mm may
+/// be plunged over them. A slit in the waste frees nothing.
+pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, limit]: [f64; 2]) -> Vec<Joint> {
     let mut found: Vec<Joint> = Vec::new();
     let comes_out = |(end, along, ..): &(Point, Vector, &Line, u32)| {
         !inside.pieces_at(end + along * (LOOK * reference.tolerance)).is_empty()
@@ -33,7 +33,8 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, limit: f
             for chord in run.chords().filter(meets) {
                 // Both off by the tolerance they cross as far from there as they are askew.
                 let sine = cross(along, other.direction(chord)).abs().max(LEAST_SINE);
-                let about = Extent::between(end, end).grown(2.0 * (reference.tolerance + limit) / sine);
+                let bow = bow(other, other.chord(chord).deviation(end).1, width);
+                let about = Extent::between(end, end).grown((2.0 * (reference.tolerance + limit) + bow) / sine);
                 match found[before..].iter_mut().find(|joint| joint.cuts == cuts) {
                     Some(joint) => joint.about.join(&about),
                     None => found.push(Joint { at: end, block, cuts, about }),
@@ -42,6 +43,17 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, limit: f
         }
     }
     found
+}
+
+/// How far a blade of a width that is plunged over a station of a line may lie beside it there, mm: as far as an arc that turns
+/// as much.
+fn bow(line: &Line, station: f64, width: f64) -> f64 {
+    let (mut heading, mut reach) = (0.0, [0.0_f64; 2]);
+    for vertex in line.vertices(station - width, station + width) {
+        heading += line.turn(vertex);
+        reach = [reach[0].min(heading), reach[1].max(heading)];
+    }
+    polyline::sagitta(width, reach[1] - reach[0])
 }
 
 /// The ends of open cuts, each with the unit vector along its line from there and its block.

@@ -13,6 +13,7 @@ use cutc::source::Span;
 
 pub(crate) mod cloth;
 pub(crate) mod damage;
+pub(crate) mod fixtures;
 pub(crate) mod nests;
 pub(crate) mod page;
 pub(crate) mod program;
