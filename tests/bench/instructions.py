@@ -108,16 +108,15 @@ def count(built, what, arguments):
         if not isinstance(what, str):
             with open(source, "wb") as file:
                 subprocess.run([built / "examples/marker", *what], stdout=file, check=True)
-        # Without its caches simulated, cachegrind only counts.
-        valgrind = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
+        valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
         # One thread, and nothing else of the caller's environment.
         environment = {"PATH": os.environ["PATH"], "RAYON_NUM_THREADS": "1"}
         command = [*valgrind, str(built / "cutc"), *arguments(source, folder)]
         run = subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True)
-        collected = re.search(r"I +refs: +([\d,]+)", run.stderr)
+        collected = re.search(r"Collected : (\d+)", run.stderr)
         if run.returncode != 0 or collected is None:
             sys.exit(f"{' '.join(command)}: exit code {run.returncode}\n{run.stderr}")
-        return int(collected.group(1).replace(",", ""))
+        return int(collected.group(1))
 
 
 def show(counts, stored):
