@@ -125,7 +125,7 @@ impl Judge<'_> {
                 let off = followed.off(followed.tip - along * width);
                 most = most.max(off);
                 match self.knife.follow {
-                    // The heel leaves what is followed by no more than the tip goes: nearer than that nothing is farther off.
+                    // The deviation grows no faster than the tip goes on: before this place it does not exceed the greatest.
                     Follow::Tangent => from = tip + (most - off),
                     // Where a line is too tight for the chord mode, the blade lies along it in either.
                     Follow::Chord => most = most.max(followed.bow(width)),
@@ -182,7 +182,7 @@ impl Judge<'_> {
     }
 }
 
-/// What lies behind the tip of a blade that goes along a drawn line.
+/// Stretch of a drawn line behind the tip of a blade that goes along it.
 struct Followed<'a> {
     /// The points of the line up to the start of the chord that the tip is on.
     points: &'a [Point],

@@ -51,7 +51,7 @@ pub(in crate::verify) fn passed(line: &Line, places: &[Point], feet: &[Foot], al
     let (low, high) = (a.min(b), a.max(b));
     let chord = feet[0].chord;
     if low == high || feet[1].chord == chord && low > line.station(chord) && high < line.station(chord + 1) {
-        // Between two places amid one chord there is no vertex, and past the end of a line nothing is cut of it.
+        // No vertex lies between two places amid one chord, and none that counts between two past the end of a line.
         return None;
     }
     let is_cut = |vertex: &usize| polyline::distance_to_segment(line.point(*vertex), places[0], places[1]) <= allowed;

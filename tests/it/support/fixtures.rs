@@ -1,4 +1,4 @@
-//! The fixtures, and what a marker that was read of one holds.
+//! The fixtures, and the text of a marker that was read from one.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -43,7 +43,7 @@ fn at(point: Point) -> String {
     format!("{:.3} {:.3}", point.x, point.y)
 }
 
-/// What a marker holds: a line for each thing.
+/// Text of all that a marker holds, a line for each thing.
 pub(crate) fn describe(marker: &Marker, source: &Source) -> String {
     let mut out = format!("unit {} mm\n", marker.unit);
     for piece in &marker.pieces {
