@@ -19,6 +19,7 @@ mod pass;
 mod place;
 mod plunge;
 mod ring;
+mod root;
 mod runs;
 mod scene;
 mod slow;

@@ -12,6 +12,7 @@
 use std::collections::BTreeMap;
 
 use super::pass::ToolpathPass;
+use super::root;
 use super::runs;
 use super::scene::Scene;
 use crate::analysis::cloth::Surroundings;
@@ -36,6 +37,7 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
+    let part = toolpath.part;
     let mut met: BTreeMap<[u64; 2], usize> = BTreeMap::new();
     for run in runs::each(toolpath) {
         for end in [run.points[0], run.points[run.points.len() - 1]] {
@@ -45,9 +47,9 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
-        let [across, meeting] = [across(run, scene), meeting(run, &met, &around)];
-        run.heel = heel.length.max(across[0]).max(meeting[0]);
-        run.front = front.length.max(across[1]).max(meeting[1]);
+        let given = [heel.length, front.length];
+        let least = [across(run, scene), meeting(run, &met, &around), at_root(run, part, scene, &around)];
+        [run.heel, run.front] = least.into_iter().fold(given, |given, least| [0, 1].map(|k| given[k].max(least[k])));
         if run.shape == Shape::Ring {
             warn_if_tight(run, around.knife, diagnostics);
         }
@@ -68,22 +70,38 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
 }
 
 /// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, its own part at a reflex
-/// corner, too, and at the root of a slit. The cut that it must meet there may be off by that. A blade that a curve turns away
-/// from its start has less there, and passes it. `met` counts the ends of runs at each place.
+/// corner, too. The cut that it must meet there may be off by that. A blade that a curve turns away from its start has less
+/// there, and passes it. `met` counts the ends of runs at each place.
 fn meeting(run: &Run, met: &BTreeMap<[u64; 2], usize>, around: &Surroundings) -> [f64; 2] {
-    let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
-    let has_root = is_slit && polyline::length(&run.points) <= Notch::LONGEST;
-    let root = usize::from(run.turned);
     let is_meant = |k: usize| {
         let End { side, bare, .. } = run.ends[k];
         let end = run.points[[0, run.points.len() - 1][k]];
         let is_narrow = side == Side::Gap || side == Side::Part && met.get(&bits(end)).is_some_and(|&ends| ends > 1);
-        is_narrow && !bare || has_root && k == root
+        is_narrow && !bare
     };
-    let tolerance = around.tolerance;
-    let shares = || [heel_share(run, tolerance, MEETING_SHARE * tolerance, around.knife.width_mm), 1.0];
-    let least = |k: usize| if is_meant(k) { tolerance * shares()[k] } else { 0.0 };
+    let least = |k: usize| if is_meant(k) { around.tolerance * share(run, k, around.tolerance, around) } else { 0.0 };
     if run.shape == Shape::Open { [0, 1].map(least) } else { [0.0; 2] }
+}
+
+/// Least overlap at the root of a slit, mm; 0 at all other ends.
+fn at_root(run: &Run, part: u32, scene: &Scene, around: &Surroundings) -> [f64; 2] {
+    let is_slit = run.ends.iter().all(|end| end.bare && !end.corner && end.side != Side::Contour);
+    let k = usize::from(run.turned);
+    let mut least = [0.0; 2];
+    if run.shape == Shape::Open && is_slit && polyline::length(&run.points) <= Notch::LONGEST {
+        let n = run.points.len();
+        let [root, before] = [[0, 1], [n - 1, n - 2]][k].map(|i| run.points[i]);
+        let along = (root - before).normalize();
+        let reach = root::reach(root, along, part, around.tolerance, scene);
+        least[k] = reach * share(run, k, reach, around);
+    }
+    least
+}
+
+/// The part of an overlap of `length` mm at an end of a run that a blade can have which a curve turns away from its start.
+fn share(run: &Run, end: usize, length: f64, around: &Surroundings) -> f64 {
+    let allowed = MEETING_SHARE * around.tolerance;
+    if end == 0 { heel_share(run, length, allowed, around.knife.width_mm) } else { 1.0 }
 }
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {

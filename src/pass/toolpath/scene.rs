@@ -13,6 +13,8 @@ pub struct Scene<'a> {
     pub job: &'a Job,
     /// The parts.
     pub cloth: Cloth<'a>,
+    /// What is cut of them.
+    pub(super) marker: &'a Marker,
     /// The edges beside which another part's run.
     pub(super) near: NearLines<'a>,
     /// Where cuts of several parts cross each other.
@@ -25,7 +27,7 @@ impl<'a> Scene<'a> {
     /// The scene of a marker.
     pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
         let (near, junctions) = (NearLines::new(marker), Junctions::new(marker, &job.profile));
-        Self { job, cloth: Cloth::new(marker, &job.profile), near, junctions, unit: marker.unit }
+        Self { job, cloth: Cloth::new(marker, &job.profile), marker, near, junctions, unit: marker.unit }
     }
 
     /// The cloth and the blade as the cuts of a toolpath see them.

@@ -66,7 +66,7 @@ impl Judge<'_> {
             let beyond = if is_lap { lapped(cut, line.length()) } else { trial.beyond(cut, places[i]) };
             account.see(Kind::Overcut, here, beyond);
             account.see(Kind::Shortened, here, asked[i].into_iter().fold(0.0, f64::max) - beyond);
-            let is_amid = || station.min(line.length() - station) > 2.0 * self.tracer.allowed;
+            let is_amid = || station.min(line.length() - station) > self.tracer.allowed;
             if if line.ring { !trial.laps } else { is_amid() } {
                 account.see(Kind::Lift, here, 0.0);
             }

@@ -81,6 +81,11 @@ impl Chord {
         [self.from, self.from + way / 2.0 + self.sagitta, self.from + way]
     }
 
+    /// How far the curve that it stands for lies beside it at the most, mm.
+    pub(in crate::verify) fn sagitta(&self) -> f64 {
+        self.sagitta.norm()
+    }
+
     /// Its station and its length, mm.
     pub(in crate::verify) fn stations(&self) -> [f64; 2] {
         [self.start, self.length]

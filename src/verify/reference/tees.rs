@@ -14,8 +14,9 @@ const LEAST_SINE: f64 = 0.1;
 /// Distance from its end at which a cut is tested for lying in a part, in tolerances.
 const LOOK: f64 = 2.0;
 
-/// The tees of the open cuts that come out of parts; lines meet that are drawn within `limit` mm, and a blade of `width` mm may
-/// be plunged over them. A slit in the waste frees nothing.
+/// The tees of the open cuts that come out of parts. Lines meet that are drawn within `limit` mm; one that is met may be cut
+/// beside its chord, as the curve that this stands for, or by a blade of `width` mm that is plunged over it. A slit in the waste
+/// frees nothing.
 pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, limit]: [f64; 2]) -> Vec<Joint> {
     let mut found: Vec<Joint> = Vec::new();
     let comes_out = |(end, along, ..): &(Point, Vector, &Line, u32)| {
@@ -33,8 +34,9 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
             for chord in run.chords().filter(meets) {
                 // Both off by the tolerance they cross as far from there as they are askew.
                 let sine = cross(along, other.direction(chord)).abs().max(LEAST_SINE);
-                let bow = bow(other, other.chord(chord).deviation(end).1, width);
-                let about = Extent::between(end, end).grown((2.0 * (reference.tolerance + limit) + bow) / sine);
+                let chord = other.chord(chord);
+                let beside = bow(other, chord.deviation(end).1, width) + chord.sagitta();
+                let about = Extent::between(end, end).grown((2.0 * (reference.tolerance + limit) + beside) / sine);
                 match found[before..].iter_mut().find(|joint| joint.cuts == cuts) {
                     Some(joint) => joint.about.join(&about),
                     None => found.push(Joint { at: end, block, cuts, about }),

@@ -1,0 +1,54 @@
+//! The root of a slit: how far the slit goes past it, so that it meets the cut of the edge that it comes from.
+//!
+//! Slit and edge may each be cut beside their line, to opposite sides: by the tolerance, and the edge by the sagitta of its
+//! chord too, where that stands for a curve.
+
+use super::scene::Scene;
+use crate::geom::{Point, Vector, cross, polyline};
+use crate::ir::marker::CutKind;
+use crate::machine::profile::Fit;
+
+/// Least sine of the angle between a slit and its edge: flatter ones would need a reach without bound.
+const LEAST_SINE: f64 = 0.4;
+/// Smaller turns are none, rad: rounding.
+const TURN_EPSILON: f64 = 1e-6;
+
+/// How far a slit of a part goes past its root along a unit vector, mm. A root on no edge that is cut with its own part lies on
+/// a neighbour's, of which the greatest sagitta is assumed.
+pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene: &Scene) -> f64 {
+    let profile = &scene.job.profile;
+    let edges = scene.marker.cuts_of(part).iter().filter(|cut| cut.kind != CutKind::Slit);
+    let beside = |points: &[Point]| {
+        let away = |i: usize| polyline::distance_to_segment(root, points[i], points[i + 1]);
+        let chords = (0..points.len() - 1).filter(|&i| away(i) <= profile.verify.max_uncut_mm);
+        let sine = |i: usize| polyline::direction(points[i], points[i + 1]).map_or(0.0, |way| cross(way, along).abs());
+        chords.map(|i| (away(i) + sagitta(points, i, scene) + tolerance) / sine(i).max(LEAST_SINE)).reduce(f64::max)
+    };
+    let reaches = edges.filter_map(|cut| beside(&scene.marker.list.points(cut.range)));
+    reaches.reduce(f64::max).unwrap_or(tolerance + most(scene))
+}
+
+/// How far the curve that a chord stands for lies beside it, mm: none where it turns back or at a corner.
+fn sagitta(points: &[Point], chord: usize, scene: &Scene) -> f64 {
+    let chords = points.len() - 1;
+    let is_closed = points[0] == points[chords];
+    // A closed polyline ends with its first point.
+    let turn = |vertex: usize| {
+        let inner = if vertex == 0 || vertex == chords { is_closed.then_some(0)? } else { vertex };
+        let before = points[if inner == 0 { chords - 1 } else { inner - 1 }];
+        Some(polyline::turn_at(before, points[inner], points[inner + 1]))
+    };
+    let (Some(before), Some(behind)) = (turn(chord), turn(chord + 1)) else { return most(scene) };
+    let is_turn = |turn: f64| turn.abs() > TURN_EPSILON && turn.abs() < scene.job.profile.corner_angle();
+    if before * behind < 0.0 || !is_turn(before) || !is_turn(behind) {
+        return 0.0;
+    }
+    let length = (points[chord + 1] - points[chord]).norm();
+    polyline::sagitta(length, f64::midpoint(before, behind).abs()).min(most(scene))
+}
+
+/// The greatest sagitta of a chord, mm.
+fn most(scene: &Scene) -> f64 {
+    let path = &scene.job.profile.path;
+    if path.fit == Fit::Curve { path.chord_sag_max_mm } else { 0.0 }
+}
