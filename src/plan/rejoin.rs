@@ -14,6 +14,8 @@ use crate::machine::Job;
 
 /// Shares of the tolerance that are tried where blades plunge, when all of it would let the curve turn from one.
 const NARROWER: [f64; 3] = [0.4, 0.15, 0.05];
+/// Shares of the tolerance within which the curve keeps to the chords, when no curve that bulges beyond them will do.
+const CHORDS: [f64; 2] = [1.0, 0.4];
 /// Part of the greatest heading that a curve may turn from a plunged blade more than its line does.
 const LEAD_SHARE: f64 = 0.9;
 
@@ -60,6 +62,9 @@ fn groups(runs: &[&Run]) -> Vec<Vec<usize>> {
     };
     starts.map(group).collect()
 }
+
+/// The band about a polyline.
+type Band<'a> = dyn Fn(&[Point]) -> ToleranceBand + 'a;
 
 /// The line of several runs.
 struct Line<'a> {
@@ -151,16 +156,24 @@ impl<'a> Line<'a> {
             };
             return self.parts.iter().map(cut).collect();
         }
-        // Where the curve of a ring cannot be led onto its own start, it keeps near to its line there.
-        let ring = self.ring.as_ref().and_then(|ring| self.cuts_along(Some(ring), tolerance, job));
-        ring.or_else(|| self.cuts_along(None, tolerance, job))
+        let bulging = |points: &[Point]| ToleranceBand::new(points.to_vec(), tolerance, &job.profile);
+        let found = self.cuts_within(&bulging, tolerance, job);
+        let within = |share: f64| move |points: &[Point]| ToleranceBand::plain(points.to_vec(), share * tolerance);
+        found.or_else(|| CHORDS.into_iter().find_map(|share| self.cuts_within(&within(share), tolerance, job)))
     }
 
-    /// The cuts of its runs along one curve: that of the ring that they go round, if one is given; `None` where none was found.
-    fn cuts_along(&self, ring: Option<&Run>, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
+    /// The cuts of its runs along one curve within a band; `None` where none was found.
+    fn cuts_within(&self, band: &Band, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
+        // Where the curve of a ring cannot be led onto its own start, it keeps near to its line there.
+        let ring = self.ring.as_ref().and_then(|ring| self.cuts_along(Some(ring), band, tolerance, job));
+        ring.or_else(|| self.cuts_along(None, band, tolerance, job))
+    }
+
+    /// The cuts of its runs along one curve within a band: that of the ring that they go round, if one is given.
+    fn cuts_along(&self, ring: Option<&Run>, band: &Band, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let mut shares: Vec<f64> = vec![1.0; self.parts.len()];
         loop {
-            let (first, smooth) = self.smooth(ring, &shares, tolerance, job)?;
+            let (first, smooth) = self.smooth(ring, &shares, band, [tolerance, job.profile.knife.width_mm])?;
             let cuts = self.along(&smooth, first, tolerance, job);
             if cuts.iter().all(Option::is_some) {
                 return cuts.into_iter().collect();
@@ -183,10 +196,15 @@ impl<'a> Line<'a> {
         stations.windows(2).map(is_under).collect()
     }
 
-    /// A smooth curve along the line, with a share of the tolerance under the blade where each part begins, and the parameter
-    /// at which the line begins.
-    fn smooth(&self, ring: Option<&Run>, shares: &[f64], tolerance: f64, job: &Job) -> Option<(f64, Smooth)> {
-        let width = job.profile.knife.width_mm;
+    /// A smooth curve along the line within a band, with a share of the tolerance under the blade where each part begins, and
+    /// the parameter at which the line begins.
+    fn smooth(
+        &self,
+        ring: Option<&Run>,
+        shares: &[f64],
+        band: &Band,
+        [tolerance, width]: [f64; 2],
+    ) -> Option<(f64, Smooth)> {
         let length = ring.map(|ring| polyline::length(&ring.points));
         let ring = ring.map(|ring| (run::extended(ring, tolerance, width), ring));
         let (points, junctions, first, lap) = match &ring {
@@ -194,7 +212,7 @@ impl<'a> Line<'a> {
             None => (&self.points, &self.junctions, 0.0, None),
         };
         let near = if lap.is_some() { [Near::default(); 2] } else { self.near };
-        let plain = || ToleranceBand::new(points.clone(), tolerance, &job.profile).with_lap(lap);
+        let plain = || band(points).with_lap(lap);
         let band = || plain().with_ends(near);
         let under = |part: &Part| Self::under_plunge(part, points, first, length, width);
         let along = |band: &dyn Fn() -> ToleranceBand| {

@@ -122,6 +122,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("junctions", "tells which chords come by a junction, for the pass that keeps the tip near its line there"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
     ("pass", "says what a pass is"),
+    ("root", "tells how far a slit goes past its root, for the pass that lays overlaps"),
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("search", "shares out searches over all pieces, for several passes"),

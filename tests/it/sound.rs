@@ -21,22 +21,25 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("inch-nest.cut", ""),                  // two cuts that end at one corner and go on the same way
     ("lifted-bends.cut", "knife.max_down_mm=60"), // a lift over one bend of a coarse circle
     ("lifted-blob.cut", "knife.max_down_mm=38"), // lifts right before bends
-    ("lifted-ring.cut", "knife.max_down_mm=30"), // lifts amid a ring
+    ("lifted-coarse.csv", "knife.width_mm=3 knife.back_mm=1.5 knife.max_down_mm=30"), // lifts on chords that stand for a curve
+    ("lifted-ring.cut", "knife.max_down_mm=30"),                                      // lifts amid a ring
     ("lifted-slit.csv", "knife.max_down_mm=10"), // a slit that ends on a curve where the blade is plunged
     ("lifted-start.cut", "knife.max_down_mm=60"), // a ring that begins where no blade can enter it
-    ("long-heel.cut", LONG_HEEL),           // a heel overlap of half a blade
-    ("narrow-spike.cut", COARSE),           // a leg of a spike beside the other leg
+    ("long-heel.cut", LONG_HEEL),                // a heel overlap of half a blade
+    ("narrow-spike.cut", COARSE),                // a leg of a spike beside the other leg
     ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
-    ("noisy-circle.cut", ""),               // a digitised circle of 5 mm
+    ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
-    ("polygon.cut", ""),                    // edges shorter than the blade
-    ("scallops.cut", COARSE),               // a chord that the blade before covers and the one behind does not meet
-    ("small-holes.cut", LONG_OVERLAPS),     // holes narrower than the blade with long overlaps
-    ("spike.plt", "--cut-all"),             // a chord of 0.18 mm at the point of a spike
-    ("straight-edge.cut", COARSE),          // an edge as long as the blade that bends a little
-    ("tabs.cut", ""),                       // a curve that begins at a reflex corner
-    ("two-plunges.cut", COARSE),            // a line whose last two plunges reach its end
+    ("polygon.cut", ""),                         // edges shorter than the blade
+    ("scallops.cut", COARSE), // a chord that the blade before covers and the one behind does not meet
+    ("slit-coarse.csv", ""),  // slits that end on an edge whose chords stand for a curve
+    ("slit-root.plt", "knife.width_mm=3 knife.back_mm=1.5"), // a slit whose edge is cut as far beside it as may be
+    ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps
+    ("spike.plt", "--cut-all"), // a chord of 0.18 mm at the point of a spike
+    ("straight-edge.cut", COARSE), // an edge as long as the blade that bends a little
+    ("tabs.cut", ""),         // a curve that begins at a reflex corner
+    ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end
     ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
 ];
 const NO_OVERLAPS: &str =

@@ -4,14 +4,13 @@
 //! chord too, where that stands for a curve.
 
 use super::scene::Scene;
+use crate::analysis::bulge::bulge;
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::marker::CutKind;
-use crate::machine::profile::Fit;
+use crate::machine::Fit;
 
 /// Least sine of the angle between a slit and its edge: flatter ones would need a reach without bound.
 const LEAST_SINE: f64 = 0.4;
-/// Smaller turns are none, rad: rounding.
-const TURN_EPSILON: f64 = 1e-6;
 
 /// How far a slit of a part goes past its root along a unit vector, mm. A root on no edge that is cut with its own part lies on
 /// a neighbour's, of which the greatest sagitta is assumed.
@@ -28,7 +27,7 @@ pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene
     reaches.reduce(f64::max).unwrap_or(tolerance + most(scene))
 }
 
-/// How far the curve that a chord stands for lies beside it, mm: none where it turns back or at a corner.
+/// Sagitta of a chord, mm; the greatest one at the ends of what is not closed, whose turn there is another cut's.
 fn sagitta(points: &[Point], chord: usize, scene: &Scene) -> f64 {
     let chords = points.len() - 1;
     let is_closed = points[0] == points[chords];
@@ -39,12 +38,7 @@ fn sagitta(points: &[Point], chord: usize, scene: &Scene) -> f64 {
         Some(polyline::turn_at(before, points[inner], points[inner + 1]))
     };
     let (Some(before), Some(behind)) = (turn(chord), turn(chord + 1)) else { return most(scene) };
-    let is_turn = |turn: f64| turn.abs() > TURN_EPSILON && turn.abs() < scene.job.profile.corner_angle();
-    if before * behind < 0.0 || !is_turn(before) || !is_turn(behind) {
-        return 0.0;
-    }
-    let length = (points[chord + 1] - points[chord]).norm();
-    polyline::sagitta(length, f64::midpoint(before, behind).abs()).min(most(scene))
+    bulge((points[chord + 1] - points[chord]).norm(), [before, behind], &scene.job.profile).abs()
 }
 
 /// The greatest sagitta of a chord, mm.

@@ -1,15 +1,14 @@
 //! Where the tip may run beside a polyline: within a part of the tolerance, and on chords of a flattened curve also
 //! outside of them, by the sagitta that the turns at their ends suggest.
 
+use crate::analysis::bulge::bulge;
 use crate::geom::{Point, Vector, left, polyline};
-use crate::machine::{Fit, MachineProfile};
+use crate::machine::MachineProfile;
 
 /// Turns of a curve differ by less than this factor from one vertex to the next.
 const ALIKE: f64 = 2.0;
 /// Shorter ways beside a chord are none, mm: an end of an arc that lies at a vertex.
 const LENGTH_EPSILON: f64 = 1e-9;
-/// Smaller turns are none, rad.
-const TURN_EPSILON: f64 = 1e-6;
 
 /// A polyline and what counts as on it.
 #[derive(Debug, Clone)]
@@ -44,20 +43,7 @@ impl ToleranceBand {
         let [first, last] = seam;
         let end = turns.len() - 1;
         (turns[0], turns[end]) = (first, last);
-        let corner = profile.corner_angle();
-        let is_turn = |turn: f64| turn.abs() > TURN_EPSILON && turn.abs() < corner;
-        let height = |i: usize| {
-            let [before, after] = [turns[i], turns[i + 1]];
-            let length = stations[i + 1] - stations[i];
-            let is_curve =
-                before * after > 0.0 && is_turn(before) && is_turn(after) && length <= polyline::CURVE_CHORD_MAX;
-            if profile.path.fit == Fit::Polygon || !is_curve {
-                return 0.0;
-            }
-            let mean = f64::midpoint(before, after);
-            // A path that turns left lies to the right of its chords.
-            -mean.signum() * (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm)
-        };
+        let height = |i: usize| bulge(stations[i + 1] - stations[i], [turns[i], turns[i + 1]], profile);
         let heights: Vec<f64> = (0..end).map(height).collect();
         let sagitta = |i: usize| left(points[i + 1] - points[i]) * (heights[i] / (stations[i + 1] - stations[i]));
         let sagittas = (0..end).map(sagitta).collect();

@@ -5,12 +5,10 @@
 //! everywhere else it is the plain neighbourhood of the chord.
 
 use super::lap::Lap;
+use crate::analysis::bulge::bulge;
 use crate::geom::{Point, Vector, left, polyline, spline};
 use crate::machine::MachineProfile;
-use crate::machine::profile::Fit;
 
-/// Smaller turns are none, rad: an overlap runs straight on, but for rounding.
-const TURN_EPSILON: f64 = 1e-6;
 /// The part of the tolerance that is used on chords by a junction, and what is tried where that is too tight. Cuts reach past
 /// each other by one tolerance; two tips that are each off by a quarter use half of that.
 pub(in crate::plan) const JUNCTION_SHARES: [f64; 2] = [0.25, 0.5];
@@ -96,10 +94,12 @@ impl ToleranceBand {
     /// The band of a polyline.
     pub(in crate::plan) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
         let mut band = Self::plain(points, tolerance);
-        if profile.path.fit == Fit::Curve {
-            let ends = band.points.windows(2).zip(band.turns.windows(2));
-            band.sagittas = ends.map(|(p, turns)| sagitta(p[0], p[1], [turns[0], turns[1]], profile)).collect();
-        }
+        let ends = band.points.windows(2).zip(band.turns.windows(2));
+        let sagitta = |(p, turns): (&[Point], &[f64])| {
+            let length = (p[1] - p[0]).norm();
+            left((p[1] - p[0]) / length) * bulge(length, [turns[0], turns[1]], profile)
+        };
+        band.sagittas = ends.map(sagitta).collect();
         band
     }
 
@@ -165,24 +165,10 @@ impl Section {
     }
 }
 
-/// The chord sagitta of one chord: L * turn / 8, that of an arc of that chord, at most `path.chord_sag_max_mm`.
-fn sagitta(a: Point, b: Point, turns: [f64; 2], profile: &MachineProfile) -> Vector {
-    let [before, after] = turns;
-    let length = (b - a).norm();
-    let corner = profile.corner_angle();
-    let same_side = before * after > 0.0 && before.abs().min(after.abs()) > TURN_EPSILON;
-    if !same_side || before.abs() >= corner || after.abs() >= corner || length > polyline::CURVE_CHORD_MAX {
-        return Vector::zeros();
-    }
-    let mean = f64::midpoint(before, after);
-    let height = (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm);
-    // A path that turns left lies to the right of its chords.
-    left((b - a) / length) * (-mean.signum() * height)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::Fit;
 
     fn circle(radius: f64, n: usize) -> Vec<Point> {
         (0..=n)
