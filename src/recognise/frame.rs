@@ -1,4 +1,5 @@
-//! The frame of a marker: a rectangle around all parts, drawn like them.
+//! The frames of markers: rectangles around parts, drawn like them. A frame is known by what it holds: a title block, a
+//! test square or a second marker may lie beside it.
 
 use super::close::Reach;
 use super::line::{Class, Line, SMALL_OUTLINE};
@@ -13,6 +14,17 @@ use crate::machine::plot::Frame;
 /// Least share of a frame that the closed lines in it fill; a rectangle with less is a part with cut-outs. A frame taken for
 /// a part is reported; a part taken for a frame would be cut inside.
 const LEAST_FILL: f64 = 0.5;
+/// Least share of a rectangle that the closed lines in it fill where somebody must say whether it is a frame: with less it
+/// is a part with cut-outs.
+const LEAST_DOUBTFUL: f64 = 0.15;
+/// Area of all that lies outside frames, as a share of theirs, at the most: title blocks and test squares. More may be
+/// parts, and then the rectangle may be one of them.
+const MOST_OUTSIDE: f64 = 0.1;
+/// Share of an outer frame that the frame in it takes where something lies between them: the cloth on the paper.
+const LEAST_CLOTH: f64 = 0.75;
+/// Frames beside each other hold so many parts or are filled so far that they are no parts with cut-outs.
+const SURE_PARTS: usize = 4;
+const SURE_FILL: f64 = 0.7;
 /// Frames in frames that are looked for: the paper, and the cloth on it.
 const MOST_FRAMES: usize = 3;
 
@@ -35,23 +47,46 @@ pub(super) struct FrameSettings {
 
 /// Marks the frames among the lines. A rectangle around one closed line alone is a part, and so is one around its seam
 /// line and small marks. An open line that a rectangle would close along its edge, from inside, is as good as a closed
-/// one.
-pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], settings: FrameSettings, work: &mut Budget) {
+/// one. Returns a rectangle that may be a frame or a part, if only somebody else can tell.
+pub(super) fn mark(
+    lines: &mut [Line],
+    vertices: &[Vertex],
+    settings: FrameSettings,
+    work: &mut Budget,
+) -> Option<usize> {
     let is_large = |line: &Line| line.may_hold() && line.size() > SMALL_OUTLINE;
     let mut order: Vec<usize> = (0..lines.len()).filter(|&i| is_large(&lines[i])).collect();
     order.sort_by(|&a, &b| lines[b].area.total_cmp(&lines[a].area).then(a.cmp(&b)));
-    match settings.how {
-        Frame::None => {}
-        Frame::Outermost => {
-            if let Some(&first) = order.first() {
-                lines[first].class = Class::Frame;
-            }
-        }
-        Frame::Auto => {
-            let count = Frames { lines, vertices, settings }.count(&order, work);
-            order[..count].iter().for_each(|&frame| lines[frame].class = Class::Frame);
-        }
-    }
+    let is_open = |line: &Line| !line.is_closed && line.is_open_question() && line.size() > SMALL_OUTLINE;
+    let open = (0..lines.len()).filter(|&i| is_open(&lines[i])).collect();
+    let search = Frames { lines, vertices, settings, open };
+    let found = match settings.how {
+        Frame::None => Found::default(),
+        Frame::Outermost => search.asked(&order, work),
+        Frame::Auto => search.find(&order, work),
+    };
+    found.frames.iter().for_each(|&frame| lines[frame].class = Class::Frame);
+    found.doubt
+}
+
+/// Frames, and a rectangle that may be one.
+#[derive(Default)]
+struct Found {
+    frames: Vec<usize>,
+    doubt: Option<usize>,
+}
+
+/// A line that lies in no other, and the lines in it, the largest first.
+struct Top {
+    line: usize,
+    inner: Vec<usize>,
+}
+
+/// The parts in a rectangle: how many, and the share of it that they fill.
+#[derive(Clone, Copy)]
+struct Filling {
+    parts: usize,
+    share: f64,
 }
 
 /// The lines among which frames are looked for.
@@ -59,39 +94,135 @@ struct Frames<'a> {
     lines: &'a [Line],
     vertices: &'a [Vertex],
     settings: FrameSettings,
+    /// Large open lines.
+    open: Vec<usize>,
 }
 
 impl Frames<'_> {
-    /// How many of the large lines, the largest first, are frames.
-    fn count(&self, order: &[usize], work: &mut Budget) -> usize {
-        let may_be = |k: &usize| {
-            self.lines[order[*k]].is_rectangle(self.settings.band) && self.holds(order[*k], &order[k + 1..])
+    /// The largest line, and the rectangles beside it around two lines or more.
+    fn asked(&self, order: &[usize], work: &mut Budget) -> Found {
+        let tops = self.tops(order, work);
+        let is_frame = |(k, top): &(usize, &Top)| *k == 0 || self.is_rectangle(top.line) && top.inner.len() > 1;
+        let frames = tops.iter().enumerate().filter(is_frame).map(|(_, top)| top.line).collect();
+        Found { frames, doubt: None }
+    }
+
+    /// The frames among large lines, the largest first: those of several markers beside each other, too.
+    fn find(&self, order: &[usize], work: &mut Budget) -> Found {
+        let tops = self.tops(order, work);
+        let (mut frames, mut framed, mut outside) = (Vec::new(), 0.0, 0.0);
+        let mut fillings: Vec<(usize, Filling)> = Vec::new();
+        for top in &tops {
+            let area = self.lines[top.line].area;
+            match self.frame(top, 1, work) {
+                Some((found, filling)) => {
+                    frames.extend(found);
+                    fillings.push((top.line, filling));
+                    framed += area;
+                }
+                None => outside += area,
+            }
+        }
+        let Some(&(first, _)) = fillings.first() else {
+            return Found { frames, doubt: self.doubtful(&tops, outside, work) };
         };
-        let count = (0..order.len().min(MOST_FRAMES)).take_while(may_be).count();
-        (1..=count).rev().find(|&count| self.is_around_several(order, count, work)).unwrap_or(0)
+        let is_sure = |filling: Filling| filling.parts >= SURE_PARTS || filling.share >= SURE_FILL;
+        let are_sure = fillings.len() == 1 || fillings.iter().all(|&(_, filling)| is_sure(filling));
+        if outside <= MOST_OUTSIDE * framed && are_sure {
+            return Found { frames, doubt: None };
+        }
+        // Among many parts a rectangle with cut-outs is one of them.
+        Found { frames: Vec::new(), doubt: Some(first).filter(|_| outside <= framed) }
     }
 
-    /// Whether lines lie in another. A hem may be drawn past the corner of its part, and so past the frame.
+    /// A rectangle that is nearly all there is, and holds parts or cut-outs beside each other that fill some of it.
+    fn doubtful(&self, tops: &[Top], outside: f64, work: &mut Budget) -> Option<usize> {
+        let top = tops.first().filter(|top| top.inner.len() > 1 && self.is_rectangle(top.line))?;
+        let area = self.lines[top.line].area;
+        let filling = self.filling(top, work).filter(|filling| filling.share >= LEAST_DOUBTFUL)?;
+        (filling.parts > 1 && outside - area <= MOST_OUTSIDE * area).then_some(top.line)
+    }
+
+    /// The frames that a line and those in it are, the outermost first, if it is one.
+    fn frame(&self, top: &Top, depth: usize, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
+        if depth > MOST_FRAMES || !self.is_rectangle(top.line) {
+            return None;
+        }
+        let mut frames = vec![top.line];
+        let inner = self.inner_frames(top, depth, work);
+        let filling = self.filling(top, work).filter(|filling| filling.share >= LEAST_FILL);
+        let filling = match inner {
+            Some((inner, filling)) => {
+                frames.extend(inner);
+                filling
+            }
+            None => filling?,
+        };
+        Some((frames, filling))
+    }
+
+    /// The frames in a frame: the cloth on the paper, around all that lies there but a title block.
+    fn inner_frames(&self, outer: &Top, depth: usize, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
+        let tops = self.tops(&outer.inner, work);
+        let [first, others @ ..] = &tops[..] else { return None };
+        let area = |line: usize| self.lines[line].area;
+        let outside = others.iter().fold(0.0, |sum, top| sum + area(top.line));
+        let is_cloth = area(first.line) >= LEAST_CLOTH * area(outer.line);
+        if !others.is_empty() && (!is_cloth || outside > MOST_OUTSIDE * area(first.line)) {
+            return None;
+        }
+        self.frame(first, depth + 1, work)
+    }
+
+    fn is_rectangle(&self, line: usize) -> bool {
+        self.lines[line].is_rectangle(self.settings.band)
+    }
+
+    /// The lines that lie in none of the others, each with those that lie in it. None when the budget does not last.
+    fn tops(&self, order: &[usize], work: &mut Budget) -> Vec<Top> {
+        let extent = |line: usize| self.lines[line].extent.grown(self.settings.band);
+        let boxes = Boxes::new(order.iter().map(|&line| extent(line)).collect());
+        let mut tops: Vec<Top> = Vec::new();
+        let mut top_of: Vec<Option<usize>> = vec![None; order.len()];
+        for (k, &line) in order.iter().enumerate() {
+            let at = middle(&self.lines[line].extent);
+            if !work.spend(boxes.cost_at(at)) {
+                return Vec::new();
+            }
+            let holder = |other: usize| top_of[other].filter(|_| other < k && self.holds(order[other], &[line]));
+            if let Some(top) = boxes.at(at).filter_map(holder).min() {
+                tops[top].inner.push(line);
+            } else {
+                top_of[k] = Some(tops.len());
+                tops.push(Top { line, inner: Vec::new() });
+            }
+        }
+        tops
+    }
+
+    /// Whether lines lie in another.
     fn holds(&self, outer: usize, inner: &[usize]) -> bool {
-        let reach = self.lines[outer].extent.grown(self.settings.band);
-        let lies_in = |extent: &Extent| reach.holds(middle(extent)) && reach.grown(seam::FARTHEST).covers(extent);
-        inner.iter().all(|&i| lies_in(&self.lines[i].extent))
+        let outer = [self.lines[outer].extent];
+        inner.iter().all(|&i| is_in_frame(&self.lines[i], &outer, self.settings.band))
     }
 
-    /// Whether the last of some frames holds two parts or more that fill much of it.
-    fn is_around_several(&self, order: &[usize], count: usize, work: &mut Budget) -> bool {
-        let (frames, inner) = order.split_at(count);
-        let frame = &self.lines[frames[count - 1]];
+    /// What fills a rectangle, if that is around two parts or more.
+    fn filling(&self, Top { line, inner }: &Top, work: &mut Budget) -> Option<Filling> {
+        let frame = &self.lines[*line];
         let edged = self.beside(frame, inner, work);
-        let filled = outermost_area(self.lines, inner) + edged.iter().map(|&i| self.lines[i].area).sum::<f64>();
-        let are_several = match inner {
+        let are_several = match &inner[..] {
             [largest, others @ ..] => {
                 let several = !edged.is_empty() || !others.is_empty() && !self.holds(*largest, others);
                 several && !self.is_part(frame, *largest, &[others, &edged].concat(), work)
             }
             [] => edged.len() > 1,
         };
-        are_several && filled >= LEAST_FILL * frame.area
+        if !are_several {
+            return None;
+        }
+        let outermost = outermost(self.lines, inner);
+        let all = || outermost.iter().chain(&edged);
+        Some(Filling { parts: all().count(), share: all().map(|&i| self.lines[i].area).sum::<f64>() / frame.area })
     }
 
     /// Whether a rectangle is a part: one line in it is its seam line, and all others in it are lines of that or small
@@ -108,13 +239,13 @@ impl Frames<'_> {
     fn beside(&self, frame: &Line, closed: &[usize], work: &mut Budget) -> Vec<usize> {
         let FrameSettings { band, reach, .. } = self.settings;
         let within = frame.extent.grown(band);
-        let may_be = |line: &Line| {
-            let is_open = !line.is_closed && line.is_open_question() && line.size() > SMALL_OUTLINE;
-            is_open && within.covers(&line.extent) && reach.is_edged(&frame.extent, line, self.vertices)
-        };
+        let may_be = |line: &Line| within.covers(&line.extent) && reach.is_edged(&frame.extent, line, self.vertices);
+        if !self.open.iter().any(|&i| may_be(&self.lines[i])) {
+            return Vec::new(); // as in nearly all
+        }
         let boxes = Boxes::new(closed.iter().map(|&i| self.lines[i].extent).collect());
         let mut found: Vec<usize> = Vec::new();
-        for i in (0..self.lines.len()).filter(|&i| may_be(&self.lines[i])) {
+        for i in self.open.iter().copied().filter(|&i| may_be(&self.lines[i])) {
             let extent = self.lines[i].extent;
             if found.len() == MOST_HOLDERS || !work.spend(boxes.cost_near(&extent)) {
                 break;
@@ -129,12 +260,31 @@ impl Frames<'_> {
     }
 }
 
-/// Area covered by the closed lines, mm2: that of the lines whose box lies in no other box.
-fn outermost_area(lines: &[Line], by_size: &[usize]) -> f64 {
+/// The closed lines whose box lies in no other box.
+fn outermost(lines: &[Line], by_size: &[usize]) -> Vec<usize> {
     let boxes = Boxes::new(by_size.iter().map(|&i| lines[i].extent).collect());
-    let is_outermost = |k: usize| {
-        let extent = &lines[by_size[k]].extent;
-        !boxes.at(extent.min).take(MOST_HOLDERS).any(|other| other < k && boxes.all()[other].covers(extent))
+    let is_outermost = |k: &usize| {
+        let extent = &lines[by_size[*k]].extent;
+        !boxes.at(extent.min).take(MOST_HOLDERS).any(|other| other < *k && boxes.all()[other].covers(extent))
     };
-    (0..by_size.len()).filter(|&k| is_outermost(k)).map(|k| lines[by_size[k]].area).sum()
+    (0..by_size.len()).filter(is_outermost).map(|k| by_size[k]).collect()
+}
+
+/// The frames that hold no other one: they show the cloth.
+pub(super) fn cloths(lines: &[Line], band: f64) -> Vec<Extent> {
+    let frames: Vec<&Line> = lines.iter().filter(|line| line.class == Class::Frame).collect();
+    let is_around = |outer: &Line| {
+        let extent = [outer.extent];
+        frames.iter().any(|inner| inner.area < outer.area && is_in_frame(inner, &extent, band))
+    };
+    frames.iter().filter(|frame| !is_around(frame)).map(|frame| frame.extent).collect()
+}
+
+/// Whether a line lies in one of some frames. A hem may be drawn past it.
+pub(super) fn is_in_frame(line: &Line, frames: &[Extent], band: f64) -> bool {
+    let holds = |frame: &Extent| {
+        let reach = frame.grown(band);
+        reach.holds(middle(&line.extent)) && reach.grown(seam::FARTHEST).covers(&line.extent)
+    };
+    frames.iter().any(holds)
 }

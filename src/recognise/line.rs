@@ -15,6 +15,7 @@ pub(super) enum Class {
     Seam,
     Sign,
     SmallOutline,
+    Outside,
     FromEdge,
     OpenOutline,
     BrokenOutline,
@@ -56,7 +57,7 @@ pub(super) struct Rule {
 /// Classes of lines in the order in which they are shown, and whether their lines are cut: a wrong cut inside a part
 /// cannot be mended, one that is missing can.
 #[rustfmt::skip] // a table: one row a class
-pub(super) const RULES: [Rule; 15] = [
+pub(super) const RULES: [Rule; 16] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
     Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards, or from edge to edge", cut: Cut::Always },
     Rule { class: Class::Hole, name: "hole", about: "a closed square or circle up to hpgl.drill_max_mm, drilled", cut: Cut::Always },
@@ -64,6 +65,7 @@ pub(super) const RULES: [Rule; 15] = [
     Rule { class: Class::Seam, name: "seam line", about: "a closed line that follows the outline around it from inside", cut: Cut::All },
     Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Every },
     Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
+    Rule { class: Class::Outside, name: "outside line", about: "a closed line outside the frame", cut: Cut::Every },
     Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Every },
     Rule { class: Class::OpenOutline, name: OPEN_OUTLINE, about: "an open line around a closed one, which is no part", cut: Cut::Every },
     Rule { class: Class::BrokenOutline, name: BROKEN_OUTLINE, about: "one of some open lines around a closed one, which is no part", cut: Cut::Every },

@@ -56,6 +56,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
         strokes: Vec::new(),
         from_edges: Vec::new(),
         remains: Vec::new(),
+        frame_doubt: None,
         pens,
         texts,
         unit,

@@ -4,6 +4,7 @@ use std::cell::{LazyCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::doubts::{self, finding};
+use super::frame;
 use super::line::{Class, Line, SMALL_OUTLINE};
 use super::marks::Lie;
 use super::pens::Use;
@@ -55,6 +56,9 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding);
         return;
     }
+    if let Some(finding) = frame_or_part(sheet, job) {
+        out.push(finding);
+    }
     doubts::all(sheet, job, out);
     if !sheet.lines.iter().any(|line| line.is_cut) {
         out.push(nothing(sheet, job));
@@ -62,6 +66,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     }
     inner_lines(sheet, job, out);
     lines_outside(sheet, out);
+    outside_frames(sheet, out);
     frames(sheet, job, out);
     drawn_again(sheet, out);
 }
@@ -115,7 +120,8 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     };
     let (doubtful, others): (Vec<_>, Vec<_>) =
         by_part.iter().map(|(&part, held)| (part, &held[..])).partition(|(part, held)| may_be_frame(*part, held));
-    if let Some(&(part, held)) = doubtful.first() {
+    // The worst one is an error instead.
+    if let Some(&(part, held)) = doubtful.first().filter(|_| frame_or_part(sheet, job).is_none()) {
         let (width, height) = sheet.lines[part].extent.size();
         let others = match doubtful.len() {
             1 => String::new(),
@@ -201,20 +207,66 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     }
 }
 
+/// A rectangle that may be a frame or a part, where nobody has said what becomes of the lines in it.
+fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
+    let line = &sheet.lines[sheet.frame_doubt.filter(|_| job.lines.inner.is_none() && !job.lines.all)?];
+    let held = sheet.lines.iter().filter(|inner| inner.is_closed && !inner.is_cut && inner.size() > SMALL_OUTLINE);
+    let held: Vec<&Line> = held.filter(|inner| line.extent.covers(&inner.extent)).collect();
+    if !line.is_cut || held.len() < DOUBTFUL {
+        return None;
+    }
+    let (width, height) = line.extent.size();
+    let (width, height, count) = (fixed(width, 1), fixed(height, 1), held.len());
+    let message = format!("frame or part: {width} x {height} mm around {count} closed lines");
+    let found = finding(&code::DRAWING_FRAME_OR_PART, message, line, sheet).on_cloth(line.extent.min);
+    let hint = "if it is a part, `--inner ignore`; `--inner cut` cuts its cut-outs, too";
+    Some(found.hint("if it is a frame, `--set hpgl.frame=outermost`: what lies in it is cut").hint(hint))
+}
+
+/// Closed lines outside the frames: the cloth is not there.
+fn outside_frames(sheet: &Sheet, out: &mut Diagnostics) {
+    let is_left = |&i: &usize| {
+        let line = &sheet.lines[i];
+        line.class == Class::Outside && !line.is_cut && line.usage != Use::Drawn && sheet.nest.parent(i).is_none()
+    };
+    let left: Vec<usize> = (0..sheet.lines.len()).filter(is_left).collect();
+    let by_area = |a: &&usize, b: &&usize| sheet.lines[**a].area.total_cmp(&sheet.lines[**b].area).then(b.cmp(a));
+    let Some(&largest) = left.iter().max_by(by_area) else { return };
+    let line = &sheet.lines[largest];
+    let ((width, height), at) = (line.extent.size(), line.extent.min);
+    let (lines, it_is) = match left.len() {
+        1 => ("one closed line".to_owned(), "it is"),
+        n => (format!("{n} closed lines"), "the largest is"),
+    };
+    let message = format!(
+        "not cut: {lines} outside the frame; {it_is} {} x {} mm at ({}, {})",
+        fixed(width, 1),
+        fixed(height, 1),
+        fixed(at.x, 1),
+        fixed(at.y, 1)
+    );
+    let found = finding(&code::DRAWING_OUTSIDE_FRAME, message, line, sheet).on_cloth(at);
+    out.push(
+        found.hint("if they are parts, name their pen as a knife: `--cut-pens`; `--cut-all` cuts all but a frame"),
+    );
+}
+
 /// Frames that may be a part with cut-outs, or that somebody may miss who asks for every line.
 fn frames(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let parts = sheet.indices(|line| line.class == Class::Part).len();
-    if parts >= SURE_PARTS && !job.lines.all {
+    let count = frame::cloths(&sheet.lines, sheet.band()).len();
+    if parts >= SURE_PARTS * count && !job.lines.all {
         return;
     }
     if let Some(frame) = sheet.lines.iter().rfind(|line| line.class == Class::Frame) {
         let (width, height) = frame.extent.size();
-        let message = format!(
-            "a rectangle of {} x {} mm around {parts} part{} is taken for the frame: not cut",
-            fixed(width, 1),
-            fixed(height, 1),
-            if parts == 1 { "" } else { "s" }
-        );
+        let size = format!("{} x {} mm", fixed(width, 1), fixed(height, 1));
+        let parts = format!("{parts} part{}", if parts == 1 { "" } else { "s" });
+        let message = if count > 1 {
+            format!("{count} rectangles, one of {size}, around {parts} are taken for frames: not cut")
+        } else {
+            format!("a rectangle of {size} around {parts} is taken for the frame: not cut")
+        };
         let found = finding(&code::DRAWING_FRAME, message, frame, sheet);
         let hint = if job.lines.all { "to cut it too" } else { "if it is a part" };
         out.push(found.hint(format!("{hint}, `--set hpgl.frame=none`")));

@@ -42,6 +42,8 @@ pub(super) struct Sheet {
     pub(super) from_edges: Vec<EdgeLine>,
     /// Open lines that are what is left of outlines, with the closed lines that they go around.
     pub(super) remains: Vec<Remains>,
+    /// A rectangle that may be a frame or a part.
+    pub(super) frame_doubt: Option<usize>,
     /// The pens that draw them.
     pub(super) pens: Vec<Pen>,
     pub(super) texts: Vec<Label>,
@@ -58,7 +60,7 @@ impl Sheet {
         let band = self.band();
         let reach = close::Reach::of(self.unit, job);
         let mut work = Budget::of_a_marker();
-        frame::mark(
+        self.frame_doubt = frame::mark(
             &mut self.lines,
             &self.vertices,
             frame::FrameSettings { how: job.profile.hpgl.frame, band, reach },
@@ -66,12 +68,7 @@ impl Sheet {
         );
         close::close_along_frames(&mut self.lines, &mut self.vertices, reach);
         self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
-        for i in 0..self.lines.len() {
-            let line = &mut self.lines[i];
-            if line.is_outline() && self.nest.parent(i).is_none() && line.size() > SMALL_OUTLINE {
-                line.class = Class::Part;
-            }
-        }
+        self.find_parts();
         let mut remains = Budget::of_lines(self.lines.len());
         self.find_remains(&mut remains);
         self.is_cut_short |= work.is_spent();
@@ -99,6 +96,26 @@ impl Sheet {
             self.lines[line].class = Class::FromEdge;
         }
         self.is_cut_short |= work.is_spent() || remains.is_spent();
+    }
+
+    /// Takes the large lines that lie in none for parts. Where a frame shows the cloth, closed lines outside it lie on none:
+    /// title blocks, test squares. Lines of a pen that is said to be a knife are parts all the same.
+    fn find_parts(&mut self) {
+        let band = self.band();
+        let frames = frame::cloths(&self.lines, band);
+        let is_on_cloth =
+            |line: &Line| frames.is_empty() || line.usage == Use::Knife || frame::is_in_frame(line, &frames, band);
+        for i in 0..self.lines.len() {
+            let outermost = self.nest.outermost(i).unwrap_or(i);
+            let is_part = outermost == i && self.lines[i].size() > SMALL_OUTLINE;
+            let is_outside = self.lines[outermost].size() > SMALL_OUTLINE && !is_on_cloth(&self.lines[outermost]);
+            let line = &mut self.lines[i];
+            if line.is_outline() && is_outside {
+                line.class = Class::Outside;
+            } else if line.is_outline() && is_part {
+                line.class = Class::Part;
+            }
+        }
     }
 
     /// Depth to which lines that touch may lie in one another, mm.

@@ -6,7 +6,7 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use super::{around, rectangle};
+use super::{around, cloth, rectangle};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -24,6 +24,8 @@ const GAP_SHARE: f64 = 0.08;
 const LEAST_WIDTH: f64 = 4.0;
 /// Widest hem, mm: marks on one are narrower.
 const WIDEST_HEM: f64 = 75.0;
+/// Cuts in a rectangle that are compared to find two beside each other.
+const MOST_HELD: usize = 512;
 /// Distance by which parts may stand over the frame that they touch, mm.
 const SAME_BOX: f64 = 0.5;
 /// Least distance allowed between a cut and the outline that it stands for, mm: programs end lines so far beside their
@@ -81,6 +83,7 @@ pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
     if job.lines.pens.is_none() && job.profile.hpgl.pens.is_empty() {
         wrong.extend(judging.in_uncut_outlines());
         wrong.extend(judging.surrounded());
+        wrong.extend(judging.about_the_cloth());
         lost = judging.lost_strokes();
     }
     for (point, count) in wrong.into_iter().zip(1..) {
@@ -130,6 +133,40 @@ impl<'a> Judging<'a> {
             }
         }
         found
+    }
+
+    /// Where the edge of the cloth is cut, or a line outside it. Nobody has said which lines these are.
+    fn about_the_cloth(&self) -> Vec<Point> {
+        let Job { lines, profile, .. } = self.job;
+        if lines.all || profile.hpgl.frame != Frame::Auto {
+            return Vec::new();
+        }
+        let outlines = self.drawn.iter().filter(|stroke| goes_around(stroke)).map(|stroke| cloth::Outline {
+            stroke,
+            is_rectangle: is_own_box(stroke),
+            is_cut: self.is_cut(stroke),
+        });
+        let outlines: Vec<cloth::Outline> = outlines.collect();
+        let is_frame = |one: &&cloth::Outline| one.is_rectangle && !one.is_cut && self.is_around_several(one.stroke);
+        let edges: Vec<Extent> = outlines.iter().filter(is_frame).map(|one| Extent::of(one.stroke)).collect();
+        let mut found = cloth::outside(&edges, self.cuts.contours.iter());
+        if lines.inner.is_none() {
+            let is_open = |stroke: &&Vec<Point>| stroke.len() > 1 && !goes_around(stroke);
+            let extents = self.drawn.iter().filter(is_open).map(|stroke| Extent::of(stroke));
+            let open: Vec<Extent> = extents.filter(|one| one.size().0.max(one.size().1) >= LEAST_SIZE).collect();
+            found.extend(cloth::cut_edge(&outlines, &open));
+        }
+        found
+    }
+
+    /// Whether large cuts lie beside each other in a rectangle that lies in no cut.
+    fn is_around_several(&self, rectangle: &[Point]) -> bool {
+        let (boxes, reach) = (self.boxes.all(), Extent::of(rectangle).grown(SAME_BOX));
+        let is_large = |k: &usize| boxes[*k].size().0.max(boxes[*k].size().1) >= LEAST_SIZE;
+        let inside = self.boxes.near(reach).filter(|&k| reach.covers(&boxes[k])).filter(is_large);
+        let inside: Vec<usize> = inside.take(MOST_HELD).collect();
+        let several = inside.iter().any(|&k| inside.iter().any(|&other| !boxes[k].meets(&boxes[other])));
+        several && !self.lies_in_a_cut(rectangle)
     }
 
     /// Where a line is cut that open ones go around, and that has no seam line itself.

@@ -1,0 +1,117 @@
+//! Frames are known by what they hold, whatever lies beside them; what lies outside is not cut.
+
+use cutc::diagnostic::Diagnostics;
+use cutc::front::by_name;
+use cutc::ir::Marker;
+use cutc::machine::plot::{Frame, Inner, Lines};
+use cutc::machine::{Job, Numbers};
+use cutc::pipeline;
+use cutc::verify::{PlotCuts, plot_audit};
+
+use super::{as_read, key, outlines, rectangle, source};
+
+const FRAME: [i64; 4] = [0, 0, 40_000, 24_000];
+
+fn drawn(lines: &[[i64; 4]]) -> String {
+    let lines: String = lines.iter().map(|&[x, y, width, height]| rectangle(x, y, width, height)).collect();
+    format!("IN;SP1;{lines}PU;SP0;")
+}
+
+/// Two parts that fill a frame from a place on.
+fn parts(x: i64) -> [[i64; 4]; 2] {
+    [[x + 400, 400, 19_200, 23_200], [x + 20_400, 400, 19_200, 23_200]]
+}
+
+/// What is cut, each by its least corner, in the order of the file; and the codes of what is said.
+fn cut(lines: &[[i64; 4]], job: &Job) -> (Vec<[i64; 2]>, Vec<&'static str>) {
+    let source = source(drawn(lines));
+    let mut found = Diagnostics::default();
+    let marker = pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, job, &mut found);
+    let corners = outlines(&marker).iter().map(|outline| key(outline[0])).collect();
+    let codes: Vec<&str> = found.iter().map(|finding| finding.code.name).collect();
+    if !found.has_errors() {
+        let findings = plot_audit(source.bytes(), &PlotCuts::of(&marker), job);
+        assert!(findings.iter().all(cutc::ir::Finding::holds), "{lines:?} {findings:?}");
+    }
+    (corners, codes)
+}
+
+fn check(lines: &[[i64; 4]], expected: &[[i64; 4]], codes: &[&str]) {
+    let corners: Vec<[i64; 2]> = expected.iter().map(|&[x, y, ..]| [x, y]).collect();
+    assert_eq!(cut(lines, &Job::default()), (corners, codes.to_vec()), "{lines:?}");
+}
+
+#[test]
+fn a_frame_is_known_by_its_parts_whatever_lies_beside_it() {
+    let beside = [
+        [0, 24_400, 1200, 1200],
+        [0, -1600, 8000, 1600],
+        [0, -1800, 8000, 1600],
+        [42_000, 0, 4000, 4000],
+        [1000, 25_000, 720, 1200],
+    ];
+    let all = |beside: &[[i64; 4]]| [&[FRAME][..], &parts(0), beside].concat();
+    for one in beside {
+        check(&all(&[one]), &parts(0), &["drawing/outside-frame", "drawing/frame"]);
+    }
+    check(&all(&beside), &parts(0), &["drawing/outside-frame", "drawing/frame"]);
+    // A knife's lines are parts wherever they lie.
+    let job = Job { lines: Lines { pens: Numbers::parse("1").ok(), ..Lines::default() }, ..Job::default() };
+    assert_eq!(cut(&all(&beside[..1]), &job).0, [[400, 400], [20_400, 400], [0, 24_400]]);
+}
+
+#[test]
+fn markers_beside_each_other_have_a_frame_each() {
+    let second = [42_000, 0, 40_000, 24_000];
+    let all = [&[FRAME][..], &parts(0), &[second], &parts(42_000)].concat();
+    check(&all, &[parts(0), parts(42_000)].concat(), &["drawing/frame"]);
+    let title = [&all[..], &[[0, -1600, 8000, 1600]]].concat();
+    check(&title, &[parts(0), parts(42_000)].concat(), &["drawing/outside-frame", "drawing/frame"]);
+}
+
+#[test]
+fn a_title_block_on_the_paper_beside_the_cloth_hides_neither_frame() {
+    let [paper, title] = [[-600, -1200, 41_200, 25_800], [0, -1100, 8000, 900]];
+    let all = [&[paper, FRAME, title][..], &parts(0)].concat();
+    check(&all, &parts(0), &["drawing/outside-frame", "drawing/frame"]);
+}
+
+#[test]
+fn a_rectangle_with_cut_outs_among_many_parts_is_one_of_them() {
+    let panel = [0, 0, 12_000, 8000];
+    let windows = [[400, 400, 5000, 7000], [6400, 400, 5000, 7000]];
+    let others: Vec<[i64; 4]> = (0..4).map(|k| [20_000 + 9000 * k, 0, 8000, 6000]).collect();
+    let all = [&[panel][..], &windows, &others].concat();
+    check(&all, &[&[panel][..], &others].concat(), &["drawing/may-be-frame"]);
+    // One other part may lie beside a frame, or be beside a part.
+    let few = [&[panel][..], &windows, &others[..1]].concat();
+    assert_eq!(cut(&few, &Job::default()).1, ["drawing/frame-or-part"]);
+}
+
+#[test]
+fn somebody_says_whether_a_rectangle_that_is_nearly_empty_is_a_frame() {
+    let sheet = [0, 0, 80_000, 48_000];
+    let all = [&[sheet][..], &parts(0)].concat();
+    assert_eq!(cut(&all, &Job::default()).1, ["drawing/frame-or-part"]);
+    let mut job = Job::default();
+    job.profile.hpgl.frame = Frame::Outermost;
+    assert_eq!(cut(&all, &job), (parts(0).map(|[x, y, ..]| [x, y]).to_vec(), vec!["drawing/frame"]));
+    let job = Job { lines: Lines { inner: Some(Inner::Ignore), ..Lines::default() }, ..Job::default() };
+    assert_eq!(cut(&all, &job), (vec![[0, 0]], vec!["drawing/may-be-frame"]));
+}
+
+#[test]
+fn a_frame_that_is_cut_and_a_title_block_that_is_cut_are_refused() {
+    let title = [0, -1600, 8000, 1600];
+    let source = source(drawn(&[&[FRAME, title][..], &parts(0)].concat()));
+    let is_refused = |marker: &Marker| {
+        let findings = plot_audit(source.bytes(), &PlotCuts::of(marker), &Job::default());
+        findings.iter().any(|finding| finding.rule == "source/outermost" && !finding.holds())
+    };
+    let mut asked = Job::default();
+    asked.profile.hpgl.frame = Frame::None;
+    assert!(is_refused(&as_read(&source, &asked)));
+    let every = Job { lines: Lines { all: true, ..Lines::default() }, ..Job::default() };
+    assert!(is_refused(&as_read(&source, &every)));
+    assert!(!is_refused(&as_read(&source, &Job::default())));
+}
