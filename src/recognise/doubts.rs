@@ -265,6 +265,12 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
         hints: &["if they are notches, let them begin on the edge; `--cut-all` cuts every line but a frame"],
     },
     EdgeDoubt {
+        lie: Lie::Sign,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one arrow or cross stroke", "arrow or cross strokes"],
+        hints: &["if they are notches, let each be one stroke by itself; `--cut-all` cuts every line but a frame"],
+    },
+    EdgeDoubt {
         lie: Lie::Crosses,
         code: &code::DRAWING_LINE_FROM_EDGE,
         does: ["one stroke stands across the outline", "strokes stand across the outline"],

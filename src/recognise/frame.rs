@@ -23,7 +23,7 @@ const MOST_OUTSIDE: f64 = 0.1;
 /// Share of an outer frame that the frame in it takes where something lies between them: the cloth on the paper.
 const LEAST_CLOTH: f64 = 0.75;
 /// Frames beside each other hold so many parts or are filled so far that they are no parts with cut-outs.
-const SURE_PARTS: usize = 4;
+const SURE_PARTS: usize = 3;
 const SURE_FILL: f64 = 0.7;
 /// Frames in frames that are looked for: the paper, and the cloth on it.
 const MOST_FRAMES: usize = 3;

@@ -17,7 +17,9 @@ use super::chains::{Chains, End, other, place};
 use super::close::along;
 use super::line::{Class, Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::pens::{self, Use};
+use super::slits::Slits;
 use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
 use crate::geom::closing;
 use crate::geom::{Extent, Point, Vector, angle, bits, polyline};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
@@ -132,6 +134,7 @@ impl Joining<'_> {
         }
         let mut graph = Graph::new(self, self.nodes(ends.clone()));
         graph.put_dead_ends_aside();
+        graph.set_slits_apart();
         graph.link();
         let is_left = graph.left();
         let mut chains = graph.chains;
@@ -395,6 +398,44 @@ impl<'a, 'b> Graph<'a, 'b> {
 
     fn is_free(&self, stroke: usize, degree: &[usize]) -> bool {
         [2 * stroke, 2 * stroke + 1].iter().any(|&end| self.node[end].is_none_or(|node| degree[node as usize] < 2))
+    }
+
+    /// Sets the slits apart that stand on an edge and lead nowhere: other lines begin at their foot or at their tip.
+    fn set_slits_apart(&mut self) {
+        let joining = self.joining;
+        let all = 0..joining.drawing.strokes.len();
+        let meets = |k: &usize| [2 * k, 2 * k + 1].iter().any(|&end| self.node[end].is_some());
+        let candidates: Vec<usize> =
+            all.clone().filter(|k| self.is_dead[*k] && meets(k) && joining.is_slit(*k)).collect();
+        if candidates.is_empty() {
+            return; // as in nearly all
+        }
+        let is_ring = |k: &usize| {
+            let ends = [2 * k, 2 * k + 1].map(|end| place(joining.drawing, end));
+            ends[0] == ends[1] || joining.nearly_closes(*k) || joining.retraces(*k)
+        };
+        let touch = joining.reach;
+        let slits = Slits { drawing: joining.drawing, rings: all.filter(is_ring).collect(), candidates, touch };
+        let feet = slits.feet(&mut Budget::of_a_marker());
+        let others = |end: End| {
+            let node = self.node[end].map_or(&[][..], |node| &self.nodes[node as usize]);
+            node.iter().copied().filter(|&other| other != end).collect::<Vec<End>>()
+        };
+        let mut apart: Vec<End> = Vec::new();
+        for &foot in &feet {
+            if !others(foot).iter().any(|end| joining.is_notch(end / 2)) {
+                apart.push(foot);
+            }
+            let tip = other(foot);
+            if slits.ends_at_tip(foot, &others(tip), &feet) {
+                apart.push(tip);
+            }
+        }
+        for end in apart {
+            if let Some(node) = self.node[end].take() {
+                self.nodes[node as usize].retain(|&other| other != end);
+            }
+        }
     }
 
     /// Decides at every place, first where two lines meet, then where more do, then among those that lead nowhere.

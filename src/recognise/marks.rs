@@ -263,6 +263,8 @@ pub(super) enum Lie {
     Crosses,
     /// Strokes as long as notches begin near it, and stand as letters do.
     Letters,
+    /// Strokes as long as notches begin on it, and are barbs of an arrow or arms of a cross.
+    Sign,
 }
 
 /// A line at an outline that was taken for no notch.

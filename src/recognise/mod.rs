@@ -7,9 +7,10 @@
 //! Never knows the dialect.
 //!
 //! `again` puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, over the gaps that
-//! `bridge` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out,
+//! `bridge` finds and without the slits that `slits` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out,
 //! and asks the others: `frame` finds the frames, `nest` what lies in what, `remains` the outlines that are not
-//! whole, `marks` and `strokes` the notches, `letters` and `seam` what their names say; `line` has the table of
+//! whole, `marks` and `strokes` the notches, `signs` what looks like them,
+//! `letters` and `seam` what their names say; `line` has the table of
 //! classes, and of when each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is
 //! doubtful, `doubts` that about pieces.
 
@@ -30,6 +31,8 @@ mod remains;
 mod say;
 mod seam;
 mod sheet;
+mod signs;
+mod slits;
 mod strokes;
 mod twins;
 

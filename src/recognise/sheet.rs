@@ -7,7 +7,7 @@ use super::marks::{EdgeLine, Lie, Mark, Search};
 use super::pens::Use;
 use super::remains::Remains;
 use super::strokes::{self, Stroke};
-use super::{close, frame, letters, marks, nest, remains, seam};
+use super::{close, frame, letters, marks, nest, remains, seam, signs};
 use crate::analysis::nesting::Nesting;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
@@ -160,6 +160,13 @@ impl Sheet {
         strokes.retain(|stroke| !letters.contains(&stroke.line));
         marks.retain(|mark| !letters.contains(&mark.line));
         self.strokes.extend(strokes);
+        let touch = marks::TOUCH + ROUNDING * self.unit;
+        let signs = signs::among(&marks, self.search(parts), touch, work);
+        for &Mark { line, outline, .. } in marks.iter().filter(|mark| signs.contains(&mark.line)) {
+            self.lines[line].class = Class::FromEdge;
+            self.from_edges.push(EdgeLine { line, outline, lie: Lie::Sign });
+        }
+        marks.retain(|mark| !signs.contains(&mark.line));
         for mark in &marks {
             self.lines[mark.line].class = Class::Notch;
         }

@@ -10,6 +10,7 @@ mod lost;
 mod notches;
 mod patience;
 mod remains;
+mod slits;
 mod twin;
 mod words;
 

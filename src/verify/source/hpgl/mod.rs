@@ -4,7 +4,7 @@
 //! must be what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges
 //! by the same strokes whether the right lines are cut, `around` whether others go around these, `cloth` whether the edge
 //! of the cloth is cut, `rectangle` finds the edges
-//! of the cloth among them.
+//! of the cloth among them, `slits` the slits.
 
 mod around;
 mod cloth;
@@ -16,6 +16,7 @@ mod instruction;
 mod outermost;
 mod rectangle;
 mod scan;
+mod slits;
 
 use self::instruction::ETX;
 pub use self::outermost::{PlotCuts, plot_audit};

@@ -6,7 +6,7 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use super::{around, cloth, rectangle};
+use super::{around, cloth, rectangle, slits};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -24,6 +24,8 @@ const GAP_SHARE: f64 = 0.08;
 const LEAST_WIDTH: f64 = 4.0;
 /// Widest hem, mm: marks on one are narrower.
 const WIDEST_HEM: f64 = 75.0;
+/// Outlines in a rectangle that is a part, itself and its seam line; around more, slits are not looked for.
+const MOST_IN_A_PART: usize = 2;
 /// Cuts in a rectangle that are compared to find two beside each other.
 const MOST_HELD: usize = 512;
 /// Distance by which parts may stand over the frame that they touch, mm.
@@ -85,6 +87,7 @@ pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
         wrong.extend(judging.surrounded());
         wrong.extend(judging.about_the_cloth());
         lost = judging.lost_strokes();
+        lost.extend(judging.slits());
     }
     for (point, count) in wrong.into_iter().zip(1..) {
         outermost.see(f64::from(count), || at(0.0, point, 0));
@@ -298,6 +301,46 @@ impl<'a> Judging<'a> {
             }
         }
         found
+    }
+
+    /// Where a slit that is drawn by itself is not cut, or a sign at an edge is.
+    fn slits(&self) -> Vec<Point> {
+        if self.job.lines.all {
+            return Vec::new();
+        }
+        let strokes = slits::Strokes::of(self.drawn);
+        let legs = self.cuts.legs.iter().copied();
+        let mut found: Vec<Point> = legs.filter(|leg| strokes.is_sign(*leg)).map(|leg| leg[1]).collect();
+        let mut ends: Vec<[Point; 2]> = self.cuts.contours.iter().map(|c| [c[0], c[c.len() - 1]]).collect();
+        ends.extend(&self.cuts.legs);
+        ends.sort_by(|a, b| a[0].x.total_cmp(&b[0].x));
+        for outline in self.drawn.iter().filter(|stroke| goes_around(stroke) && gap(stroke) <= LEAST_OFF) {
+            let Some(edge) = self.part_of(outline) else { continue };
+            let is_lost = |[foot, tip]: &[Point; 2]| {
+                !is_among(&ends, [*foot, *tip])
+                    && !is_among(&ends, [*tip, *foot])
+                    && self.work.borrow_mut().spend(edge.len())
+                    && ring::contains(edge, *tip)
+                    && !self.is_along_a_cut(&[*foot, *tip])
+            };
+            found.extend(strokes.slits(edge).into_iter().filter(is_lost).map(|slit| slit[1]));
+        }
+        found
+    }
+
+    /// The cut that an outline is, if that lies in no other and is no rectangle around others.
+    fn part_of(&self, outline: &[Point]) -> Option<&Vec<Point>> {
+        let (extent, reach) = (Extent::of(outline), self.reach());
+        let is_same = |&k: &usize| {
+            let other = self.boxes.all()[k];
+            (other.min - extent.min).amax().max((other.max - extent.max).amax()) <= reach
+        };
+        let cut = self.boxes.near(extent).find(is_same).map(|k| &self.cuts.contours[k])?;
+        let is_outer = |k: usize| self.boxes.all()[k].grown(reach).covers(&extent);
+        let is_in = |stroke: &&Vec<Point>| goes_around(stroke) && extent.covers(&Extent::of(stroke));
+        let is_frame = || is_own_box(outline) && self.drawn.iter().filter(is_in).count() > MOST_IN_A_PART;
+        let is_one = self.boxes.near(extent).filter(|&k| is_outer(k)).count() == 1;
+        (is_one && cut.len() > 3 && !is_frame()).then_some(cut)
     }
 
     /// Whether a stroke that begins off its edge may be a letter: another small stroke stands near it.

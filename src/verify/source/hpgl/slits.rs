@@ -1,0 +1,121 @@
+//! Straight strokes of a plot at the edges of what is cut: a slit that is drawn by itself is cut, and an arm of a cross or a
+//! barb of an arrow is not.
+
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, cross, polyline};
+
+/// Lengths of slits that are looked at, mm.
+const LENGTH: [f64; 2] = [1.5, 14.5];
+/// How near to the edge a slit begins, and how far from it its tip is at the least, mm.
+const FOOT: f64 = 0.05;
+const DEPTH: f64 = 1.2;
+/// Ends of strokes that meet lie so near to each other, mm.
+const MEET: f64 = 0.25;
+/// Shares of two strokes at which they may make a cross where they cross, and those at which they surely do.
+const MAY_CROSS: [f64; 2] = [0.15, 0.85];
+const CROSS: [f64; 2] = [0.42, 0.58];
+/// How many times longer one stroke of a sign may be, and one that surely is.
+const MAY_BE_LONGER: f64 = 1.3;
+const LONGER: f64 = 1.2;
+/// Angle between a barb of an arrow and its stem, rad; how far one differs from the other.
+const BARB: [f64; 2] = [0.15, 0.9];
+const EVEN: f64 = 0.08;
+/// Strokes near one that are compared.
+const MOST_NEAR: usize = 256;
+
+/// Strokes of a plot by their boxes.
+pub(super) struct Strokes<'a> {
+    all: &'a [Vec<Point>],
+    boxes: Boxes,
+}
+
+impl<'a> Strokes<'a> {
+    pub(super) fn of(all: &'a [Vec<Point>]) -> Self {
+        Self { all, boxes: Boxes::new(all.iter().map(|stroke| Extent::of(stroke).grown(MEET)).collect()) }
+    }
+
+    /// The strokes near a place or a stroke; none of them where they are many.
+    fn near(&self, extent: Extent) -> Option<Vec<&'a Vec<Point>>> {
+        let near: Vec<&Vec<Point>> = self.boxes.near(extent).take(MOST_NEAR + 1).map(|k| &self.all[k]).collect();
+        (near.len() <= MOST_NEAR).then_some(near)
+    }
+
+    /// Slits on an edge that are drawn by themselves: nothing goes on from their tip, and no other stroke makes a sign of
+    /// them. Given from foot to tip.
+    pub(super) fn slits(&self, edge: &[Point]) -> Vec<[Point; 2]> {
+        let around = Extent::of(edge).grown(MEET);
+        let is_slit = |stroke: &&Vec<Point>| stroke.len() == 2 && (LENGTH[0]..=LENGTH[1]).contains(&length(stroke));
+        let strokes = self.boxes.near(around).map(|k| &self.all[k]).filter(is_slit);
+        let leads = strokes.flat_map(|stroke| [[stroke[0], stroke[1]], [stroke[1], stroke[0]]]);
+        let stands = leads
+            .filter(|[foot, tip]| polyline::distance(*foot, edge) <= FOOT && polyline::distance(*tip, edge) >= DEPTH);
+        stands.filter(|slit| self.is_alone(*slit)).collect()
+    }
+
+    fn is_alone(&self, slit: [Point; 2]) -> bool {
+        let [foot, tip] = slit;
+        let is_own = |stroke: &[Point]| stroke.len() == 2 && slit.iter().all(|end| stroke.contains(end));
+        let Some(near) = self.near(Extent::between(foot, tip)) else { return false };
+        let ends = |stroke: &[Point]| [stroke[0], stroke[stroke.len() - 1]];
+        let begins = |stroke: &&&Vec<Point>| ends(stroke).iter().any(|end| (end - foot).norm() <= MEET);
+        let others = || near.iter().filter(|stroke| !is_own(stroke));
+        // Three lines from one place may be an arrow.
+        let is_arrow = others().filter(|stroke| stroke.len() == 2).filter(begins).count() > 1;
+        !is_arrow
+            && others().all(|stroke| {
+                let ends = ends(stroke);
+                let goes_on = ends.iter().any(|end| (end - tip).norm() <= MEET);
+                let is_short = length(stroke) <= 4.0 * LENGTH[1];
+                let is_at_foot =
+                    stroke.len() > 2 && is_short || are_alike(length(stroke), length(&slit), MAY_BE_LONGER);
+                let meets = ends.iter().any(|end| (end - foot).norm() <= MEET) && is_at_foot;
+                let crosses = stroke.windows(2).filter_map(|ends| crossing(slit, [ends[0], ends[1]]));
+                let is_crossed =
+                    || is_short && crosses.into_iter().any(|[at, _]| (MAY_CROSS[0]..=MAY_CROSS[1]).contains(&at));
+                !goes_on && !meets && !is_crossed()
+            })
+    }
+
+    /// Whether a leg that is cut is an arm of a cross or a barb of an arrow, from its root on.
+    pub(super) fn is_sign(&self, leg: [Point; 2]) -> bool {
+        let [root, tip] = leg;
+        let Some(near) = self.near(Extent::between(root, tip)) else { return false };
+        let own = length(&leg);
+        let is_half = |at: [f64; 2]| at.iter().all(|at| (CROSS[0]..=CROSS[1]).contains(at));
+        let is_crossed = near.iter().filter(|stroke| stroke.len() == 2).any(|stroke| {
+            are_alike(length(stroke), own, LONGER) && crossing(leg, [stroke[0], stroke[1]]).is_some_and(is_half)
+        });
+        // Ways from the root, with the lengths of the strokes.
+        let straight = near.iter().filter(|stroke| stroke.len() == 2);
+        let ways: Vec<(f64, f64)> = straight
+            .flat_map(|stroke| [[stroke[0], stroke[1]], [stroke[1], stroke[0]]])
+            .filter(|[from, _]| (from - root).norm() <= FOOT)
+            .map(|[from, to]| {
+                let way = to - from;
+                (cross(tip - root, way).atan2((tip - root).dot(&way)), way.norm())
+            })
+            .collect();
+        let is_barb = |stem: f64| {
+            let is_other =
+                |(turn, length): &(f64, f64)| are_alike(*length, own, 1.0 + EVEN) && (turn - 2.0 * stem).abs() <= EVEN;
+            (BARB[0]..=BARB[1]).contains(&stem.abs()) && ways.iter().any(is_other)
+        };
+        is_crossed || ways.iter().any(|&(turn, length)| length >= 2.0 * own && is_barb(turn))
+    }
+}
+
+fn length(stroke: &[Point]) -> f64 {
+    polyline::length(stroke)
+}
+
+fn are_alike(a: f64, b: f64, ratio: f64) -> bool {
+    a.max(b) <= ratio * a.min(b)
+}
+
+/// Where two straight strokes cross, as shares of their lengths.
+fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<[f64; 2]> {
+    let (one, other) = (b - a, d - c);
+    let turn = cross(one, other);
+    let at = [cross(c - a, other) / turn, cross(c - a, one) / turn];
+    (turn != 0.0 && at.iter().all(|at| (0.0..=1.0).contains(at))).then_some(at)
+}
