@@ -126,6 +126,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("search", "shares out searches over all pieces, for several passes"),
+    ("sides", "joins strokes of an outline that were rounded apart, for the pass that welds"),
     ("severed", "finds slits that meet, for the pass that warns"),
     ("sewn", "recognises files of sewing machines"),
     ("spare", "leaves out plunges of a nibbled curve that cut nothing new"),

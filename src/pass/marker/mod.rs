@@ -18,6 +18,7 @@ mod search;
 mod select;
 mod severed;
 mod sheet;
+mod sides;
 mod slit;
 mod spike;
 mod stroke;

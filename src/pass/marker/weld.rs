@@ -2,11 +2,13 @@
 //!
 //! Needs: contours as the reader left them, walked in list order, `closed` not yet meant. Leaves true: no segment of
 //! length zero; within a piece no open contour that a later open one continues to the bit; `closed` exactly when the
-//! ends meet. Contours keep the order of their first chain.
+//! ends meet. Contours keep the order of their first chain. Chains of a file with a grid that make a ring but for a unit
+//! meet halfway ([`sides`]).
 
 use std::collections::BTreeSet;
 
 use super::pass::MarkerPass;
+use super::sides;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Point, Vector, bits};
 use crate::ir::list::{Joint, Range, SegmentList};
@@ -40,6 +42,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
             kept
         });
         join(&mut marker.list, piece);
+        if marker.unit > 0.0 && piece.contours.iter().filter(|contour| !contour.closed).count() > 1 {
+            sides::join(&mut marker.list, piece, marker.unit, seam);
+        }
     }
     dropped.report(diagnostics);
 }
