@@ -144,6 +144,8 @@ codes! {
     ISO_UNITS_CHANGED = error(Text, "iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.", "Half of the marker would be of another size. Two jobs may have been joined into one file: cut them as two files.");
     /// The drawing does not fit its own title or any table.
     ISO_UNIT_DOUBTFUL = warning(Spoils, Shape, "iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.", "A marker that is 2.54 or 10 times too large or small spoils the whole lay. Compare the extent that `cutc info` prints with the width of the cloth, then set the unit.\n  cutc compile m.cut --set units=mm/10");
+    /// Decimals where whole numbers stand, and a drawing smaller than parts.
+    ISO_DECIMALS = error(Shape, "iso/decimals", "Coordinates have decimal points, and read as a hundredth or a thousandth of an inch they make a drawing smaller than 10 mm: they are inches.", "Numbers of cut files are whole, and G70 says that 1000 of them are an inch. A file with inches in decimals was written for another machine: each piece would be a dot. Let the CAD system write a cut file of whole numbers.\n  X5000Y1000*   is 5 inches along with G70; X5.000Y1.000* is not.");
     /// An arc that is none.
     ISO_ARC_RADIUS = error(Text, "iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.", "An arc whose ends disagree goes somewhere else than its author meant, perhaps into the part. Let the CAD system write the arc again, or as short straight lines.\n  G03X0Y100I-50J0*   the centre stands beside the start.");
     /// Labels of nothing.
@@ -302,6 +304,14 @@ codes! {
     DXF_SIZE_MISSING = warning(Spares, Shape, "dxf/size-missing", "A piece of a set has none of the sizes that are cut, and is not cut.", "A set holds each piece in its sizes, and those of one size are a garment. A piece that is there in other sizes only would be missing: some CAD systems name sizes of accessories otherwise. Name all that are wanted.\n  cutc compile pattern.dxf --size 38,40");
     /// A block without a size beside one of a size.
     DXF_SIZE_UNSAID = warning(Spares, Shape, "dxf/size-unsaid", "A piece of a set is drawn in a size that is cut and once more in a block without a size; both are cut.", "A block without a size goes with every size. Where another block of that name has one, its size most likely stands under a key that cutc does not know, and it is another size. See in the picture (-t svg) which is right, and leave the other out.\n  cutc compile pattern.dxf --skip 2");
+    /// A sample size without sizes.
+    DXF_NO_SIZES = warning(Spoils, Shape, "dxf/no-sizes", "A DXF file says which size is its sample size, and no piece says a size: all pieces are cut.", "If the pieces are of several sizes, all of them would be cut. Their sizes may stand under a key that cutc does not know, or in letters that it does not read: see in the picture (-t svg) whether pieces come again in other sizes.");
+    /// A key that may be the quantity.
+    DXF_KEY = warning(Spares, Text, "dxf/unknown-key", "Every piece of a DXF file has a small number under a key that cutc does not know, and no quantity; each is cut once.", "The number may say how often the piece is cut: then pieces would be missing. Compare the count of `cutc info` with the garment, and let the CAD system write QUANTITY.\n  QUANTITY: 2");
+    /// Texts in an encoding that nobody gives.
+    DXF_LETTERS = warning(Spares, Text, "dxf/letters", "Texts of a DXF file are in an encoding that neither its header nor the profile gives; they are read in the one in which the most keys are found.", "Sizes and quantities stand behind keys in the language of the CAD system. The header ($DWGCODEPAGE) should name their encoding; where it does not, or names another one, the profile can.\n  cutc compile pattern.dxf --set labels.encoding=windows-1251");
+    /// Texts that cannot be read.
+    DXF_LETTERS_LOST = warning(Spoils, Text, "dxf/unread-key", "Texts of a DXF file have bytes before their colon or number that are no letters in the encoding in which the file is read.", "A size, a sample size or a quantity may stand there: then all sizes would be cut, or too few pieces. Compare the count of `cutc info` with the garment, and say the encoding.\n  cutc compile pattern.dxf --set labels.encoding=big5");
     /// A notch that is not cut.
     DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one or at its place.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
     /// A notch that becomes a slit.
@@ -317,7 +327,7 @@ codes! {
     /// A line on a layer of points.
     DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83), of drill holes (13) or of turn and curve points (2, 3), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
     /// A quantity that is none.
-    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or no number, and the piece is cut once.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
+    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or no number, and the piece is cut once; or it has words behind its number, which holds.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// Two counts of a piece.
     DXF_PLACED_QUANTITY = warning(Spares, Shape, "dxf/placed-quantity", "A piece of a DXF file is placed by INSERTs, and not as often as its quantity says.", "A file that puts its pieces somewhere is a marker, and each INSERT in it is one piece. The quantity of a pattern is then another count of the same: compare both before the cloth is spread.");
     /// An insertion of nothing.
@@ -354,6 +364,12 @@ codes! {
     // The marker, whatever the dialect.
     /// A contour that does not close.
     MARKER_OPEN = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
+    /// Nothing that a knife can cut.
+    MARKER_TINY = error(Shape, "marker/tiny", "All contours of the file together are smaller than 1 mm: its unit is wrong, or it is damaged.", "No knife cuts a part of that size: it would stab the cloth in one place for each piece. Compare the extent that `cutc info` prints with the marker, and say the unit where the file has another one.\n  cutc compile marker.cut --set units=mm/10");
+    /// Hardly anything that a knife can cut.
+    MARKER_SMALL = warning(Spoils, Shape, "marker/small", "All contours of a file without a grid together are smaller than 5 mm: its unit is doubtful.", "Parts of garments are larger. Points of a CSV file are in mm, those of a pattern DXF in the unit that it says: compare the extent that `cutc info` prints with the parts.");
+    /// Sides of an outline that miss each other.
+    MARKER_SIDES = warning(Spoils, Shape, "marker/sides", "Open contours of a cut file miss each other at both ends by one or two units of the file; each is cut as an open line.", "An outline that is drawn in strokes is one contour where each stroke starts at the end of the one before. Strokes that were rounded apart are cut one by one, with overcuts at each end, and count as open lines. Let the CAD system write the outline in one stroke, or with equal ends.\n  X3117Y1199*M15*X3117Y1199*M14*   goes on; from X3117Y1200 another line begins.");
     /// An outline with an overcut of other software.
     MARKER_OVERRUN = warning(Spares, Shape, "marker/overrun", "Outlines run past their own start, as overcuts of other software do; they are closed where they start, and cut once.", "Other software draws the overcut of its own knife into the file. The knife lays its own overlap at the start of every outline, so the drawn one is left out, and the area of the part counts once. Leave the overcut out of the export and the line goes.");
     /// An outline with several rounds.

@@ -36,7 +36,13 @@ const OURS: &[Ours] = &[
 pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
     let bytes = source.bytes();
     if bytes.iter().all(|&byte| byte.is_ascii_whitespace() || byte == 0 || byte == 0x1a) {
-        let finding = Diagnostic::new(&code::SOURCE_EMPTY, "the file is empty");
+        let is_nul = !bytes.is_empty() && bytes.iter().all(|&byte| byte == 0);
+        let message = if is_nul {
+            format!("the file holds {} NUL bytes and nothing else: a broken copy", bytes.len())
+        } else {
+            "the file is empty".to_owned()
+        };
+        let finding = Diagnostic::new(&code::SOURCE_EMPTY, message);
         out.push(finding.hint("export it again, and check that the copy finished"));
         return true;
     }

@@ -76,7 +76,15 @@ impl<'a> Chosen<'a> {
                 None
             }
             (None, Some(sample)) if other.is_none() && has(sample) => Some(vec![same(sample)]),
-            (None, _) if known.len() < 2 => None,
+            (None, sample) if known.len() < 2 => {
+                if let Some(sample) = sample.as_ref().filter(|_| known.is_empty() && !blocks.is_empty()) {
+                    let message = format!("the sample size is `{sample}`, and no piece says a size; all are cut");
+                    let finding = Diagnostic::new(&code::DXF_NO_SIZES, message);
+                    let hint = "their sizes may stand under a key that is not known: `cutc manual inputs` lists those";
+                    out.push(finding.hint(hint));
+                }
+                None
+            }
             (None, sample) => {
                 let message = match sample {
                     Some(sample) if let Some(other) = &other => {
@@ -170,21 +178,51 @@ fn its_sizes(known: &[String]) -> String {
     format!("its sizes are {}{dots}", known[..known.len().min(SHOWN)].join(", "))
 }
 
-/// How often a piece is cut as it is drawn, and how often mirrored: `1,1` is right and left. `None` when it is no such
-/// text or names none at all.
-fn quantity(text: &str) -> Option<[u32; 2]> {
+/// Words behind a number that say pieces, in capitals.
+#[rustfmt::skip] // a table: a row a few languages
+const OF_PIECES: [&str; 42] = [
+    "X", "×", "PC", "PCS", "PIECE", "PIECES", "ST", "STK", "STCK", "STÜCK", "STUECK", "PIÈCE", "PIÈCES",
+    "PZ", "PEZZO", "PEZZI", "PIEZA", "PIEZAS", "PEÇA", "PEÇAS", "STUKS", "SZT", "SZTUK", "SZTUKI", "KS", "DB", "BUC",
+    "ADET", "ШТ", "ШТУК", "ШТУКИ", "ДЕТ", "片", "件", "枚", "张", "張", "个", "個", "장", "매", "STYCK",
+];
+
+/// How often a piece is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Wanted {
+    /// As it is drawn, and mirrored: `1,1` is right and left.
+    pub(super) times: [u32; 2],
+    /// Whether words stand behind the number.
+    has_words: bool,
+}
+
+/// How often a piece is cut. `None` when it is no such text or names none at all.
+pub(super) fn quantity(text: &str) -> Option<Wanted> {
     // Some systems write whole numbers with decimals.
     let whole = |number: &str| number.trim_end_matches('0').strip_suffix('.').unwrap_or(number).parse::<u32>().ok();
-    let mut numbers = text.split(',').map(|number| whole(number.trim()));
-    let right = numbers.next()??;
-    let left = match numbers.next() {
-        None => 0,
-        Some(left) => left?,
+    let numbers: Option<Vec<u32>> = text.split(',').map(|number| whole(number.trim())).collect();
+    let times = match numbers.as_deref() {
+        None => return of_pieces(text).map(|right| Wanted { times: [right, 0], has_words: true }),
+        Some(&[right]) => [right, 0],
+        Some(&[right, left]) => [right, left],
+        Some(_) => return None,
     };
-    match (numbers.next(), right, left) {
-        (Some(_), _, _) | (None, 0, 0) => None,
-        (None, right, left) => Some([right, left]),
-    }
+    (times != [0, 0]).then_some(Wanted { times, has_words: false })
+}
+
+/// The number with which a text begins that has a word for pieces behind it, or something in parentheses.
+fn of_pieces(text: &str) -> Option<u32> {
+    let text = text.trim();
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    let (number, behind) = text.split_at(digits);
+    let (word, aside) = match behind.split_once('(') {
+        None => (behind, None),
+        Some((word, aside)) => (word, Some(aside.strip_suffix(')')?)),
+    };
+    let word = word.trim().trim_end_matches('.').to_uppercase();
+    let is_aside = aside.is_some_and(|aside| !aside.contains(['(', ')']));
+    let is_clear =
+        if word.is_empty() { is_aside } else { OF_PIECES.contains(&word.as_str()) && aside.is_none_or(|_| is_aside) };
+    number.parse().ok().filter(|&number| is_clear && number > 0)
 }
 
 impl Asked<'_> {
@@ -205,11 +243,13 @@ impl Asked<'_> {
             tally.add(Thing::TwoQuantities, other);
         }
         let span = said.first?;
-        let quantity = quantity(&self.letters.text(self.source.slice(span)));
-        if quantity.is_none() {
-            tally.add(Thing::Quantity, span);
+        let wanted = quantity(&self.letters.text(self.source.slice(span)));
+        match wanted {
+            None => tally.add(Thing::Quantity, span),
+            Some(Wanted { has_words: true, .. }) => tally.add(Thing::QuantityWords, span),
+            Some(Wanted { has_words: false, .. }) => {}
         }
-        quantity
+        wanted.map(|wanted| wanted.times)
     }
 }
 
@@ -219,7 +259,8 @@ mod tests {
 
     #[test]
     fn a_quantity_is_right_and_left() {
-        let check = |text: &str, expected: Option<[u32; 2]>| assert_eq!(quantity(text), expected, "{text}");
+        let times = |text: &str| quantity(text).map(|wanted| wanted.times);
+        let check = |text: &str, expected: Option<[u32; 2]>| assert_eq!(times(text), expected, "{text}");
         check("1,1", Some([1, 1]));
         check("2", Some([2, 0]));
         check("2.0", Some([2, 0]));
@@ -231,5 +272,11 @@ mod tests {
         check("1,1,1", None);
         check("-1", None);
         check("two", None);
+        for text in ["2x", "2 Stück", "2 Stk.", "2 (1 PAIR)", "2 pcs (left and right)", "2片"] {
+            check(text, Some([2, 0]));
+        }
+        for text in ["2 PAIRS", "1L 1R", "1+1", "1/1", "1 (R), 1 (L)", "2 x SELF", "x", "2 ", "()", "2 ()("] {
+            check(text, times("2").filter(|_| text == "2 "));
+        }
     }
 }

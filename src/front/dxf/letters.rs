@@ -1,27 +1,96 @@
 //! Letters: in which encoding the texts of a file are written.
 
-use super::entity::Sections;
-use super::text::names;
+use super::entity::{Entity, NAME, Sections, TEXT};
+use super::key::Key;
+use super::text::{has_unread_key, is_text, keys};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::labels::Labels;
 use crate::machine::letters::Letters;
-use crate::source::Source;
+use crate::source::{Source, Span};
 
 /// Prefix of a numbered code page in the header.
 const NUMBERED: &[u8] = b"ANSI_";
 /// Numbers of code pages that are no `windows-` encoding, each with the name of its encoding.
 const PAGES: [(&str, &str); 4] = [("932", "shift_jis"), ("936", "gbk"), ("949", "euc-kr"), ("950", "big5")];
-/// Encodings in which a key that is not ASCII can be written, beside UTF-8.
-const OF_KEYS: [&str; 3] = ["gbk", "windows-1252", "macintosh"];
+/// Encodings in which a key that is not ASCII can be written, beside UTF-8. Where some read the same keys, the first holds.
+const OF_KEYS: [&str; 13] = [
+    "gbk",
+    "windows-1252",
+    "macintosh",
+    "windows-1250",
+    "windows-1251",
+    "windows-1254",
+    "iso-8859-2",
+    "ibm866",
+    "koi8-u",
+    "x-mac-cyrillic",
+    "big5",
+    "shift_jis",
+    "euc-kr",
+];
+
+/// The encoding of the texts of a file, and how it is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lettered {
+    pub(super) letters: Letters,
+    /// Its name where neither the profile nor the header gives it, and more keys of the file are read in it than in any other.
+    found: Option<&'static str>,
+    /// Texts whose keys have bytes that are no letters in it, and the first of them.
+    unread: (usize, Option<Span>),
+}
+
+/// Places of texts among those that are not ASCII, each with a key that is read in it.
+type Readings = Vec<(usize, Key)>;
 
 /// The encoding that somebody has set, else that of the header's code page. Many programs write a code page whatever they do, so
-/// where no key can be read in it and one can in another encoding, it is that.
-pub(super) fn letters(sections: &Sections, source: &Source, labels: &Labels) -> Letters {
+/// where more keys can be read in another encoding, it is that.
+pub(super) fn letters(sections: &Sections, source: &Source, labels: &Labels) -> Lettered {
     let of_header = || sections.page.and_then(|span| page(source.slice(span)));
     let first = labels.set().or_else(of_header).unwrap_or(Letters::utf_8()).with_codes();
-    let others = OF_KEYS.iter().filter_map(|name| Letters::named(name)).map(Letters::with_codes);
-    let texts = || sections.blocks.iter().flat_map(|block| &block.entities).chain(&sections.entities);
-    let is_read_in = |letters: &Letters| texts().any(|text| names(text, source, letters).any(|name| !name.is_ascii()));
-    [first].into_iter().chain(others).find(is_read_in).unwrap_or(first)
+    let texts = sections.blocks.iter().flat_map(|block| &block.entities).chain(&sections.entities);
+    let foreign: Vec<&Entity> = texts.filter(|text| is_foreign(text)).collect();
+    let readings = |letters: &Letters| -> Readings {
+        let all = foreign.iter().enumerate();
+        all.flat_map(|(place, text)| keys(text, source, letters).into_iter().map(move |key| (place, key))).collect()
+    };
+    let (mut best, mut found, mut is_doubtful) = (readings(&first), None, false);
+    let others = OF_KEYS.iter().filter_map(|name| Some((*name, Letters::named(name)?.with_codes())));
+    for other in if foreign.is_empty() { Vec::new() } else { others.collect() } {
+        let read = readings(&other.1);
+        if read.len() > best.len() {
+            (best, found, is_doubtful) = (read, Some(other), false);
+        } else if found.is_some() && read.len() == best.len() {
+            is_doubtful |= read != best;
+        }
+    }
+    let found = found.filter(|_| !is_doubtful);
+    let letters = found.map_or(first, |(_, letters)| letters);
+    let is_unread = |text: &&&Entity| has_unread_key(text, &letters);
+    let unread: Vec<&&Entity> = foreign.iter().filter(is_unread).collect();
+    let unread = (unread.len(), unread.first().and_then(|text| text.value(TEXT)));
+    Lettered { letters, found: found.map(|(name, _)| name), unread }
+}
+
+/// Whether an entity is a text with other bytes than ASCII.
+fn is_foreign(entity: &Entity) -> bool {
+    is_text(entity) && !(entity.bytes(TEXT).is_ascii() && entity.bytes(NAME).is_ascii())
+}
+
+impl Lettered {
+    /// Says in which encoding the keys of the file are read where nobody gives it, and which are not read.
+    pub(super) fn say(&self, out: &mut Diagnostics) {
+        let say = "another encoding can be said: `--set labels.encoding=windows-1251`, `gbk`, `big5` ...";
+        if let Some(name) = self.found {
+            let message = format!("texts are read as {name}: their keys are found in it");
+            out.push(Diagnostic::new(&code::DXF_LETTERS, message).hint(say));
+        }
+        if let (count, Some(first)) = self.unread {
+            let texts =
+                if count == 1 { "the key of a text has".to_owned() } else { format!("keys of {count} texts have") };
+            let message = format!("{texts} unreadable bytes: a size or a quantity may be lost");
+            out.push(Diagnostic::new(&code::DXF_LETTERS_LOST, message).at(first).hint(say));
+        }
+    }
 }
 
 /// The encoding of a code page by its name in the header.

@@ -7,7 +7,7 @@
 //!
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
 //! mm with [`arc`] and the [`mod@unit`]; [`text`] reads what texts say in their [`letters`](mod@letters) by their [`key`]s with [`markup`] and [`choice`] which blocks that
-//! lets be cut. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
+//! lets be cut; [`unknown`] names keys that may be quantities. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
 //! [`mod@notch`] by the table of [`layer`]s. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
 //! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
 //! not done as the file says.
@@ -41,6 +41,7 @@ mod text;
 mod told;
 mod tree;
 mod unit;
+mod unknown;
 mod words;
 
 use super::{Dialect, Likeness, Read, foreign};

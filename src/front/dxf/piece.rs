@@ -416,5 +416,5 @@ fn open_outline(edge: &Chain) -> Diagnostic {
     let gap = (ends[1].at - ends[0].at).norm();
     let message = format!("the outline that begins here does not close: its ends are {gap:.1} mm apart");
     let finding = Diagnostic::new(&code::DXF_OPEN_OUTLINE, message).at(ends[0].span);
-    finding.hint("close it in the CAD system; a piece that is not closed cannot be cut out")
+    finding.hint("close it in the CAD system: no key of the profile closes gaps of patterns")
 }

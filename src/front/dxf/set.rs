@@ -18,8 +18,9 @@ use super::retrace::say_retraced;
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
-use super::told::{plain, say_at_fault, say_curves, say_hidden, say_on_paper, say_text, say_uncut, say_unread};
+use super::told::{plain, say_at_fault, say_curves, say_text, say_uncut, say_unread, say_unseen};
 use super::unit::{Lengths, doubt, unit};
+use super::unknown;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
@@ -78,8 +79,10 @@ struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    fn of(sections: &'a Sections<'a>, source: &'a Source, job: &'a Job) -> Self {
-        Self { source, job, sections, letters: letters(sections, source, &job.profile.labels) }
+    fn of(sections: &'a Sections<'a>, source: &'a Source, job: &'a Job, out: &mut Diagnostics) -> Self {
+        let lettered = letters(sections, source, &job.profile.labels);
+        lettered.say(out);
+        Self { source, job, sections, letters: lettered.letters }
     }
 
     /// Reads their entities in a unit, mm.
@@ -135,7 +138,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let groups = groups(source, out);
     let sections = sections(source, &groups, out);
     let Sections { blocks, entities, unit: of_header, .. } = &sections;
-    let parts = Parts::of(&sections, source, job);
+    let parts = Parts::of(&sections, source, job, out);
     let own: Vec<Facts> = blocks.iter().map(|block| parts.facts(&block.entities)).collect();
     let file = own.iter().fold(parts.facts(entities), |facts, of_block| facts.and(*of_block, source));
     say_text(file.unread, out);
@@ -180,14 +183,15 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     }
     set.is_plain = !file.says_anything() && set.pieces.is_empty();
     set.lay(&placing, loose, &mut making);
+    let wanted = (0..blocks.len()).filter(|&k| is_cut(k) && chosen.has(&facts[k]));
+    set.say_unknown_keys(&wanted.map(|k| (&blocks[k], &facts[k])).collect::<Vec<_>>(), &asked, making.out);
     making.report();
     let uncut = if set.count() > 0 { uncut(blocks, &own, &held, &placing, &chosen) } else { Vec::new() };
     say_uncut(&uncut, &asked, making.out);
     let Making { work, apart, .. } = making;
     set.apart = apart;
     say_unread(&set.unread, out);
-    say_on_paper(on_paper, out);
-    say_hidden(hidden, out);
+    say_unseen(on_paper, hidden, out);
     set.say(work.is_spent(), &asked, out);
     set
 }
@@ -335,6 +339,13 @@ impl Set {
     fn count_inserts(&mut self, placing: &Placing) {
         if self.quantity == Quantity::File {
             placing.as_often(&mut self.drawn);
+        }
+    }
+
+    /// Says which keys of the blocks that are cut may be quantities, where these matter.
+    fn say_unknown_keys(&self, pieces: &[(&Block, &Facts)], asked: &Asked, out: &mut Diagnostics) {
+        if self.placed.is_none() && self.quantity == Quantity::File {
+            unknown::say(pieces, asked, out);
         }
     }
 

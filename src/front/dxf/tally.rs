@@ -19,6 +19,8 @@ pub(super) enum Thing {
     StrokeOfPoints,
     /// A quantity is no number, or none.
     Quantity,
+    /// Words stand behind the number of a quantity.
+    QuantityWords,
     /// Texts of a piece say different quantities.
     TwoQuantities,
     /// A quantity is not how often insertions place its piece.
@@ -80,6 +82,7 @@ fn row(thing: Thing) -> Row {
         Thing::StrokeOfHole => Row { code: &code::DXF_STROKE, one: "a line on the layer of drill holes (13) is not drilled", many: "lines on the layer of drill holes (13) are not drilled", hint: "let the CAD system export holes as points" },
         Thing::StrokeOfPoints => Row { code: &code::DXF_STROKE, one: "a line on layer 2 or 3 is not cut", many: "lines on layers 2, 3 are not cut", hint: "they hold points; draw what is to be cut on layer 1, or on 11 if it lies inside" },
         Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is 0 or no number; the piece is cut once", many: "quantities are 0 or no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::QuantityWords => Row { code: &code::DXF_QUANTITY, one: "words stand behind the number of a quantity, which holds", many: "quantities have words behind their number, which holds", hint: "none is mirrored: right and left are `QUANTITY: 1,1`" },
         Thing::TwoQuantities => Row { code: &code::DXF_SAID_TWICE, one: "a piece has two quantities, the other one here", many: "pieces have two quantities, another one", hint: "see which is right; `--quantity one` cuts each piece once" },
         Thing::Placed => Row { code: &code::DXF_PLACED_QUANTITY, one: "INSERTs place a piece more or less often than its quantity says; they hold", many: "pieces are placed more or less often than their quantities say; the INSERTs hold", hint: "count the pieces with `cutc info`" },
         Thing::NoBlock => Row { code: &code::DXF_NO_BLOCK, one: "an INSERT names a block that the file does not hold", many: "INSERTs name blocks that the file does not hold", hint: "a piece may be missing: count them with `cutc info`" },
@@ -87,7 +90,7 @@ fn row(thing: Thing) -> Row {
         Thing::Scaled => Row { code: &code::DXF_SCALE, one: "an INSERT scales a piece", many: "INSERTs scale pieces", hint: "pieces are cut in the size in which their blocks are drawn; `dxf.unit` says another unit" },
         Thing::NotPlaced => Row { code: &code::DXF_NOT_PLACED, one: "a piece is placed by no INSERT while others are, and is not cut", many: "pieces are placed by no INSERT while others are, and are not cut", hint: "count the pieces with `cutc info`" },
         Thing::Unnamed => Row { code: &code::DXF_NOT_PLACED, one: "a block whose name begins with `*` draws on layers that are cut, no INSERT places it, and it is not cut", many: "blocks whose names begin with `*` draw on layers that are cut, no INSERT places them, and they are not cut", hint: "CAD systems have such blocks for dimensions and groups; count the pieces with `cutc info`" },
-        Thing::OnAnother => Row { code: &code::DXF_ON_ANOTHER, one: "an INSERT puts this piece on another one", many: "pieces are put on others by INSERTs", hint: "patterns have their INSERTs at the origin, or none; a marker has a place for each" },
+        Thing::OnAnother => Row { code: &code::DXF_ON_ANOTHER, one: "an INSERT puts this piece on another one", many: "pieces are put on others by INSERTs", hint: "in a marker give each piece a free place; in a set of patterns delete the INSERTs" },
         Thing::LargeCutOut => Row { code: &code::DXF_LARGE_CUT_OUT, one: "an outline lies in another one and takes more than half of it; it is cut as a cut-out", many: "outlines lie in others and take more than half of them; they are cut as cut-outs", hint: "see in the picture (-t svg) whether the same outline is drawn twice, or its seam line with it" },
         Thing::SeamOutside => Row { code: &code::DXF_SEAM_OUTSIDE, one: "a seam line (layer 14) goes round its outline (layer 1)", many: "seam lines (layer 14) go round their outlines (layer 1)", hint: "the layers may be exchanged: compare the extent with the piece with its seam allowance" },
         Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },

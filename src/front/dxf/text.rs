@@ -10,8 +10,8 @@ use crate::source::{Source, Span};
 
 /// Code of all parts but the last of a text of more than 250 bytes.
 const PART: i32 = 3;
-/// The colon of Chinese texts, as wide as an ideograph, in UTF-8 and GBK.
-const WIDE_COLONS: [&[u8]; 2] = ["：".as_bytes(), b"\xa3\xba"];
+/// The colon of texts in ideographs, as wide as one: in UTF-8, in GBK and EUC-KR, in Big5, and in Shift-JIS.
+const WIDE_COLONS: [&[u8]; 4] = ["：".as_bytes(), b"\xa3\xba", b"\xa1\x47", b"\x81\x46"];
 /// What a text says facts by.
 const FACTS: [&str; 4] = ["SIZE", "UNIT", "QUANTITY", "QTY"];
 
@@ -130,10 +130,18 @@ fn long(entity: &Entity, source: &Source) -> Option<Span> {
     entity.value(PART).filter(|_| is_long && parts().any(|part| says(source.slice(part.value))))
 }
 
-/// The keys, as they are written, by which a text says facts when it is read in these letters.
-pub(super) fn names<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> impl Iterator<Item = &'a [u8]> {
-    let entity = Some(entity).filter(|entity| is_text(entity));
-    entity.into_iter().flat_map(|entity| said(entity, source, letters)).map(|said| said.name)
+/// The keys that are not written in ASCII and that a text says something by when it is read in these letters.
+pub(super) fn keys(entity: &Entity, source: &Source, letters: &Letters) -> Vec<Key> {
+    let said = said(entity, source, letters);
+    said.into_iter().filter(|said| !said.name.is_ascii()).map(|said| said.key).collect()
+}
+
+/// Whether a text has bytes that are no letters before a colon, or before a number that stands behind a blank.
+pub(super) fn has_unread_key(entity: &Entity, letters: &Letters) -> bool {
+    let line = entity.bytes(TEXT);
+    let number = || (1..line.len()).find(|&at| line[at].is_ascii_digit() && matches!(line[at - 1], b' ' | b'='));
+    let end = memchr::memchr(b':', line).or_else(number);
+    end.is_some_and(|end| letters.text(&line[..end]).contains(char::REPLACEMENT_CHARACTER))
 }
 
 /// A fact that a text says.
@@ -144,8 +152,17 @@ struct Fact<'a> {
     value: Span,
 }
 
-/// Facts in the lines of a text; the key of an attribute without a colon is its tag.
+/// Facts in the lines of a text.
 fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<Fact<'a>> {
+    if !is_text(entity) {
+        return Vec::new();
+    }
+    let known = |(name, value)| Some(Fact { key: key(&letters.text(name))?, name, value });
+    pairs(entity, source, letters).into_iter().filter_map(known).collect()
+}
+
+/// Names and values in the lines of a text, whether they are known or not; the name of an attribute without a colon is its tag.
+pub(super) fn pairs<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<(&'a [u8], Span)> {
     let Some(span) = entity.value(TEXT) else { return Vec::new() };
     let part = |range: Range<usize>| {
         let [start, end] = [range.start, range.end].map(|at| span.start + at as u32);
@@ -164,8 +181,7 @@ fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<F
             if entity.is("MTEXT") { markup::codes_before(value) } else { value.len() - value.trim_ascii_start().len() };
         Some((name, Span { start: line.start + (behind + blanks) as u32, ..line }))
     };
-    let known = |(name, value)| Some(Fact { key: key(&letters.text(name))?, name, value });
-    lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).filter_map(known).collect()
+    lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).collect()
 }
 
 /// The name before the colon of a line, and the offset of the value behind it. A wide colon counts only behind a known key, and
@@ -180,11 +196,12 @@ fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     wide.or_else(colon).or_else(|| counted(line, letters))
 }
 
-/// The name before a number that stands behind a quantity and a blank or `=`, and the offset of the number.
+/// The name before a number that stands behind a quantity and a blank, `=` or `-`, and the offset of the number.
 fn counted<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     let is_start = |at: &usize| line[*at].is_ascii_digit() && matches!(line[at - 1], b' ' | b'=');
     let at = (1..line.len()).find(is_start)?;
     let before = line[..at].trim_ascii_end();
-    let name = before.strip_suffix(b"=").unwrap_or(before).trim_ascii_end();
+    let is_sign = |byte: &u8| matches!(byte, b'=' | b'-');
+    let name = before.split_last().filter(|(last, _)| is_sign(last)).map_or(before, |(_, name)| name).trim_ascii_end();
     (key(&letters.text(name)) == Some(Key::Quantity)).then_some((name, at))
 }

@@ -122,8 +122,14 @@ pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     }
 }
 
+/// How much stands on the sheet around the drawing, and how much of it nobody sees.
+pub(super) fn say_unseen(on_paper: Option<(usize, Span)>, hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
+    say_on_paper(on_paper, out);
+    say_hidden(hidden, out);
+}
+
 /// How much stands on the sheet around the drawing.
-pub(super) fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
+fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
     if let Some((count, span)) = on_paper {
         let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
         let finding = Diagnostic::new(&code::DXF_ON_PAPER, format!("{message} in paper space and not cut")).at(span);
@@ -132,7 +138,7 @@ pub(super) fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostic
 }
 
 /// How much is cut that nobody sees in the drawing.
-pub(super) fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
+fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
     if let Some((count, span)) = hidden {
         let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
         let message = format!("{message} hidden in the drawing, on layers that are cut; they are cut all the same");

@@ -16,9 +16,38 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`TEXT`, `MTEXT`, `ATTDEF`, `ATTRIB`", about: "labels; never cut. What they say is read from the lines of an MTEXT, too, and codes such as `\\U+00F6`, `\\M+5B3DF` and `%%d` stand for their letters" },
     Word { words: "`INSERT`", about: "places, mirrors and turns a block; one that scales it, puts rows and columns of it or inserts into another block what is cut there is refused; when all of them are at the origin, or most pieces would lie on each other, the pieces lie in a row. A block whose name begins with `*` is a piece only where one puts it. One without its block is reported" },
     Word { words: "`SIZE:`, `SIZE NAME:`, `SAMPLE SIZE:`", about: "the size of a block, where an attribute of its INSERT holds before a text; the size that is cut unless `--size` says otherwise, one in all of the file. Sizes that INSERTs place beside each other are all cut" },
-    Word { words: "`QUANTITY:`, `QTY:`, `QUANTITY=`, `QUANTITY 2`", about: "how often a piece is cut, `1,1` = right and left, which is mirrored; an attribute of its INSERT holds before a text of its block; where INSERTs place it they say how often; `dxf.quantity` or `--quantity one` says otherwise" },
+    Word { words: "`QUANTITY:`, `QTY:`, `QUANTITY=`, `QUANTITY 2`", about: "how often a piece is cut, `1,1` = right and left, which is mirrored; of `2x`, `2 PCS` and `2 (1 PAIR)` the number holds, with a warning; an attribute of its INSERT holds before a text of its block; where INSERTs place it they say how often; `dxf.quantity` or `--quantity one` says otherwise" },
     Word { words: "`UNITS:`", about: "`METRIC` = mm, `CM` = cm, `ENGLISH` = inch; else what `$INSUNITS` of the header says, else mm, with a warning; `dxf.unit` says otherwise. A unit of the header that would make more than a kilometre of cuts is taken for mm, with a warning" },
+    Word { words: "keys of a size", about: "`SIZE`, `SIZE NAME`, `GRÖSSE`, `GROESSE`, `GROSSE`, `GR.`, `TAILLE`, `TAGLIA`, `MISURA`, `TALLA`, `TAMAÑO`, `TAMANO`, `TAMANHO`, `MAAT`, `ROZMIAR`, `VELIKOST`, `VEĽKOSŤ`, `VELKOST`, `MÉRET`, `MERET`, `MĂRIME`, `MĂRIMEA`, `MARIME`, `MARIMEA`, `BEDEN`, `STORLEK`, `STØRRELSE`, `STOERRELSE`, `РАЗМЕР`, `РОЗМІР`, `尺码`, `尺碼`, `号型`, `號型`, `码数`, `碼數`, `サイズ`, `사이즈`, `치수`" },
+    Word { words: "keys of the sample size", about: "`SAMPLE SIZE`, `BASE SIZE`, `BASIC SIZE`, `BASISGRÖSSE`, `BASISGROESSE`, `GRUNDGRÖSSE`, `GRUNDGROESSE`, `TAILLE DE BASE`, `TAGLIA BASE`, `TALLA BASE`, `TAMANHO BASE`, `BASISMAAT`, `ROZMIAR BAZOWY`, `ZÁKLADNÍ VELIKOST`, `ZAKLADNI VELIKOST`, `ZÁKLADNÁ VEĽKOSŤ`, `ZAKLADNA VELKOST`, `ALAPMÉRET`, `ALAPMERET`, `MĂRIME DE BAZĂ`, `MĂRIMEA DE BAZĂ`, `MARIME DE BAZA`, `MARIMEA DE BAZA`, `BAZ BEDEN`, `ANA BEDEN`, `BASSTORLEK`, `GRUNDSTORLEK`, `BASISSTØRRELSE`, `GRUNDSTØRRELSE`, `GRUNNSTØRRELSE`, `БАЗОВЫЙ РАЗМЕР`, `БАЗОВИЙ РОЗМІР`, `БАЗОВ РАЗМЕР`, `基码`, `基碼`, `基本码`, `基本尺码`, `基本尺碼`, `样板尺码`, `樣板尺碼`, `基準サイズ`, `ベースサイズ`, `標準サイズ`, `기준사이즈`, `기준 사이즈`, `기본사이즈`, `기본 사이즈`" },
+    Word { words: "keys of the unit", about: "`UNITS`, `UNIT`, `EINHEIT`, `EINHEITEN`, `UNITÉ`, `UNITÉS`, `UNITE`, `UNITES`, `UNITÀ`, `UNITA`, `UNIDAD`, `UNIDADES`, `UNIDADE`, `单位`, `EENHEID`, `EENHEDEN`, `JEDNOSTKA`, `JEDNOSTKI`, `BIRIM`, `BİRİM`, `ЕДИНИЦЫ`, `ОДИНИЦІ`" },
+    Word { words: "keys of a quantity", about: "`QUANTITY`, `PIECE QUANTITY`, `CUT QUANTITY`, `QTY`, `PIECE QTY`, `CUT QTY`, `PIECES`, `PCS`, `ANZAHL`, `MENGE`, `STÜCK`, `STUECK`, `STÜCKZAHL`, `STUECKZAHL`, `STCK`, `STK`, `ANZ.`, `QUANTITÉ`, `QUANTITE`, `QTÉ`, `QTE`, `NOMBRE DE PIÈCES`, `NOMBRE DE PIECES`, `QUANTITÀ`, `QUANTITA`, `Q.TÀ`, `Q.TA`, `QTÀ`, `QTA`, `PEZZI`, `NUMERO PEZZI`, `CANTIDAD`, `CANTIDAD DE PIEZAS`, `CANT.`, `PIEZAS`, `QUANTIDADE`, `QUANTIDADE DE PEÇAS`, `QTD`, `QTDE`, `AANTAL`, `AANTAL STUKS`, `STUKS`, `ILOŚĆ`, `ILOSC`, `ILOŚĆ SZTUK`, `ILOSC SZTUK`, `LICZBA SZTUK`, `SZT.`, `POČET`, `POCET`, `POČET KUSŮ`, `POCET KUSU`, `POČET KUSOV`, `POCET KUSOV`, `MNOŽSTVÍ`, `MNOZSTVI`, `MNOŽSTVO`, `MNOZSTVO`, `MENNYISÉG`, `MENNYISEG`, `DARAB`, `DARABSZÁM`, `DARABSZAM`, `DB`, `CANTITATE`, `CANTITATEA`, `BUC.`, `BUCĂȚI`, `BUCATI`, `ADET`, `MİKTAR`, `MIKTAR`, `ANTAL`, `ANTAL DELAR`, `ANTALL`, `КОЛИЧЕСТВО`, `КОЛИЧЕСТВО ДЕТАЛЕЙ`, `КОЛ-ВО`, `КОЛ-ВО ДЕТАЛЕЙ`, `КОЛ.`, `К-ВО`, `КІЛЬКІСТЬ`, `КІЛЬКІСТЬ ДЕТАЛЕЙ`, `К-СТЬ`, `К-ТЬ`, `БРОЙ`, `数量`, `數量`, `份数`, `份數`, `片数`, `片數`, `件数`, `件數`, `裁片数`, `裁片數`, `裁片数量`, `裁片數量`, `枚数`, `枚數`, `個数`, `수량`, `매수`, `장수`" },
+    Word { words: "keys of the name of a piece", about: "`PIECE NAME`, `TEILENAME`, `TEIL`, `NOM DE PIÈCE`, `NOM DE PIECE`, `NOME PEZZO`, `NOMBRE DE PIEZA`, `NOME DA PEÇA`, `裁片名称`, `ONDERDEEL`, `NAZWA CZĘŚCI`, `NAZWA CZESCI`, `PARÇA`, `PARCA`, `ДЕТАЛЬ`, `НАЗВА ДЕТАЛІ`" },
+    Word { words: "keys of the CAD system", about: "`AUTHOR`, `PRODUCT`, `PRODUCT NAME`" },
     Word { words: "paper space (group 67)", about: "not cut, and told" },
     Word { words: "what is not shown (group 60, layers that are off or frozen)", about: "cut as all else, and told" },
     Word { words: "any other entity", about: "refused on a layer that is cut, else reported. What nothing cuts refuses nothing: an entity there that is damaged is left out, with a warning" },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::dxf::key::{KEYS, Key};
+
+    #[test]
+    fn the_keys_that_are_listed_are_those_that_are_read() {
+        for (key, words) in KEYS {
+            let row = match key {
+                Key::Size => "keys of a size",
+                Key::SampleSize => "keys of the sample size",
+                Key::Units => "keys of the unit",
+                Key::Quantity => "keys of a quantity",
+                Key::PieceName => "keys of the name of a piece",
+                Key::Author => "keys of the CAD system",
+            };
+            let listed: Vec<&str> = WORDS.iter().filter(|word| word.words == row).map(|word| word.about).collect();
+            let read = words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
+            assert_eq!(listed, [read], "{row}");
+        }
+    }
+}

@@ -185,7 +185,8 @@ impl Lowering<'_> {
         }
         // A place that is a kilometre off says it all.
         if self.far.is_none() {
-            let sized = Sized { unit: &self.unit, extent: &extent, title: self.title.as_ref() };
+            let (title, bytes) = (self.title.as_ref(), self.source.bytes());
+            let sized = Sized { unit: &self.unit, extent: &extent, title, bytes };
             check_plausible(sized, &marker, self.out);
         }
         marker

@@ -58,13 +58,19 @@ impl Tally {
                     }
                     finding.hint(format!("`codes.{name} = \"ignore\"` in the profile silences this"))
                 }
-                None => Diagnostic::new(
-                    &code::ISO_UNKNOWN_CODE,
-                    format!("{name} is not known and was ignored: it stands {times}, first in block {first_block}"),
-                )
-                .at(first)
-                .hint("if the cutter obeys it, see in its manual whether the pieces need it"),
+                None => unknown(code, &format!("it stands {times}, first in block {first_block}")).at(first),
             });
         }
     }
+}
+
+/// The finding of a code that is not known, with its count.
+fn unknown(code: Code, count: &str) -> Diagnostic {
+    let message = format!("{} is not known and was ignored: {count}", name(code));
+    let finding = Diagnostic::new(&code::ISO_UNKNOWN_CODE, message);
+    if code.number.is_some() && meaning(Code { number: None, ..code }) != Meaning::Unknown {
+        let letter = char::from(code.letter);
+        return finding.hint(format!("`{letter}` is known without a number only: see `cutc explain {letter}`"));
+    }
+    finding.hint("if the cutter obeys it, see in its manual whether the pieces need it")
 }

@@ -6,11 +6,12 @@ use crate::geom::{Extent, Point};
 use crate::ir::Marker;
 use crate::machine::FileUnit;
 use crate::source::Span;
+use crate::units::MM_PER_INCH;
 
 /// The unit of a file that names none (1/100 inch), mm. That is no finding: the standard has it so, and most files of the
 /// older cutters name none. Where it is wrong the drawing fits neither its title nor a table, which [`check_plausible`]
 /// says with the unit that would fit.
-const DEFAULT_MM: f64 = crate::units::MM_PER_INCH / 100.0;
+const DEFAULT_MM: f64 = MM_PER_INCH / 100.0;
 
 /// Farthest place from the origin, mm: a kilometre, far beyond any table.
 pub(super) const FARTHEST: f64 = 1e6;
@@ -20,6 +21,9 @@ pub(super) const FARTHEST: f64 = 1e6;
 const WIDEST: f64 = 3500.0;
 const LONGEST: f64 = 100_000.0;
 const SMALLEST: f64 = 5.0;
+/// Drawings in units of an inch whose numbers have decimals are doubted below this side, mm: that is what ten metres
+/// in inches are when they are read as thousandths.
+const SMALLEST_OF_DECIMALS: f64 = 10.0;
 /// A drawing fills between 40 % and 102 % of what its title says.
 const LEAST_FILL: f64 = 0.40;
 const MOST_FILL: f64 = 1.02;
@@ -37,6 +41,8 @@ pub(super) struct Sized<'a> {
     /// The box around all that is cut.
     pub(super) extent: &'a Extent,
     pub(super) title: Option<&'a Title>,
+    /// The bytes of the file.
+    pub(super) bytes: &'a [u8],
 }
 
 /// The unit in force.
@@ -63,6 +69,11 @@ impl Unit {
     /// Its length, mm.
     pub(super) fn mm(&self) -> f64 {
         self.mm
+    }
+
+    /// Whether it is a part of an inch.
+    fn is_of_inches(&self) -> bool {
+        FileUnit::TenthMm.mm() != Some(self.mm)
     }
 
     /// The file names a unit.
@@ -130,28 +141,36 @@ fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> b
     })
 }
 
-/// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
-pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnostics) {
-    let Sized { unit, extent, title } = sized;
-    if extent.is_empty() {
-        return;
+/// Whether most coordinates of a file have decimal points.
+fn has_decimals(bytes: &[u8]) -> bool {
+    let (mut all, mut decimal) = (0, 0);
+    for at in memchr::memchr2_iter(b'X', b'Y', bytes) {
+        let number = &bytes[at + 1..];
+        let number = number.strip_prefix(b"-").or(number.strip_prefix(b"+")).unwrap_or(number);
+        let digits = number.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        all += usize::from(digits > 0);
+        decimal += usize::from(digits > 0 && number.get(digits) == Some(&b'.'));
     }
+    2 * decimal > all
+}
+
+/// The fault of a file whose numbers are most likely inches with decimals.
+fn of_decimals(unit: &Unit, extent: &Extent) -> Diagnostic {
     let (length, width) = extent.size();
-    let fits_as = |(length, width): (f64, f64), scale: f64| {
-        let filled = |size: f64, stated: Option<f64>| {
-            stated.is_none_or(|stated| (LEAST_FILL..=MOST_FILL).contains(&(size * scale / stated)))
-        };
-        title.is_none_or(|title| filled(length, title.length) && filled(width, title.width))
-            && width * scale <= WIDEST
-            && length * scale <= LONGEST
-            && length.max(width) * scale >= SMALLEST
-    };
-    let fits = |scale: f64| fits_as((length, width), scale);
-    if fits(1.0) {
-        return;
-    }
+    let per_inch = (MM_PER_INCH / unit.mm).round();
+    let message =
+        format!("coordinates have decimals: in units of {} mm the drawing is {length:.1} x {width:.1} mm", unit.mm);
+    let [length, width] = [length, width].map(|side| side * per_inch);
+    let finding = Diagnostic::new(&code::ISO_DECIMALS, message);
+    let finding = finding.hint(format!("read as inches it would be {length:.0} x {width:.0} mm"));
+    finding.hint(format!("let the CAD write whole numbers, {per_inch:.0} an inch; or as mm with G71, 10 a mm"))
+}
+
+/// The doubt about the unit of a drawing that fits neither its title nor any table.
+fn doubt(Sized { unit, extent, title, .. }: Sized) -> Diagnostic {
+    let (length, width) = extent.size();
     let drawn = format!("{length:.0} x {width:.0} mm");
-    let mut finding = match title {
+    match title {
         Some(title) if width <= WIDEST && length <= LONGEST && length.max(width) >= SMALLEST => {
             let stated = |size: Option<f64>| size.map_or("any".to_owned(), |size| format!("{size:.0}"));
             let (l, w) = (stated(title.length), stated(title.width));
@@ -168,7 +187,35 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
             let message = format!("with a unit of {} mm the drawing is {drawn}: {what}", unit.mm);
             Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message)
         }
+    }
+}
+
+/// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
+pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnostics) {
+    let Sized { unit, extent, title, bytes } = sized;
+    if extent.is_empty() {
+        return;
+    }
+    let (length, width) = extent.size();
+    if unit.is_of_inches() && length.max(width) < SMALLEST_OF_DECIMALS && has_decimals(bytes) {
+        out.push(of_decimals(unit, extent));
+        return;
+    }
+    let fits_as = |(length, width): (f64, f64), scale: f64| {
+        let filled = |size: f64, stated: Option<f64>| {
+            stated.is_none_or(|stated| (LEAST_FILL..=MOST_FILL).contains(&(size * scale / stated)))
+        };
+        title.is_none_or(|title| filled(length, title.length) && filled(width, title.width))
+            && width * scale <= WIDEST
+            && length * scale <= LONGEST
+            && length.max(width) * scale >= SMALLEST
     };
+    let fits = |scale: f64| fits_as((length, width), scale);
+    if fits(1.0) {
+        return;
+    }
+    let drawn = format!("{length:.0} x {width:.0} mm");
+    let mut finding = doubt(sized);
     let is_rest = |rest: &Extent| {
         let size = rest.size();
         (size.0 < FAR * length || size.1 < FAR * width) && fits_as(size, 1.0)

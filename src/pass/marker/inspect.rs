@@ -1,7 +1,9 @@
 //! Inspect: warns of contours that are probably not what was meant. Changes nothing.
 //!
-//! Needs: welded contours. Two rules:
+//! Needs: welded contours. Rules:
 //!
+//! - All contours together are smaller than any part.
+//! - Open contours of a file with a grid miss each other by a unit or two at their ends: sides of one outline.
 //! - A contour does not close. Where coordinates lie on a grid (a cutter file) contours outline parts, so every gap is
 //!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
@@ -17,7 +19,7 @@ use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::along::Lines;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, bits};
+use crate::geom::{Extent, Point, bits};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
@@ -28,6 +30,10 @@ pub(super) const PASS: MarkerPass =
 
 /// A gap below this share of the contour's length looks like a contour that was meant to close.
 const GAP_SHARE: f64 = 0.05;
+/// Gap below which the ends of a contour of any length are near, mm.
+const NEAR_ENDS: f64 = 5.0;
+/// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded for itself.
+const MISSES: f64 = 2.5;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
 const GAP_DECIMALS: u32 = 3;
 /// Boxes that begin beside one and are compared with it.
@@ -37,13 +43,67 @@ const BESIDE_DECIMALS: u32 = 2;
 /// The smallest gap that these decimals show, mm.
 const GAP_SHOWN: f64 = 0.001;
 
+/// Side of the box around all contours, mm, below which no knife can cut them, and below which no garment has a part.
+const LEAST_CUT: f64 = 1.0;
+const LEAST_PART: f64 = 5.0;
+
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
-    for (piece, contour) in marker.contours().filter(|(_, contour)| !contour.closed) {
+    see_size(marker, diagnostics);
+    let open: Vec<(usize, &Contour)> = marker.contours().filter(|(_, contour)| !contour.closed).collect();
+    let is_side = sides(marker, &open, diagnostics);
+    for (&(piece, contour), _) in open.iter().zip(is_side).filter(|(_, is_side)| !is_side) {
         open_contour(marker, piece, contour, diagnostics);
     }
     let boxed = Boxed::of(marker);
     let repeats = twice(marker, &boxed, diagnostics);
     beside(marker, &boxed, &repeats, job.profile.band(marker.unit), diagnostics);
+}
+
+/// Says so where all contours together are smaller than a part. Readers of files with a grid doubt their unit themselves.
+fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let mut extent = Extent::EMPTY;
+    for (_, contour) in marker.contours() {
+        extent.join(&Extent::of(&marker.list.points(contour.range)));
+    }
+    let (length, width) = if extent.is_empty() { return } else { extent.size() };
+    let size = format!("{} x {} mm", number::fixed(length, 1), number::fixed(width, 1));
+    let side = length.max(width);
+    if side < LEAST_CUT {
+        let message = format!("all that is cut measures {size}: no knife can cut that");
+        let finding = Diagnostic::new(&code::MARKER_TINY, message);
+        diagnostics.push(finding.hint("the unit is wrong, or the file is damaged: compare it with the CAD system"));
+    } else if side < LEAST_PART && marker.unit <= 0.0 {
+        let message = format!("all that is cut measures {size}: smaller than any part");
+        let finding = Diagnostic::new(&code::MARKER_SMALL, message);
+        diagnostics.push(finding.hint("see whether the file is in the unit that it is read in"));
+    }
+}
+
+/// Which open contours of a file with a grid have both ends beside an end of another one and not at it; says so, once.
+fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnostics) -> Vec<bool> {
+    let reach = MISSES * marker.unit;
+    let ends =
+        open.iter().enumerate().flat_map(|(k, (_, contour))| marker.list.ends_of(contour.range).map(|at| (k, at)));
+    let mut ends: Vec<(usize, Point)> = ends.collect();
+    ends.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
+    let mut misses = vec![Vec::new(); open.len()];
+    for &(k, at) in &ends {
+        let first = ends.partition_point(|(_, other)| other.x < at.x - reach);
+        let beside = ends[first..].iter().take_while(|(_, other)| other.x <= at.x + reach).take(MOST_COMPARED);
+        let gaps = beside.filter(|(other, _)| *other != k).map(|(_, other)| (other - at).norm());
+        misses[k].extend(gaps.filter(|gap| *gap <= reach).min_by(f64::total_cmp));
+    }
+    let most = |misses: &Vec<f64>| misses.iter().copied().fold(0.0, f64::max);
+    let is_side: Vec<bool> = misses.iter().map(|misses| misses.len() == 2 && most(misses) > 0.0).collect();
+    let sides = || is_side.iter().zip(open).filter(|(is_side, _)| **is_side).map(|(_, side)| side);
+    if let Some((_, contour)) = sides().next() {
+        let by = misses.iter().zip(&is_side).filter(|(_, is_side)| **is_side).map(|(misses, _)| most(misses));
+        let by = number::fixed(by.fold(0.0, f64::max), GAP_DECIMALS);
+        let message = format!("ends of {} open lines miss each other by up to {by} mm", sides().count());
+        let finding = Diagnostic::new(&code::MARKER_SIDES, message).at(first(&marker.list, contour.range).span);
+        diagnostics.push(finding.hint("sides of one outline? Let the CAD end each where the next one starts"));
+    }
+    is_side
 }
 
 fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &mut Diagnostics) {
@@ -55,11 +115,12 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
         let number = marker.pieces[piece].number;
         let message = format!("a contour of piece {number} ends {size} mm from where it starts");
-        diagnostics.push(
-            Diagnostic::new(&code::MARKER_OPEN, message)
-                .at(first.span)
-                .hint("repeat the first point at its end if it should close"),
-        );
+        let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
+        diagnostics.push(finding.hint(if gap <= NEAR_ENDS || gap < GAP_SHARE * length() {
+            "repeat the first point at its end if it should close"
+        } else {
+            "it is cut as an open line; sides of one outline must end where the next one starts"
+        }));
     }
 }
 

@@ -82,3 +82,30 @@ fn commands_take_sizes_and_sew_by_layers() {
     assert!(room.says("sew set.dxf --line 14 --size all -t queue -o all.queue.csv", DONE).contains("in 3 runs"));
     assert!(room.says("sew set.dxf --line 9 -t queue", FAULTY).contains("pens or layers are 1, 14"));
 }
+
+/// The words of a row of the list of what is read.
+fn listed(row: &str) -> Vec<&'static str> {
+    let words = cutc::front::by_name("dxf").expect("a dialect").words;
+    let row = words.iter().find(|word| word.words == row).expect("a row of keys");
+    row.about.split(", ").map(|key| key.trim_matches('`')).collect()
+}
+
+#[test]
+fn every_key_of_the_list_is_read_and_read_again() {
+    let [sizes, samples, counts] = ["keys of a size", "keys of the sample size", "keys of a quantity"].map(listed);
+    for k in 0..sizes.len().max(samples.len()).max(counts.len()) {
+        let [size, sample, count] = [&sizes, &samples, &counts].map(|keys| keys[k % keys.len()].to_ascii_lowercase());
+        let mut file = Writer::begin();
+        for (name, width) in [("38", 100.0), ("40", 110.0)] {
+            file.block(name).outline(1, &[[0.0, 0.0], [width, 0.0], [width, 50.0]], Drawn::Closed);
+            file.text(&format!("{size}: {name}")).text(&format!("{count}: 2")).end_block();
+        }
+        let source = source(file.end(&["UNITS: METRIC", &format!("{sample}: 38")]));
+        let (marker, found) = as_read(&source, &Job::default());
+        assert_eq!(found, ["dxf/cutting-sample"], "{size} {sample} {count}");
+        assert_eq!(marker.contours().count(), 2, "{size} {sample} {count}");
+        let places = cutc::verify::CutPlaces::of(&marker);
+        let findings = cutc::verify::pattern_audit(source.bytes(), &places, &Job::default());
+        assert!(findings.iter().all(cutc::ir::Finding::holds), "{size} {sample} {count}: {findings:?}");
+    }
+}

@@ -376,10 +376,27 @@ fn quantity(text: &str) -> Option<[u32; 2]> {
     };
     let numbers: Option<Vec<u32>> = text.split(',').map(whole).collect();
     match numbers.as_deref() {
+        None => Some([worded(text)?, 0]),
         Some(&[right]) if right > 0 => Some([right, 0]),
         Some(&[right, left]) if right > 0 || left > 0 => Some([right, left]),
         _ => None,
     }
+}
+
+/// Words for pieces, in small letters, each between blanks.
+const PIECES: &str = " x × pc pcs piece pieces pièce pièces st stk stck styck stück stueck stuks pz pezzo pezzi pieza piezas \
+                      peça peças szt sztuk sztuki ks db buc adet шт штук штуки дет 片 件 枚 张 張 个 個 장 매 ";
+
+/// The number of a text that has a word for pieces behind it, something in parentheses, or both.
+fn worded(text: &str) -> Option<u32> {
+    let text = text.trim().to_lowercase();
+    let (number, rest) = text.split_at(text.find(|letter: char| !letter.is_ascii_digit())?);
+    let (word, aside) = rest.split_at(rest.find('(').unwrap_or(rest.len()));
+    let is_aside = aside.ends_with(')') && aside.matches(['(', ')']).count() == 2;
+    let word = word.trim().trim_end_matches('.');
+    let is_word = word.is_empty() || !word.contains(' ') && PIECES.contains(&format!(" {word} "));
+    let is_clear = is_word && (is_aside || aside.is_empty() && !word.is_empty());
+    number.parse().ok().filter(|number| is_clear && *number > 0)
 }
 
 /// Whether a move leaves a block where it is drawn.

@@ -1,6 +1,9 @@
 //! A second reading of the letters of texts: the encoding in which the most texts say something.
 
-use encoding_rs::{BIG5, EUC_KR, Encoding, GBK, MACINTOSH, SHIFT_JIS, UTF_8, WINDOWS_1252};
+use encoding_rs::{
+    BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, KOI8_U, MACINTOSH, SHIFT_JIS, UTF_8, WINDOWS_1250, WINDOWS_1251,
+    WINDOWS_1252, WINDOWS_1254, X_MAC_CYRILLIC,
+};
 
 use crate::machine::labels::Labels;
 
@@ -8,20 +11,37 @@ use crate::machine::labels::Labels;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Letters(&'static Encoding);
 
+/// Encodings of CAD systems, the usual ones first.
+const PAGES: [&Encoding; 13] = [
+    GBK,
+    WINDOWS_1252,
+    MACINTOSH,
+    WINDOWS_1250,
+    WINDOWS_1251,
+    WINDOWS_1254,
+    ISO_8859_2,
+    IBM866,
+    KOI8_U,
+    X_MAC_CYRILLIC,
+    BIG5,
+    SHIFT_JIS,
+    EUC_KR,
+];
+
 impl Letters {
     /// Of all encodings that may be meant the one in which the most is said: that of the profile or of the header's code page
-    /// unless more is said in another one.
-    pub(super) fn of(header: &[u8], labels: &Labels, count: impl Fn(Self) -> usize) -> Self {
+    /// unless more is said in another one, and in no other as much that is something else.
+    pub(super) fn of<T: PartialEq>(header: &[u8], labels: &Labels, said: impl Fn(Self) -> Vec<T>) -> Self {
         let own = Encoding::for_label(labels.encoding.as_bytes()).filter(|own| *own != UTF_8);
-        let first = own.or_else(|| page(header)).unwrap_or(UTF_8);
-        let mut best = (Self(first), count(Self(first)));
-        for letters in [GBK, WINDOWS_1252, MACINTOSH].map(Self) {
-            let said = count(letters);
-            if said > best.1 {
-                best = (letters, said);
-            }
+        let first = Self(own.or_else(|| page(header)).unwrap_or(UTF_8));
+        let all: Vec<(Self, Vec<T>)> = PAGES.iter().map(|page| (Self(page), said(Self(page)))).collect();
+        let most = all.iter().map(|(_, said)| said.len()).max().unwrap_or_default();
+        if most <= said(first).len() {
+            return first;
         }
-        best.0
+        let mut best = all.into_iter().filter(|(_, said)| said.len() == most);
+        let (letters, said) = best.next().unwrap_or((first, Vec::new()));
+        if best.all(|(_, other)| other == said) { letters } else { first }
     }
 
     /// The text of some bytes.
@@ -97,7 +117,7 @@ mod tests {
     use super::*;
 
     fn check(header: &str, bytes: &[u8], expected: &str) {
-        let letters = Letters::of(header.as_bytes(), &Labels::default(), |_| 0);
+        let letters = Letters::of(header.as_bytes(), &Labels::default(), |_| Vec::<()>::new());
         assert_eq!(letters.read(bytes), expected, "{header} {}", bytes.escape_ascii());
     }
 
@@ -121,10 +141,13 @@ mod tests {
 
     #[test]
     fn the_encoding_in_which_the_most_is_said_is_that_of_the_file() {
-        let said = |letters: Letters| usize::from(letters.read(b"\xb3\xdf\xc2\xeb") == "尺码");
+        let said = |letters: Letters| {
+            Some("尺码").into_iter().filter(|size| letters.read(b"\xb3\xdf\xc2\xeb") == *size).collect::<Vec<_>>()
+        };
         let of = |encoding: &str, header: &[u8]| Letters::of(header, &Labels { encoding: encoding.to_owned() }, said);
         assert_eq!([of("utf-8", b""), of("utf-8", b"ANSI_1252"), of("cp1251", b"")], [Letters(GBK); 3]);
-        let unsaid = |encoding: &str| Letters::of(b"ANSI_1252", &Labels { encoding: encoding.to_owned() }, |_| 0);
+        let unsaid =
+            |encoding: &str| Letters::of(b"ANSI_1252", &Labels { encoding: encoding.to_owned() }, |_| Vec::<()>::new());
         assert_eq!([unsaid("utf-8").0.name(), unsaid("cp1251").0.name()], ["windows-1252", "windows-1251"]);
     }
 }

@@ -25,10 +25,10 @@ pub(super) struct Item<'a> {
 /// Other words of some keys, as CAD systems of other countries write them.
 #[rustfmt::skip] // a table: a row a key
 const ALSO: [(&str, &[&str]); 5] = [
-    ("SIZE", &["SIZE NAME", "GROESSE", "GRÖSSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "TAMAÑO", "TAMANO", "MISURA", "GR.", "GROSSE", "号型", "尺码", "BEDEN", "MAAT", "ROZMIAR", "РАЗМЕР", "РОЗМІР"]),
-    ("SAMPLE SIZE", &["BASE SIZE", "BASISGROESSE", "BASISGRÖSSE", "GRUNDGROESSE", "GRUNDGRÖSSE", "TAGLIA BASE", "TAILLE DE BASE", "TALLA BASE", "TAMANHO BASE", "基码", "样板尺码", "BASISMAAT", "BAZ BEDEN", "ROZMIAR BAZOWY", "БАЗОВИЙ РОЗМІР", "БАЗОВЫЙ РАЗМЕР"]),
+    ("SIZE", &["BEDEN", "GR.", "GROESSE", "GROSSE", "GRÖSSE", "MAAT", "MARIME", "MARIMEA", "MERET", "MISURA", "MÉRET", "MĂRIME", "MĂRIMEA", "ROZMIAR", "SIZE NAME", "STOERRELSE", "STORLEK", "STØRRELSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "TAMANO", "TAMAÑO", "VELIKOST", "VELKOST", "VEĽKOSŤ", "РАЗМЕР", "РОЗМІР", "サイズ", "号型", "尺码", "尺碼", "码数", "碼數", "號型", "사이즈", "치수"]),
+    ("SAMPLE SIZE", &["ALAPMERET", "ALAPMÉRET", "ANA BEDEN", "BASE SIZE", "BASIC SIZE", "BASISGROESSE", "BASISGRÖSSE", "BASISMAAT", "BASISSTØRRELSE", "BASSTORLEK", "BAZ BEDEN", "GRUNDGROESSE", "GRUNDGRÖSSE", "GRUNDSTORLEK", "GRUNDSTØRRELSE", "GRUNNSTØRRELSE", "MARIME DE BAZA", "MARIMEA DE BAZA", "MĂRIME DE BAZĂ", "MĂRIMEA DE BAZĂ", "ROZMIAR BAZOWY", "TAGLIA BASE", "TAILLE DE BASE", "TALLA BASE", "TAMANHO BASE", "ZAKLADNA VELKOST", "ZAKLADNI VELIKOST", "ZÁKLADNÁ VEĽKOSŤ", "ZÁKLADNÍ VELIKOST", "БАЗОВ РАЗМЕР", "БАЗОВИЙ РОЗМІР", "БАЗОВЫЙ РАЗМЕР", "ベースサイズ", "基本尺码", "基本尺碼", "基本码", "基準サイズ", "基码", "基碼", "样板尺码", "標準サイズ", "樣板尺碼", "기본 사이즈", "기본사이즈", "기준 사이즈", "기준사이즈"]),
     ("UNITS", &["UNIT", "EINHEIT", "EINHEITEN", "UNIDAD", "UNIDADE", "UNIDADES", "UNITA", "UNITE", "UNITES", "UNITÀ", "UNITÉ", "UNITÉS", "单位", "BIRIM", "BİRİM", "EENHEDEN", "EENHEID", "JEDNOSTKA", "JEDNOSTKI", "ЕДИНИЦЫ", "ОДИНИЦІ"]),
-    ("QUANTITY", &["QTY", "QTY.", "ANZAHL", "CANT.", "CANTIDAD", "MENGE", "QTÉ", "QUANTIDADE", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "QTE", "QTD", "Q.TÀ", "ANZ.", "STUECK", "STUECKZAHL", "STÜCK", "STÜCKZAHL", "份数", "数量", "裁片数量", "AANTAL", "ADET", "ILOSC", "ILOŚĆ", "PCS", "PIECES", "КІЛЬКІСТЬ", "КОЛИЧЕСТВО"]),
+    ("QUANTITY", &["AANTAL", "AANTAL STUKS", "ADET", "ANTAL", "ANTAL DELAR", "ANTALL", "ANZ.", "ANZAHL", "BUC.", "BUCATI", "BUCĂȚI", "CANT.", "CANTIDAD", "CANTIDAD DE PIEZAS", "CANTITATE", "CANTITATEA", "CUT QTY", "CUT QUANTITY", "DARAB", "DARABSZAM", "DARABSZÁM", "DB", "ILOSC", "ILOSC SZTUK", "ILOŚĆ", "ILOŚĆ SZTUK", "LICZBA SZTUK", "MENGE", "MENNYISEG", "MENNYISÉG", "MIKTAR", "MNOZSTVI", "MNOZSTVO", "MNOŽSTVO", "MNOŽSTVÍ", "MİKTAR", "NOMBRE DE PIECES", "NOMBRE DE PIÈCES", "NUMERO PEZZI", "PCS", "PEZZI", "PIECE QTY", "PIECE QUANTITY", "PIECES", "PIEZAS", "POCET", "POCET KUSOV", "POCET KUSU", "POČET", "POČET KUSOV", "POČET KUSŮ", "Q.TA", "Q.TÀ", "QTA", "QTD", "QTDE", "QTE", "QTY", "QTÀ", "QTÉ", "QUANTIDADE", "QUANTIDADE DE PEÇAS", "QUANTITA", "QUANTITE", "QUANTITÀ", "QUANTITÉ", "STCK", "STK", "STUECK", "STUECKZAHL", "STUKS", "STÜCK", "STÜCKZAHL", "SZT.", "БРОЙ", "К-ВО", "К-СТЬ", "К-ТЬ", "КІЛЬКІСТЬ", "КІЛЬКІСТЬ ДЕТАЛЕЙ", "КОЛ-ВО", "КОЛ-ВО ДЕТАЛЕЙ", "КОЛ.", "КОЛИЧЕСТВО", "КОЛИЧЕСТВО ДЕТАЛЕЙ", "件数", "件數", "份数", "份數", "個数", "数量", "數量", "枚数", "枚數", "片数", "片數", "裁片数", "裁片数量", "裁片數", "裁片數量", "매수", "수량", "장수"]),
     ("PIECE NAME", &["NOM DE PIECE", "NOM DE PIÈCE", "NOMBRE DE PIEZA", "NOME DA PEÇA", "NOME PEZZO", "TEIL", "TEILENAME", "裁片名称", "NAZWA CZESCI", "NAZWA CZĘŚCI", "ONDERDEEL", "PARCA", "PARÇA", "ДЕТАЛЬ", "НАЗВА ДЕТАЛІ"]),
 ];
 
@@ -128,9 +128,9 @@ impl<'a> Item<'a> {
         self.says_in(self.letters?, key)
     }
 
-    /// Whether a text says anything under a key when it is read in these letters.
-    fn says_anything(&self, letters: Letters) -> bool {
-        ALSO.iter().any(|(key, _)| self.says_in(letters, key).is_some())
+    /// The keys under which a text says something when it is read in these letters.
+    fn keys_in(&self, letters: Letters) -> impl Iterator<Item = &'static str> {
+        ALSO.iter().map(|(key, _)| *key).filter(move |key| self.says_in(letters, key).is_some())
     }
 
     fn says_in(&self, letters: Letters, key: &str) -> Option<&'a [u8]> {
@@ -140,7 +140,8 @@ impl<'a> Item<'a> {
         let also = ALSO.iter().find(|(word, _)| *word == key).map_or(&[][..], |(_, also)| also);
         let is_key = |name: &[u8]| {
             let name = letters.read(name).to_uppercase();
-            let is = |word: &str| name.split_whitespace().eq(word.split_whitespace());
+            let name = name.trim_end().trim_end_matches('.');
+            let is = |word: &str| name.split_whitespace().eq(word.trim_end_matches('.').split_whitespace());
             is(key) || also.iter().any(|word| is(word))
         };
         let (text, is_count) = (self.text(1), key == "QUANTITY");
@@ -155,11 +156,12 @@ impl<'a> Item<'a> {
     }
 }
 
-/// What stands before and behind the colon of a line: a wide one, of UTF-8 or GBK, behind a key, else the first.
+/// What stands before and behind the colon of a line: a wide one, in UTF-8 or a code page, behind a key, else the first.
 fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> {
     for at in 0..line.len() {
         let (name, rest) = line.split_at(at);
-        let value = rest.strip_prefix(b"\xef\xbc\x9a").or(rest.strip_prefix(b"\xa3\xba"));
+        let wide = [&b"\xef\xbc\x9a"[..], b"\xa3\xba", b"\xa1\x47", b"\x81\x46"];
+        let value = wide.iter().find_map(|colon| rest.strip_prefix(*colon));
         if let Some(value) = value.filter(|_| is_key(name)) {
             return Some((name, value));
         }
@@ -172,7 +174,8 @@ fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> 
 fn bare_count(line: &[u8]) -> Option<(&[u8], &[u8])> {
     let at = line.windows(2).position(|pair| matches!(pair[0], b' ' | b'=') && pair[1].is_ascii_digit())?;
     let name = line[..at].trim_ascii_end();
-    let name = if line[at] == b' ' { name.strip_suffix(b"=").unwrap_or(name) } else { name };
+    let is_sign = |byte: &u8| matches!(byte, b'=' | b'-') && line[at] == b' ';
+    let name = name.split_last().filter(|(last, _)| is_sign(last)).map_or(name, |(_, name)| name);
     Some((name.trim_ascii_end(), &line[at + 1..]))
 }
 
@@ -240,8 +243,11 @@ fn lettered(items: &mut [Item], labels: &Labels) -> Letters {
     let page = items.iter().find_map(|item| item.variable(b"$DWGCODEPAGE"));
     let is_foreign = |item: &&Item| item.is_text() && item.tags.iter().any(|tag| !tag.text.is_ascii());
     let foreign: Vec<&Item> = items.iter().filter(is_foreign).collect();
-    let count = |letters: Letters| foreign.iter().filter(|item| item.says_anything(letters)).count();
-    let letters = Letters::of(page.unwrap_or_default(), labels, count);
+    let said = |letters: Letters| {
+        let keys = |(k, item): (usize, &&Item)| item.keys_in(letters).map(move |key| (k, key)).collect::<Vec<_>>();
+        foreign.iter().enumerate().flat_map(keys).collect::<Vec<_>>()
+    };
+    let letters = Letters::of(page.unwrap_or_default(), labels, said);
     for item in items {
         item.letters = Some(letters);
     }
