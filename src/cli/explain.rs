@@ -11,8 +11,7 @@ use crate::front::DIALECTS;
 use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
-use crate::pipeline::RULES;
-use crate::{sew, spray};
+use crate::{pipeline, sew, spray};
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
@@ -49,14 +48,10 @@ fn topics() -> impl Iterator<Item = Topic> {
         about: code.about,
         more: code.more,
     });
-    let rules = RULES.iter().map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    let sewing = sew::verify::RULES.iter();
-    let sewing = sewing.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    let flow = flow::verify::RULES.iter();
-    let flow = flow.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    let heads = spray::verify::RULES.iter();
-    let heads = heads.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    codes.chain(rules).chain(sewing).chain(flow).chain(heads)
+    let rules = [pipeline::RULES, sew::verify::RULES, flow::verify::RULES, spray::verify::RULES].concat();
+    let rules = rules.into_iter();
+    let rules = rules.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules)
 }
 
 fn severity(severity: Severity) -> &'static str {

@@ -96,7 +96,7 @@ pub(super) struct WorstOf {
 
 impl From<&Finding> for WorstOf {
     fn from(finding: &Finding) -> Self {
-        Self { code: finding.rule, worst: finding.worst, limit: finding.limit, unit: finding.unit }
+        Self { code: finding.rule.name, worst: finding.worst, limit: finding.limit, unit: finding.unit }
     }
 }
 

@@ -9,14 +9,10 @@ use crate::ir::declaration::Total;
 use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle, ToolKind};
-use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, word};
+use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, rules, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
-/// The rule that says most about a cut.
-const ON_PATH: &str = "verify/on-path";
-/// The rule that says how far the blade itself is off.
-const BODY: &str = "verify/body";
 /// The heading of the table of the axes, which ends a summary.
 pub(super) const AXES: &str = "\n  greatest value of limit\n";
 /// Columns that a line of shares may take.
@@ -206,11 +202,11 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     };
     let (limited, reported) = verdict.counts();
     let mut out = format!("\n  verified   {} hold", counted(limited, "rule"));
-    let find = |rule: &str| verdict.findings.iter().find(|finding| finding.rule == rule);
-    if let Some((worst, limit)) = find(ON_PATH).and_then(|finding| Some((finding.worst, finding.limit?))) {
+    let on_path = verdict.under(&rules::ON_PATH);
+    if let Some((worst, limit)) = on_path.and_then(|finding| Some((finding.worst, finding.limit?))) {
         let _ = write!(out, "; tip at most {} mm off the path ({} allowed)", fixed(worst, 3), fixed(limit, 3));
         // On a curve the body of a blade cuts beside the line, whatever lies there.
-        if let Some(body) = find(BODY).filter(|body| body.worst > limit) {
+        if let Some(body) = verdict.under(&rules::BODY).filter(|body| body.worst > limit) {
             let block = body.place.map_or_else(String::new, |place| format!(", block {}", place.block));
             let _ =
                 write!(out, "\n             body of the blade at most {} mm beside it{block}", fixed(body.worst, 3));
@@ -411,11 +407,11 @@ mod tests {
     fn a_verdict_is_a_line() {
         let finding = |rule, worst, limit| Finding { rule, worst, limit, unit: "mm", place: None };
         let findings = vec![
-            finding("verify/on-path", 0.061_23, Some(0.071)),
-            finding("verify/stray", 0.0, Some(0.0)),
-            finding("verify/body", 0.3, None),
+            finding(&rules::ON_PATH, 0.061_23, Some(0.071)),
+            finding(&rules::STRAY, 0.0, Some(0.0)),
+            finding(&rules::BODY, 0.3, None),
         ];
-        let line = verdict(Some(&Verdict { findings, unread: None, uncut: Vec::new(), untimed: vec!["verify/feed"] }));
+        let line = verdict(Some(&Verdict { findings, untimed: vec![&rules::FEED], ..Verdict::default() }));
         assert_eq!(
             line,
             "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             body of the blade at most 0.300 mm beside it\n             1 rule without a limit only reported\n             1 rule on times not judged: the program tells none\n"

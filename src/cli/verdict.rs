@@ -10,6 +10,7 @@ use super::options::counted;
 use super::report::pretty;
 use crate::diagnostic::PieceName;
 use crate::ir::Finding;
+use crate::ir::verdict::Rule;
 use crate::machine::Mode;
 use crate::pipeline::{self, Explained, Line, Told};
 use crate::units::number::fixed;
@@ -32,7 +33,7 @@ const RULES_A_LINE: usize = 4;
 struct Judged {
     verdict: Word,
     /// In the order of reports; none when the source has errors.
-    rules: Vec<Rule>,
+    rules: Vec<UnderRule>,
     /// Which rows cannot be read; not there when all can.
     #[serde(skip_serializing_if = "Option::is_none")]
     unread: Option<String>,
@@ -50,7 +51,7 @@ enum Word {
 
 /// The worst value under one rule.
 #[derive(Serialize)]
-struct Rule {
+struct UnderRule {
     code: &'static str,
     /// Null when no number says how bad it is, as for a hole that is missing.
     worst: Option<f64>,
@@ -119,8 +120,8 @@ pub(super) fn json_of(program: &Path, explained: Option<&Explained>) -> String {
 
 impl Judged {
     fn of(explained: Option<&Explained>) -> Self {
-        let rule = |(finding, told): (&Finding, Option<&Told>)| Rule {
-            code: finding.rule,
+        let rule = |(finding, told): (&Finding, Option<&Told>)| UnderRule {
+            code: finding.rule.name,
             worst: finding.worst.is_finite().then(|| pipeline::significant(finding.worst, DIGITS)),
             limit: finding.limit.map(|limit| pipeline::significant(limit, DIGITS)),
             unit: finding.unit,
@@ -142,7 +143,7 @@ impl Judged {
             verdict: if passes { Word::Pass } else { Word::Fail },
             rules: explained.map_or_else(Vec::new, |explained| explained.findings().map(rule).collect()),
             unread: verdict.and_then(|verdict| verdict.unread.clone()),
-            untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
+            untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.iter().map(|rule| rule.name).collect()),
         }
     }
 }
@@ -187,7 +188,8 @@ pub(super) fn text(judgement: &Judgement) -> String {
     if !verdict.untimed.is_empty() {
         say(&mut out, format_args!("\nnot judged, because the program tells no times:"));
         for rules in verdict.untimed.chunks(RULES_A_LINE) {
-            say(&mut out, format_args!("      {}", rules.join(" ")));
+            let names: Vec<&str> = rules.iter().map(|rule| rule.name).collect();
+            say(&mut out, format_args!("      {}", names.join(" ")));
         }
     }
     let (limited, reported) = verdict.counts();
@@ -207,8 +209,8 @@ pub(super) fn text(judgement: &Judgement) -> String {
 }
 
 /// What is said of a broken rule below its row: what it is, where it is broken, and what to do.
-fn explain(rule: &str, told: &Told, out: &mut String) {
-    let mut lines = vec![format!("the rule: {}", pipeline::about(rule))];
+fn explain(rule: &Rule, told: &Told, out: &mut String) {
+    let mut lines = vec![format!("the rule: {}", rule.about)];
     if !told.uncut.is_empty() {
         let names: Vec<String> = told.uncut.iter().take(MOST_PIECES).map(ToString::to_string).collect();
         let more = told.uncut.len().saturating_sub(MOST_PIECES);
@@ -223,7 +225,7 @@ fn explain(rule: &str, told: &Told, out: &mut String) {
         Some(Line { number, text: None }) => lines.push(format!("record {number} of the program")),
         None => {}
     }
-    lines.push(format!("what to do: {}", pipeline::advice(rule)));
+    lines.push(format!("what to do: {}", rule.more));
     for line in lines {
         for part in wrapped(&line, COLUMNS).lines() {
             say(out, format_args!("{INDENT}{part}"));
@@ -242,7 +244,7 @@ fn cells(finding: &Finding) -> Cells {
     let place = finding.place.filter(|_| worst != "0");
     [
         mark.to_owned(),
-        finding.rule.to_owned(),
+        finding.rule.name.to_owned(),
         worst,
         limit.unwrap_or_else(|| "none".to_owned()),
         finding.unit.to_owned(),
@@ -265,19 +267,19 @@ fn aligned(row: &Cells, widths: &[usize; 9]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::finding::Sighting;
-    use crate::pipeline::Verdict;
+    use crate::ir::verdict::Sighting;
+    use crate::pipeline::{Verdict, rules};
 
     fn explained() -> Explained {
-        let at = |time, x, block| Some(Sighting { time, line: None, point: [x, 20.0].into(), block });
-        let finding = |rule, worst, limit, unit, place| Finding { rule, worst, limit, unit, place };
+        let at = |time, x, block| Some(Sighting { time, ..Sighting::missing([x, 20.0].into(), block) });
+        let finding = |rule: &'static Rule, worst, limit, place| Finding { rule, worst, limit, unit: rule.unit, place };
         let verdict = Verdict {
             findings: vec![
-                finding("verify/format", 0.0, Some(0.0), "bad rows", None),
-                finding("verify/end", 0.0, Some(1e-6), "mm, deg", at(Some(1.5), 10.0, 0)),
-                finding("verify/acceleration-x", 8123.456, Some(8012.0), "mm/s2", at(Some(12.345), 1695.377, 268)),
-                finding("verify/complete", f64::INFINITY, Some(0.01), "mm", at(None, 5.0, 7)),
-                finding("verify/overcut-neighbour", 1.0 / 3.0, None, "mm", at(Some(80.0), 0.0, 9)),
+                finding(&rules::FORMAT, 0.0, Some(0.0), None),
+                finding(&rules::END, 0.0, Some(1e-6), at(Some(1.5), 10.0, 0)),
+                finding(&rules::ACCELERATION_X, 8123.456, Some(8012.0), at(Some(12.345), 1695.377, 268)),
+                finding(&rules::COMPLETE, f64::INFINITY, Some(0.01), at(None, 5.0, 7)),
+                finding(&rules::OVERCUT_NEIGHBOUR, 1.0 / 3.0, None, at(Some(80.0), 0.0, 9)),
             ],
             unread: None,
             uncut: vec![2],

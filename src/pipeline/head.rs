@@ -9,13 +9,13 @@ use super::told::{Explained, told};
 use super::{judge, place};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
+use crate::ir::verdict::Verdict;
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::plan::Peaks;
 use crate::source::Source;
 use crate::spray::verify::Ground;
 use crate::spray::{self, Program, TARGETS, Target};
-use crate::verify::Verdict;
 
 /// Compiles a source, read as a dialect, to several programs of a head, as [`super::compile_all`] does for a knife: its
 /// figures, and with `verify` what it is worth.
@@ -118,9 +118,9 @@ fn judged(program: &mut dyn Medium, input: &Input, job: &Job, audit: Vec<Finding
     program.rewind()?;
     let ground = Ground::new(&input.marker, &job.profile);
     let mut bytes = BufReader::with_capacity(BLOCK, program);
-    let spray::verify::Verdict { mut findings, unread } = spray::verify::judge(&mut bytes, &ground, job)?;
-    findings.extend(audit);
-    Ok(Verdict { findings, unread, uncut: Vec::new(), untimed: Vec::new() })
+    let mut verdict = spray::verify::judge(&mut bytes, &ground, job)?;
+    verdict.findings.extend(audit);
+    Ok(verdict)
 }
 
 /// Judges a program of a head against a source, as [`super::judge_program`] does for a knife.

@@ -11,23 +11,23 @@ use super::told::{Explained, told};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
+use crate::ir::verdict::{Rule, Verdict, sort};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::spray;
 use crate::units::number::{exact, fixed, up};
-use crate::verify::{self, Declared, Ground, Kind, Verdict};
+use crate::verify::{self, Declared, Ground, Kind, RULES, rules};
 
 /// The rule on what can be read.
-const FORMAT: [&str; 2] = ["verify/format", "spray-verify/format"];
-/// The rule on the table, and the least that is said of it while it holds, mm.
-const TABLE: &str = "verify/table";
+static FORMAT: [&Rule; 2] = [&rules::FORMAT, &spray::verify::rules::FORMAT];
+/// The least that is said of the rule on the table while it holds, mm.
 const EDGE_SHOWN: f64 = 0.01;
 /// What is said of outlines that cross themselves or others: which side of them is the part is in doubt there.
 const CROSSING: [&Code; 2] = [&code::MARKER_SELF_CROSSING, &code::MARKER_OVERLAPPING];
 /// Rules that a run may break which is parted where the blade has no room for that.
-const OF_PARTS: &[&str] =
-    &["verify/on-path", "verify/stray", "verify/once", "verify/complete", "verify/heading", "verify/body"];
+static OF_PARTS: [&Rule; 6] =
+    [&rules::ON_PATH, &rules::STRAY, &rules::ONCE, &rules::COMPLETE, &rules::HEADING, &rules::BODY];
 /// Significant digits at which figures of findings are shown to people.
 const DIGITS: i32 = 4;
 /// Below this, in any unit, an allowed value is rounding of the computation.
@@ -106,13 +106,13 @@ pub(super) fn judge(
                 judge_by(&Ground::new(marker, &job.profile))
             } else {
                 let mut verdict = judge_by(&Ground::new(&uncut(marker, job.mode), &job.profile));
-                verdict.findings.retain(|finding| !verify::rule(finding.rule).needs_cut);
+                verdict.findings.retain(|finding| !finding.rule.needs_cut);
                 verdict
             }
         }
     };
     verdict.findings.extend_from_slice(audit);
-    verify::sort(&mut verdict.findings);
+    sort(&mut verdict.findings, RULES);
     Ok(verdict)
 }
 
@@ -149,7 +149,7 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
             None => findings.push(finding),
         }
     }
-    verify::sort(&mut findings);
+    sort(&mut findings, RULES);
     let (mut untimed, mut uncut) = (first.untimed, first.uncut);
     uncut.extend(second.uncut);
     uncut.sort_unstable();
@@ -165,7 +165,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
     for finding in verdict.broken() {
         let (worst, limit) = figures(finding);
         let unit = finding.unit;
-        let mut message = format!("{}: {worst} {unit}", finding.rule);
+        let mut message = format!("{}: {worst} {unit}", finding.rule.name);
         if let Some(limit) = limit {
             let _ = write!(message, " ({limit} allowed)");
         }
@@ -179,15 +179,15 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
             }
             span = span_of(marker, place.block);
         }
-        let rule = format!("the rule: {}", about(finding.rule));
-        let hint = match (key(finding.rule), parting_keys(job)) {
+        let rule = format!("the rule: {}", finding.rule.about);
+        let hint = match (finding.rule.key, parting_keys(job)) {
             (_, Some(keys)) if OF_PARTS.contains(&finding.rule) => {
                 format!("{keys} parts this cut into pieces that the blade is too wide for: give it more")
             }
             (Some(key), _) => {
                 format!("the limit is the profile's `{key}`; where that is its default this is a fault of `cutc`")
             }
-            (None, _) if finding.rule == TABLE => off_table::advice(marker, job),
+            (None, _) if finding.rule == &rules::TABLE => off_table::advice(marker, job),
             (None, _) => fault(crossing),
         };
         let at = finding.place.map(|place| Box::new(place.point.into()));
@@ -213,7 +213,7 @@ fn fault(crossing: Option<&Code>) -> String {
 
 /// One line on a blade that leaves the table by less than is refused, unless the marker itself is known to.
 fn over_the_edge(verdict: &Verdict, diagnostics: &mut Diagnostics) {
-    let over = verdict.findings.iter().find(|finding| finding.rule == TABLE && finding.holds());
+    let over = verdict.under(&rules::TABLE).filter(|finding| finding.holds());
     let Some((by, place)) = over.and_then(|finding| Some((finding.worst, finding.place?))) else { return };
     if by < EDGE_SHOWN || diagnostics.iter().any(|finding| finding.code == &code::MARKER_OVER_EDGE) {
         return;
@@ -230,32 +230,6 @@ fn parting_keys(job: &Job) -> Option<&'static str> {
         (None, Some(_)) => Some("`c.range_deg`"),
         (None, None) => None,
     }
-}
-
-/// What a rule says.
-pub fn about(rule: &str) -> &'static str {
-    spray::verify::rule(rule).map_or_else(|| verify::rule(rule).about, |rule| rule.about)
-}
-
-/// Why a rule matters, and what to do where it is broken.
-pub fn advice(rule: &str) -> &'static str {
-    spray::verify::rule(rule).map_or_else(|| verify::rule(rule).more, |rule| rule.more)
-}
-
-/// The key of the profile that is the limit of a rule and nothing else.
-fn key(rule: &str) -> Option<&'static str> {
-    Some(match rule {
-        "verify/complete" => "verify.max_uncut_mm",
-        "verify/heading" | "spray-verify/heading" => "verify.max_heading_deg",
-        "spray-verify/distance" => "path.tolerance_mm",
-        "spray-verify/edge-speed" => "tool.edge_speed_percent",
-        "verify/down" => "knife.max_down_mm",
-        "verify/body" => "verify.max_body_mm",
-        "verify/overcut-part" => "verify.max_overcut_part_mm",
-        "verify/overcut-neighbour" => "verify.max_overcut_neighbour_mm",
-        "verify/overcut-waste" => "verify.max_overcut_waste_mm",
-        _ => return None,
-    })
 }
 
 /// The worst value and the limit of a finding for people: short, but told apart where the one breaks the other.
@@ -291,11 +265,12 @@ fn span_of(marker: &Marker, block: u32) -> Option<Span> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::keys;
 
     #[test]
     fn a_broken_limit_is_seen_in_the_figures() {
         let check = |worst, limit, expected: (&str, Option<&str>)| {
-            let finding = Finding { rule: "verify/body", worst, limit, unit: "mm", place: None };
+            let finding = Finding { rule: &rules::BODY, worst, limit, unit: "mm", place: None };
             let (worst, limit) = figures(&finding);
             assert_eq!((worst.as_str(), limit.as_deref()), expected);
         };
@@ -314,8 +289,8 @@ mod tests {
     fn a_refusal_tells_of_outlines_that_cross_before_it_blames_the_compiler() {
         let said = |known: &[&'static Code]| {
             let finding =
-                Finding { rule: "verify/overlap", worst: 0.8, limit: Some(0.05), unit: "mm missing", place: None };
-            let verdict = Verdict { findings: vec![finding], unread: None, uncut: Vec::new(), untimed: Vec::new() };
+                Finding { rule: &rules::OVERLAP, worst: 0.8, limit: Some(0.05), unit: "mm missing", place: None };
+            let verdict = Verdict { findings: vec![finding], ..Verdict::default() };
             let mut diagnostics = Diagnostics::default();
             for code in known {
                 diagnostics.push(Diagnostic::new(code, ""));
@@ -331,9 +306,9 @@ mod tests {
     }
 
     #[test]
-    fn every_rule_with_a_key_of_its_own_stands_in_the_table() {
-        let keyed = crate::verify::RULES.iter().filter(|rule| key(rule.name).is_some()).count();
-        assert_eq!(keyed, 7);
-        assert!(crate::verify::RULES.iter().all(|rule| !about(rule.name).is_empty()));
+    fn the_limit_of_a_rule_is_a_key_of_the_profile() {
+        for rule in [RULES, spray::verify::RULES].concat() {
+            assert!(rule.key.is_none_or(|key| keys::find(key).is_some()), "{rule:?}");
+        }
     }
 }

@@ -26,7 +26,7 @@ pub use self::advance::Advance;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{about, advice, audited, figures, foreign};
+pub use judge::{audited, figures, foreign};
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
@@ -34,8 +34,10 @@ pub use savings::Savings;
 pub use spent::{Spent, word};
 pub use told::{Explained, Line, Told};
 
+pub use crate::ir::verdict::Verdict;
 pub use crate::spray::{Edge, Piece};
-pub use crate::verify::{Declared, RULES, Rule, Verdict};
+pub(crate) use crate::verify::rules;
+pub use crate::verify::{Declared, RULES};
 
 use std::io::{self, BufWriter, Write};
 
@@ -208,14 +210,13 @@ fn finish(
     declared: &[Total],
     diagnostics: &Diagnostics,
 ) -> io::Result<()> {
-    let mut findings = refused::findings(diagnostics);
-    findings.extend(verdict.iter().flat_map(|verdict| verdict.findings.iter().cloned()));
-    let doubts = refused::doubts(diagnostics);
+    let findings = verdict.map_or(&[][..], |verdict| &verdict.findings);
+    let (refusals, doubts) = (&refused::errors(diagnostics)[..], &refused::doubts(diagnostics)[..]);
     for Product { target, out, shows_refusal } in products {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Emit::Toolpath(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
-            (parts.tail)(context, Outcome { findings: &findings, declared, doubts: &doubts }, &mut out)?;
+            (parts.tail)(context, Outcome { findings, refusals, declared, doubts }, &mut out)?;
             out.flush()?;
         }
         out.flush()?;

@@ -5,8 +5,6 @@ use std::io::{self, BufWriter, Write};
 use super::product::Product;
 use crate::back::{Context, Emit, Outcome, Proof, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
-use crate::ir::Finding;
-use crate::ir::finding::Sighting;
 
 /// The most errors that a picture marks: it is looked at, the messages tell the rest.
 const MOST: usize = 24;
@@ -16,22 +14,10 @@ pub(super) fn is_picture(target: &Target) -> bool {
     matches!(target.emit, Emit::Toolpath(_)) && target.proof == Proof::None
 }
 
-/// The errors that refuse a program, as findings that do not hold; those of the verifier are findings already.
-pub(super) fn findings(diagnostics: &Diagnostics) -> Vec<Finding> {
+/// The errors that refuse a program; those of the verifier are findings.
+pub(super) fn errors(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
     let is_error = |d: &&Diagnostic| d.code.severity == Severity::Error && d.code != &code::VERIFY_BROKEN;
-    let finding = |d: &Diagnostic| Finding {
-        rule: d.code.name,
-        worst: f64::INFINITY,
-        limit: Some(0.0),
-        unit: "",
-        place: d.at.as_deref().map(|&at| Sighting {
-            time: None,
-            line: None,
-            point: at.into(),
-            block: d.span.map_or(0, |span| span.block),
-        }),
-    };
-    diagnostics.iter().filter(is_error).map(finding).take(MOST).collect()
+    diagnostics.iter().filter(is_error).take(MOST).collect()
 }
 
 /// The warnings that are about some of the pieces, or about outlines that are not cut.
@@ -43,14 +29,13 @@ pub(super) fn doubts(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
 
 /// Draws a marker that was refused before anything was planned.
 pub(super) fn draw(context: &Context, products: &mut [Product], diagnostics: &Diagnostics) -> io::Result<()> {
-    let findings = findings(diagnostics);
-    let doubts = doubts(diagnostics);
+    let (refusals, doubts) = (errors(diagnostics), doubts(diagnostics));
     for Product { target, out, shows_refusal } in products {
         let Emit::Toolpath(parts) = &target.emit else { continue };
         if is_picture(target) {
             let mut out = BufWriter::new(&mut **out);
             (parts.head)(context, &mut out)?;
-            (parts.tail)(context, Outcome { findings: &findings, declared: &[], doubts: &doubts }, &mut out)?;
+            (parts.tail)(context, Outcome { refusals: &refusals, doubts: &doubts, ..Outcome::default() }, &mut out)?;
             out.flush()?;
             *shows_refusal = true;
         }

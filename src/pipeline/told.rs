@@ -8,13 +8,12 @@ use super::product::{BLOCK, Medium};
 use crate::diagnostic::PieceName;
 use crate::geom::{Point, polyline};
 use crate::ir::marker::{Notch, Piece};
+use crate::ir::verdict::Verdict;
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::source::Source;
-use crate::verify::{self, Verdict};
+use crate::verify::{self, rules};
 
-/// The rule on lines that are left.
-const COMPLETE: &str = "verify/complete";
 /// The most letters of a line of a program that are shown.
 const LETTERS: usize = 100;
 
@@ -67,7 +66,7 @@ pub(super) fn told(
     let named = |piece: &Piece| name(piece, source, letters);
     let tell = |finding: &Finding| {
         let place = finding.place?;
-        let uncut = if finding.rule == COMPLETE { &verdict.uncut[..] } else { &[] };
+        let uncut = if finding.rule == &rules::COMPLETE { &verdict.uncut[..] } else { &[] };
         let line = place.line.map(|number| Line { number, text: None });
         let uncut = uncut.iter().map(|&piece| named(&marker.pieces[piece as usize])).collect();
         Some(Told { piece: piece_of(marker, place.block, place.point).map(named), uncut, line })

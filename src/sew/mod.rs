@@ -40,8 +40,9 @@ use std::io::{self, BufRead};
 
 use self::fit::Fit;
 use self::read::Reading;
-use self::verify::{Bytes, Ground, Original, Verdict};
+use self::verify::{Bytes, Ground, Original};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::ir::verdict::Verdict;
 use crate::machine::sewing::OnLong;
 use crate::machine::{Job, Sewing};
 use crate::source::Source;

@@ -4,10 +4,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::reference::line::Line;
 use super::reference::lines::Reference;
-use super::worst::Worst;
 use crate::geom::Point;
 use crate::ir::declaration::{Declaration, Kind, Which};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 
 /// How far from where it is declared a deviation may be met, mm: places of the blade are looked at in steps, and smoothing
 /// moves the ends of a cut.
@@ -137,10 +136,10 @@ impl<'a> Account<'a> {
 fn place(entry: &Declaration, reference: &Reference) -> Sighting {
     let of_cut = reference.lines.iter().filter(|line| line.cut.index == entry.cut);
     let Some(line) = of_cut.min_by(|a, b| away(a, entry).total_cmp(&away(b, entry))) else {
-        return Sighting { time: None, line: None, point: Point::origin(), block: 0 };
+        return Sighting::missing(Point::origin(), 0);
     };
     let station = (entry.from_mm - line.cut.offset).clamp(0.0, line.length());
-    Sighting { time: None, line: None, point: line.place(station), block: line.block(line.chord_at(station)) }
+    Sighting::missing(line.place(station), line.block(line.chord_at(station)))
 }
 
 /// How far from a line of its cut a declaration begins, mm.

@@ -13,25 +13,22 @@ mod cut;
 mod declared;
 mod program;
 mod reference;
-mod rules;
+pub(crate) mod rules;
 mod simulate;
 mod source;
-mod verdict;
-mod worst;
 
 pub use declared::Declared;
 pub use program::cutter_file::cutter_file;
 pub use reference::ground::Ground;
 pub use reference::inside::Inside;
 pub use reference::required::{Capped, Required, RequiredCut, required};
-pub use rules::{RULES, Rule, rule};
+pub use rules::RULES;
 pub use source::audit::source_audit;
 pub use source::census::Census;
 pub use source::dxf::{CutPlaces, pattern_audit};
 pub use source::hpgl::{PlotCuts, plot_audit};
 pub use source::kept::Works;
 pub use source::sheet::Drawn;
-pub use verdict::{Verdict, sort};
 
 pub(crate) use axes::crawl;
 pub(crate) use program::number;
@@ -44,6 +41,7 @@ use self::program::rows::Rows;
 use self::program::{counts, cutter_file, hal, npy, rows};
 use self::simulate::simulate;
 use crate::ir::Finding;
+use crate::ir::verdict::{Verdict, sort};
 use crate::machine::Job;
 
 /// What bytes are meant as, by how they begin.
@@ -92,11 +90,11 @@ pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     let is_broken = rows.is_broken();
     let (format, unread) = rows.findings();
     if is_broken {
-        return Verdict { findings: vec![format], unread, uncut: Vec::new(), untimed: Vec::new() };
+        return Verdict { findings: vec![format], unread, ..Verdict::default() };
     }
     findings.push(format);
-    sort(&mut findings);
-    Verdict { findings, unread: None, uncut, untimed: Vec::new() }
+    sort(&mut findings, RULES);
+    Verdict { findings, uncut, ..Verdict::default() }
 }
 
 /// Judges positions without time, as the target `gcode` writes them, against what must be cut.
@@ -109,14 +107,14 @@ pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     let is_broken = places.is_broken();
     let ([format, dwell], unread) = places.findings();
     if is_broken {
-        return Verdict { findings: vec![gcode::timeless(&format)], unread, uncut: Vec::new(), untimed: Vec::new() };
+        return Verdict { findings: vec![gcode::timeless(&format)], unread, ..Verdict::default() };
     }
     // Of rests the program tells how long they are.
     findings.retain(|finding| finding.rule != dwell.rule);
     findings.extend([format, dwell]);
-    let untimed = |finding: &Finding| rule(finding.rule).needs_time;
+    let untimed = |finding: &Finding| finding.rule.needs_time;
     let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
     let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();
-    sort(&mut findings);
-    Verdict { findings, unread: None, uncut, untimed: left.iter().map(|finding| finding.rule).collect() }
+    sort(&mut findings, RULES);
+    Verdict { findings, uncut, untimed: left.iter().map(|finding| finding.rule).collect(), ..Verdict::default() }
 }

@@ -15,8 +15,8 @@ use super::cut::strokes::Strokes;
 use super::cut::worsts::Worsts;
 use super::program::row::{Going, Row};
 use super::reference::order::{Order, Seen};
-use super::worst::Worst;
 use crate::ir::Finding;
+use crate::ir::verdict::Worst;
 use crate::machine::Job;
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.

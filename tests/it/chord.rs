@@ -64,7 +64,7 @@ fn proven(points: &[Point], job: &Job, what: &str) -> Compiled {
 
 fn worst(compiled: &Compiled, rule: &str) -> f64 {
     let verdict = compiled.verdict.as_ref().expect("it was judged");
-    verdict.findings.iter().find(|finding| finding.rule == rule).expect("every rule is reported").worst
+    verdict.findings.iter().find(|finding| finding.rule.name == rule).expect("every rule is reported").worst
 }
 
 /// An arc about a centre, from one angle on through another.

@@ -7,11 +7,12 @@ use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::{Point, Vector, polyline};
 use cutc::ir::list::Segment;
 use cutc::ir::marker::{Contour, Cut, CutKind, Notch, NotchKind};
+use cutc::ir::verdict::Verdict;
 use cutc::ir::{Marker, text};
 use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection, Start};
 use cutc::pipeline::{self, Compiled};
 use cutc::source::Source;
-use cutc::verify::{self, Ground, Verdict};
+use cutc::verify::{self, Ground};
 
 use crate::support::program::{declared, setpoints};
 use crate::support::with_cuts;
@@ -215,7 +216,7 @@ fn claimed(change: impl FnOnce(&mut Marker)) -> Verdict {
 }
 
 fn breaks(verdict: &Verdict, rule: &str) -> bool {
-    verdict.broken().any(|finding| finding.rule == rule)
+    verdict.broken().any(|finding| finding.rule.name == rule)
 }
 
 /// The place of an open cut of an outline that is long enough to be damaged.

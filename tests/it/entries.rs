@@ -121,7 +121,7 @@ fn what_lies_beside_a_curve_is_nibbled_when_the_profile_says_so() {
         let (nibbled, codes) = proven(&source, &job, ("csv", "nibbled"));
         let body = |compiled: &Compiled| {
             let verdict = compiled.verdict.as_ref().expect("it was judged");
-            verdict.findings.iter().find(|finding| finding.rule == "verify/body").expect("reported").worst
+            verdict.findings.iter().find(|finding| finding.rule.name == "verify/body").expect("reported").worst
         };
         assert!(nibbled.report.program.plunge_cuts > followed.report.program.plunge_cuts, "radius {radius}");
         assert!(body(&nibbled) < body(&followed), "radius {radius}");

@@ -295,7 +295,7 @@ fn a_blade_with_two_edges_cuts_either_way_round_and_turns_less() {
         let mut found = Diagnostics::default();
         let verdict =
             pipeline::judge_program(&mut program, &source, None, job, None, &mut found).expect("memory is readable");
-        verdict.expect("the source is sound").verdict.broken().map(|finding| finding.rule).collect::<Vec<_>>()
+        verdict.expect("the source is sound").verdict.broken().map(|finding| finding.rule.name).collect::<Vec<_>>()
     };
     assert_eq!(judge(&two_edges), [""; 0]);
     assert!(judge(&one_edge).contains(&"verify/heading"), "a blade with one edge must not run backwards");

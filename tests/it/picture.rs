@@ -6,9 +6,9 @@ use cutc::back::{Context, Emit, Outcome, Parts, TARGETS};
 use cutc::diagnostic::{Diagnostic, code};
 use cutc::geom::{Heading, Point};
 use cutc::ir::declaration::{Kind, Total};
-use cutc::ir::finding::Sighting;
 use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece};
+use cutc::ir::verdict::{Rule, Sighting};
 use cutc::ir::{Finding, Toolpath};
 use cutc::machine::{CommonLines, Job, Lines};
 use cutc::source::{Source, Span};
@@ -70,8 +70,12 @@ fn picture(marker: &Marker, job: &Job, found: &[Finding]) -> String {
     for toolpath in support::toolpaths(marker, job) {
         (parts().body)(&toolpath, &context, &mut out).expect("a buffer takes all");
     }
-    (parts().tail)(&context, Outcome { findings: found, declared: &DECLARED, doubts: &[&doubt()] }, &mut out)
-        .expect("a buffer takes all");
+    (parts().tail)(
+        &context,
+        Outcome { findings: found, refusals: &[], declared: &DECLARED, doubts: &[&doubt()] },
+        &mut out,
+    )
+    .expect("a buffer takes all");
     String::from_utf8(out.into_inner()).expect("UTF-8")
 }
 
@@ -142,8 +146,9 @@ fn drawing(text: &str) -> &str {
     text.split("<g id=\"legend\"").next().expect("a split has a first part")
 }
 
-fn finding(rule: &'static str, worst: f64, x: f64, y: f64) -> Finding {
-    let place = Some(Sighting { time: Some(1.5), line: None, point: Point::new(x, y), block: 3 });
+fn finding(name: &'static str, worst: f64, x: f64, y: f64) -> Finding {
+    let rule = Box::leak(Box::new(Rule { name, unit: "mm", ..Rule::PLAIN }));
+    let place = Some(Sighting::at(1.5, Point::new(x, y), 3));
     Finding { rule, worst, limit: Some(1.0), unit: "mm", place }
 }
 

@@ -212,7 +212,7 @@ fn what_lies_in_a_part_is_cut_before_that_whatever_the_marker_says() {
         let ground = Ground::new(&marker, &job.profile);
         let verdict = verify::setpoints(&mut BufReader::new(&program[..]), None, &ground, &job);
         let value = |rule: &str| {
-            let finding = verdict.findings.iter().find(|finding| finding.rule == rule);
+            let finding = verdict.findings.iter().find(|finding| finding.rule.name == rule);
             finding.expect("it is judged").worst
         };
         assert_eq!(value("verify/order"), 0.0, "{:#?}", verdict.findings);
@@ -357,7 +357,7 @@ fn a_cut_out_behind_a_part_that_others_share_edges_with_is_found() {
         let program = setpoints(&marker, &job);
         let ground = Ground::new(&marker, &job.profile);
         let verdict = verify::setpoints(&mut BufReader::new(&program[..]), None, &ground, &job);
-        verdict.findings.iter().find(|finding| finding.rule == "verify/freed").expect("it is judged").worst
+        verdict.findings.iter().find(|finding| finding.rule.name == "verify/freed").expect("it is judged").worst
     };
     let mut marker = read(&text, &job);
     assert_eq!(freed(&marker), 0.0);

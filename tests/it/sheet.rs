@@ -277,7 +277,7 @@ fn what_a_pass_lays_wrongly_is_refused() {
         let mut damaged = laid(&sheet);
         damage(&mut damaged);
         let finding = Drawn::of(&drawn).laid(&damaged, &sheet);
-        assert!(!finding.holds() && finding.rule == "source/laid", "{name}: {finding:?}");
+        assert!(!finding.holds() && finding.rule.name == "source/laid", "{name}: {finding:?}");
     }
     // A pass that misreads a key.
     for (name, wrong) in [

@@ -3,12 +3,11 @@
 use std::fmt::Write;
 
 use super::knife::symbol_width;
+use super::mark::Mark;
 use super::markup::{PathData, escape, mm};
 use super::sheet::Sheet;
 use crate::geom::{Point, Vector};
-use crate::ir::Finding;
 use crate::machine::Knife;
-use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
 /// Radii of rings, nominal pixels.
@@ -25,24 +24,17 @@ fn letter(n: usize) -> String {
     if n < 26 { last.to_string() } else { letter(n / 26 - 1) + &last.to_string() }
 }
 
-/// The findings that a picture shows: what fails, and what has its worst place on the cloth; that an axis reaches its
-/// limit somewhere is no news.
-pub(super) fn worth_a_ring(findings: &[Finding]) -> Vec<Finding> {
-    let on_the_cloth = |finding: &Finding| finding.place.is_some() && matches!(finding.unit, "mm" | "deg");
-    findings.iter().filter(|finding| !finding.holds() || on_the_cloth(finding)).cloned().collect()
-}
-
 /// The layer, in the coordinates of the sheet (Y down).
-pub(super) fn layer(findings: &[Finding], sheet: &Sheet, knife: &Knife) -> String {
-    if findings.is_empty() {
+pub(super) fn layer(marks: &[Mark], sheet: &Sheet, knife: &Knife) -> String {
+    if marks.is_empty() {
         return String::new();
     }
     let mut text = String::from("<g id=\"findings\" inkscape:groupmode=\"layer\" inkscape:label=\"findings\">\n");
     let mut lettered: Vec<Point> = Vec::new();
     // What holds is drawn first: what fails lies on top.
     for fails in [false, true] {
-        for (n, finding) in findings.iter().enumerate().filter(|(_, f)| f.holds() != fails) {
-            let Some(sighting) = finding.place else { continue };
+        for (n, mark) in marks.iter().enumerate().filter(|(_, mark)| mark.holds != fails) {
+            let Some(sighting) = mark.place else { continue };
             let at = Point::new(sighting.point.x, -sighting.point.y);
             if !(at.x.is_finite() && at.y.is_finite()) {
                 continue;
@@ -62,7 +54,7 @@ pub(super) fn layer(findings: &[Finding], sheet: &Sheet, knife: &Knife) -> Strin
             let _infallible = write!(
                 text,
                 "<g><title>{}</title>\n{}<text class=\"{class}-text\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text></g>\n",
-                escape(&sentence(n, finding)),
+                escape(&sentence(n, mark)),
                 data.element(class),
                 mm(at.x + shift),
                 mm(at.y - radius / 2.0),
@@ -76,18 +68,9 @@ pub(super) fn layer(findings: &[Finding], sheet: &Sheet, knife: &Knife) -> Strin
 }
 
 /// What was found, in a line: letter, rule, values, place.
-pub(super) fn sentence(n: usize, finding: &Finding) -> String {
-    let unit = if finding.unit.is_empty() { String::new() } else { format!(" {}", finding.unit) };
-    let value = |value: f64| format!("{}{unit}", shown(value));
-    let verdict = match finding.limit {
-        // Beyond measure: something is missing, or no program can be made.
-        Some(_) if finding.worst.is_infinite() => "FAILS".to_owned(),
-        None => format!("{} (no limit)", value(finding.worst)),
-        Some(limit) if finding.holds() => format!("{}, limit {}: holds", value(finding.worst), value(limit)),
-        Some(limit) => format!("{}, limit {}: FAILS", value(finding.worst), value(limit)),
-    };
-    let mut text = format!("{}  {}  {verdict}", letter(n), finding.rule);
-    if let Some(place) = finding.place {
+pub(super) fn sentence(n: usize, mark: &Mark) -> String {
+    let mut text = format!("{}  {}  {}", letter(n), mark.name, mark.verdict);
+    if let Some(place) = mark.place {
         let _infallible = write!(text, ", at X {} Y {} mm", fixed(place.point.x, 2), fixed(place.point.y, 2));
         if let Some(time) = place.time {
             let _infallible = write!(text, ", {} s", fixed(time, 3));
@@ -99,17 +82,6 @@ pub(super) fn sentence(n: usize, finding: &Finding) -> String {
     text
 }
 
-/// A value with as many decimals as its size deserves: limits reach from micrometres to jerks of 1e6.
-fn shown(value: f64) -> String {
-    let decimals = match value.abs() {
-        size if size == 0.0 || size >= MM_PER_M => 0,
-        size if size >= 10.0 => 1,
-        size if size >= 0.01 => 3,
-        _ => 6,
-    };
-    fixed(value, decimals)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,11 +90,5 @@ mod tests {
     fn every_finding_has_a_letter_of_its_own() {
         let letters: Vec<String> = [0, 25, 26, 51, 52, 701, 702].into_iter().map(letter).collect();
         assert_eq!(letters, ["A", "Z", "AA", "AZ", "BA", "ZZ", "AAA"]);
-    }
-
-    #[test]
-    fn a_value_is_shown_with_the_decimals_that_matter() {
-        let values: Vec<String> = [0.0, 0.000_4, 0.05, 12.34, 199_999.6].into_iter().map(shown).collect();
-        assert_eq!(values, ["0", "0.000400", "0.050", "12.3", "200000"]);
     }
 }

@@ -6,11 +6,13 @@ use super::declared;
 use super::doubts;
 use super::findings;
 use super::items::{Item, Symbol, items};
+use super::mark::Mark;
 use super::markup::{PathData, short};
 use super::piece::PALETTE;
 use super::sheet::{CELL_PX, LINE_PX, MARGIN_PX, Sheet, caption, table_lines};
 use crate::back::target::{Context, Outcome};
 use crate::geom::{Point, Vector};
+use crate::ir::verdict;
 use crate::units::MM_PER_M;
 
 /// Width of a symbol, pixels.
@@ -18,13 +20,12 @@ const SYMBOL_PX: f64 = 30.0;
 /// The scale bar is at most this part of the sheet's width.
 const SCALE_PART: f64 = 0.2;
 
-/// Scale bar, caption, symbols and the tables of findings, of doubts and of what is declared, below the drawing; with the numbers of
-/// rules that have a limit and that only report.
+/// Scale bar, caption, symbols and the tables of findings, of doubts and of what is declared, below the drawing.
 pub(super) fn layer(
     sheet: &Sheet,
     context: &Context,
-    Outcome { findings: found, declared, doubts }: Outcome,
-    (limited, reported): (usize, usize),
+    marks: &[Mark],
+    Outcome { findings: found, refusals, declared, doubts }: Outcome,
 ) -> String {
     let line = LINE_PX * sheet.px;
     let left = sheet.left + MARGIN_PX * sheet.px;
@@ -42,23 +43,24 @@ pub(super) fn layer(
         text.push_str(&sheet.text("", at + Vector::new((SYMBOL_PX + 8.0) * sheet.px, 0.0), &item.meaning));
     }
     y += line * items(context).count().div_ceil(sheet.columns()) as f64;
-    if limited + reported > 0 {
-        let failing = found.iter().filter(|finding| !finding.holds()).count();
+    if found.len() + refusals.len() > 0 {
+        let (limited, reported) = verdict::counts(found);
+        let failing = marks.iter().filter(|mark| !mark.holds).count();
         let class = if failing == 0 { "verdict" } else { "fails-text" };
-        let verdict = match failing {
+        let said = match failing {
             0 => {
                 format!("verified: {limited} rules hold, {reported} only reported; the worst places on the cloth:")
             }
-            n if found.iter().all(|finding| finding.holds() || finding.rule.starts_with("verify/")) => {
+            n if marks.iter().all(|mark| mark.holds || mark.name.starts_with("verify/")) => {
                 format!("REFUSED, no program was written: {n} of {limited} rules are broken:")
             }
             _ => "REFUSED, no program was written:".to_owned(),
         };
-        text.push_str(&sheet.text(class, Point::new(left, y), &verdict));
-        for (n, finding) in found.iter().enumerate() {
+        text.push_str(&sheet.text(class, Point::new(left, y), &said));
+        for (n, mark) in marks.iter().enumerate() {
             y += line;
-            let class = if finding.holds() { "" } else { "fails-text" };
-            text.push_str(&sheet.text(class, Point::new(left, y), &findings::sentence(n, finding)));
+            let class = if mark.holds { "" } else { "fails-text" };
+            text.push_str(&sheet.text(class, Point::new(left, y), &findings::sentence(n, mark)));
         }
         y += line;
     }

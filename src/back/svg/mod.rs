@@ -19,6 +19,7 @@ mod items;
 mod knife;
 mod label;
 mod legend;
+mod mark;
 mod markup;
 mod near;
 mod piece;
@@ -28,7 +29,7 @@ mod spot;
 use std::io::{self, SeekFrom};
 
 use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
-use crate::ir::{Toolpath, finding};
+use crate::ir::Toolpath;
 use sheet::Sheet;
 
 pub(super) const TARGET: Target = Target {
@@ -40,7 +41,7 @@ pub(super) const TARGET: Target = Target {
 };
 
 fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
-    let sheet = Sheet::of(context, Outcome::default());
+    let sheet = Sheet::of(context, &[], Outcome::default());
     let mut text = sheet.opening();
     let mut shapes = piece::shapes(context.marker);
     let labels = label::layer(&mut shapes, &sheet, context);
@@ -58,25 +59,22 @@ fn body(toolpath: &Toolpath, context: &Context, out: &mut dyn Output) -> io::Res
 }
 
 fn tail(context: &Context, outcome: Outcome, out: &mut dyn Output) -> io::Result<()> {
-    let Outcome { findings: found, declared, doubts } = outcome;
-    let shown = findings::worth_a_ring(found);
-    let outcome = Outcome { findings: &shown, ..outcome };
-    let sheet = Sheet::of(context, outcome);
+    let marks = mark::marks(outcome);
+    let sheet = Sheet::of(context, &marks, outcome);
     let mut text = String::from("</g>\n");
-    if found.iter().any(|finding| !finding.holds()) {
+    if marks.iter().any(|mark| !mark.holds) {
         text.push_str(&sheet.refused());
     }
     text.push_str(&common::layer(context));
     text.push_str(&near::layer(context));
-    text.push_str(&doubts::layer(doubts, &sheet, context));
-    text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
-    text.push_str(&declared::layer(declared, &sheet));
-    let counts = finding::counts(found);
-    text.push_str(&legend::layer(&sheet, context, outcome, counts));
+    text.push_str(&doubts::layer(outcome.doubts, &sheet, context));
+    text.push_str(&findings::layer(&marks, &sheet, &context.job.profile.knife));
+    text.push_str(&declared::layer(outcome.declared, &sheet));
+    text.push_str(&legend::layer(&sheet, context, &marks, outcome));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.
-    let (before, now) = (Sheet::of(context, Outcome::default()).opening(), sheet.opening());
+    let (before, now) = (Sheet::of(context, &[], Outcome::default()).opening(), sheet.opening());
     if before != now && before.len() == now.len() {
         let end = out.stream_position()?;
         out.seek(SeekFrom::Start(0))?;

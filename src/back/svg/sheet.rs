@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::items::items;
+use super::mark::Mark;
 use super::markup::{PathData, escape, mm, short};
 use crate::back::target::{Context, Outcome};
 use crate::geom::{Extent, Point, Vector};
@@ -89,7 +90,7 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// The sheet of a marker, with room for the tables of findings, of doubts and of what is declared.
-    pub(super) fn of(context: &Context, Outcome { findings: found, declared, doubts }: Outcome) -> Self {
+    pub(super) fn of(context: &Context, marks: &[Mark], Outcome { declared, doubts, .. }: Outcome) -> Self {
         let profile = &context.job.profile;
         let extent = context.marker.extent();
         let mut drawn = extent;
@@ -100,7 +101,7 @@ impl Sheet {
         // Only the marker decides the scale: the head does not know the findings yet.
         let (w, h) = drawn.size();
         let px = (w / WINDOW_PX[0]).max(h / WINDOW_PX[1]).max(LEAST_PX);
-        for place in found.iter().filter_map(|finding| finding.place) {
+        for place in marks.iter().filter_map(|mark| mark.place) {
             if place.point.x.is_finite() && place.point.y.is_finite() {
                 drawn.add(place.point);
             }
@@ -111,7 +112,7 @@ impl Sheet {
         let (left, top) = (drawn.min.x - margin, -drawn.max.y - margin);
         let legend = -drawn.min.y + margin;
         let mut sheet = Self { px, extent, left, top, width, height: 0.0, legend };
-        let tables: usize = [found.len(), declared.len(), doubts.len()].into_iter().map(table_lines).sum();
+        let tables: usize = [marks.len(), declared.len(), doubts.len()].into_iter().map(table_lines).sum();
         let lines = 2 + items(context).count().div_ceil(sheet.columns()) + tables;
         sheet.height = legend - top + LINE_PX * px * (lines as f64 + 0.5);
         sheet

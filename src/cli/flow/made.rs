@@ -15,8 +15,9 @@ use crate::cli::options::typed;
 use crate::cli::provenance::{CentreFile, path_of};
 use crate::cli::report::pretty;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::flow::verify::{self, Bytes, Ground, Seen, Verdict};
+use crate::flow::verify::{self, Bytes, Ground};
 use crate::flow::{self, Head, Kind, Program, Target};
+use crate::ir::verdict::Verdict;
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
@@ -135,7 +136,7 @@ impl Made<'_> {
             let hint = "the disk may fail, or something takes files away while they are written";
             failure(format!("the programs cannot be read back: {}", files::reason(&error)), hint)
         })?;
-        verdict.seen.extend(self.audit.iter().map(|finding| Seen { finding: finding.clone(), head: None }));
+        verdict.findings.extend_from_slice(self.audit);
         Ok(verdict)
     }
 
@@ -193,16 +194,16 @@ fn tell(verdict: &Verdict, target: &Target, out: &mut Diagnostics) {
         let message = format!("the programs (target {}) cannot be read back: {unread}", target.name);
         out.push(Diagnostic::new(&code::FLOW_BROKEN, message));
     }
-    for seen in verdict.broken().filter(|_| verdict.unread.is_none()) {
-        let finding = &seen.finding;
+    for finding in verdict.broken().filter(|_| verdict.unread.is_none()) {
         let limit = finding.limit.unwrap_or(f64::INFINITY);
-        let place = finding.place.and_then(|place| place.line).zip(seen.head);
-        let place = place.map_or(String::new(), |(row, head)| format!(", head {head}, row {row}"));
+        let place = finding.place.filter(|place| place.head > 0).and_then(|place| Some((place.head, place.line?)));
+        let place = place.map_or(String::new(), |(head, row)| format!(", head {head}, row {row}"));
         let message = format!(
             "{} (target {}): {:.4} {}, allowed {limit:.4}{place}",
-            finding.rule, target.name, finding.worst, finding.unit
+            finding.rule.name, target.name, finding.worst, finding.unit
         );
-        let mut broken = Diagnostic::new(&code::FLOW_BROKEN, message).hint(format!("`cutc explain {}`", finding.rule));
+        let mut broken =
+            Diagnostic::new(&code::FLOW_BROKEN, message).hint(format!("`cutc explain {}`", finding.rule.name));
         if let Some(place) = finding.place {
             broken = broken.on_cloth(place.point);
         }

@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::made::Written;
 use crate::cli::options::counted;
 use crate::cli::report::{self, WorstOf};
-use crate::flow::verify::Verdict;
 use crate::flow::{self, Program};
+use crate::ir::verdict::Verdict;
 use crate::source::Source;
 use crate::units::number::fixed;
 
@@ -33,10 +33,9 @@ struct Verified {
 
 impl Figures {
     pub(super) fn of(program: &Program, Written { verdicts, programs, .. }: Written) -> Self {
-        let rule = |seen: &flow::verify::Seen| WorstOf::from(&seen.finding);
         let verified = |(target, verdict): (&'static str, Verdict)| Verified {
             target,
-            rules: verdict.seen.iter().map(rule).collect(),
+            rules: verdict.findings.iter().map(WorstOf::from).collect(),
         };
         Self {
             speed_mm_s: program.speed,

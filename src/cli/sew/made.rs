@@ -10,8 +10,9 @@ use crate::cli::files;
 use crate::cli::finished::failure;
 use crate::cli::provenance::{self, Verified};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::ir::verdict::Verdict;
 use crate::machine::blake3_of;
-use crate::sew::verify::{Bytes, Verdict};
+use crate::sew::verify::Bytes;
 use crate::sew::{Made, TARGETS, Target};
 
 /// Bytes that are kept in memory where no file is asked for; more go to a temporary one.
@@ -116,9 +117,10 @@ fn tell(verdicts: &[(&'static Target, Verdict)], out: &mut Diagnostics) {
             let place = finding.place.and_then(|place| place.line).map_or(String::new(), |n| format!(", entry {n}"));
             let message = format!(
                 "{} (target {}): {:.4} {}, allowed {limit:.4}{place}",
-                finding.rule, target.name, finding.worst, finding.unit
+                finding.rule.name, target.name, finding.worst, finding.unit
             );
-            let found = Diagnostic::new(&code::SEW_BROKEN, message).hint(format!("`cutc explain {}`", finding.rule));
+            let found =
+                Diagnostic::new(&code::SEW_BROKEN, message).hint(format!("`cutc explain {}`", finding.rule.name));
             out.push(match finding.place {
                 Some(place) => found.on_cloth(place.point),
                 None => found,

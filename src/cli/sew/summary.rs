@@ -6,8 +6,7 @@ use serde::Serialize;
 
 use crate::cli::options::counted;
 use crate::cli::report::WorstOf;
-use crate::ir::Finding;
-use crate::sew::verify::Verdict;
+use crate::ir::verdict::Verdict;
 use crate::sew::{self, Estimate, Fifo, Limit, Made, Target};
 use crate::source::Source;
 use crate::units::number::{exact, fixed};
@@ -77,11 +76,10 @@ impl Figures {
                 cost_s: run.cost,
             }
         };
-        let rule = |finding: &Finding| WorstOf::from(finding);
         let of = |target: &&'static Target| {
             let own = verdicts.iter().find(|(judged, _)| judged.name == target.name);
             let (judged, verdict) = own.or_else(|| verdicts.first())?;
-            let rules = verdict.findings.iter().map(rule).collect();
+            let rules = verdict.findings.iter().map(WorstOf::from).collect();
             Some(Verified { target: target.name, judged: judged.name, rules })
         };
         Self {

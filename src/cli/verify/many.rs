@@ -200,7 +200,7 @@ impl Arguments {
 
 /// The first of the rules that are broken.
 fn broken(verdict: &Verdict) -> String {
-    let mut rules: Vec<String> = verdict.broken().map(|finding| finding.rule.to_owned()).collect();
+    let mut rules: Vec<String> = verdict.broken().map(|finding| finding.rule.name.to_owned()).collect();
     let more = rules.len().saturating_sub(MOST_RULES);
     rules.truncate(MOST_RULES);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };

@@ -12,7 +12,7 @@ use crate::cli::verdict::{self, Judgement};
 use crate::cli::{files, provenance};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
-use crate::pipeline::{self, Declared, Explained};
+use crate::pipeline::{self, Declared, Explained, rules};
 use crate::source::Source;
 
 /// A program that can be judged.
@@ -87,7 +87,9 @@ impl Arguments {
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
             said.push_str(&provenance::doubts(path, &meta, source, job));
-            if declared.is_none() && verdict.as_ref().is_some_and(|explained| explained.verdict.asks_declarations()) {
+            if declared.is_none()
+                && verdict.as_ref().is_some_and(|explained| explained.verdict.under(&rules::DECLARED).is_some())
+            {
                 say(&mut said, format_args!("note: {}", undeclared(&meta)));
             }
         }

@@ -1,6 +1,6 @@
 //! What strokes cut of a line, and the chains that they make: what a head cuts without leaving the line.
 
-use super::worst::Place;
+use crate::ir::verdict::Sighting;
 
 /// How far smoothing and rounding may draw the end of a stroke back from where it should be, mm.
 pub(super) const END: f64 = 0.3;
@@ -15,7 +15,7 @@ pub(super) struct Cover {
     /// Whether the blade only plunges.
     pub(super) plunge: bool,
     /// Where it starts in the program.
-    pub(super) place: Place,
+    pub(super) place: Sighting,
 }
 
 impl Cover {

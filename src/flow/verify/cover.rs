@@ -4,8 +4,8 @@ use super::chain::{Chained, Cover, chained};
 use super::ground::Ground;
 use super::join::Join;
 use super::lines::Lines;
-use super::rules::Rule;
-use super::worst::{Place, Worst};
+use super::rules;
+use crate::ir::verdict::{Sighting, WorstByRule};
 
 /// What is cut of every line.
 pub(super) struct Covers<'a> {
@@ -36,7 +36,7 @@ impl<'a> Covers<'a> {
     }
 
     /// Judges all lines.
-    pub(super) fn judge(&self, worst: &mut Worst) {
+    pub(super) fn judge(&self, worst: &mut WorstByRule) {
         for line in 0..self.of.len() {
             self.judge_line(line, worst);
         }
@@ -47,12 +47,11 @@ impl<'a> Covers<'a> {
         self.ground.profile.verify.max_uncut_mm + self.ground.tolerance()
     }
 
-    fn judge_line(&self, line: usize, worst: &mut Worst) {
+    fn judge_line(&self, line: usize, worst: &mut WorstByRule) {
         let (of, uncut) = (&self.lines.all[line], self.uncut());
         let length = of.length();
         if self.of[line].is_empty() {
-            let place = Place { head: 0, row: 0, time: 0.0, point: of.points[0] };
-            worst.see(Rule::Uncut, length, uncut, Some(place));
+            worst.see_under(&rules::UNCUT, length, uncut, Sighting::missing(of.points[0], 0));
             return;
         }
         let mut strokes = chained(&self.of[line], of.closed.then_some(length), uncut);
@@ -79,7 +78,7 @@ impl<'a> Covers<'a> {
             let [from, to] = stroke.span();
             let reached = last.map_or(0.0, |last| last.span()[1]);
             let overlap = reached.min(to) - from;
-            worst.see(Rule::Uncut, -overlap, uncut, Some(stroke.cover.place));
+            worst.see_under(&rules::UNCUT, -overlap, uncut, stroke.cover.place);
             if let Some(before) = last.filter(|_| overlap > -uncut) {
                 let join = Join { line: of, strokes: [before, stroke], overlap };
                 join.judge_twice(self.ground, worst);
@@ -92,7 +91,7 @@ impl<'a> Covers<'a> {
             }
         }
         if let Some(last) = last.filter(|_| !of.closed) {
-            worst.see(Rule::Uncut, length - last.span()[1], uncut, Some(last.cover.place));
+            worst.see_under(&rules::UNCUT, length - last.span()[1], uncut, last.cover.place);
         }
     }
 }
@@ -111,7 +110,7 @@ mod tests {
     use crate::verify::{Capped, Required, RequiredCut};
 
     /// A stroke: its head, its number, from where to where, and whether the blade only plunges.
-    type Stroke = (usize, usize, [f64; 2], bool);
+    type Stroke = (u32, usize, [f64; 2], bool);
 
     /// Length of the edge of a part that has 18 sides, mm.
     const ROUND: f64 = 18.0 * 40.0;
@@ -132,12 +131,17 @@ mod tests {
         let ground = Ground { marker: &marker, profile: &profile };
         let mut covers = Covers::new(&lines, &ground);
         for &(head, number, ends, plunge) in strokes {
-            let place = Place { head, row: 0, time: 0.0, point: Point::origin() };
+            let place = Sighting { head, ..Sighting::missing(Point::origin(), 0) };
             covers.add(0, Cover { ends, number, plunge, place });
         }
-        let mut worst = Worst::new();
+        let mut worst = WorstByRule::default();
         covers.judge(&mut worst);
-        worst.findings().iter().filter(|seen| !seen.finding.holds()).map(|seen| seen.finding.rule).collect()
+        worst
+            .findings(rules::RULES)
+            .iter()
+            .filter(|finding| !finding.holds())
+            .map(|finding| finding.rule.name)
+            .collect()
     }
 
     #[test]

@@ -5,10 +5,10 @@ use std::cell::LazyCell;
 
 use super::ground::Ground;
 use super::lines::Lines;
-use super::rules::Rule;
-use super::worst::{Place, Worst};
+use super::rules;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
+use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::verify::{Inside, Required};
 
 /// Places of an edge that are looked at are no farther from each other, mm.
@@ -21,12 +21,12 @@ const ACROSS: f64 = 4.0;
 const MOUTH: f64 = 20.0;
 
 /// Judges cuts against edges.
-pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: &mut Worst) {
+pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: &mut WorstByRule) {
     let near = required.common + ground.tolerance();
     let uncut = ground.profile.verify.max_uncut_mm + ground.tolerance();
     for edge in &required.edges {
         let (length, at) = longest_off(edge, |place| lines.near(place, near).next().is_some());
-        worst.see(Rule::Uncut, length, uncut, Some(of_none(at)));
+        worst.see_under(&rules::UNCUT, length, uncut, Sighting::missing(at, 0));
     }
     let chords = |points: &[Point]| points.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<_>>();
     let drawn = required.cuts.iter().filter(|cut| cut.drawn).map(|cut| &cut.points);
@@ -42,13 +42,8 @@ pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: 
         let (length, _) = longest_off(&cut.points, is_drawn);
         let is_right = |place: Point| is_drawn(place) || length <= MOUTH && !inside.is_in_ring(place);
         let (length, at) = longest_off(&cut.points, is_right);
-        worst.see(Rule::Stray, length, uncut, Some(of_none(at)));
+        worst.see_under(&rules::STRAY, length, uncut, Sighting::missing(at, 0));
     }
-}
-
-/// A place on the cloth, in the program of no head.
-fn of_none(point: Point) -> Place {
-    Place { head: 0, row: 0, time: 0.0, point }
 }
 
 /// The longest stretch of a line all of whose places are not on something, mm, and where it begins.
@@ -115,10 +110,10 @@ mod tests {
         let edges = vec![points(&[(0.0, 0.0), (100.0, 0.0)]), points(&[(90.0, 0.2), (0.0, 0.2)])];
         let required = Required { cuts, edges, common: 0.3 };
         let profile = MachineProfile::default();
-        let mut worst = Worst::new();
+        let mut worst = WorstByRule::default();
         judge(&required, &Lines::new(&required), &Ground { marker: &marker, profile: &profile }, &mut worst);
-        let seen = worst.findings();
-        seen.iter().filter(|seen| !seen.finding.holds()).map(|seen| seen.finding.rule).collect()
+        let seen = worst.findings(rules::RULES);
+        seen.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect()
     }
 
     #[test]

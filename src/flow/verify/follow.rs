@@ -6,11 +6,11 @@ use super::going::Going;
 use super::ground::Ground;
 use super::heading::Blade;
 use super::lines::{Line, Lines};
-use super::rules::Rule;
+use super::rules;
 use super::strokes::Stroke;
 use super::trail::{Followed, Sample, Trail, reach, samples};
-use super::worst::Worst;
 use crate::geom::{cross, polyline};
+use crate::ir::verdict::WorstByRule;
 
 /// Places of a stroke that are compared with all cuts, at the most.
 const PROBES: usize = 48;
@@ -31,20 +31,20 @@ pub(super) struct Follower<'a> {
 
 impl Follower<'_> {
     /// Judges a stroke, of some number among those of its head: finds its cut, and what of it is cut.
-    pub(super) fn judge(&mut self, number: usize, stroke: &Stroke, worst: &mut Worst) {
+    pub(super) fn judge(&mut self, number: usize, stroke: &Stroke, worst: &mut WorstByRule) {
         let samples = samples(&stroke.trace);
         let Some((found, line)) = self.best(stroke, &samples) else {
-            worst.see(Rule::Stray, polyline::length(&stroke.trace), 0.0, Some(stroke.places[0]));
+            worst.see_under(&rules::STRAY, polyline::length(&stroke.trace), 0.0, stroke.places[0]);
             return;
         };
-        worst.see(Rule::Stray, 0.0, 0.0, None);
+        worst.see_under(&rules::STRAY, 0.0, 0.0, None);
         let of = &self.lines.all[line];
         let trail = Trail { samples: &samples, line: of, tolerance: self.ground.tolerance() };
         blade(stroke, &found, trail).judge(self.ground, worst);
         Going { stroke, line: of, stations: found.stations, conveyor: self.speed }.judge(self.ground, worst);
         self.place(stroke, (trail, &found), worst);
         let place = stroke.places[0];
-        worst.count(Rule::Block, usize::from(!names(stroke, of)), Some(place));
+        worst.count(&rules::BLOCK, usize::from(!names(stroke, of)), Some(place));
         self.covers.add(line, Cover { ends: found.stations, number, plunge: stroke.is_plunge(), place });
     }
 
@@ -71,17 +71,17 @@ impl Follower<'_> {
 
     /// Judges where the blade goes: beside its line, and beyond its ends. Where the line goes on nothing may lie beside it
     /// there, either.
-    fn place(&self, stroke: &Stroke, (trail, found): (Trail, &Followed), worst: &mut Worst) {
+    fn place(&self, stroke: &Stroke, (trail, found): (Trail, &Followed), worst: &mut WorstByRule) {
         let tolerance = trail.tolerance;
         let at = |sample: usize| stroke.places[trail.samples[sample].row.min(stroke.places.len() - 1)];
-        worst.see(Rule::Deviation, found.deviation, tolerance, Some(at(found.worst)));
+        worst.see_under(&rules::DEVIATION, found.deviation, tolerance, at(found.worst));
         let farthest = farthest(stroke, self.ground);
         let aside = trail.aside(found);
         for (end, beyond) in trail.beyond(found).into_iter().enumerate() {
-            worst.see(Rule::Overcut, beyond, farthest, Some(at(found.range[end])));
+            worst.see_under(&rules::OVERCUT, beyond, farthest, at(found.range[end]));
             let goes_on = trail.line.corner_near(found.stations[end]) > farthest;
             if let Some((off, sample)) = aside[end].filter(|_| goes_on) {
-                worst.see(Rule::Deviation, off, tolerance, Some(at(sample)));
+                worst.see_under(&rules::DEVIATION, off, tolerance, at(sample));
             }
         }
     }

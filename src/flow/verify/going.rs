@@ -2,11 +2,11 @@
 
 use super::ground::{Ground, ROUNDING};
 use super::lines::Line;
-use super::rules::Rule;
+use super::rules;
 use super::strokes::Stroke;
 use super::trail::reach;
-use super::worst::Worst;
 use crate::geom::Point;
+use crate::ir::verdict::WorstByRule;
 use crate::verify::crawl;
 
 /// How much farther along the line than it seems a place of the blade may be, mm: caps change at places.
@@ -24,7 +24,7 @@ pub(super) struct Going<'a> {
 
 impl Going<'_> {
     /// Judges both.
-    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+    pub(super) fn judge(&self, ground: &Ground, worst: &mut WorstByRule) {
         self.feed(ground, worst);
         self.crawl(ground, worst);
     }
@@ -35,7 +35,7 @@ impl Going<'_> {
     }
 
     /// The way from row to row against the greatest cap that holds anywhere on it.
-    fn feed(&self, ground: &Ground, worst: &mut Worst) {
+    fn feed(&self, ground: &Ground, worst: &mut WorstByRule) {
         let period = ground.profile.time.period();
         let only = self.line.only_cap();
         let [mut at, to] = self.stations;
@@ -50,17 +50,17 @@ impl Going<'_> {
                 self.line.cap([before.min(at) - aside, before.max(at) + aside], with)
             });
             if cap.is_finite() {
-                worst.see(Rule::Feed, step / period, cap + 2.0 * ROUNDING / period, Some(self.stroke.places[i + 1]));
+                worst.see_under(&rules::FEED, step / period, cap + 2.0 * ROUNDING / period, self.stroke.places[i + 1]);
             }
         }
     }
 
     /// How long the blade stays within a millimetre: a head that waits lets the cloth pass at its own speed.
-    fn crawl(&self, ground: &Ground, worst: &mut Worst) {
-        let times: Vec<f64> = self.stroke.places.iter().map(|place| place.time).collect();
+    fn crawl(&self, ground: &Ground, worst: &mut WorstByRule) {
+        let times: Vec<f64> = self.stroke.places.iter().filter_map(|place| place.time).collect();
         let passing = crawl::WAY / self.conveyor / crawl::SLOWNESS_MAX;
         let fair = crawl::fair_time(ground.profile, self.line.least_cap()) + passing;
         let (longest, row) = crawl::longest(&times, self.way(), fair);
-        worst.see(Rule::Crawl, longest, crawl::SLOWNESS_MAX, Some(self.stroke.places[row]));
+        worst.see_under(&rules::CRAWL, longest, crawl::SLOWNESS_MAX, self.stroke.places[row]);
     }
 }

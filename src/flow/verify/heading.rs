@@ -2,10 +2,10 @@
 //! both ends on it. A blade that plunged as a chord of a curve comes to the tangent over the next blade width.
 
 use super::ground::Ground;
-use super::rules::Rule;
+use super::rules;
 use super::strokes::Stroke;
-use super::worst::Worst;
 use crate::geom::{Point, Vector, angle};
+use crate::ir::verdict::WorstByRule;
 use crate::units::deg;
 
 /// The direction of a way is taken over so much of it to either side, mm: the rounding of rows of six decimals turns that by
@@ -23,7 +23,7 @@ pub(super) struct Blade<'a> {
 
 impl Blade<'_> {
     /// Judges its heading.
-    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+    pub(super) fn judge(&self, ground: &Ground, worst: &mut WorstByRule) {
         let Self { stroke, under, bend } = self;
         let width = ground.profile.knife.width_mm;
         let limit = ground.profile.verify.max_heading_deg;
@@ -48,7 +48,7 @@ impl Blade<'_> {
             let allowed = limit + if behind < under.len() { beside } else { 0.0 };
             let off = chord.map_or(off(tangent), |chord| off(chord).min(off(tangent)));
             let off = off.min(deg(angle::wrap(ahead - fading)).abs());
-            worst.see(Rule::Heading, off, allowed, Some(stroke.places[i]));
+            worst.see_under(&rules::HEADING, off, allowed, stroke.places[i]);
         }
     }
 }

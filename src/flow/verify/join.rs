@@ -6,8 +6,8 @@
 use super::chain::{Chained, END};
 use super::ground::Ground;
 use super::lines::Line;
-use super::rules::Rule;
-use super::worst::{Place, Worst};
+use super::rules;
+use crate::ir::verdict::{Sighting, WorstByRule};
 
 /// Part of the angle of a corner by which its turn may be less: rounding.
 const CORNER_EPSILON: f64 = 1e-6;
@@ -29,21 +29,21 @@ impl<'a> Join<'a> {
     }
 
     /// Judges that no more is cut twice than what overlaps need.
-    pub(super) fn judge_twice(&self, ground: &Ground, worst: &mut Worst) {
+    pub(super) fn judge_twice(&self, ground: &Ground, worst: &mut WorstByRule) {
         let knife = &ground.profile.knife;
         let [a, b] = self.strokes.map(|stroke| stroke.cover);
         let rejoined = knife.corner_heel_overlap_mm + knife.corner_front_overlap_mm;
         let blade = if a.plunge || b.plunge { knife.width_mm } else { 0.0 };
-        worst.see(Rule::Twice, self.overlap, due(ground).max(rejoined).max(blade) + 2.0 * END, Some(b.place));
+        worst.see_under(&rules::TWICE, self.overlap, due(ground).max(rejoined).max(blade) + 2.0 * END, b.place);
     }
 
     /// Judges how far both go on; at a corner each goes straight on.
-    pub(super) fn judge_overlap(&self, ground: &Ground, worst: &mut Worst) {
+    pub(super) fn judge_overlap(&self, ground: &Ground, worst: &mut WorstByRule) {
         let [a, b] = self.strokes.map(|stroke| stroke.span());
         let (at, reach) = (f64::midpoint(a[1].min(b[1]), a[0].max(b[0])), due(ground) + END);
         if self.line.corner_near(at) > reach && !self.is_tight([at - reach, at + reach], ground) {
-            let place = Place { point: self.line.place(at), ..self.strokes[1].cover.place };
-            worst.see(Rule::Overlap, due(ground) - self.of_chains(), END, Some(place));
+            let place = Sighting { point: self.line.place(at), ..self.strokes[1].cover.place };
+            worst.see_under(&rules::OVERLAP, due(ground) - self.of_chains(), END, place);
         }
     }
 

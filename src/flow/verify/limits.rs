@@ -2,13 +2,13 @@
 //! feed moves with the cloth while it cuts.
 
 use super::rows::Row;
-use super::rules::Rule;
-use super::worst::{Place, Worst};
+use super::rules;
+use crate::ir::verdict::{Rule, Sighting, WorstByRule};
 use crate::machine::MachineProfile;
 use crate::units::rad;
 
 /// Orders of differences that are judged.
-const ORDERS: [Rule; 3] = [Rule::Speed, Rule::Acceleration, Rule::Jerk];
+static ORDERS: [&Rule; 3] = [&rules::SPEED, &rules::ACCELERATION, &rules::JERK];
 /// Rows that a difference of the third order joins.
 const SUPPORT: usize = 4;
 /// Rounding of a row, half its last decimal, mm or degrees.
@@ -48,7 +48,7 @@ impl Limits {
     }
 
     /// Sees the next row.
-    pub(super) fn see(&mut self, row: &Row, at: Place, worst: &mut Worst) {
+    pub(super) fn see(&mut self, row: &Row, at: Sighting, worst: &mut WorstByRule) {
         self.last.rotate_right(1);
         self.last[0] = ([row.place[0], row.place[1], rad(row.c)], row.knife);
         self.count = (self.count + 1).min(SUPPORT);
@@ -67,7 +67,7 @@ impl Limits {
                 for i in 0..SUPPORT - 1 - order {
                     column[i] -= column[i + 1];
                 }
-                worst.see(rule, column[0].abs() / allowed[order], 1.0, Some(at));
+                worst.see_under(rule, column[0].abs() / allowed[order], 1.0, at);
             }
         }
     }

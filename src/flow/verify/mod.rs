@@ -21,12 +21,10 @@ mod rows;
 mod rules;
 mod strokes;
 mod trail;
-mod worst;
 
 pub use ground::Ground;
 pub use rows::Bytes;
-pub use rules::{RULES, Rule};
-pub use worst::Seen;
+pub use rules::RULES;
 
 use std::io::{self, BufRead};
 
@@ -41,45 +39,24 @@ use self::plan_file::Plan;
 use self::rest::Rest;
 use self::rows::Row;
 use self::strokes::{Stroke, Strokes};
-use self::worst::{Place, Worst};
 use crate::geom::Point;
+use crate::ir::verdict::{Sighting, Verdict, WorstByRule};
 use crate::verify::required;
-
-/// What the programs of a plan are worth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
-    /// The worst under each rule that says something of them, in the order of [`RULES`].
-    pub seen: Vec<Seen>,
-    /// What cannot be read, when something cannot.
-    pub unread: Option<String>,
-}
-
-impl Verdict {
-    /// Whether every rule holds.
-    pub fn passes(&self) -> bool {
-        self.broken().next().is_none()
-    }
-
-    /// What does not hold.
-    pub fn broken(&self) -> impl Iterator<Item = &Seen> {
-        self.seen.iter().filter(|seen| !seen.finding.holds())
-    }
-}
 
 /// Gives the program of a head, by its place in the plan, once.
 pub type Open<'a> = &'a (dyn Fn(usize) -> io::Result<Box<dyn BufRead>> + Sync);
 
 /// Judges the programs of a plan from their bytes.
 pub fn judge(plan: &str, (bytes, open): (Bytes, Open), ground: &Ground) -> io::Result<Verdict> {
-    let mut worst = Worst::new();
+    let mut worst = WorstByRule::default();
     let judged = plan_file::read(plan).and_then(|plan| Judge { plan, bytes, open, ground }.all(&mut worst));
     let unread = match judged {
         Ok(()) => None,
         Err(Unread::Io(error)) => return Err(error),
         Err(Unread::Row(message)) => Some(message),
     };
-    worst.see(Rule::Format, f64::from(u8::from(unread.is_some())), 0.0, None);
-    Ok(Verdict { seen: worst.findings(), unread })
+    worst.see_under(&rules::FORMAT, f64::from(u8::from(unread.is_some())), 0.0, None);
+    Ok(Verdict { findings: worst.findings(RULES), unread, ..Verdict::default() })
 }
 
 /// A plan with the programs of its heads.
@@ -95,13 +72,13 @@ struct Head {
     strokes: Vec<Stroke>,
     ys: Vec<f64>,
     /// The worst of its rows by themselves.
-    worst: Worst,
+    worst: WorstByRule,
     /// How many of its ends are not at rest, and where.
-    ends: (usize, Option<Place>),
+    ends: (usize, Option<Sighting>),
 }
 
 impl Judge<'_> {
-    fn all(&self, worst: &mut Worst) -> Result<(), Unread> {
+    fn all(&self, worst: &mut WorstByRule) -> Result<(), Unread> {
         let ground = self.ground;
         plan_file::judge(&self.plan, ground, worst);
         let required = required(ground.marker, ground.profile);
@@ -118,7 +95,7 @@ impl Judge<'_> {
         for (i, head) in read.enumerate() {
             let head = head?;
             worst.merge(head.worst);
-            worst.count(Rule::Ends, head.ends.0, head.ends.1);
+            worst.count(&rules::ENDS, head.ends.0, head.ends.1);
             let rows = head.ys.len();
             if rows == 0 {
                 return Err(Unread::Row(format!("head {} has no row", i + 1)));
@@ -138,7 +115,7 @@ impl Judge<'_> {
     /// Reads the program of a head and judges its rows by themselves.
     fn read(&self, head: usize) -> Result<Head, Unread> {
         let profile = self.ground.profile;
-        let mut worst = Worst::new();
+        let mut worst = WorstByRule::default();
         let (_, station) = self.plan.heads[head];
         let period = profile.time.period();
         let (mut limits, mut rest) = (Limits::new(profile), Rest::new(profile));
@@ -148,30 +125,35 @@ impl Judge<'_> {
             let number = ys.len();
             let due = number as f64 * period;
             let point = Point::new(station + row.place[0] - row.conveyor, row.place[1]);
-            let at = Place { head: head + 1, row: number, time: row.time, point };
-            worst.see(Rule::Period, (row.time - due).abs(), ROW_TIME, Some(at));
-            worst.see(Rule::Conveyor, (row.conveyor - self.plan.speed * due).abs(), ROW_WAY, Some(at));
+            let at = sighting([head, number], row.time, point);
+            worst.see_under(&rules::PERIOD, (row.time - due).abs(), ROW_TIME, at);
+            worst.see_under(&rules::CONVEYOR, (row.conveyor - self.plan.speed * due).abs(), ROW_WAY, at);
             self.bounds(&row, at, &mut worst);
             limits.see(&row, at, &mut worst);
             rest.see(&row, at, &mut worst);
             strokes.see(&row, at);
             ys.push(row.place[1]);
         })?;
-        Ok(Head { strokes: strokes.finish(), ys, worst, ends: rest.finish(head + 1) })
+        Ok(Head { strokes: strokes.finish(), ys, worst, ends: rest.finish() })
     }
 
     /// Whether the axes are where they can be.
-    fn bounds(&self, row: &Row, at: Place, worst: &mut Worst) {
+    fn bounds(&self, row: &Row, at: Sighting, worst: &mut WorstByRule) {
         let profile = self.ground.profile;
         let beyond = |value: f64, [least, most]: [f64; 2]| (least - value).max(value - most);
-        worst.see(Rule::Travel, beyond(row.place[0], [0.0, profile.flow.travel_mm]), ROW_WAY, Some(at));
+        worst.see_under(&rules::TRAVEL, beyond(row.place[0], [0.0, profile.flow.travel_mm]), ROW_WAY, at);
         if let Some(range) = profile.table.y_mm {
-            worst.see(Rule::Across, beyond(row.place[1], range), ROW_WAY, Some(at));
+            worst.see_under(&rules::ACROSS, beyond(row.place[1], range), ROW_WAY, at);
         }
         if let Some(range) = profile.c.range_deg {
-            worst.see(Rule::Range, beyond(row.c, range), ROW_WAY, Some(at));
+            worst.see_under(&rules::C_RANGE, beyond(row.c, range), ROW_WAY, at);
         }
     }
+}
+
+/// A place on the cloth, of a head and a row of its program, both from 0, and its time, s.
+fn sighting([head, row]: [usize; 2], time: f64, point: Point) -> Sighting {
+    Sighting { head: head as u32 + 1, line: Some(row as u64 + 1), ..Sighting::at(time, point, 0) }
 }
 
 /// Rounding of times, s, and of ways, mm, in rows of six decimals.
@@ -186,7 +168,7 @@ struct Mates<'a> {
 
 impl Mates<'_> {
     /// Judges whether a head stays apart from those of its row that were read before, and adds it to them.
-    fn join(&mut self, row: u64, ys: Vec<f64>, worst: &mut Worst) {
+    fn join(&mut self, row: u64, ys: Vec<f64>, worst: &mut WorstByRule) {
         let width = self.ground.profile.flow.head_width_mm;
         let period = self.ground.profile.time.period();
         for (_, others) in self.heads.iter().filter(|mate| mate.0 == row) {
@@ -194,8 +176,8 @@ impl Mates<'_> {
             let gaps = others.iter().zip(&ys).map(|(other, y)| (other - y) * side);
             if let Some((tick, gap)) = gaps.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) {
                 let point = Point::new(0.0, ys[tick]);
-                let at = Place { head: self.heads.len() + 1, row: tick, time: tick as f64 * period, point };
-                worst.see(Rule::Distance, width - gap, ROW_WAY, Some(at));
+                let at = sighting([self.heads.len(), tick], tick as f64 * period, point);
+                worst.see_under(&rules::DISTANCE, width - gap, ROW_WAY, at);
             }
         }
         self.heads.push((row, ys));

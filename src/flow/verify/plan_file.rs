@@ -1,8 +1,8 @@
 //! The plan, as it is read back: which heads there are, and where they stand.
 
 use super::ground::{Ground, Unread};
-use super::rules::Rule;
-use super::worst::Worst;
+use super::rules;
+use crate::ir::verdict::WorstByRule;
 
 /// What a plan says that programs need.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,13 +32,13 @@ pub(super) fn read(text: &str) -> Result<Plan, Unread> {
 }
 
 /// Judges what a plan says.
-pub(super) fn judge(plan: &Plan, ground: &Ground, worst: &mut Worst) {
+pub(super) fn judge(plan: &Plan, ground: &Ground, worst: &mut WorstByRule) {
     let flow = &ground.profile.flow;
     let too_many = plan.heads.len().saturating_sub(flow.heads as usize);
     let no_row = plan.heads.iter().filter(|(row, _)| *row < 1 || *row > u64::from(flow.rows)).count();
     let too_fast = usize::from(plan.speed > flow.max_speed_mm_s);
-    worst.see(Rule::Plan, (too_many + no_row + too_fast) as f64, 0.0, None);
+    worst.see_under(&rules::PLAN, (too_many + no_row + too_fast) as f64, 0.0, None);
     for &(row, station) in &plan.heads {
-        worst.see(Rule::Station, (station - ground.station(row)).abs(), STATION, None);
+        worst.see_under(&rules::STATION, (station - ground.station(row)).abs(), STATION, None);
     }
 }

@@ -2,9 +2,9 @@
 //! programs begin and end at rest.
 
 use super::rows::Row;
-use super::rules::Rule;
-use super::worst::{Place, Worst};
+use super::rules;
 use crate::geom::Point;
+use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::machine::MachineProfile;
 
 /// How far a blade at rest may be off from row to row, mm: rounding.
@@ -17,13 +17,15 @@ const TIME: f64 = 1e-9;
 /// Follows the rows of a head.
 pub(super) struct Rest {
     period: f64,
+    /// Rows that were seen.
+    rows: usize,
     /// Rows that a blade rests behind its command down, and up; and rows until it is all the way up.
     ticks: [usize; 3],
     /// The row at which the knife was last commanded otherwise, and where the blade was then.
     since: Option<(usize, Point, f64)>,
     is_down: bool,
     /// The first two rows and the last two.
-    ends: [Vec<(Row, Place)>; 2],
+    ends: [Vec<(Row, Sighting)>; 2],
 }
 
 impl Rest {
@@ -32,25 +34,28 @@ impl Rest {
         let knife = &profile.knife;
         let ticks = [knife.plunge_ms, knife.clear_ms.unwrap_or(knife.lift_ms), knife.lift_ms]
             .map(|ms| (ms / profile.time.period_ms - TIME).ceil() as usize);
-        Self { period, ticks, since: None, is_down: false, ends: [Vec::new(), Vec::new()] }
+        Self { period, rows: 0, ticks, since: None, is_down: false, ends: [Vec::new(), Vec::new()] }
     }
 
     /// Sees the next row.
-    pub(super) fn see(&mut self, row: &Row, at: Place, worst: &mut Worst) {
+    pub(super) fn see(&mut self, row: &Row, at: Sighting, worst: &mut WorstByRule) {
+        let number = self.rows;
+        self.rows += 1;
         if row.knife != self.is_down {
             if let Some((since, _, _)) = self.since {
-                let (rule, ticks) = if row.knife { (Rule::Up, self.ticks[2]) } else { (Rule::Dwell, self.ticks[0]) };
-                let lacking = (ticks as f64 - (at.row - since) as f64) * self.period;
-                worst.see(rule, lacking, TIME, Some(at));
+                let (rule, ticks) =
+                    if row.knife { (&rules::UP, self.ticks[2]) } else { (&rules::DWELL, self.ticks[0]) };
+                let lacking = (ticks as f64 - (number - since) as f64) * self.period;
+                worst.see_under(rule, lacking, TIME, at);
             }
             self.is_down = row.knife;
-            self.since = Some((at.row, at.point, row.c));
+            self.since = Some((number, at.point, row.c));
         }
         if let Some((since, point, c)) = self.since {
             let ticks = if self.is_down { self.ticks[0] } else { self.ticks[1] };
-            if at.row <= since + ticks {
+            if number <= since + ticks {
                 let turned = (row.c - c).abs() / STILL_DEG * STILL;
-                worst.see(Rule::Rest, (at.point - point).norm().max(turned), STILL, Some(at));
+                worst.see_under(&rules::REST, (at.point - point).norm().max(turned), STILL, at);
             }
         }
         let [first, last] = &mut self.ends;
@@ -64,8 +69,8 @@ impl Rest {
     }
 
     /// How many ends of a program are not at rest, and where the last one is.
-    pub(super) fn finish(self, head: usize) -> (usize, Option<Place>) {
-        let rests = |rows: &[(Row, Place)]| match rows {
+    pub(super) fn finish(self) -> (usize, Option<Sighting>) {
+        let rests = |rows: &[(Row, Sighting)]| match rows {
             [(a, from), (b, to)] => {
                 let along = (a.place[0] - b.place[0]).abs();
                 let moved = along.max((from.point.y - to.point.y).abs()).max((a.c - b.c).abs());
@@ -74,6 +79,6 @@ impl Rest {
             _ => false,
         };
         let wrong = self.ends.iter().filter(|rows| !rests(rows)).count();
-        (wrong, self.ends[1].last().map(|end| Place { head, ..end.1 }))
+        (wrong, self.ends[1].last().map(|end| end.1))
     }
 }

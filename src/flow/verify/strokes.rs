@@ -1,8 +1,8 @@
 //! Strokes: what a head cuts from a command down to the next one up, as its blade lies on the cloth.
 
 use super::rows::Row;
-use super::worst::Place;
 use crate::geom::{Point, Rotation, Vector};
+use crate::ir::verdict::Sighting;
 use crate::machine::MachineProfile;
 use crate::units::rad;
 
@@ -14,7 +14,7 @@ pub(super) struct Stroke {
     /// The direction of the blade, from the trailing end to the leading one, for each point behind the first.
     pub(super) along: Vec<Vector>,
     /// Where each of these is in the program.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<Sighting>,
     /// The blocks that its rows name.
     pub(super) blocks: Vec<u32>,
 }
@@ -27,7 +27,7 @@ pub(super) struct Strokes {
     /// Whether the blade has two edges, so that it may go heel first.
     is_double: bool,
     /// The rows of the stroke that goes on.
-    now: Vec<(Point, Vector, Place, u32)>,
+    now: Vec<(Point, Vector, Sighting, u32)>,
     done: Vec<Stroke>,
 }
 
@@ -43,7 +43,7 @@ impl Strokes {
     }
 
     /// Sees the next row.
-    pub(super) fn see(&mut self, row: &Row, at: Place) {
+    pub(super) fn see(&mut self, row: &Row, at: Sighting) {
         let along = Rotation(rad(row.c) - self.yaw).unit();
         if row.knife {
             self.now.push((at.point, along, at, row.block));
@@ -67,7 +67,7 @@ impl Strokes {
         let mut blocks: Vec<u32> = rows.iter().map(|row| row.3).collect();
         blocks.sort_unstable();
         blocks.dedup();
-        debug_assert!(last.2.row >= first.2.row, "rows come in order");
+        debug_assert!(last.2.line >= first.2.line, "rows come in order");
         self.done.push(Stroke { trace, along, places: rows.iter().map(|row| row.2).collect(), blocks });
     }
 

@@ -2,6 +2,8 @@
 
 use std::io;
 
+use crate::geom::Point;
+use crate::ir::verdict::Sighting;
 use crate::machine::Sewing;
 use crate::sew::pattern::Pattern;
 use crate::sew::stitches::Stitches;
@@ -30,6 +32,11 @@ pub enum Original<'a> {
     Queue(&'a [u8]),
     /// Another, of which the pattern tells.
     Other,
+}
+
+/// A place of the needle at an entry, from 1; 0 = at none.
+pub(super) fn sighting(entry: u32, point: Point) -> Sighting {
+    Sighting { line: Some(entry.into()), ..Sighting::missing(point, 0) }
 }
 
 /// Why the rest of a program is not read.

@@ -1,10 +1,10 @@
 //! Whether the stitches are such as the machine makes, and lie on the lines of the pattern.
 
-use super::ground::Ground;
-use super::rules::Rule;
-use super::worst::Worst;
+use super::ground::{Ground, sighting};
+use super::rules;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector};
+use crate::ir::verdict::WorstByRule;
 use crate::machine::Sewing;
 use crate::sew::pattern::{Element, Pattern, Seam};
 use crate::sew::stitches::Op;
@@ -13,7 +13,7 @@ use crate::sew::stitches::Op;
 const LOOK: f64 = 1.0;
 
 /// Judges all stitches.
-pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
+pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     pitches(ground, worst);
     if let Some(pattern) = ground.pattern {
         corners(pattern, ground, worst);
@@ -21,15 +21,15 @@ pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
     }
 }
 
-fn pitches(ground: &Ground, worst: &mut Worst) {
+fn pitches(ground: &Ground, worst: &mut WorstByRule) {
     let mut at = Point::origin();
     for (step, entry) in ground.stitches.steps.iter().zip(1..) {
         if step.op == Op::Stitch {
             let pitch = (step.to - at).norm();
-            let place = Some((entry, step.to));
-            worst.see(Rule::LongPitch, pitch - ground.sewing.max_pitch_mm, place);
+            let place = sighting(entry, step.to);
+            worst.see(&rules::LONG_PITCH, pitch - ground.sewing.max_pitch_mm, place);
             if !step.is_tie {
-                worst.see(Rule::ShortPitch, ground.sewing.min_pitch_mm - pitch, place);
+                worst.see(&rules::SHORT_PITCH, ground.sewing.min_pitch_mm - pitch, place);
             }
         }
         at = step.to;
@@ -51,7 +51,7 @@ fn reach(width: f64, sewing: &Sewing) -> f64 {
 }
 
 /// Each corner of a seam has a needle point near it.
-fn corners(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
+fn corners(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
     let mut corners: Vec<(Point, f64)> = Vec::new();
     for seam in &pattern.seams {
         let mut points = seam.points.clone();
@@ -74,7 +74,7 @@ fn corners(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
         }
     }
     for ((corner, width), nearest) in corners.into_iter().zip(nearest) {
-        worst.see(Rule::Corner, nearest - width, Some((0, corner)));
+        worst.see(&rules::CORNER, nearest - width, sighting(0, corner));
     }
 }
 
@@ -88,7 +88,7 @@ fn turn(before: Vector, behind: Vector) -> f64 {
     (before.dot(&behind) / (before.norm() * behind.norm())).clamp(-1.0, 1.0).acos()
 }
 
-fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
+fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
     let mut lines: Vec<([Point; 2], f64)> = Vec::new();
     for seam in &pattern.seams {
         let width = half_width(seam, ground.sewing);
@@ -107,7 +107,7 @@ fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
     for (step, entry) in ground.stitches.steps.iter().zip(1..).filter(|(step, _)| step.op == Op::Stitch) {
         let beside = |i: usize| beside(step.to, lines[i].0) - lines[i].1;
         let off = boxes.at(step.to).map(beside).fold(reach(0.0, ground.sewing), f64::min);
-        worst.see(Rule::OnSeam, off, Some((entry, step.to)));
+        worst.see(&rules::ON_SEAM, off, sighting(entry, step.to));
     }
 }
 

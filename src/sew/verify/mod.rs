@@ -16,16 +16,15 @@ mod records;
 mod rules;
 mod spindle;
 mod stitch_file;
-mod worst;
 
 pub use ground::{Ground, Original};
-pub use rules::{RULES, Rule};
+pub use rules::RULES;
 
 use std::io::{self, BufRead};
 
 use self::ground::Unread;
-use self::worst::Worst;
 use crate::ir::Finding;
+use crate::ir::verdict::{Verdict, WorstByRule};
 
 /// What kind of bytes are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,30 +43,9 @@ pub enum Bytes {
     Exp,
 }
 
-/// What a program is worth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
-    /// The worst value under each rule that says something of it, in the order of [`RULES`].
-    pub findings: Vec<Finding>,
-    /// What cannot be read, when something cannot.
-    pub unread: Option<String>,
-}
-
-impl Verdict {
-    /// Whether every rule holds.
-    pub fn passes(&self) -> bool {
-        self.findings.iter().all(Finding::holds)
-    }
-
-    /// The findings that do not hold.
-    pub fn broken(&self) -> impl Iterator<Item = &Finding> {
-        self.findings.iter().filter(|finding| !finding.holds())
-    }
-}
-
 /// Judges a program from its bytes.
 pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Result<Verdict> {
-    let mut worst = Worst::new();
+    let mut worst = WorstByRule::default();
     laid::judge(ground, &mut worst);
     original::judge(ground, &mut worst);
     let read = match bytes {
@@ -87,6 +65,8 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
         Err(Unread::Io(error)) => return Err(error),
         Err(Unread::Row(message)) => Some(message),
     };
-    worst.see(Rule::Format, f64::from(u8::from(unread.is_some())), None);
-    Ok(Verdict { findings: worst.findings(ground.sewing), unread })
+    worst.see(&rules::FORMAT, f64::from(u8::from(unread.is_some())), None);
+    let limited = |finding: Finding| Finding { limit: Some(rules::limit(finding.rule, ground.sewing)), ..finding };
+    let findings = worst.findings(RULES).into_iter().map(limited).collect();
+    Ok(Verdict { findings, unread, ..Verdict::default() })
 }

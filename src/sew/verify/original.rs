@@ -3,33 +3,33 @@
 //! Stitches may be left out where they are too short, and added on the way to one that is too long; nothing else.
 
 use super::events::{self, Event};
-use super::ground::{Ground, Original};
+use super::ground::{Ground, Original, sighting};
 use super::records;
-use super::rules::Rule;
-use super::worst::Worst;
+use super::rules;
 use crate::geom::Point;
+use crate::ir::verdict::WorstByRule;
 
 /// Rounding of sums of increments, mm.
 const SUM_EPSILON: f64 = 1e-6;
 /// Counts what the file says and is not sewn, and what is sewn and not in it.
-pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
+pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     let decoded = match ground.original {
         Original::Dst(bytes) => records::dst(bytes).ok().as_ref().map(events::of_records),
         Original::Exp(bytes) => records::exp(bytes).ok().as_ref().map(events::of_records),
         Original::Queue(bytes) => events::of_queue(bytes),
         Original::Other => return,
     };
-    worst.count(Rule::Source, 0.0, None);
+    worst.count(&rules::SOURCE, 0, None);
     match decoded {
         Some(asked) => Audit { least: ground.sewing.min_pitch_mm, worst }.judge(&asked, &events::sewn(ground.stitches)),
-        None => worst.see(Rule::Source, f64::INFINITY, None),
+        None => worst.see(&rules::SOURCE, f64::INFINITY, None),
     }
 }
 
 struct Audit<'w> {
     /// The shortest stitch that is no fault, mm.
     least: f64,
-    worst: &'w mut Worst,
+    worst: &'w mut WorstByRule,
 }
 
 /// A needle point that is sewn, and its entry.
@@ -50,7 +50,7 @@ impl Audit<'_> {
                 needle = *place;
             }
             let is_other = !alike(wanted, found.map(|(event, _)| event));
-            self.worst.count(Rule::Source, f64::from(u8::from(is_other)), found.map(|&(_, entry)| (entry, needle)));
+            self.worst.count(&rules::SOURCE, usize::from(is_other), found.map(|&(_, entry)| sighting(entry, needle)));
             (asked, sewn) = (asked.get(1..).unwrap_or_default(), sewn.get(1..).unwrap_or_default());
         }
     }
@@ -70,10 +70,10 @@ impl Audit<'_> {
                 Some(&end) if i + 1 < asked.len() => is_near(last, self.least) || is_near(end, self.least),
                 Some(_) | None => is_near(last, 0.0),
             };
-            self.worst.count(Rule::Source, f64::from(u8::from(!is_short)), Some((0, place)));
+            self.worst.count(&rules::SOURCE, usize::from(!is_short), sighting(0, place));
         }
         for &(point, entry) in sewn {
-            self.worst.count(Rule::Source, 1.0, Some((entry, point)));
+            self.worst.count(&rules::SOURCE, 1, sighting(entry, point));
         }
     }
 }

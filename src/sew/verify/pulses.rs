@@ -1,11 +1,11 @@
 //! Every pulse: how many there are, which way, when, and where the needle stands then.
 
 use super::clock;
-use super::ground::{Ground, Unread};
-use super::rules::Rule;
+use super::ground::{Ground, Unread, sighting};
+use super::rules;
 use super::spindle::Spindle;
-use super::worst::Worst;
 use crate::geom::Point;
+use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::sew::stitches::Op;
 use crate::units::US_PER_S;
 
@@ -42,7 +42,7 @@ pub(super) fn judge(
     read: impl FnOnce(&mut dyn FnMut(Row)) -> Result<(), Unread>,
     tick_us: f64,
     ground: &Ground,
-    worst: &mut Worst,
+    worst: &mut WorstByRule,
 ) -> Result<(), Unread> {
     let mut judge = Judge {
         ground,
@@ -63,7 +63,7 @@ pub(super) fn judge(
 
 struct Judge<'a> {
     ground: &'a Ground<'a>,
-    worst: &'a mut Worst,
+    worst: &'a mut WorstByRule,
     tick_us: f64,
     /// The least first interval, and the least of all.
     first_us: f64,
@@ -99,8 +99,8 @@ struct Axis {
 }
 
 impl Judge<'_> {
-    fn place(&self, i: usize) -> Option<(u32, Point)> {
-        self.ground.stitches.steps.get(i).map(|step| (i as u32 + 1, step.to))
+    fn place(&self, i: usize) -> Option<Sighting> {
+        self.ground.stitches.steps.get(i).map(|step| sighting(i as u32 + 1, step.to))
     }
 
     fn row(&mut self, row: Row) {
@@ -112,9 +112,9 @@ impl Judge<'_> {
         let Some(mut entry) = self.entry.take() else { return };
         let place = self.place(entry.i);
         if row.rpm != entry.rpm {
-            self.worst.see(Rule::SteadySpeed, (row.rpm - entry.rpm).abs(), place);
+            self.worst.see(&rules::STEADY_SPEED, (row.rpm - entry.rpm).abs(), place);
         }
-        self.worst.see(Rule::Time, entry.time_us - row.time_us, place);
+        self.worst.see(&rules::TIME, entry.time_us - row.time_us, place);
         entry.time_us = row.time_us;
         for (axis, pulse) in entry.axes.iter_mut().zip(row.pulse) {
             if pulse != 0 {
@@ -128,41 +128,41 @@ impl Judge<'_> {
     fn begin(&mut self, row: &Row) {
         let i = (row.entry as usize).wrapping_sub(1);
         let Some(step) = self.ground.stitches.steps.get(i) else {
-            self.worst.count(Rule::Entries, 1.0, None);
+            self.worst.count(&rules::ENTRIES, 1, None);
             return;
         };
-        let place = Some((row.entry, step.to));
+        let place = sighting(row.entry, step.to);
         let thread = if let Op::Color(thread) = step.op { thread } else { self.thread };
         self.thread = thread;
         let is_other = i != self.next || row.op != number(step.op) || row.thread != thread;
-        self.worst.count(Rule::Entries, f64::from(u8::from(is_other)), place);
+        self.worst.count(&rules::ENTRIES, usize::from(is_other), place);
         self.next = i + 1;
         self.spindle.see(i, row.rpm, self.ground, self.worst);
         self.entry = Some(Entry { i, rpm: row.rpm, axes: [Axis::default(); 2], time_us: 0.0 });
     }
 
     /// A pulse of an axis.
-    fn pulse(&mut self, axis: &mut Axis, (time, pulse): (f64, i8), place: Option<(u32, Point)>) {
+    fn pulse(&mut self, axis: &mut Axis, (time, pulse): (f64, i8), place: Option<Sighting>) {
         let sewing = self.ground.sewing;
         let interval = time - axis.last_us;
         axis.last_us = time;
         axis.count += 1;
         axis.sum += i64::from(pulse);
-        self.worst.see(Rule::LeastInterval, self.least_us - interval, place);
+        self.worst.see(&rules::LEAST_INTERVAL, self.least_us - interval, place);
         match axis.interval {
-            None => self.worst.see(Rule::FirstInterval, self.first_us - interval, place),
+            None => self.worst.see(&rules::FIRST_INTERVAL, self.first_us - interval, place),
             Some(before) => {
                 // Two intervals differ by the rounding of both.
                 let rounding = 2.0 * self.tick_us;
                 axis.rises |= interval > before + rounding;
                 if axis.rises {
-                    self.worst.see(Rule::Ramp, before - interval - rounding, place);
+                    self.worst.see(&rules::RAMP, before - interval - rounding, place);
                 }
                 // Mean speeds of neighbours, which are those at their middles.
                 let [v0, v1] = [before, interval].map(|interval| sewing.step_mm * US_PER_S / interval);
                 let apart = f64::midpoint(before, interval) / US_PER_S;
                 let rounding = (v0 / before + v1 / interval) * self.tick_us;
-                self.worst.see(Rule::Acceleration, ((v1 - v0).abs() - rounding) / apart, place);
+                self.worst.see(&rules::ACCELERATION, ((v1 - v0).abs() - rounding) / apart, place);
             }
         }
         axis.interval = Some(interval);
@@ -174,25 +174,25 @@ impl Judge<'_> {
         let (steps, sewing) = (&self.ground.stitches.steps, self.ground.sewing);
         let step = &steps[entry.i];
         let before = if entry.i == 0 { Point::origin() } else { steps[entry.i - 1].to };
-        let place = Some((entry.i as u32 + 1, step.to));
+        let place = sighting(entry.i as u32 + 1, step.to);
         let nearest = |coordinate: f64| (coordinate / sewing.step_mm).round() as i64;
         let asked = [(before.x, step.to.x), (before.y, step.to.y)].map(|(from, to)| nearest(to) - nearest(from));
         for (k, axis) in entry.axes.iter().enumerate() {
-            self.worst.see(Rule::Count, (axis.count - asked[k].abs()).abs() as f64, place);
+            self.worst.see(&rules::COUNT, (axis.count - asked[k].abs()).abs() as f64, place);
             // Pulses against the rest, or all of them against the stitch.
             let against = if axis.sum * asked[k] < 0 { axis.count } else { axis.count - axis.sum.abs() };
-            self.worst.see(Rule::Direction, against as f64, place);
+            self.worst.see(&rules::DIRECTION, against as f64, place);
             self.at[k] += axis.sum;
             if let Some(last) = axis.interval {
-                self.worst.see(Rule::FirstInterval, self.first_us - last, place);
+                self.worst.see(&rules::FIRST_INTERVAL, self.first_us - last, place);
             }
         }
         let off = [step.to.x, step.to.y].into_iter().zip(self.at);
         let off = off.map(|(planned, at)| (at as f64 * sewing.step_mm - planned).abs()).fold(0.0, f64::max);
-        self.worst.see(Rule::EndPoint, off, place);
+        self.worst.see(&rules::END_POINT, off, place);
         if entry.rpm > 0.0 {
             let last = entry.axes.iter().map(|axis| axis.last_us).fold(0.0, f64::max);
-            self.worst.see(Rule::Window, last - clock::window_us(sewing, entry.rpm), place);
+            self.worst.see(&rules::WINDOW, last - clock::window_us(sewing, entry.rpm), place);
         }
     }
 
@@ -200,6 +200,6 @@ impl Judge<'_> {
     fn end(&mut self) {
         self.finish();
         let missing = self.ground.stitches.steps.len().saturating_sub(self.next);
-        self.worst.count(Rule::Entries, missing as f64, self.place(self.next));
+        self.worst.count(&rules::ENTRIES, missing, self.place(self.next));
     }
 }

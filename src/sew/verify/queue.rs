@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::io::BufRead;
 
 use super::clock;
-use super::ground::{Ground, Unread};
-use super::rules::Rule;
+use super::ground::{Ground, Unread, sighting};
+use super::rules;
 use super::spindle::Spindle;
-use super::worst::Worst;
 use crate::geom::Point;
+use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 
 /// Rounding of times, as a part of the window: the speed is a whole number.
@@ -41,21 +41,20 @@ pub(super) const ROWS: Form = Form { head: Some("op,dx_mm,dy_mm,value"), entry: 
 pub(super) const JSON: Form = Form { head: None, entry: json };
 
 /// Judges a queue of some form.
-pub(super) fn judge(input: &mut dyn BufRead, form: Form, ground: &Ground, worst: &mut Worst) -> Result<(), Unread> {
+pub(super) fn judge(
+    input: &mut dyn BufRead,
+    form: Form,
+    ground: &Ground,
+    worst: &mut WorstByRule,
+) -> Result<(), Unread> {
     let (mut line, mut number, mut i) = (String::new(), 0, 0);
     // Few moves are different.
     let mut times: BTreeMap<u64, f64> = BTreeMap::new();
     let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::default(), false);
     loop {
-        line.clear();
         number += 1;
-        match input.read_line(&mut line) {
-            Ok(0) => break,
-            Ok(_) => {}
-            Err(error) if error.kind() == std::io::ErrorKind::InvalidData => {
-                return Err(Unread::row(number, "it is no text"));
-            }
-            Err(error) => return Err(error.into()),
+        if !fetch(input, &mut line, number)? {
+            break;
         }
         let text = line.strip_suffix('\n').ok_or_else(|| Unread::row(number, "it is cut off"))?;
         if let Some(head) = form.head.filter(|_| number == 1) {
@@ -95,8 +94,18 @@ pub(super) fn judge(input: &mut dyn BufRead, form: Form, ground: &Ground, worst:
     if !is_ended {
         return Err(Unread::row(number, "END is missing"));
     }
-    worst.count(Rule::Entries, ground.stitches.steps.len().abs_diff(i) as f64, None);
+    worst.count(&rules::ENTRIES, ground.stitches.steps.len().abs_diff(i), None);
     Ok(())
+}
+
+/// Reads the line of a number; `false` behind the last one.
+fn fetch(input: &mut dyn BufRead, line: &mut String, number: u64) -> Result<bool, Unread> {
+    line.clear();
+    match input.read_line(line) {
+        Ok(read) => Ok(read > 0),
+        Err(error) if error.kind() == std::io::ErrorKind::InvalidData => Err(Unread::row(number, "it is no text")),
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn op(ground: &Ground, i: usize) -> Option<Op> {
@@ -104,22 +113,22 @@ fn op(ground: &Ground, i: usize) -> Option<Op> {
 }
 
 /// Sees an entry, whether it is the one that is asked for, and where the needle stands behind it.
-fn see(ground: &Ground, worst: &mut Worst, i: usize, (is_asked, at): (bool, [f64; 2])) {
+fn see(ground: &Ground, worst: &mut WorstByRule, i: usize, (is_asked, at): (bool, [f64; 2])) {
     let step = ground.stitches.steps.get(i);
-    let place = step.map(|step| (i as u32 + 1, step.to));
-    worst.count(Rule::Entries, f64::from(u8::from(!is_asked)), place);
+    let place = step.map(|step| sighting(i as u32 + 1, step.to));
+    worst.count(&rules::ENTRIES, usize::from(!is_asked), place);
     let planned = step.map_or(Point::new(f64::NAN, f64::NAN), |step| step.to);
     let off = (at[0] - planned.x).abs().max((at[1] - planned.y).abs());
     if step.is_some() {
-        worst.see(Rule::EndPoint, off, place);
+        worst.see(&rules::END_POINT, off, place);
     }
 }
 
 /// Whether a stitch that needs some time, microseconds, fits into its window at a speed.
-fn fits(ground: &Ground, worst: &mut Worst, i: usize, (needed, rpm): (f64, f64)) {
+fn fits(ground: &Ground, worst: &mut WorstByRule, i: usize, (needed, rpm): (f64, f64)) {
     let window = clock::window_us(ground.sewing, rpm);
-    let place = ground.stitches.steps.get(i).map(|step| (i as u32 + 1, step.to));
-    worst.see(Rule::Window, needed - window * (1.0 + WINDOW_EPSILON), place);
+    let place = ground.stitches.steps.get(i).map(|step| sighting(i as u32 + 1, step.to));
+    worst.see(&rules::WINDOW, needed - window * (1.0 + WINDOW_EPSILON), place);
 }
 
 /// An increment or another number.

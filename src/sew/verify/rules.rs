@@ -1,110 +1,44 @@
 //! Every rule that sewn patterns are judged by.
 
-use crate::ir::finding::RuleRow;
+use crate::ir::verdict::{Rule, rules};
 use crate::machine::Sewing;
 
-/// A rule.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rule {
-    /// Everything can be read.
-    Format,
-    /// Entries are those of the pattern.
-    Entries,
-    /// Pulses are as many as the stitch needs.
-    Count,
-    /// Pulses of a stitch go one way.
-    Direction,
-    /// The needle is where the pattern has it.
-    EndPoint,
-    /// X and Y move while the needle is out of the cloth.
-    Window,
-    /// Times do not go back.
-    Time,
-    /// The first and the last interval.
-    FirstInterval,
-    /// The least interval.
-    LeastInterval,
-    /// Intervals fall, then rise.
-    Ramp,
-    /// How fast the rate changes.
-    Acceleration,
-    /// The spindle's limits.
-    Speed,
-    /// The spindle does not change its speed within a run.
-    SteadySpeed,
-    /// No stitch is too short.
-    ShortPitch,
-    /// No stitch is too long.
-    LongPitch,
-    /// Every corner has a needle point.
-    Corner,
-    /// Every needle point is on its seam.
-    OnSeam,
-    /// Stitches of a file are where the pattern has them.
-    NeedlePoint,
-    /// Trims, stops and threads of a file.
-    Commands,
-    /// The header of a file.
-    Header,
-    /// What was read is what the file says.
-    Source,
+rules! {
+    FORMAT { name: "sew-verify/format", unit: "", about: "every row or record can be read, to the end of the program", more: "A motion part that meets a bad row stops with the needle in the cloth, or goes on with another number. After an edit by hand look for empty fields and a last line that is cut off." }
+    ENTRIES { name: "sew-verify/entries", unit: "", about: "stitches, jumps, trims, stops and threads are those of the pattern, in its order", more: "An entry that is missing is a gap in the seam or a thread that is not cut; one too many moves all that follow. The value is how many differ." }
+    COUNT { name: "sew-verify/count", unit: "", about: "each stitch has as many pulses of X and of Y as its way has steps", more: "A pulse too few or too many displaces all stitches behind it by a step, on a stepping motor for ever: it has no other way to know where it is. The value is the greatest difference." }
+    DIRECTION { name: "sew-verify/direction", unit: "", about: "all pulses of an axis within a stitch go the way of the stitch", more: "A motor that turns back at full rate loses steps, and all that is sewn behind lies elsewhere. The value is how many pulses of a stitch go the wrong way." }
+    END_POINT { name: "sew-verify/end-point", unit: "mm", about: "the sum of all pulses is the needle point, rounded to a step: half a step off at the most", more: "Rounding each stitch by itself would add up over a pattern; rounding places does not, so that the last stitch is as exact as the first." }
+    WINDOW { name: "sew-verify/window", unit: "us", about: "the last pulse comes before the needle enters the cloth again", more: "A needle that is dragged bends, breaks, or tears the cloth. The time from feed start to feed end at this speed must hold the move." }
+    TIME { name: "sew-verify/time", unit: "us", about: "times of the pulses of an entry do not go back", more: "A timer that is set to a past time fires at once, or never. The value is by how much a pulse comes before the one that stands above it." }
+    FIRST_INTERVAL { name: "sew-verify/first-interval", unit: "us", about: "the first and the last interval are those of the start rate at the least", more: "A stepping motor that starts above its start rate loses steps; one that stops at once from a higher rate overshoots." }
+    LEAST_INTERVAL { name: "sew-verify/least-interval", unit: "us", about: "no interval is below that of the greatest rate of the drives", more: "A drive that is asked for more leaves pulses out, and the pattern is displaced from there on. The value is by how much an interval is too short (`sewing.max_hz`)." }
+    RAMP { name: "sew-verify/ramp", unit: "us", about: "intervals of an axis within a stitch fall, then rise", more: "A rate that rises again while it should fall shakes the clamp and, near its limit, loses steps. The value is by how much an interval falls behind one that rose." }
+    ACCELERATION { name: "sew-verify/acceleration", unit: "mm/s2", about: "the rate changes no faster than the acceleration of the profile", more: "A motor follows no more than its torque allows: beyond it slips. The value is taken between neighbouring intervals, less what their rounding may add." }
+    SPEED { name: "sew-verify/speed", unit: "rpm", about: "the spindle keeps its greatest speed, the soft start and the limits by pitch", more: "The value is by how much the speed passes the least of them. A speed where the needle is up, or none where it sews, counts in full." }
+    STEADY_SPEED { name: "sew-verify/steady-speed", unit: "rpm", about: "the spindle turns at one speed within a run, but for its soft start", more: "The spindle is heavy: it cannot follow from stitch to stitch, and the windows would lie elsewhere than planned. The value is the greatest difference." }
+    SHORT_PITCH { name: "sew-verify/short-pitch", unit: "mm", about: "no stitch is shorter than the least pitch, but for those that lock the thread", more: "Stitches that are too short pile up under the needle and break the thread. The value is by how much the shortest misses `sewing.min_pitch_mm`." }
+    LONG_PITCH { name: "sew-verify/long-pitch", unit: "mm", about: "no stitch is longer than the machine can make", more: "Neither the clamp nor the thread take-up of the machine reaches farther. The value is by how much the longest passes `sewing.max_pitch_mm`." }
+    CORNER { name: "sew-verify/corner", unit: "mm", about: "every corner of a seam has a needle point", more: "A seam that cuts a corner short shows on the finished piece. Edges shorter than the least pitch are merged, so that much is allowed." }
+    ON_SEAM { name: "sew-verify/on-seam", unit: "mm", about: "every needle point is on its seam, or within its width", more: "Stitches beside the seam line miss the lower ply or the folded edge, and the seam opens. What merging short stitches moves is allowed, and no more." }
+    NEEDLE_POINT { name: "sew-verify/needle-point", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." }
+    COMMANDS { name: "sew-verify/commands", unit: "", about: "trims of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in a DST file." }
+    HEADER { name: "sew-verify/header", unit: "", about: "the header of a DST file says what its records do", more: "Machines place the pattern within their field by the header: a wrong one drives the needle into the clamp. The value is how many entries are wrong." }
+    SOURCE { name: "sew-verify/source", unit: "", about: "stitches, jumps, trims, stops and threads of a stitch file or queue that is read are sewn, in their order, and nothing else but parts of a stitch that is split", more: "The reader and a second decoder of the same bytes must find the same; only stitches that are too short may be merged with their neighbours. The value is how many differ. Please report the file." }
 }
 
-/// What is said of a rule.
-pub(super) type Row = RuleRow<Rule>;
-
-/// Every rule, in the order of reports.
-#[rustfmt::skip] // a table: a rule a row
-pub const RULES: &[Row] = &[
-    Row { rule: Rule::Format, name: "sew-verify/format", unit: "", about: "every row or record can be read, to the end of the program", more: "A motion part that meets a bad row stops with the needle in the cloth, or goes on with another number. After an edit by hand look for empty fields and a last line that is cut off." },
-    Row { rule: Rule::Entries, name: "sew-verify/entries", unit: "", about: "stitches, jumps, trims, stops and threads are those of the pattern, in its order", more: "An entry that is missing is a gap in the seam or a thread that is not cut; one too many moves all that follow. The value is how many differ." },
-    Row { rule: Rule::Count, name: "sew-verify/count", unit: "", about: "each stitch has as many pulses of X and of Y as its way has steps", more: "A pulse too few or too many displaces all stitches behind it by a step, on a stepping motor for ever: it has no other way to know where it is. The value is the greatest difference." },
-    Row { rule: Rule::Direction, name: "sew-verify/direction", unit: "", about: "all pulses of an axis within a stitch go the way of the stitch", more: "A motor that turns back at full rate loses steps, and all that is sewn behind lies elsewhere. The value is how many pulses of a stitch go the wrong way." },
-    Row { rule: Rule::EndPoint, name: "sew-verify/end-point", unit: "mm", about: "the sum of all pulses is the needle point, rounded to a step: half a step off at the most", more: "Rounding each stitch by itself would add up over a pattern; rounding places does not, so that the last stitch is as exact as the first." },
-    Row { rule: Rule::Window, name: "sew-verify/window", unit: "us", about: "the last pulse comes before the needle enters the cloth again", more: "A needle that is dragged bends, breaks, or tears the cloth. The time from feed start to feed end at this speed must hold the move." },
-    Row { rule: Rule::Time, name: "sew-verify/time", unit: "us", about: "times of the pulses of an entry do not go back", more: "A timer that is set to a past time fires at once, or never. The value is by how much a pulse comes before the one that stands above it." },
-    Row { rule: Rule::FirstInterval, name: "sew-verify/first-interval", unit: "us", about: "the first and the last interval are those of the start rate at the least", more: "A stepping motor that starts above its start rate loses steps; one that stops at once from a higher rate overshoots." },
-    Row { rule: Rule::LeastInterval, name: "sew-verify/least-interval", unit: "us", about: "no interval is below that of the greatest rate of the drives", more: "A drive that is asked for more leaves pulses out, and the pattern is displaced from there on. The value is by how much an interval is too short (`sewing.max_hz`)." },
-    Row { rule: Rule::Ramp, name: "sew-verify/ramp", unit: "us", about: "intervals of an axis within a stitch fall, then rise", more: "A rate that rises again while it should fall shakes the clamp and, near its limit, loses steps. The value is by how much an interval falls behind one that rose." },
-    Row { rule: Rule::Acceleration, name: "sew-verify/acceleration", unit: "mm/s2", about: "the rate changes no faster than the acceleration of the profile", more: "A motor follows no more than its torque allows: beyond it slips. The value is taken between neighbouring intervals, less what their rounding may add." },
-    Row { rule: Rule::Speed, name: "sew-verify/speed", unit: "rpm", about: "the spindle keeps its greatest speed, the soft start and the limits by pitch", more: "The value is by how much the speed passes the least of them. A speed where the needle is up, or none where it sews, counts in full." },
-    Row { rule: Rule::SteadySpeed, name: "sew-verify/steady-speed", unit: "rpm", about: "the spindle turns at one speed within a run, but for its soft start", more: "The spindle is heavy: it cannot follow from stitch to stitch, and the windows would lie elsewhere than planned. The value is the greatest difference." },
-    Row { rule: Rule::ShortPitch, name: "sew-verify/short-pitch", unit: "mm", about: "no stitch is shorter than the least pitch, but for those that lock the thread", more: "Stitches that are too short pile up under the needle and break the thread. The value is by how much the shortest misses `sewing.min_pitch_mm`." },
-    Row { rule: Rule::LongPitch, name: "sew-verify/long-pitch", unit: "mm", about: "no stitch is longer than the machine can make", more: "Neither the clamp nor the thread take-up of the machine reaches farther. The value is by how much the longest passes `sewing.max_pitch_mm`." },
-    Row { rule: Rule::Corner, name: "sew-verify/corner", unit: "mm", about: "every corner of a seam has a needle point", more: "A seam that cuts a corner short shows on the finished piece. Edges shorter than the least pitch are merged, so that much is allowed." },
-    Row { rule: Rule::OnSeam, name: "sew-verify/on-seam", unit: "mm", about: "every needle point is on its seam, or within its width", more: "Stitches beside the seam line miss the lower ply or the folded edge, and the seam opens. What merging short stitches moves is allowed, and no more." },
-    Row { rule: Rule::NeedlePoint, name: "sew-verify/needle-point", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." },
-    Row { rule: Rule::Commands, name: "sew-verify/commands", unit: "", about: "trims of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in a DST file." },
-    Row { rule: Rule::Header, name: "sew-verify/header", unit: "", about: "the header of a DST file says what its records do", more: "Machines place the pattern within their field by the header: a wrong one drives the needle into the clamp. The value is how many entries are wrong." },
-    Row { rule: Rule::Source, name: "sew-verify/source", unit: "", about: "stitches, jumps, trims, stops and threads of a stitch file or queue that is read are sewn, in their order, and nothing else but parts of a stitch that is split", more: "The reader and a second decoder of the same bytes must find the same; only stitches that are too short may be merged with their neighbours. The value is how many differ. Please report the file." },
-];
-
-impl Rule {
-    /// Its row.
-    pub fn row(self) -> &'static Row {
-        &RULES[self as usize]
-    }
-
-    /// The greatest value allowed.
-    pub(super) fn limit(self, sewing: &Sewing) -> f64 {
-        match self {
-            Self::Format
-            | Self::Entries
-            | Self::Count
-            | Self::Direction
-            | Self::Commands
-            | Self::Header
-            | Self::Source
-            | Self::Speed
-            | Self::SteadySpeed => 0.0,
-            Self::EndPoint => sewing.step_mm / 2.0 + PLACE_EPSILON,
-            Self::Window | Self::Time | Self::FirstInterval | Self::LeastInterval | Self::Ramp => TIME_US,
-            Self::Acceleration => sewing.feed_acceleration_mm_s2 * (1.0 + ACCELERATION_EPSILON),
-            Self::ShortPitch | Self::LongPitch => PLACE_EPSILON,
-            Self::Corner | Self::OnSeam => sewing.min_pitch_mm + PLACE_EPSILON,
-            Self::NeedlePoint => FILE_UNIT / 2.0 + PLACE_EPSILON,
-        }
-    }
+/// The greatest value that a rule allows.
+pub(super) fn limit(rule: &Rule, sewing: &Sewing) -> f64 {
+    let limits: [(&[&Rule], f64); 6] = [
+        (&[&END_POINT], sewing.step_mm / 2.0 + PLACE_EPSILON),
+        (&[&WINDOW, &TIME, &FIRST_INTERVAL, &LEAST_INTERVAL, &RAMP], TIME_US),
+        (&[&ACCELERATION], sewing.feed_acceleration_mm_s2 * (1.0 + ACCELERATION_EPSILON)),
+        (&[&SHORT_PITCH, &LONG_PITCH], PLACE_EPSILON),
+        (&[&CORNER, &ON_SEAM], sewing.min_pitch_mm + PLACE_EPSILON),
+        (&[&NEEDLE_POINT], FILE_UNIT / 2.0 + PLACE_EPSILON),
+    ];
+    // Nothing is allowed by the others.
+    limits.iter().find(|(rules, _)| rules.contains(&rule)).map_or(0.0, |(_, limit)| *limit)
 }
 
 /// Rounding of places, mm: rows have four decimals.
@@ -115,16 +49,3 @@ const TIME_US: f64 = 0.0015;
 const ACCELERATION_EPSILON: f64 = 1e-4;
 /// Unit of stitch files, mm.
 const FILE_UNIT: f64 = 0.1;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_rule_has_its_row() {
-        for (i, row) in RULES.iter().enumerate() {
-            assert_eq!(row.rule as usize, i, "{}", row.name);
-        }
-        assert_eq!(RULES.len(), Rule::Source as usize + 1);
-    }
-}

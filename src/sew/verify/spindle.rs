@@ -1,9 +1,9 @@
 //! The speed of the spindle: its limits, and that it does not change within a run.
 
-use super::ground::Ground;
-use super::rules::{PLACE_EPSILON, Rule};
-use super::worst::Worst;
+use super::ground::{Ground, sighting};
+use super::rules::{self, PLACE_EPSILON};
 use crate::geom::Point;
+use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 
 /// Follows the speed from entry to entry.
@@ -19,14 +19,14 @@ pub(super) struct Spindle {
 
 impl Spindle {
     /// Sees the speed of an entry, by its place among them; 0 = the spindle stands.
-    pub(super) fn see(&mut self, i: usize, rpm: f64, ground: &Ground, worst: &mut Worst) {
+    pub(super) fn see(&mut self, i: usize, rpm: f64, ground: &Ground, worst: &mut WorstByRule) {
         let Some(step) = ground.stitches.steps.get(i) else { return };
-        let place = Some((i as u32 + 1, step.to));
+        let place = sighting(i as u32 + 1, step.to);
         match step.op {
             Op::Stitch => {}
             Op::Jump | Op::Trim | Op::Stop | Op::Color(_) => {
                 *self = Self::default();
-                worst.see(Rule::Speed, rpm, place);
+                worst.see(&rules::SPEED, rpm, place);
                 return;
             }
         }
@@ -43,10 +43,10 @@ impl Spindle {
         self.stitches += 1;
         let steady = if is_soft { &mut self.soft } else { &mut self.rpm };
         let usual = *steady.get_or_insert(rpm);
-        worst.see(Rule::SteadySpeed, (rpm - usual).abs(), place);
+        worst.see(&rules::STEADY_SPEED, (rpm - usual).abs(), place);
         if let Some(soft) = sewing.soft_start_rpm.filter(|_| is_soft) {
             limit = limit.min(soft);
         }
-        worst.see(Rule::Speed, if rpm > 0.0 { rpm - limit } else { limit }, place);
+        worst.see(&rules::SPEED, if rpm > 0.0 { rpm - limit } else { limit }, place);
     }
 }

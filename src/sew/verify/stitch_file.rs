@@ -2,11 +2,11 @@
 
 use std::io::BufRead;
 
-use super::ground::{Ground, Unread};
+use super::ground::{Ground, Unread, sighting};
 use super::records::{Decoded, File, Kind, Record};
-use super::rules::Rule;
-use super::worst::Worst;
+use super::rules;
 use crate::geom::Point;
+use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 use crate::units::TENTHS_PER_MM;
 
@@ -29,7 +29,7 @@ pub(super) fn judge(
     input: &mut dyn BufRead,
     decode: fn(&[u8]) -> Decoded,
     ground: &Ground,
-    worst: &mut Worst,
+    worst: &mut WorstByRule,
 ) -> Result<(), Unread> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
@@ -39,26 +39,26 @@ pub(super) fn judge(
         return Err(Unread::Row(what.to_owned()));
     }
     if let Some(wrong) = header {
-        worst.see(Rule::Header, wrong.into(), None);
+        worst.see(&rules::HEADER, wrong.into(), None);
     }
     let (planned, found) = (planned(ground), found(&records));
-    worst.count(Rule::Entries, planned.len().abs_diff(found.len()) as f64, None);
+    worst.count(&rules::ENTRIES, planned.len().abs_diff(found.len()), None);
     for ((planned, entry), found) in planned.iter().zip(&found) {
-        let place = planned.end.map(|(_, point)| (*entry, point));
+        let place = planned.end.map(|(_, point)| sighting(*entry, point));
         match (planned.end, found.end) {
             (Some((is_stitch, asked)), Some((is, point))) => {
-                worst.count(Rule::Entries, f64::from(u8::from(is_stitch != is)), place);
+                worst.count(&rules::ENTRIES, usize::from(is_stitch != is), place);
                 let off = (point.x - asked.x).abs().max((point.y - asked.y).abs());
-                worst.see(Rule::NeedlePoint, off, place);
+                worst.see(&rules::NEEDLE_POINT, off, place);
             }
             (None, None) => {}
-            (Some(_), None) | (None, Some(_)) => worst.count(Rule::Entries, 1.0, place),
+            (Some(_), None) | (None, Some(_)) => worst.count(&rules::ENTRIES, 1, place),
         }
         // Jumps that stand for a trim may also be a long way.
         let is_trim = |jumps: usize| trim_jumps.is_some_and(|least| jumps >= least);
         let is_cut = found.is_cut || is_trim(found.jumps);
         let wrong = if planned.is_cut { !is_cut } else { is_cut && !is_trim(planned.jumps) };
-        worst.count(Rule::Commands, f64::from(u8::from(wrong)), place);
+        worst.count(&rules::COMMANDS, usize::from(wrong), place);
     }
     Ok(())
 }

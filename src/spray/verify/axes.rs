@@ -1,8 +1,8 @@
 //! Times, ends, and the limits of the axes by finite differences of the rows.
 
 use super::rows::{POSITION_ROUNDING, Row, SPEED_ROUNDING, TIME_ROUNDING};
-use super::rules::{OF_AXES, Rule};
-use super::worst::{Worst, at};
+use super::rules::{self, OF_AXES};
+use crate::ir::verdict::WorstByRule;
 use crate::machine::{Job, Limits, Table};
 use crate::units::deg;
 
@@ -11,19 +11,19 @@ const TIME_EPSILON: f64 = 1e-9;
 const LIMIT_EPSILON: f64 = 1e-6;
 
 /// Judges how the axes move.
-pub(super) fn judge(rows: &[Row], job: &Job, worst: &mut Worst) {
+pub(super) fn judge(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let profile = &job.profile;
     let period = profile.time.period();
     for (tick, row) in rows.iter().enumerate() {
         let late = (row.time - tick as f64 * period).abs();
-        worst.see(Rule::Time, late, Some(TIME_ROUNDING + TIME_EPSILON), Some(at(row)));
+        worst.see_under(&rules::TIME, late, TIME_ROUNDING + TIME_EPSILON, row.sighting());
         let off = profile.table.off([row.head.x, row.head.y]);
         if off.is_finite() {
-            worst.see(Rule::Table, off.max(0.0), Some(Table::EDGE_MM), Some(at(row)));
+            worst.see_under(&rules::TABLE, off.max(0.0), Table::EDGE_MM, row.sighting());
         }
         if let Some([least, most]) = profile.c.range_deg {
             let beyond = (least - row.c_deg).max(row.c_deg - most).max(0.0);
-            worst.see(Rule::CRange, beyond, Some(POSITION_ROUNDING), Some(at(row)));
+            worst.see_under(&rules::C_RANGE, beyond, POSITION_ROUNDING, row.sighting());
         }
     }
     ends(rows, job, worst);
@@ -32,17 +32,17 @@ pub(super) fn judge(rows: &[Row], job: &Job, worst: &mut Worst) {
 }
 
 /// The first and the last row.
-fn ends(rows: &[Row], job: &Job, worst: &mut Worst) {
+fn ends(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let away = |row: &Row, [x, y, c]: [f64; 3]| {
         let turned = (row.c_deg - c).abs();
         (row.head.x - x).abs().max((row.head.y - y).abs()).max(turned)
     };
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     let start = away(first, job.profile.home) + f64::from(u8::from(first.jet));
-    worst.see(Rule::Start, start, Some(2.0 * POSITION_ROUNDING), Some(at(first)));
+    worst.see_under(&rules::START, start, 2.0 * POSITION_ROUNDING, first.sighting());
     let parked = job.profile.park.map_or(0.0, |park| away(last, park));
     let end = parked + f64::from(u8::from(last.jet));
-    worst.see(Rule::End, end, Some(2.0 * POSITION_ROUNDING), Some(at(last)));
+    worst.see_under(&rules::END, end, 2.0 * POSITION_ROUNDING, last.sighting());
 }
 
 /// What an axis may do at each order, mm or degrees.
@@ -55,7 +55,7 @@ fn limits([x, y, c]: [Limits; 3]) -> [[f64; 3]; 3] {
 }
 
 /// Differences of order 1 to 3; before the first row and behind the last the axes rest.
-fn differences(rows: &[Row], job: &Job, worst: &mut Worst) {
+fn differences(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let period = job.profile.time.period();
     let [jet, air] = [job.profile.axes.limits(), job.profile.axes.travel_limits()].map(limits);
     let last = rows.len() - 1;
@@ -77,14 +77,14 @@ fn differences(rows: &[Row], job: &Job, worst: &mut Worst) {
                 let most = if sprays { jet[order][axis] } else { jet[order][axis].max(air[order][axis]) };
                 let rounding = POSITION_ROUNDING * 2.0_f64.powi(power) / h;
                 let limit = most * (1.0 + LIMIT_EPSILON) + rounding;
-                worst.see(OF_AXES[order][axis], differences[order] / h, Some(limit), Some(at(of(i))));
+                worst.see_under(OF_AXES[order][axis], differences[order] / h, limit, of(i).sighting());
             }
         }
     }
 }
 
 /// Velocities against the mean of the ways before and behind a row: these differ by what jerk can do in a period.
-fn velocities(rows: &[Row], job: &Job, worst: &mut Worst) {
+fn velocities(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let period = job.profile.time.period();
     let [x, y, _] = job.profile.axes.limits();
     let allowed = 0.5 * x.jerk.max(y.jerk) * period * period + SPEED_ROUNDING + POSITION_ROUNDING / period;
@@ -92,10 +92,10 @@ fn velocities(rows: &[Row], job: &Job, worst: &mut Worst) {
         let [before, row, behind] = window else { unreachable!("windows of three") };
         let mean = (behind.head - before.head) / (2.0 * period);
         let off = (mean.x - row.velocity[0]).abs().max((mean.y - row.velocity[1]).abs());
-        worst.see(Rule::Velocity, off, Some(allowed), Some(at(row)));
+        worst.see_under(&rules::VELOCITY, off, allowed, row.sighting());
     }
     for row in [&rows[0], &rows[rows.len() - 1]] {
         let moving = row.velocity[0].abs().max(row.velocity[1].abs());
-        worst.see(Rule::Velocity, moving, Some(allowed), Some(at(row)));
+        worst.see_under(&rules::VELOCITY, moving, allowed, row.sighting());
     }
 }

@@ -2,10 +2,10 @@
 
 use super::ground::{Chord, Ground};
 use super::rows::{EPSILON, Row, WAY};
-use super::rules::Rule;
-use super::worst::{Worst, missing};
+use super::rules;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
+use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::machine::Job;
 
 /// How far beside the edge the middle of the jet may pass, mm: far less than any jet is wide.
@@ -69,7 +69,7 @@ impl<'a> Coat<'a> {
     }
 
     /// Judges it.
-    pub(super) fn judge(&self, worst: &mut Worst) {
+    pub(super) fn judge(&self, worst: &mut WorstByRule) {
         let (mut bare, mut first, mut again) = (0.0, None, (0.0, None));
         let is_joined = |a: &Chord, b: &Chord| a.ends[1] == b.ends[0];
         for ring in self.ground.chords.chunk_by(is_joined) {
@@ -80,19 +80,19 @@ impl<'a> Coat<'a> {
                 let is_beside = n > 1 && sides.iter().any(|side| side.coated == Coated::Hidden);
                 if run.coated == Coated::Bare && run.length > if is_beside { FEW } else { 0.0 } {
                     bare += run.length;
-                    first = first.or(Some(missing(run.at, run.block)));
+                    first = first.or(Some(Sighting::missing(run.at, run.block)));
                 }
                 if run.coated == Coated::Again && run.length > again.0 {
-                    again = (run.length, Some(missing(run.at, run.block)));
+                    again = (run.length, Some(Sighting::missing(run.at, run.block)));
                 }
             }
         }
-        worst.see(Rule::Coverage, bare, Some(EPSILON), first);
+        worst.see_under(&rules::COVERAGE, bare, EPSILON, first);
         // Where a closed edge begins it ends, too; and the jet may be ahead there or behind by what the head may look askew.
         let profile = &self.job.profile;
         let ahead = profile.tool.distance_mm * profile.verify.max_heading_deg.to_radians().tan();
         let most = 2.0 * (SPOT + self.ground.tolerance + ahead);
-        worst.see(Rule::Twice, again.0, Some(most), again.1);
+        worst.see_under(&rules::TWICE, again.0, most, again.1);
     }
 
     /// What there is to say of the places of a chord.

@@ -1,9 +1,9 @@
 //! How long the jet stays about a place: a jet that stands floods it.
 
 use super::rows::{EPSILON, Row, WAY};
-use super::rules::Rule;
-use super::worst::{Worst, at};
+use super::rules;
 use crate::geom::Point;
+use crate::ir::verdict::WorstByRule;
 use crate::machine::{Job, Limits};
 use crate::units::rad;
 
@@ -11,7 +11,7 @@ use crate::units::rad;
 const PATIENCE: f64 = 2.0;
 
 /// Judges how long the jet is about each place, on any centimetre of its way at the most.
-pub(super) fn judge(rows: &[Row], spots: &[Point], job: &Job, worst: &mut Worst) {
+pub(super) fn judge(rows: &[Row], spots: &[Point], job: &Job, worst: &mut WorstByRule) {
     let (period, allowed) = (job.profile.time.period(), Allowed::of(job));
     let step = |i: usize| (spots[i] - spots[i - 1]).norm();
     // From there to here: way of the jet, way of the head, turn of C.
@@ -29,7 +29,7 @@ pub(super) fn judge(rows: &[Row], spots: &[Point], job: &Job, worst: &mut Worst)
             (way, head, turn) = (way - step(from), head - moved(from), turn - turned(from));
         }
         let time = (i - from) as f64 * period;
-        worst.see(Rule::Dwell, time, Some(allowed.time(head, turn) + EPSILON), Some(at(&rows[from])));
+        worst.see_under(&rules::DWELL, time, allowed.time(head, turn) + EPSILON, rows[from].sighting());
     }
 }
 

@@ -4,9 +4,9 @@ use super::coat::Coat;
 use super::dwell;
 use super::ground::{Chord, Ground};
 use super::rows::{EPSILON, POSITION_ROUNDING, Row, WAY};
-use super::rules::Rule;
-use super::worst::{Worst, at};
+use super::rules;
 use crate::geom::{Heading, Point, Rotation, polyline};
+use crate::ir::verdict::WorstByRule;
 use crate::machine::Job;
 use crate::units::{deg, rad};
 
@@ -31,11 +31,11 @@ impl<'a> Jet<'a> {
     }
 
     /// Judges it.
-    pub(super) fn judge(&self, worst: &mut Worst) {
+    pub(super) fn judge(&self, worst: &mut WorstByRule) {
         let rows = self.rows;
         if !self.job.mode.cuts() {
             let on = rows.iter().filter(|row| row.jet).count();
-            worst.see(Rule::Jet, on as f64, Some(0.0), rows.iter().find(|row| row.jet).map(at));
+            worst.see_under(&rules::JET, on as f64, 0.0, rows.iter().find(|row| row.jet).map(Row::sighting));
             return;
         }
         for (row, &spot) in rows.iter().zip(&self.spots) {
@@ -43,7 +43,7 @@ impl<'a> Jet<'a> {
                 self.aimed(row, spot, worst);
             }
             if row.block > 0 && !row.jet {
-                worst.see(Rule::Block, f64::INFINITY, Some(0.0), Some(at(row)));
+                worst.see_under(&rules::BLOCK, f64::INFINITY, 0.0, row.sighting());
             }
         }
         self.speeds(worst);
@@ -53,32 +53,32 @@ impl<'a> Jet<'a> {
     }
 
     /// Distance and direction of one row, and the block that it names.
-    fn aimed(&self, row: &Row, spot: Point, worst: &mut Worst) {
+    fn aimed(&self, row: &Row, spot: Point, worst: &mut WorstByRule) {
         let (profile, ground) = (&self.job.profile, self.ground);
         let (distance, tolerance) = (profile.tool.distance_mm, ground.tolerance);
         let reach = distance + tolerance + profile.path.chord_sag_max_mm + 1.0;
         let Some((chord, away)) = ground.nearest(row.head, reach) else {
-            worst.see(Rule::Distance, f64::INFINITY, Some(tolerance), Some(at(row)));
+            worst.see_under(&rules::DISTANCE, f64::INFINITY, tolerance, row.sighting());
             return;
         };
         // What a curve lies beside its chord does not count; over the material the distance is negative.
         let [near, far] = chord.bulge;
         let off = (distance - far - away).max(away - distance - near).max(0.0);
-        worst.see(Rule::Distance, off, Some(tolerance + EPSILON), Some(at(row)));
+        worst.see_under(&rules::DISTANCE, off, tolerance + EPSILON, row.sighting());
         // Where the head is between two edges it may look at either.
         let equal = ground.within(row.head, away.abs() + 2.0 * tolerance);
         let askew = equal.map(|chord| askew(row, chord)).fold(f64::INFINITY, f64::min);
         let limit = profile.verify.max_heading_deg + POSITION_ROUNDING + EPSILON;
-        worst.see(Rule::Heading, deg(askew), Some(limit), Some(at(row)));
+        worst.see_under(&rules::HEADING, deg(askew), limit, row.sighting());
         let named = ground.of_block(row.block);
         let off = named.map(|chord| polyline::distance_to_segment(spot, chord.ends[0], chord.ends[1]));
         let off = off.fold(f64::INFINITY, f64::min);
         // About the ends of a chord that stands for a curve the jet is ahead of the head, or behind it.
-        worst.see(Rule::Block, off, Some(tolerance + WAY), Some(at(row)));
+        worst.see_under(&rules::BLOCK, off, tolerance + WAY, row.sighting());
     }
 
     /// The speed of the jet over each centimetre of its way.
-    fn speeds(&self, worst: &mut Worst) {
+    fn speeds(&self, worst: &mut WorstByRule) {
         let (rows, spots, tool) = (self.rows, &self.spots, &self.job.profile.tool);
         let period = self.job.profile.time.period();
         let share = tool.edge_speed_percent / 100.0;
@@ -91,7 +91,7 @@ impl<'a> Jet<'a> {
                 // What was too short for a centimetre is judged as a whole.
                 if way > SHORT && way < WAY {
                     let speed = way / ((i - 1 - from) as f64 * period);
-                    worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
+                    worst.see_under(&rules::EDGE_SPEED, speed, limit * (1.0 + EPSILON), row.sighting());
                 }
                 (from, way) = (i, 0.0);
                 continue;
@@ -105,13 +105,13 @@ impl<'a> Jet<'a> {
                 continue;
             }
             let speed = way / ((i - from) as f64 * period);
-            worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
+            worst.see_under(&rules::EDGE_SPEED, speed, limit * (1.0 + EPSILON), row.sighting());
             if speed < slow {
                 slow_way += step(i);
-                slowest = slowest.or(Some(at(row)));
+                slowest = slowest.or(Some(row.sighting()));
             }
         }
-        worst.see(Rule::EdgeSlow, slow_way, None, slowest);
+        worst.see(&rules::EDGE_SLOW, slow_way, slowest);
     }
 }
 

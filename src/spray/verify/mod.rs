@@ -9,27 +9,16 @@ mod dwell;
 mod ground;
 mod jet;
 mod rows;
-mod rules;
-mod worst;
+pub(crate) mod rules;
 
 pub use ground::Ground;
-pub use rules::{RULES, Row, Rule, rule};
+pub use rules::RULES;
 
 use std::io::{self, BufRead};
 
 use self::jet::Jet;
-use self::worst::Worst;
-use crate::ir::Finding;
+use crate::ir::verdict::{Verdict, WorstByRule};
 use crate::machine::Job;
-
-/// What a program is worth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
-    /// The worst value under each rule that says something of it, in the order of [`RULES`].
-    pub findings: Vec<Finding>,
-    /// What cannot be read, when something cannot: then nothing else is said.
-    pub unread: Option<String>,
-}
 
 /// Whether bytes begin as a program of a head does.
 pub fn begins(bytes: &[u8]) -> bool {
@@ -38,9 +27,9 @@ pub fn begins(bytes: &[u8]) -> bool {
 
 /// Judges a program from its bytes.
 pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<Verdict> {
-    let mut worst = Worst::default();
+    let mut worst = WorstByRule::default();
     let read = rows::read(input)?;
-    worst.see(Rule::Format, f64::from(u8::from(read.is_err())), Some(0.0), None);
+    worst.see_under(&rules::FORMAT, f64::from(u8::from(read.is_err())), 0.0, None);
     let unread = match read {
         Ok(rows) => {
             axes::judge(&rows, job, &mut worst);
@@ -49,5 +38,5 @@ pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<
         }
         Err(unread) => Some(unread),
     };
-    Ok(Verdict { findings: worst.findings(), unread })
+    Ok(Verdict { findings: worst.findings(RULES), unread, ..Verdict::default() })
 }

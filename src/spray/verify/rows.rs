@@ -3,6 +3,7 @@
 use std::io::{self, BufRead};
 
 use crate::geom::Point;
+use crate::ir::verdict::Sighting;
 
 /// How a program begins.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,vx_mm_s,vy_mm_s,jet,block";
@@ -32,6 +33,13 @@ pub(super) struct Row {
     pub(super) jet: bool,
     /// The block.
     pub(super) block: u32,
+}
+
+impl Row {
+    /// Place and time of the row.
+    pub(super) fn sighting(&self) -> Sighting {
+        Sighting { line: Some(self.line), ..Sighting::at(self.time, self.head, self.block) }
+    }
 }
 
 /// All rows; or what cannot be read, with its line.

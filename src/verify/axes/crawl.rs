@@ -8,8 +8,9 @@
 use std::f64::consts::PI;
 
 use crate::geom::Point;
+use crate::ir::verdict::Worst;
 use crate::machine::{Limits, MachineProfile};
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// How many times as long as its limits let it a move may take: half the speed that the profile asks for is somebody's
 /// choice, a tenth is a slip. The slowest cuts that cutter files ask for, M67, have 60 percent of a feed.
@@ -53,7 +54,7 @@ pub(crate) fn fair_time(profile: &MachineProfile, speed: f64) -> f64 {
 
 /// The rule, nothing seen yet.
 pub(in crate::verify) fn worst() -> Worst {
-    Worst::new("verify/crawl", "times as long", Some(SLOWNESS_MAX))
+    Worst::new(&rules::CRAWL, Some(SLOWNESS_MAX))
 }
 
 /// What F asks for of a move.

@@ -2,13 +2,13 @@
 //! has it, with the knife up.
 
 use crate::geom::Point;
-use crate::ir::finding::Sighting;
 use crate::ir::toolpath::Event;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::ir::{Finding, Marker};
 use crate::verify::program::row::Row;
 use crate::verify::reference::lines::Reference;
 use crate::verify::reference::order::Seen;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// An event of the marker.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,7 @@ impl Events {
     pub(in crate::verify) fn new(reference: &Reference) -> Self {
         let asked = asked(reference.marker).zip(&reference.events);
         let asked = asked.map(|((number, block), &rank)| Asked { number, block, rank }).collect();
-        Self { asked, told: 0, wrong: 0.0, worst: Worst::new("verify/events", "events", Some(0.0)) }
+        Self { asked, told: 0, wrong: 0.0, worst: Worst::new(&rules::EVENTS, Some(0.0)) }
     }
 
     /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is
@@ -56,12 +56,7 @@ impl Events {
     pub(in crate::verify) fn finding(mut self) -> Finding {
         for asked in &self.asked[self.told..] {
             self.wrong += 1.0;
-            self.worst.see(self.wrong, || Sighting {
-                time: None,
-                line: None,
-                point: Point::origin(),
-                block: asked.block,
-            });
+            self.worst.see(self.wrong, || Sighting::missing(Point::origin(), asked.block));
         }
         self.worst.finding()
     }

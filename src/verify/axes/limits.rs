@@ -7,18 +7,18 @@
 //! travel, which may have limits of its own. A difference over ways of both kinds may reach the wider of the two.
 
 use crate::ir::Finding;
+use crate::ir::verdict::{Rule, Worst};
 use crate::machine::{self, MachineProfile};
 use crate::units::deg;
 use crate::verify::program::row::{Rounding, Row, TIME_ROUNDING};
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
-/// Codes by order and axis.
-const RULES: [[&str; 3]; 3] = [
-    ["verify/speed-x", "verify/speed-y", "verify/speed-c"],
-    ["verify/acceleration-x", "verify/acceleration-y", "verify/acceleration-c"],
-    ["verify/jerk-x", "verify/jerk-y", "verify/jerk-c"],
+/// The rules by order and axis.
+static BY_ORDER: [[&Rule; 3]; 3] = [
+    [&rules::SPEED_X, &rules::SPEED_Y, &rules::SPEED_C],
+    [&rules::ACCELERATION_X, &rules::ACCELERATION_Y, &rules::ACCELERATION_C],
+    [&rules::JERK_X, &rules::JERK_Y, &rules::JERK_C],
 ];
-const UNITS: [[&str; 3]; 3] = [["mm/s", "mm/s", "deg/s"], ["mm/s2", "mm/s2", "deg/s2"], ["mm/s3", "mm/s3", "deg/s3"]];
 
 /// Relative excess over a limit that is rounding of the computation.
 const LIMIT_EPSILON: f64 = 1e-6;
@@ -60,7 +60,7 @@ impl Limits {
         let air = allowed(profile.axes.travel_limits(), period, rounding);
         let wider = std::array::from_fn(|order| std::array::from_fn(|axis| cut[order][axis].max(air[order][axis])));
         let axes = std::array::from_fn(|order| {
-            let worst = |axis: usize| Worst::new(RULES[order][axis], UNITS[order][axis], Some(cut[order][axis]));
+            let worst = |axis: usize| Worst::new(BY_ORDER[order][axis], Some(cut[order][axis]));
             std::array::from_fn(worst)
         });
         let range = profile.c.range_deg;
@@ -70,8 +70,8 @@ impl Limits {
             allowed: [cut, air, wider],
             down: 0,
             axes,
-            time: Worst::new("verify/time", "s", Some(TIME_ROUNDING + TIME_EPSILON)),
-            c_range: Worst::new("verify/c-range", "deg", range.map(|_| rounding.axes[2])),
+            time: Worst::new(&rules::TIME, Some(TIME_ROUNDING + TIME_EPSILON)),
+            c_range: Worst::new(&rules::C_RANGE, range.map(|_| rounding.axes[2])),
             range,
         }
     }

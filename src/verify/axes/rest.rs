@@ -2,12 +2,12 @@
 
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
 use crate::verify::program::row::{Rounding, Row};
 use crate::verify::reference::lines::Reference;
 use crate::verify::reference::order::Seen;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// Part of a period that a dwell may seem to lack: rounding of its quotient.
 const PERIOD_EPSILON: f64 = 1e-6;
@@ -63,10 +63,10 @@ impl<'a> Rest<'a> {
             hold: None,
             up: 0,
             drilled: Vec::new(),
-            start: Worst::new("verify/start", "mm, deg", Some(same)),
-            end: Worst::new("verify/end", "mm, deg", Some(same)),
-            still: Worst::new("verify/rest", "mm, deg", Some(same)),
-            dwell: Worst::new("verify/dwell", "s missing", Some(PERIOD_EPSILON * period)),
+            start: Worst::new(&rules::START, Some(same)),
+            end: Worst::new(&rules::END, Some(same)),
+            still: Worst::new(&rules::REST, Some(same)),
+            dwell: Worst::new(&rules::DWELL, Some(PERIOD_EPSILON * period)),
         }
     }
 
@@ -155,8 +155,8 @@ impl<'a> Rest<'a> {
 
     /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
     fn holes(&mut self, told: &mut Vec<Seen>) -> (Finding, Finding) {
-        let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
-        let mut place = Worst::new("verify/drill-place", "mm", Some(2.0 * self.same));
+        let mut wrong = Worst::new(&rules::DRILLS, Some(0.0));
+        let mut place = Worst::new(&rules::DRILL_PLACE, Some(2.0 * self.same));
         let mut left = std::mem::take(&mut self.drilled);
         // By tool and X, so that the holes near a place lie side by side.
         left.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.x.total_cmp(&b.0.x)));
@@ -176,7 +176,7 @@ impl<'a> Rest<'a> {
                 told.push(Seen { tick: row.tick, rank, place: row.sighting() });
             } else {
                 count += 1.0;
-                wrong.see(count, || Sighting { time: None, line: None, point: drill.at, block: drill.span.block });
+                wrong.see(count, || Sighting::missing(drill.at, drill.span.block));
             }
         }
         for (_, (_, _, row)) in taken.iter().zip(&left).filter(|(taken, _)| !**taken) {

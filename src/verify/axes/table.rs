@@ -1,9 +1,10 @@
 //! Whether the machine stays over its table.
 
 use crate::ir::Finding;
+use crate::ir::verdict::Worst;
 use crate::machine::{self, MachineProfile};
 use crate::verify::program::row::{Rounding, Row};
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// Watches the rows.
 pub(in crate::verify) struct Table {
@@ -26,7 +27,7 @@ impl Table {
         });
         let blade = [profile.knife.radius(), -profile.knife.back()];
         let limit = machine::Table::EDGE_MM + rounding.place();
-        Self { down, up, blade, off: Worst::new("verify/table", "mm", Some(limit)) }
+        Self { down, up, blade, off: Worst::new(&rules::TABLE, Some(limit)) }
     }
 
     pub(in crate::verify) fn see(&mut self, row: &Row) {

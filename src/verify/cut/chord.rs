@@ -8,10 +8,10 @@
 use super::body::Cut;
 use super::follow::{Follower, Foot};
 use crate::geom::{Point, Vector, angle};
+use crate::ir::verdict::Worst;
 use crate::machine::Knife;
 use crate::verify::program::row::Row;
 use crate::verify::reference::line::Line;
-use crate::verify::worst::Worst;
 
 /// Halvings that place the heel between two tips: to a millionth of the way between them.
 const HALVINGS: usize = 20;

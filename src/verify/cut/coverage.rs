@@ -6,13 +6,13 @@ use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
 use crate::verify::program::row::PLACE_ROUNDING;
 use crate::verify::reference::common::Common;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// Lines that are looked at in one go.
 const LINES_AT_A_TIME: usize = 8192;
@@ -155,7 +155,7 @@ impl<'a> Coverage<'a> {
     /// The longest stretch that was left uncut.
     pub(in crate::verify) fn finding(self, common: &Common, profile: &MachineProfile) -> Finding {
         let limit = limit(profile);
-        let nothing = Worst::new("verify/complete", "mm", Some(limit));
+        let nothing = Worst::new(&rules::COMPLETE, Some(limit));
         let of_lines = |(lines, cuts): (&[Line], &[Stretches])| {
             let mut worst = nothing.clone();
             for (line, cut) in lines.iter().zip(cuts).filter(|(line, _)| !line.cut.is_edge) {
@@ -186,7 +186,7 @@ fn see_uncut(line: &Line, cut: &[[f64; 2]], worst: &mut Worst) {
     for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
         worst.see(a - from, || {
             let middle = f64::midpoint(a, from);
-            Sighting { time: None, line: None, point: line.place(middle), block: line.block(line.chord_at(middle)) }
+            Sighting::missing(line.place(middle), line.block(line.chord_at(middle)))
         });
         from = from.max(b);
     }

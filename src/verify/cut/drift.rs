@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::heading::{Moving, fading};
 use crate::geom::{Vector, angle, cross};
-use crate::verify::worst::Worst;
+use crate::ir::verdict::Worst;
 
 /// Length of a way beside the rounding of its ends over the angle that must be seen: then that is half of it.
 const LENGTH: f64 = 4.0;
@@ -106,6 +106,7 @@ mod tests {
     use super::*;
     use crate::geom::{Heading, Point};
     use crate::verify::program::row::Row;
+    use crate::verify::rules;
 
     /// What is seen of a blade that points `aside` rad off a way along a quarter circle, with places rounded to 0.01 mm.
     fn seen(radius: f64, aside: f64) -> f64 {
@@ -140,7 +141,7 @@ mod tests {
             way_min: 0.0,
             noise_deg: 0.0,
         };
-        let mut heading = Worst::new("verify/heading", "deg", None);
+        let mut heading = Worst::new(&rules::HEADING, None);
         check(&moving, [0.0075, 0.5_f64.to_radians()], &mut heading);
         heading.value()
     }

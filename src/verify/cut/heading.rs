@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 
 use super::follow::Foot;
 use crate::geom::{Point, Vector, angle, cross, polyline};
+use crate::ir::verdict::Worst;
 use crate::verify::program::row::{Rounding, Row};
 use crate::verify::reference::line::Line;
-use crate::verify::worst::Worst;
 
 /// Least way of the tip that shows a direction, mm: with six decimals its rounding is then below 0.02 degrees.
 const WAY_MIN: f64 = 0.005;

@@ -4,9 +4,8 @@ use rayon::prelude::*;
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::reference::common::Joint;
-use crate::verify::worst::Worst;
 
 /// The blade's ways about joints.
 #[derive(Debug)]
@@ -57,7 +56,7 @@ impl<'a> Joints<'a> {
         let open = self.all.par_iter().zip(&self.ways).filter_map(|(joint, ways)| Some((joint, ways.as_ref()?)));
         let gaps: Vec<(&Joint, f64)> = open.map(|(joint, ways)| (joint, gap(joint, ways))).collect();
         for (joint, gap) in gaps {
-            worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
+            worst.see(gap, || Sighting::missing(joint.at, joint.block));
         }
     }
 }

@@ -13,11 +13,11 @@ use super::joints::{Joints, apart, most_apart};
 use super::trial::Trial;
 use crate::geom::{Point, cross};
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::reference::common::Joint;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// Length of an end, in tolerances beside the overlaps: at points of ten degrees and more two cuts cross within it
 /// (2 / sin 10 degrees).
@@ -74,7 +74,7 @@ impl<'a> Meetings<'a> {
             met: vec![false; reference.lines.len()],
             parts: BTreeMap::new(),
             reach: overlaps + CROSSING * reference.tolerance,
-            worst: Worst::new("verify/joint", "mm", Some(limit)),
+            worst: Worst::new(&rules::JOINT, Some(limit)),
             limit,
         }
     }
@@ -271,5 +271,5 @@ fn is_crossed(one: &[Point], other: &[Point]) -> bool {
 /// A place of the drawing, that no time of the program belongs to.
 fn sighting(line: &Line, station: f64) -> Sighting {
     let station = if line.ring { station.rem_euclid(line.length()) } else { station.clamp(0.0, line.length()) };
-    Sighting { time: None, line: None, point: line.place(station), block: line.block(line.chord_at(station)) }
+    Sighting::missing(line.place(station), line.block(line.chord_at(station)))
 }

@@ -1,8 +1,9 @@
 //! What rows say beside poses and outputs: the block that is being cut, by which a program is resumed.
 
+use crate::ir::verdict::Worst;
 use crate::verify::program::row::Row;
 use crate::verify::reference::line::Line;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// How far from its chord, along the line, a block may be named, mm, beside the tolerance: a tip that takes a bend inside
 /// its tolerance band passes the vertex early or late by less.
@@ -22,7 +23,7 @@ impl Naming {
 
     /// The worst of nothing.
     pub(in crate::verify) fn worst(&self) -> Worst {
-        Worst::new("verify/block", "mm", Some(self.reach))
+        Worst::new(&rules::BLOCK, Some(self.reach))
     }
 
     /// How far a row in the air is from what it should name: there no block is cut.

@@ -12,14 +12,13 @@ use super::trial::Trial;
 use super::worsts::{Overcuts, Worsts};
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::declaration::{Declaration, Kind, Which};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::{MachineProfile, Spare};
 use crate::verify::declared::{Declared, Stretch};
 use crate::verify::reference::grid::{Grid, Run};
 use crate::verify::reference::inside::Inside;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
-use crate::verify::worst::Worst;
 
 /// Distance of two places for a blade that are tried, mm: so much deeper than the best of them no other is less deep.
 const SHIFT: f64 = 0.1;

@@ -7,10 +7,9 @@ use super::trial::Trial;
 use super::worsts::{Lacking, Worsts};
 use crate::geom::{Point, polyline};
 use crate::ir::declaration::{Kind, Which};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
-use crate::verify::worst::Worst;
 
 impl Judge<'_> {
     /// How much an overlap is shorter than the profile asks for, where waste lies ahead and no code forbids it, and nothing

@@ -8,10 +8,9 @@ use super::trial::{REACH, Trial};
 use super::worsts::Worsts;
 use crate::geom::{angle, polyline};
 use crate::ir::declaration::{Kind, Which};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
-use crate::verify::worst::Worst;
 
 /// Part of the tolerance by which a line is off a straight one where it bends, however little.
 const SLIGHT_SHARE: f64 = 0.1;

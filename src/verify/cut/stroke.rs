@@ -16,7 +16,7 @@ use super::strokes::Stroke;
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worsts::Worsts;
 use crate::geom::{Point, Vector, cross, left};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::{Fit, Follow, Knife, MachineProfile};
 use crate::verify::axes::crawl;
 use crate::verify::declared::{Account, Declared};
@@ -25,7 +25,7 @@ use crate::verify::reference::common::Common;
 use crate::verify::reference::ground::Ground;
 use crate::verify::reference::held::Held;
 use crate::verify::reference::lines::Reference;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
 /// its tolerance band passes the vertex early or late by less.
@@ -151,7 +151,7 @@ impl<'a> Judge<'a> {
 
     /// The same for programs that tell the way of the tip at each place: rounding then turns no direction.
     pub(in crate::verify) fn with_exact_directions(mut self, profile: &MachineProfile) -> Self {
-        self.worsts.heading = Worst::new("verify/heading", "deg", Some(profile.verify.max_heading_deg));
+        self.worsts.heading = Worst::new(&rules::HEADING, Some(profile.verify.max_heading_deg));
         self
     }
 

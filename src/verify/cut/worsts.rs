@@ -3,11 +3,11 @@
 use super::coverage::Coverage;
 use super::naming::Naming;
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
 use crate::verify::axes::crawl;
 use crate::verify::program::row::Rounding;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// The worst value of each rule on strokes.
 #[derive(Debug, Clone)]
@@ -50,19 +50,19 @@ impl Worsts {
         let joints = if knife.max_down_mm.is_some() || profile.c.range_deg.is_some() { 2.0 } else { 1.0 };
         let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * place / profile.time.period());
         Self {
-            on_path: Worst::new("verify/on-path", "mm", Some(tolerance + place)),
-            stray: Worst::new("verify/stray", "mm", Some(0.0)),
-            once: Worst::new("verify/once", "mm", Some(joints * knife.overlaps() + 2.0 * tolerance)),
-            heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
-            down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
-            body: Worst::new("verify/body", "mm", verify.max_body_mm),
-            swing: Worst::new("verify/swing", "mm", None),
-            feed: Worst::new("verify/feed", "mm/s", feed),
+            on_path: Worst::new(&rules::ON_PATH, Some(tolerance + place)),
+            stray: Worst::new(&rules::STRAY, Some(0.0)),
+            once: Worst::new(&rules::ONCE, Some(joints * knife.overlaps() + 2.0 * tolerance)),
+            heading: Worst::new(&rules::HEADING, Some(verify.max_heading_deg)),
+            down: Worst::new(&rules::DOWN, knife.max_down_mm.map(|longest| longest + tolerance)),
+            body: Worst::new(&rules::BODY, verify.max_body_mm),
+            swing: Worst::new(&rules::SWING, None),
+            feed: Worst::new(&rules::FEED, feed),
             crawl: crawl::worst(),
             block: Naming::new(tolerance).worst(),
             overcuts: Overcuts::new(profile, tolerance),
-            overlap: Worst::new("verify/overlap", "mm missing", Some(tolerance + place)),
-            declared: Worst::new("verify/declared", "mm", Some(0.0)),
+            overlap: Worst::new(&rules::OVERLAP, Some(tolerance + place)),
+            declared: Worst::new(&rules::DECLARED, Some(0.0)),
             lacking: Vec::new(),
         }
     }
@@ -137,9 +137,9 @@ impl Overcuts {
         let verify = &profile.verify;
         let cap = |most: Option<f64>| most.map(|most| most + tolerance);
         Self {
-            part: Worst::new("verify/overcut-part", "mm", cap(verify.max_overcut_part_mm)),
-            neighbour: Worst::new("verify/overcut-neighbour", "mm", cap(verify.max_overcut_neighbour_mm)),
-            waste: Worst::new("verify/overcut-waste", "mm", verify.max_overcut_waste_mm),
+            part: Worst::new(&rules::OVERCUT_PART, cap(verify.max_overcut_part_mm)),
+            neighbour: Worst::new(&rules::OVERCUT_NEIGHBOUR, cap(verify.max_overcut_neighbour_mm)),
+            waste: Worst::new(&rules::OVERCUT_WASTE, verify.max_overcut_waste_mm),
         }
     }
 }

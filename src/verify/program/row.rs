@@ -1,7 +1,7 @@
 //! A row: where the axes stand at a tick and what is commanded, whatever the program is written as.
 
 use crate::geom::{Point, Vector};
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::Sighting;
 
 /// The line of the first row of a text: lines count from 1, the first is the header.
 pub(in crate::verify) const FIRST_LINE: u64 = 2;
@@ -46,7 +46,7 @@ impl Row {
 
     /// A place that is seen at the row.
     pub(in crate::verify) fn seen_at(&self, point: Point) -> Sighting {
-        Sighting { time: Some(self.t), line: Some(self.line), point, block: self.block }
+        Sighting { line: Some(self.line), ..Sighting::at(self.t, point, self.block) }
     }
 
     /// The row as a place.

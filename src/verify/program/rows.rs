@@ -8,8 +8,9 @@ use super::row::{FIRST_LINE, ROUNDING, Rounding, Row};
 use super::{hal, npy};
 use crate::geom::Point;
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::Sighting;
 use crate::machine::MachineProfile;
+use crate::verify::rules;
 
 /// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
 const LINE_MAX: u64 = 1024;
@@ -142,8 +143,8 @@ impl<'a> Rows<'a> {
     pub(in crate::verify) fn findings(self) -> (Finding, Option<String>) {
         let Bad { count, first } = self.bad;
         let (place, why) = first.unzip();
-        let rule = "verify/format";
-        let finding = Finding { rule, worst: count as f64, limit: Some(0.0), unit: "bad rows", place };
+        let rule = &rules::FORMAT;
+        let finding = Finding { rule, worst: count as f64, limit: Some(0.0), unit: rule.unit, place };
         let why = why.map(|why| if count > 1 { format!("{count} rows cannot be read, the first: {why}") } else { why });
         (finding, why)
     }
@@ -199,7 +200,7 @@ impl<'a> Rows<'a> {
     fn fail(&mut self, why: &str) {
         self.bad.count += 1;
         if self.bad.first.is_none() {
-            let nowhere = Sighting { time: Some(0.0), line: None, point: Point::origin(), block: 0 };
+            let nowhere = Sighting::at(0.0, Point::origin(), 0);
             // The axes stand where the last good row has them; the line is the bad one.
             let place = self.last.map_or(nowhere, |row| row.sighting());
             self.bad.first = Some((Sighting { line: Some(self.number()), ..place }, why.to_owned()));

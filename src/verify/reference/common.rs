@@ -9,8 +9,8 @@ use super::shared::{Around, Drawn, SAME, spared};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross, polyline};
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
-use crate::verify::worst::Worst;
+use crate::ir::verdict::{Sighting, Worst};
+use crate::verify::rules;
 
 /// Least cosine between an edge and a cut that stands for it (30 degrees): lines of a few units tell no direction.
 const ALONG: f64 = 0.866;
@@ -95,7 +95,7 @@ impl Common {
 
     /// How far edges are from the cuts that stand for them.
     pub(in crate::verify) fn finding(&self) -> Finding {
-        let mut worst = Worst::new("verify/common", "mm", None);
+        let mut worst = Worst::new(&rules::COMMON, None);
         if let Some((shift, place)) = self.shift {
             worst.see(shift, || place);
         }
@@ -240,7 +240,7 @@ fn first_across(slit: &Line, stands: &[Stand], reference: &Reference, grid: &Gri
 
 /// A place of the drawing, that no time of the program belongs to.
 fn sighting(point: Point, block: u32) -> Sighting {
-    Sighting { time: None, line: None, point, block }
+    Sighting::missing(point, block)
 }
 
 /// The ways on which cuts are led on: where they begin and end on no edge of their own part.

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::held::Held;
 use super::line::Line;
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
-use crate::verify::worst::{Worst, at};
+use crate::ir::verdict::{Sighting, Worst};
+use crate::verify::rules;
 
 /// What was told, drilled and cut, each with its time and its rank in the marker.
 #[derive(Debug)]
@@ -69,10 +69,10 @@ impl<'a> Order<'a> {
 
     /// How many are cut or drilled in a part behind the last cut of its outline.
     fn freed(&self, held: &[Held], period: f64) -> Finding {
-        let mut worst = Worst::new("verify/freed", "operations", Some(0.0));
+        let mut worst = Worst::new(&rules::FREED, Some(0.0));
         let strokes = self.strokes.iter().map(|&Begun { tick, line }| {
             let line = &self.lines[line as usize];
-            Seen { tick, rank: line.rank as usize, place: at(0.0, line.point(0), line.block(0)) }
+            Seen { tick, rank: line.rank as usize, place: Sighting::at(0.0, line.point(0), line.block(0)) }
         });
         // When the last of each rank begins.
         let mut last: Vec<Option<Seen>> = Vec::new();
@@ -100,7 +100,7 @@ impl<'a> Order<'a> {
 
     /// How many come behind a later one. Holes are known only when the program is over, so all are brought into time first.
     fn late(mut self, period: f64) -> Finding {
-        let mut worst = Worst::new("verify/order", "operations", Some(0.0));
+        let mut worst = Worst::new(&rules::ORDER, Some(0.0));
         let (mut greatest, mut late) = (0, 0.0);
         let mut see = |Seen { tick, rank, place }: Seen| {
             if rank < greatest {
@@ -118,7 +118,7 @@ impl<'a> Order<'a> {
             let line = &self.lines[line as usize];
             // What is late against holes and events alone is shown where its line begins.
             let place = places.next_if(|late| late.0 == i).map(|late| late.1);
-            let place = place.unwrap_or_else(|| at(0.0, line.point(0), line.block(0)));
+            let place = place.unwrap_or_else(|| Sighting::at(0.0, line.point(0), line.block(0)));
             see(Seen { tick, rank: line.rank as usize, place });
         }
         told.for_each(see);

@@ -7,8 +7,9 @@ use super::scan::scan_iso;
 use crate::geom::Point;
 use crate::geom::moments::{Allowance, Difference};
 use crate::ir::Finding;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// Rounding of sums of lengths, as a part of them.
 const LENGTH_EPSILON: f64 = 1e-9;
@@ -27,9 +28,9 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
         (false, false) => corner(read.bounds.min, scanned.bounds.min).max(corner(read.bounds.max, scanned.bounds.max)),
         _ => f64::INFINITY,
     };
-    let nowhere = || crate::verify::worst::at(0.0, Point::origin(), 0);
-    let finding = |rule, unit, value: f64, limit| {
-        let mut worst = Worst::new(rule, unit, Some(limit));
+    let nowhere = || Sighting::missing(Point::origin(), 0);
+    let finding = |rule, value: f64, limit| {
+        let mut worst = Worst::new(rule, Some(limit));
         worst.see(value, nowhere);
         Finding { place: None, ..worst.finding() }
     };
@@ -37,19 +38,19 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
     let is_same_unit = read.unit.to_bits() == scanned.unit.to_bits();
     let length = if is_same_unit { (read.length - scanned.length).abs() } else { f64::INFINITY };
     let mut findings = vec![
-        finding("source/points", "points", read.points.abs_diff(scanned.points) as f64, 0.0),
-        finding("source/length", "mm", length, LENGTH_EPSILON * (1.0 + read.length) + slack.length),
-        finding("source/bounds", "mm", bounds, LENGTH_EPSILON + slack.bounds),
+        finding(&rules::SOURCE_POINTS, read.points.abs_diff(scanned.points) as f64, 0.0),
+        finding(&rules::SOURCE_LENGTH, length, LENGTH_EPSILON * (1.0 + read.length) + slack.length),
+        finding(&rules::SOURCE_BOUNDS, bounds, LENGTH_EPSILON + slack.bounds),
     ];
     if dialect == "iso" {
         // What is a hole in a plot is deduced from its shapes: the bytes do not say it.
-        findings.insert(1, finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0));
+        findings.insert(1, finding(&rules::SOURCE_DRILLS, read.drills.abs_diff(scanned.drills) as f64, 0.0));
     } else {
         let corners = [read.bounds.min, read.bounds.max, scanned.bounds.min, scanned.bounds.max];
         let reach = corners.iter().map(|corner| corner.coords.amax()).fold(0.0, f64::max);
         let allowance = Allowance { reach, epsilon: MOMENT_EPSILON, slack: &slack.moments };
         let Difference { distance, limit } = read.moments.compare(&scanned.moments, allowance);
-        findings.push(finding("source/moments", "mm", distance, limit));
+        findings.push(finding(&rules::SOURCE_MOMENTS, distance, limit));
     }
     Some(findings)
 }

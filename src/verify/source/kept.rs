@@ -8,12 +8,12 @@
 use rayon::prelude::*;
 
 use crate::geom::{Point, bits, polyline};
-use crate::ir::finding::Sighting;
 use crate::ir::marker::{Notch, Piece};
+use crate::ir::verdict::{Sighting, Worst};
 use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
 use crate::source::Span;
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// How far rounding moves one place against another, in units of the file: its diagonal.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
@@ -246,14 +246,9 @@ impl Works {
         };
         let read: Vec<(Name, &[KeptPlace])> = self.each().collect();
         let lost: Vec<Vec<KnifeStroke>> = read.into_par_iter().map(lost_of).collect();
-        let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
+        let mut worst = Worst::new(&rules::SOURCE_KEPT, Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
-            worst.see(f64::from(count), || Sighting {
-                time: None,
-                line: None,
-                point: lost.to,
-                block: lost.cause.block,
-            });
+            worst.see(f64::from(count), || Sighting::missing(lost.to, lost.cause.block));
         }
         worst.finding()
     }

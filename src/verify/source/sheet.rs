@@ -4,13 +4,13 @@
 use std::collections::BTreeMap;
 
 use crate::geom::{Extent, Heading, Point, Rotation};
-use crate::ir::finding::Sighting;
 use crate::ir::list::Segment;
 use crate::ir::marker::{Contour, Drill, Event, Label, Notch, OutlineNotch, Piece};
+use crate::ir::verdict::{Sighting, Worst};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Flip, Job, MachineProfile, Mirror};
+use crate::verify::rules;
 use crate::verify::source::cloth::Cloth;
-use crate::verify::worst::{Worst, at};
 
 /// Rounding of places on a table that is a kilometre long, mm.
 const PLACE_EPSILON: f64 = 1e-6;
@@ -36,7 +36,7 @@ impl Drawn {
         let cloth = Cloth::of(job);
         // What wanders is followed within the tolerance.
         let limit = if cloth.is_some() { job.profile.tolerance(marker.unit) } else { PLACE_EPSILON };
-        let mut worst = Worst::new("source/laid", "mm", Some(limit));
+        let mut worst = Worst::new(&rules::SOURCE_LAID, Some(limit));
         let Self(drawn) = self;
         let table = Lay { cloth: cloth.as_ref(), ..Lay::of(drawn, &job.profile) };
         let mut laid: BTreeMap<Name, Vec<&Piece>> = BTreeMap::new();
@@ -59,7 +59,7 @@ impl Drawn {
             }
         }
         for extra in laid.into_values().flatten() {
-            worst.see(f64::INFINITY, || at(0.0, Point::origin(), extra.span.block));
+            worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), extra.span.block));
         }
         let unit = drawn.unit * job.profile.sheet.scale_x.max(job.profile.sheet.scale_y);
         let told = |marker: &Marker, times: u32| -> Vec<Event> {
@@ -68,7 +68,7 @@ impl Drawn {
         };
         let is_told = !job.selection.is_all() || told(drawn, copies) == told(marker, 1);
         if !is_told || drawn.closing != marker.closing || (marker.unit - unit).abs() > SAME_EPSILON * unit {
-            worst.see(f64::INFINITY, || at(0.0, Point::origin(), 0));
+            worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), 0));
         }
         worst.finding()
     }
@@ -88,7 +88,7 @@ fn in_corner(profile: &MachineProfile, table: Option<[f64; 2]>, long: f64) -> f6
 fn of(piece: &Piece, table: &Lay) -> Sighting {
     let labels = piece.labels.iter().filter_map(|label| label.at);
     let place = piece.drills.iter().map(|drill| drill.at).chain(piece.notches.iter().map(|notch| notch.root));
-    at(0.0, table.place(place.chain(labels).next().unwrap_or(Point::origin())), piece.span.block)
+    Sighting::at(0.0, table.place(place.chain(labels).next().unwrap_or(Point::origin())), piece.span.block)
 }
 
 /// Where places of the file come to lie on the table.
@@ -200,15 +200,19 @@ impl Lay<'_> {
             let is_same = strokes.len() == found.len() && drawn.percent == laid.percent;
             let ways = strokes.iter().zip(&found);
             let away = ways.map(|(a, b)| self.away(a.from, b.from).max(self.away(a.to, b.to))).fold(0.0, f64::max);
-            worst.see(if is_same { away } else { f64::INFINITY }, || at(0.0, laid.tip, laid.span.block));
+            worst.see(if is_same { away } else { f64::INFINITY }, || Sighting::at(0.0, laid.tip, laid.span.block));
         }
         for (drawn, laid) in one.drills.iter().zip(&other.drills) {
             let Drill { at: place, tool, span } = *laid;
             let is_same = (drawn.tool, drawn.span) == (tool, span);
-            worst.see(if is_same { self.away(drawn.at, place) } else { f64::INFINITY }, || at(0.0, place, span.block));
+            worst.see(if is_same { self.away(drawn.at, place) } else { f64::INFINITY }, || {
+                Sighting::at(0.0, place, span.block)
+            });
         }
         for (drawn, laid) in one.labels.iter().zip(&other.labels) {
-            worst.see(self.label(drawn, laid), || at(0.0, laid.at.unwrap_or(Point::origin()), laid.span.block));
+            worst.see(self.label(drawn, laid), || {
+                Sighting::at(0.0, laid.at.unwrap_or(Point::origin()), laid.span.block)
+            });
         }
         let sorted = |piece: &Piece| {
             by_span(&piece.outline_notches, |notch| notch.span.start).into_iter().copied().collect::<Vec<_>>()
@@ -222,7 +226,7 @@ impl Lay<'_> {
             let away = mouths.map(|mouth| self.away(drawn.mouth[0], mouth[0]).max(self.away(drawn.mouth[1], mouth[1])));
             let away = away.fold(f64::INFINITY, f64::min).max(self.away(drawn.tip, laid.tip));
             let is_same = told(&drawn) == told(&laid) && drawn.segments + parted == laid.segments;
-            worst.see(if is_same { away } else { f64::INFINITY }, || at(0.0, laid.tip, laid.span.block));
+            worst.see(if is_same { away } else { f64::INFINITY }, || Sighting::at(0.0, laid.tip, laid.span.block));
         }
     }
 
@@ -242,7 +246,7 @@ impl Lay<'_> {
         let away = |i: &usize| self.away(first.from, laid[*i].from);
         let begin = begin.min_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(begin) = begin.filter(|_| drawn.len() == laid.len() || self.cloth.is_some()) else {
-            return (f64::INFINITY, at(0.0, self.place(first.from), first.span.block));
+            return (f64::INFINITY, Sighting::at(0.0, self.place(first.from), first.span.block));
         };
         if let Some(cloth) = self.cloth {
             return self.farthest_parted(cloth, drawn, laid.iter().cycle().skip(begin).take(laid.len()));
@@ -251,7 +255,7 @@ impl Lay<'_> {
             let told = |segment: &Segment| (segment.span, segment.percent, segment.joint);
             let away = self.away(drawn.from, laid.from).max(self.away(drawn.to, laid.to));
             let away = if told(drawn) == told(laid) { away } else { f64::INFINITY };
-            (away, at(0.0, laid.to, laid.span.block))
+            (away, Sighting::at(0.0, laid.to, laid.span.block))
         });
         all.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a contour has a segment")
     }
@@ -263,12 +267,12 @@ impl Lay<'_> {
         drawn: &[Segment],
         mut laid: impl Iterator<Item = &'s Segment>,
     ) -> (f64, Sighting) {
-        let mut worst = (0.0, at(0.0, self.place(drawn[0].from), drawn[0].span.block));
+        let mut worst = (0.0, Sighting::at(0.0, self.place(drawn[0].from), drawn[0].span.block));
         for line in drawn {
             let on_table = Segment { from: self.on_table(line.from), to: self.on_table(line.to), ..*line };
             let away = cloth.parted(&on_table, &mut laid);
             if away > worst.0 {
-                worst = (away, at(0.0, self.place(line.to), line.span.block));
+                worst = (away, Sighting::at(0.0, self.place(line.to), line.span.block));
             }
         }
         if laid.next().is_some() { (f64::INFINITY, worst.1) } else { worst }

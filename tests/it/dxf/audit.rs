@@ -18,7 +18,7 @@ use super::{as_read, fixtures, source};
 pub(super) fn broken(source: &Source, marker: &Marker, job: &Job) -> Vec<&'static str> {
     let findings = pattern_audit(source.bytes(), &CutPlaces::of(marker), job);
     assert_eq!(findings.len(), 4);
-    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule).collect()
+    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect()
 }
 
 #[test]

@@ -184,7 +184,7 @@ fn bounded() -> Job {
 fn rules(planned: &super::Planned, case: &Case, job: &Job) -> (Vec<&'static str>, Option<String>) {
     let heads: Vec<Vec<u8>> = case.heads.iter().map(|rows| (rows.join("\n") + "\n").into_bytes()).collect();
     let verdict = judged(&planned.marker, job, &case.plan.to_string(), Bytes::Rows, &heads);
-    (verdict.broken().map(|seen| seen.finding.rule).collect(), verdict.unread)
+    (verdict.broken().map(|finding| finding.rule.name).collect(), verdict.unread)
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn damaged_records_are_refused() {
         let mut heads = heads.clone();
         damage(&mut heads[0]);
         let verdict = judged(&planned.marker, &job, &plan, Bytes::Records, &heads);
-        verdict.broken().map(|seen| seen.finding.rule).collect::<Vec<_>>()
+        verdict.broken().map(|finding| finding.rule.name).collect::<Vec<_>>()
     };
     assert!(spoilt(&|_| {}).is_empty());
     for damage in [

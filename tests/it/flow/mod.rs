@@ -7,9 +7,10 @@ mod laws;
 use std::io::{BufRead, Cursor};
 
 use cutc::diagnostic::{Diagnostics, render};
-use cutc::flow::verify::{self, Bytes, Ground, Verdict};
+use cutc::flow::verify::{self, Bytes, Ground};
 use cutc::flow::{self, Kind, Program, Speed, TARGETS, Target};
 use cutc::ir::Marker;
+use cutc::ir::verdict::Verdict;
 use cutc::machine::{Job, load};
 use cutc::pipeline;
 use cutc::source::Source;
@@ -81,5 +82,5 @@ fn judged(marker: &Marker, job: &Job, plan: &str, bytes: Bytes, heads: &[Vec<u8>
 fn broken(planned: &Planned, job: &Job) -> Vec<String> {
     let (plan, heads) = written(planned, job, "csv");
     let verdict = judged(&planned.marker, job, &plan, Bytes::Rows, &heads);
-    verdict.broken().map(|seen| format!("{:?}", seen.finding)).chain(verdict.unread.clone()).collect()
+    verdict.broken().map(|finding| format!("{finding:?}")).chain(verdict.unread.clone()).collect()
 }

@@ -117,7 +117,7 @@ fn an_account_of_what_is_left_aside_that_is_wrong_in_anything_is_refused() {
             let mut damaged = marker.clone();
             damage(&mut damaged.drawing.as_mut().expect("a plot has an account").aside);
             let broken = audit(&source, &damaged, &job);
-            assert!(broken.iter().any(|finding| finding.rule == *rule), "{name}: {rule} {broken:?}");
+            assert!(broken.iter().any(|finding| finding.rule.name == *rule), "{name}: {rule} {broken:?}");
         }
     }
 }
@@ -211,7 +211,7 @@ fn what_moves_turns_or_is_mirrored_within_the_bounds_is_refused() {
         let check = |what: &str, edit: &dyn Fn(Point) -> Point| {
             let mut damaged = whole.clone();
             change(&mut damaged, middle, edit);
-            let rules: Vec<&str> = audit(&source, &damaged, &job).iter().map(|finding| finding.rule).collect();
+            let rules: Vec<&str> = audit(&source, &damaged, &job).iter().map(|finding| finding.rule.name).collect();
             assert!(rules.contains(&"source/moments"), "{what}: {rules:?}");
         };
         check("shifted by a unit", &|p| p + Vector::new(unit, 0.0));

@@ -28,7 +28,7 @@ pub(super) fn found(text: &str, job: &Job) -> (Marker, Vec<&'static str>) {
 /// The rules that what is cut of a plot breaks.
 fn judged(source: &cutc::source::Source, marker: &Marker, job: &Job) -> Vec<&'static str> {
     let findings = plot_audit(source.bytes(), &PlotCuts::of(marker), job);
-    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule).collect()
+    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect()
 }
 
 /// Area of each closed contour, mm2.

@@ -97,7 +97,7 @@ fn a_reader_that_runs_a_text_is_caught() {
     for said in ["WDPU0,0;PD9000,0,9000,9000;\x03", "BLPD9000,9000\x03", "MG\"PD9000,9000\";", "CO\"PD9000,9000\""] {
         let marker = as_read(&source(format!("IN;SP1;{one}{other}PU0,0;PD9000,9000;PU;")), &job);
         let source = source(format!("IN;SP1;{one}{other}PU0,0;{said}PU;"));
-        let refused: Vec<&str> = audit(&source, &marker, &job).iter().map(|finding| finding.rule).collect();
+        let refused: Vec<&str> = audit(&source, &marker, &job).iter().map(|finding| finding.rule.name).collect();
         assert!(refused.contains(&"source/points") && refused.contains(&"source/length"), "{said:?}: {refused:?}");
     }
 }

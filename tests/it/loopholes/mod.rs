@@ -412,7 +412,8 @@ fn a_tip_that_rests_on_a_curve_with_noise_in_its_last_decimal_is_read_from_nearb
     led(&mut program, TAU / 2.0, TAU + 0.04);
     program.lift();
     let verdict = program.judge(&marker);
-    let heading = verdict.findings.iter().find(|finding| finding.rule == "verify/heading").expect("it is reported");
+    let heading =
+        verdict.findings.iter().find(|finding| finding.rule.name == "verify/heading").expect("it is reported");
     assert!(heading.holds(), "{heading:?}");
 }
 
@@ -424,7 +425,7 @@ fn the_bow_under_a_plunged_blade_is_reported() {
     let program = support::program::setpoints(&marker, &job);
     let verdict = verify::setpoints(&mut program.as_slice(), None, &verify::Ground::new(&marker, &job.profile), &job);
     assert!(verdict.passes(), "{:?}", broken(&verdict));
-    let body = verdict.findings.iter().find(|finding| finding.rule == "verify/body").expect("it is reported");
+    let body = verdict.findings.iter().find(|finding| finding.rule.name == "verify/body").expect("it is reported");
     // w^2 / 8 R of the plunge is the least; on its way the tail leaves the circle farther.
     assert!(body.worst >= 6.6 * 6.6 / (8.0 * 20.0), "{}", body.worst);
 }

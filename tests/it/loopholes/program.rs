@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 
 use cutc::geom::{Heading, Point};
 use cutc::ir::Marker;
+use cutc::ir::verdict::Verdict;
 use cutc::machine::Job;
 use cutc::pipeline::Declared;
-use cutc::verify::{self, Ground, Verdict};
+use cutc::verify::{self, Ground};
 
 use crate::support;
 
@@ -128,7 +129,7 @@ impl Program {
 }
 
 pub(crate) fn broken(verdict: &Verdict) -> Vec<&'static str> {
-    verdict.broken().map(|finding| finding.rule).collect()
+    verdict.broken().map(|finding| finding.rule.name).collect()
 }
 
 pub(crate) fn check(mut program: Program, marker: &Marker, expected: &[&str]) {

@@ -57,7 +57,7 @@ fn broken(program: &Program, original: &[u8], job: &Job, (name, bytes): (&str, &
     let source = Source::new("original", original.to_vec()).expect("small");
     let proof = target(name).proof.expect("the target is judged");
     let verdict = Made { program, source: &source, job }.judge(proof, &mut &bytes[..]).expect("memory is readable");
-    verdict.broken().map(|finding| finding.rule).collect()
+    verdict.broken().map(|finding| finding.rule.name).collect()
 }
 
 /// A stitch file of random records: short moves and long ones, ways back, doubled points, jumps, trims, stops.

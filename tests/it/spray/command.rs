@@ -86,7 +86,7 @@ fn tools_without_a_blade_follow_real_markers_within_the_limits_and_without_overl
             let verdict = made.verdict.expect("a verdict");
             assert!(verdict.passes() && verdict.findings.len() > 20, "{name} {kind}");
             // What is cut beyond a line would be an overlap.
-            let stray = verdict.findings.iter().find(|finding| finding.rule == "verify/stray");
+            let stray = verdict.findings.iter().find(|finding| finding.rule.name == "verify/stray");
             assert!(stray.is_none_or(|finding| finding.worst < 0.1), "{name} {kind}: {stray:?}");
         }
     }

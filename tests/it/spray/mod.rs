@@ -56,7 +56,7 @@ fn broken(source: &Source, program: &[u8], job: &Job) -> Vec<&'static str> {
     let mut out = Diagnostics::default();
     let mut program = Cursor::new(program.to_vec());
     let judged = judge_program(&mut program, source, None, job, None, &mut out).expect("memory is readable");
-    judged.expect("a source without errors").verdict.broken().map(|finding| finding.rule).collect()
+    judged.expect("a source without errors").verdict.broken().map(|finding| finding.rule.name).collect()
 }
 
 #[test]

@@ -273,7 +273,7 @@ fn a_marker_that_lacks_something_of_the_file_is_refused() {
             let source = case::source(name);
             let mut marker = case::marker(name, &Job::default());
             if lose(&mut marker) {
-                let broken = audit(&source, &marker).into_iter().any(|f| f.rule == *rule && !f.holds());
+                let broken = audit(&source, &marker).into_iter().any(|f| f.rule.name == *rule && !f.holds());
                 assert!(broken, "{rule} of {name}");
                 refused += 1;
             }

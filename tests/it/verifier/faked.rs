@@ -53,7 +53,10 @@ fn is_worth(entry: &Declaration) -> bool {
 }
 
 fn verdict_of(case: &Case, entries: Vec<Declaration>) -> Vec<&'static str> {
-    judge(&case.program, &case.marker, &Declared::new(entries), &case.job).broken().map(|found| found.rule).collect()
+    judge(&case.program, &case.marker, &Declared::new(entries), &case.job)
+        .broken()
+        .map(|found| found.rule.name)
+        .collect()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A damaged program, what must be found in it, and whether that was found.
 
 use cutc::geom::{Point, polyline};
-use cutc::verify::Verdict;
+use cutc::ir::verdict::Verdict;
 
 use crate::verifier::case::Case;
 
@@ -39,9 +39,10 @@ impl Harm {
 
     /// Why a verdict does not show this harm under a rule; `None` when it does.
     pub(crate) fn unseen(&self, verdict: &Verdict, rule: &str, case: &Case) -> Option<String> {
-        let finding = verdict.findings.iter().find(|finding| finding.rule == rule).expect("every rule has a finding");
+        let finding =
+            verdict.findings.iter().find(|finding| finding.rule.name == rule).expect("every rule has a finding");
         if finding.holds() {
-            let broken: Vec<_> = verdict.broken().map(|finding| finding.rule).collect();
+            let broken: Vec<_> = verdict.broken().map(|finding| finding.rule.name).collect();
             return Some(format!("{rule} holds with {}, broken is {broken:?}", finding.worst));
         }
         if finding.worst < self.amount * (1.0 - AMOUNT_EPSILON) {

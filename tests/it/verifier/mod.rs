@@ -23,9 +23,10 @@ use std::collections::BTreeSet;
 use std::io::BufReader;
 
 use cutc::ir::Marker;
+use cutc::ir::verdict::Verdict;
 use cutc::machine::{Fit, Follow, Job, MachineProfile, TightCurves};
 use cutc::pipeline::Declared;
-use cutc::verify::{self, Ground, RULES, Verdict};
+use cutc::verify::{self, Ground, RULES};
 use fastrand::Rng;
 use rayon::prelude::*;
 
@@ -198,8 +199,9 @@ fn a_damage_of_a_third_of_its_limit_is_accepted() {
         let is_aside = |rule: &str| {
             sides::RULES.contains(&rule) || ["verify/declared", "verify/overlap", "verify/joint"].contains(&rule)
         };
-        let broken = verdict.broken().filter(|finding| sides::RULES.contains(&damage.rule) || !is_aside(finding.rule));
-        let broken: Vec<_> = broken.map(|f| (f.rule, f.worst, f.limit, f.place)).collect();
+        let broken =
+            verdict.broken().filter(|finding| sides::RULES.contains(&damage.rule) || !is_aside(finding.rule.name));
+        let broken: Vec<_> = broken.map(|f| (f.rule.name, f.worst, f.limit, f.place)).collect();
         Some((!broken.is_empty()).then(|| format!("{} of {}: {broken:?}", damage.name, case.name)))
     };
     let outcomes: Vec<Option<String>> = outcomes(&cases, outcome);

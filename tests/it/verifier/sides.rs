@@ -58,6 +58,6 @@ pub(crate) const DAMAGES: &[Damage] = &[
 fn other(case: &Case, program: Vec<u8>) -> Option<Harm> {
     let amount = ENTERED * OVERLAP;
     let sound = judge(&case.program, &case.marker, &case.declared, &case.job);
-    let harmed = sound.findings.iter().any(|finding| finding.rule == PART && finding.worst >= amount);
+    let harmed = sound.findings.iter().any(|finding| finding.rule.name == PART && finding.worst >= amount);
     (program != case.program && !harmed).then(|| Harm::anywhere(program, amount))
 }

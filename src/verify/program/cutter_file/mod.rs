@@ -10,11 +10,10 @@ use self::reader::Reader;
 use self::said::expected;
 use crate::geom::Point;
 use crate::ir::Marker;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Verdict, Worst, sort};
 use crate::machine::Job;
 use crate::source::Source;
-use crate::verify::verdict::{Verdict, sort};
-use crate::verify::worst::{Worst, at};
+use crate::verify::rules;
 
 /// How every such file begins.
 const HEAD: &[u8] = b"H1*\n";
@@ -30,15 +29,15 @@ pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
 
 /// Judges the bytes of a cut file against the marker that it was written from.
 pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) -> Verdict {
-    let mut format = Worst::new("verify/format", "bad blocks", Some(0.0));
-    let mut same = Worst::new("verify/same", "statements", Some(0.0));
+    let mut format = Worst::new(&rules::FORMAT, Some(0.0)).in_unit("bad blocks");
+    let mut same = Worst::new(&rules::SAME, Some(0.0));
     let mut reader = Reader::new(bytes, job);
     let found = reader.read();
     let unit = reader.unit;
-    let mut place = Worst::new("verify/same-place", "mm", Some(ROUNDING * unit * 2.0_f64.sqrt() + PLACE_EPSILON));
-    let nowhere = Sighting { time: None, line: None, point: Point::origin(), block: 0 };
+    let mut place = Worst::new(&rules::SAME_PLACE, Some(ROUNDING * unit * 2.0_f64.sqrt() + PLACE_EPSILON));
+    let nowhere = Sighting::missing(Point::origin(), 0);
     if found.is_none() {
-        format.see(1.0, || at(0.0, reader.at, 0));
+        format.see(1.0, || Sighting::at(0.0, reader.at, 0));
     }
     let found = found.unwrap_or_default();
     let expected = expected(marker, source);
@@ -55,6 +54,6 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
         }
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
-    sort(&mut findings);
-    Verdict { findings, unread: None, uncut: Vec::new(), untimed: Vec::new() }
+    sort(&mut findings, rules::RULES);
+    Verdict { findings, ..Verdict::default() }
 }

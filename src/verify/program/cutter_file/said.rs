@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use crate::geom::{Heading, Point, angle};
 use crate::ir::Marker;
-use crate::ir::finding::Sighting;
 use crate::ir::list::Joint;
 use crate::ir::marker::{NotchKind, Piece};
 use crate::ir::toolpath::Event;
+use crate::ir::verdict::Sighting;
 use crate::source::Source;
 
 /// Greatest difference of two directions that six decimals of a far second point leave, rad.
@@ -79,7 +79,7 @@ impl Said {
             Self::Label { at, .. } => ((*at)?, 0),
             Self::Piece(_) | Self::Event(_) | Self::Field(..) => return None,
         };
-        Some(Sighting { time: None, line: None, point, block })
+        Some(Sighting::missing(point, block))
     }
 }
 

@@ -16,7 +16,7 @@ use self::arc::Arc;
 use self::texts::{HEAD, Meaning, Text, texts};
 use crate::geom::Point;
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
 use crate::machine::gcode::FeedMode;
 use crate::units::S_PER_MIN;
@@ -25,7 +25,7 @@ use crate::verify::axes::crawl::{Asked, Axes};
 use crate::verify::program::number::{quoted, whole};
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::program::spelling::{Expected, Words, is_active, plain, unnumbered};
-use crate::verify::worst::Worst;
+use crate::verify::rules;
 
 /// Most characters of a first line that a message shows.
 const FIRST_CHARS: usize = 60;
@@ -128,7 +128,7 @@ impl<'a> Places<'a> {
             texts,
             rest_due: None,
             too_long: 0.0,
-            dwell: Worst::new("verify/dwell", "s too long", Some(REST_EPSILON)),
+            dwell: Worst::new(&rules::DWELL, Some(REST_EPSILON)).in_unit("s too long"),
             axes: Axes::new(profile),
             lines: 0,
             room: Vec::new(),
@@ -165,7 +165,7 @@ impl<'a> Places<'a> {
 
     /// What was found about the format and about rests, and what to say where a line cannot be read.
     pub(in crate::verify) fn findings(self) -> ([Finding; 2], Option<String>) {
-        let mut worst = Worst::new("verify/format", "bad lines", Some(0.0));
+        let mut worst = Worst::new(&rules::FORMAT, Some(0.0)).in_unit("bad lines");
         let (place, why) = self.bad.unzip();
         if let Some(place) = place {
             worst.see(1.0, || place);

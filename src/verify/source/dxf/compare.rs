@@ -11,11 +11,11 @@ use super::places::CutPlaces;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross, left, polyline};
 use crate::ir::Finding;
-use crate::ir::finding::Sighting;
 use crate::ir::marker::{Notch, NotchKind};
+use crate::ir::verdict::{Rule, Sighting, Worst};
 use crate::machine::Job;
 use crate::machine::patterns::Dxf;
-use crate::verify::worst::{Worst, at};
+use crate::verify::rules;
 
 /// Rounding of places on a table that is a kilometre long, mm, and of sums of lengths, as a part of them.
 const PLACE_EPSILON: f64 = 1e-6;
@@ -170,13 +170,13 @@ struct Count {
 }
 
 impl Count {
-    fn of(rule: &'static str, what: &'static str) -> Self {
-        Self { worst: Worst::new(rule, what, Some(0.0)), count: 0.0 }
+    fn of(rule: &'static Rule) -> Self {
+        Self { worst: Worst::new(rule, Some(0.0)), count: 0.0 }
     }
 
     fn see(&mut self, point: Point, block: u32) {
         self.count += 1.0;
-        self.worst.see(self.count, || Sighting { time: None, line: None, point, block });
+        self.worst.see(self.count, || Sighting::missing(point, block));
     }
 }
 
@@ -185,7 +185,7 @@ impl Both<'_> {
     /// cannot be understood.
     fn points(&self) -> Finding {
         let Self { cuts, lines, reach, .. } = self;
-        let mut wrong = Count::of("source/points", "points");
+        let mut wrong = Count::of(&rules::SOURCE_POINTS);
         (0..cuts.faults).for_each(|_| wrong.see(Point::origin(), 0));
         let drawn = || lines.iter().flat_map(|line| &line.drawn);
         let of_marker = Lookup::of(drawn().map(|place| place.0), *reach);
@@ -244,13 +244,13 @@ impl Both<'_> {
     /// How many holes are missing or too many.
     fn holes(&self) -> Finding {
         let Self { cuts, read, reach, .. } = self;
-        let mut worst = Worst::new("source/drills", "holes", Some(0.0));
+        let mut worst = Worst::new(&rules::SOURCE_DRILLS, Some(0.0));
         let of_file = Lookup::of(cuts.holes.iter().copied(), *reach);
         let of_marker = Lookup::of(read.holes.iter().map(|hole| hole.0), *reach);
         let missing = cuts.holes.iter().filter(|at| !of_marker.has(**at)).count();
         let wrong = read.holes.iter().filter(|(at, _)| !of_file.has(*at)).count();
         let differ = cuts.holes.len().abs_diff(read.holes.len()).max(missing + wrong);
-        worst.see(differ as f64, || at(0.0, Point::origin(), 0));
+        worst.see(differ as f64, || Sighting::at(0.0, Point::origin(), 0));
         worst.finding()
     }
 
@@ -267,8 +267,8 @@ impl Both<'_> {
         let joined = cuts.places.iter().filter(|place| place.is_end).count() as f64;
         let slack = cuts.slack + MOUTH_SHORTER * mouths + if cuts.gaps() { MEETS * joined } else { 0.0 };
         let limit = LENGTH_EPSILON * (1.0 + length) + slack;
-        let mut worst = Worst::new("source/length", "mm", Some(limit));
-        worst.see((length - cuts.length).abs(), || at(0.0, Point::origin(), 0));
+        let mut worst = Worst::new(&rules::SOURCE_LENGTH, Some(limit));
+        worst.see((length - cuts.length).abs(), || Sighting::at(0.0, Point::origin(), 0));
         worst.finding()
     }
 
@@ -276,7 +276,7 @@ impl Both<'_> {
     /// for one have none and are not told either.
     fn notches(&self) -> Finding {
         let Self { read, reach, marks, .. } = self;
-        let mut wrong = Count::of("source/notches", "notches");
+        let mut wrong = Count::of(&rules::SOURCE_NOTCHES);
         let notched: Vec<(Point, u32)> = self.lines.iter().flat_map(|line| line.notched.iter().copied()).collect();
         let far = |mark: &Mark| mark.depth + mark.width / 2.0 + NOTCH_OFF + reach;
         let farthest =

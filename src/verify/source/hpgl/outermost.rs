@@ -11,10 +11,11 @@ use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::marker::Notch;
+use crate::ir::verdict::{Sighting, Worst};
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::machine::plot::Frame;
-use crate::verify::worst::{Worst, at};
+use crate::verify::rules;
 
 /// Smallest line that may be the outline of a part, mm.
 const LEAST_SIZE: f64 = 30.0;
@@ -76,8 +77,8 @@ impl PlotCuts {
 
 /// Compares what is cut of a plot with its strokes.
 pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
-    let mut outermost = Worst::new("source/outermost", "lines", Some(0.0));
-    let mut strokes = Worst::new("source/strokes", "strokes", Some(0.0));
+    let mut outermost = Worst::new(&rules::SOURCE_OUTERMOST, Some(0.0));
+    let mut strokes = Worst::new(&rules::SOURCE_STROKES, Some(0.0));
     let drawn = super::strokes(bytes, &job.profile);
     let judging = Judging::new(&drawn, read, job);
     let mut wrong = judging.made_up();
@@ -90,10 +91,10 @@ pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
         lost.extend(judging.slits());
     }
     for (point, count) in wrong.into_iter().zip(1..) {
-        outermost.see(f64::from(count), || at(0.0, point, 0));
+        outermost.see(f64::from(count), || Sighting::at(0.0, point, 0));
     }
     for (point, count) in lost.into_iter().zip(1..) {
-        strokes.see(f64::from(count), || at(0.0, point, 0));
+        strokes.see(f64::from(count), || Sighting::at(0.0, point, 0));
     }
     vec![outermost.finding(), strokes.finding()]
 }

@@ -1,0 +1,258 @@
+//! The worst value under a rule, and where it was seen: of one rule, and of all rules of a machine.
+
+use super::{Finding, Rule, Sighting, sort};
+
+/// Part of a value by which a later one must exceed it to be told in its place: of values that only rounding tells
+/// apart the first is the one to look at.
+const TIE_EPSILON: f64 = 1e-6;
+
+/// Collects values and keeps the worst.
+#[derive(Debug, Clone)]
+pub struct Worst {
+    rule: &'static Rule,
+    unit: &'static str,
+    limit: Option<f64>,
+    value: f64,
+    /// Where the worst was seen first, and how bad it was there: against its limit when values have limits of their own.
+    place: Option<(Sighting, f64)>,
+}
+
+impl Worst {
+    /// Nothing seen yet under `rule`.
+    pub fn new(rule: &'static Rule, limit: Option<f64>) -> Self {
+        Self { rule, unit: rule.unit, limit, value: 0.0, place: None }
+    }
+
+    /// Nothing seen yet, in another unit than that of the rule: what is counted has a name of its own.
+    #[must_use]
+    pub fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// Sees a value. One that is not a number is worse than any.
+    pub fn see(&mut self, value: f64, place: impl FnOnce() -> Sighting) {
+        let value = or_infinite(value);
+        if value > self.value {
+            self.value = value;
+            self.note(weight(value, self.limit), place);
+        }
+    }
+
+    /// Notes the place of what is the worst so far, unless that is no worse than at the place that is known.
+    fn note(&mut self, badness: f64, place: impl FnOnce() -> Sighting) {
+        if self.place.is_none_or(|(_, known)| badness > known * (1.0 + TIE_EPSILON)) {
+            self.place = Some((place(), badness));
+        }
+    }
+
+    /// Sees a value that has a limit of its own; infinite = none. The worst is the one that comes nearest to its limit, or
+    /// is farthest beyond it.
+    pub fn see_under(&mut self, value: f64, limit: f64, place: impl FnOnce() -> Sighting) {
+        let value = or_infinite(value);
+        let is_worse = match (self.limit, limit.is_finite()) {
+            (Some(own), true) if own > 0.0 && limit > 0.0 => value * own > self.value * limit,
+            (Some(own), true) => {
+                let (bad, known) = (badness(value, limit), badness(self.value, own));
+                bad > known || bad.is_infinite() && value > self.value
+            }
+            (Some(_), false) => false,
+            (None, true) => value > 0.0,
+            (None, false) => value > self.value,
+        };
+        if is_worse {
+            if self.limit.is_some() != limit.is_finite() {
+                // Of the values so far none had a limit: they do not compare.
+                self.place = None;
+            }
+            if self.value < value && limit == 0.0 {
+                // Any value is beyond it alike: the greatest has the place.
+                self.place = None;
+            }
+            (self.value, self.limit) = (value, Some(limit).filter(|limit| limit.is_finite()));
+            self.note(weight(value, self.limit), place);
+        }
+    }
+
+    /// Takes what was seen later.
+    pub fn add(&mut self, later: &Self) {
+        if let Some((place, _)) = later.place {
+            self.see_under(later.value, later.limit.unwrap_or(f64::INFINITY), || place);
+        }
+    }
+
+    /// The worst value so far.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// What was seen.
+    pub fn finding(self) -> Finding {
+        Finding {
+            rule: self.rule,
+            worst: self.value,
+            limit: self.limit,
+            unit: self.unit,
+            place: self.place.map(|known| known.0),
+        }
+    }
+}
+
+/// How bad a value is against a limit: 1 = just allowed; any value is infinitely beyond a limit of nothing.
+fn badness(value: f64, limit: f64) -> f64 {
+    if value > 0.0 { value / limit } else { 0.0 }
+}
+
+/// What values at places are compared by: part of the limit, or the value where there is none or any is infinitely beyond.
+fn weight(value: f64, limit: Option<f64>) -> f64 {
+    limit.filter(|&limit| limit > 0.0).map_or(value, |limit| value / limit)
+}
+
+/// A value, or the worst of all where it is not a number.
+fn or_infinite(value: f64) -> f64 {
+    if value.is_nan() { f64::INFINITY } else { value }
+}
+
+/// The worst under each rule of a machine of which anything was seen: of values with limits of their own the one that is
+/// farthest beyond its limit, or least below it.
+#[derive(Debug, Default)]
+pub struct WorstByRule(Vec<Finding>);
+
+impl WorstByRule {
+    /// Sees a value under a rule that only reports, or whose limit is set in its finding.
+    pub fn see(&mut self, rule: &'static Rule, value: f64, place: impl Into<Option<Sighting>>) {
+        self.keep(Finding { rule, worst: value, limit: None, unit: rule.unit, place: place.into() });
+    }
+
+    /// Sees a value under a rule, of which so much is allowed.
+    pub fn see_under(&mut self, rule: &'static Rule, value: f64, limit: f64, place: impl Into<Option<Sighting>>) {
+        self.keep(Finding { rule, worst: value, limit: Some(limit), unit: rule.unit, place: place.into() });
+    }
+
+    /// Adds to the count of what must not be.
+    pub fn count(&mut self, rule: &'static Rule, number: usize, place: impl Into<Option<Sighting>>) {
+        let known = self.0.iter().find(|known| known.rule == rule).map_or(0.0, |known| known.worst);
+        self.see_under(rule, known + number as f64, 0.0, place);
+    }
+
+    /// Sees all that was seen elsewhere, after what was seen here.
+    pub fn merge(&mut self, later: Self) {
+        later.0.into_iter().for_each(|finding| self.keep(finding));
+    }
+
+    /// Keeps a finding that is worse than the one that is known; of findings alike the first.
+    fn keep(&mut self, mut seen: Finding) {
+        seen.worst = or_infinite(seen.worst);
+        let beyond = |finding: &Finding| finding.limit.map_or(finding.worst, |limit| finding.worst - limit);
+        match self.0.iter_mut().find(|known| known.rule == seen.rule) {
+            Some(known) if beyond(&seen) > beyond(known) => *known = seen,
+            Some(_) => {}
+            None => self.0.push(seen),
+        }
+    }
+
+    /// A finding for each rule of which anything was seen, in the order of the table of rules; less than nothing is nothing.
+    pub fn findings(self, rules: &[&Rule]) -> Vec<Finding> {
+        let mut findings = self.0;
+        sort(&mut findings, rules);
+        // Of a negative zero `max` may leave either.
+        findings.iter_mut().filter(|finding| finding.worst <= 0.0).for_each(|finding| finding.worst = 0.0);
+        findings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+
+    static ONE: Rule = Rule { name: "verify/one", unit: "mm", ..Rule::PLAIN };
+    static OTHER: Rule = Rule { name: "verify/other", unit: "", ..Rule::PLAIN };
+
+    fn at(time: f64) -> Sighting {
+        Sighting::at(time, Point::origin(), 0)
+    }
+
+    fn told(values: &[f64]) -> (f64, Option<f64>) {
+        let mut worst = Worst::new(&ONE, Some(0.0));
+        for (&value, time) in values.iter().zip(0..) {
+            worst.see(value, || at(f64::from(time)));
+        }
+        let finding = worst.finding();
+        (finding.worst, finding.place.and_then(|place| place.time))
+    }
+
+    #[test]
+    fn of_values_that_rounding_tells_apart_the_first_is_told() {
+        assert_eq!(told(&[0.0, 1e-12, 0.001, 0.001 + 1e-15, 0.000_9]), (0.001 + 1e-15, Some(2.0)));
+        assert_eq!(told(&[0.001, 0.002, 0.002]), (0.002, Some(1.0)));
+        assert_eq!(told(&[f64::NAN, f64::INFINITY]), (f64::INFINITY, Some(0.0)));
+        assert_eq!(told(&[0.0, 0.0]), (0.0, None));
+    }
+
+    #[test]
+    fn a_value_near_its_own_limit_is_worse_than_a_greater_one_far_from_its() {
+        let mut worst = Worst::new(&ONE, Some(100.0));
+        for (value, limit, time) in [(50.0, 100.0, 0.0), (45.0, 50.0, 1.0), (80.0, 100.0, 2.0), (90.0, 100.0, 3.0)] {
+            worst.see_under(value, limit, || at(time));
+        }
+        let finding = worst.finding();
+        assert_eq!((finding.worst, finding.limit), (45.0, Some(50.0)));
+        assert_eq!(finding.place.and_then(|place| place.time), Some(1.0));
+    }
+
+    #[test]
+    fn what_goes_on_from_the_worst_so_far_tells_the_same_as_what_saw_all() {
+        for limit in [None, Some(0.0), Some(0.07)] {
+            let mut all = Worst::new(&ONE, limit);
+            let mut so_far = all.clone();
+            for part in [[0.02, 0.05], [0.04, 0.9], [0.95, 0.3]] {
+                let mut later = so_far.clone();
+                for value in part {
+                    all.see(value, || at(value));
+                    later.see(value, || at(value));
+                }
+                so_far.add(&later);
+            }
+            assert_eq!(so_far.finding(), all.finding(), "{limit:?}");
+        }
+    }
+
+    #[test]
+    fn beyond_a_limit_of_nothing_the_greatest_value_is_told() {
+        let mut worst = Worst::new(&ONE, Some(0.0));
+        for (value, limit, time) in
+            [(0.0, 0.0, 0.0), (0.1, 0.0, 1.0), (0.3, 0.0, 2.0), (0.2, 0.0, 3.0), (0.4, 0.5, 4.0)]
+        {
+            worst.see_under(value, limit, || at(time));
+        }
+        let finding = worst.finding();
+        assert_eq!((finding.worst, finding.limit), (0.3, Some(0.0)));
+        assert_eq!(finding.place.and_then(|place| place.time), Some(2.0));
+    }
+    #[test]
+    fn under_each_rule_the_value_that_is_farthest_beyond_its_limit_is_told_in_the_order_of_the_table() {
+        let mut worst = WorstByRule::default();
+        for (value, limit, time) in [(3.0, 5.0, 0.0), (2.0, 3.0, 1.0), (4.0, 9.0, 2.0), (1.0, 2.0, 3.0)] {
+            worst.see_under(&OTHER, value, limit, at(time));
+        }
+        let mut later = WorstByRule::default();
+        later.see(&ONE, -1.0, None);
+        worst.merge(later);
+        let findings = worst.findings(&[&ONE, &OTHER]);
+        let told = |finding: &Finding| (finding.worst, finding.limit, finding.place.and_then(|place| place.time));
+        assert_eq!(findings.iter().map(told).collect::<Vec<_>>(), [(0.0, None, None), (2.0, Some(3.0), Some(1.0))]);
+        assert_eq!(findings[1].rule, &OTHER);
+    }
+
+    #[test]
+    fn what_is_counted_is_seen_where_the_count_grew_last() {
+        let mut worst = WorstByRule::default();
+        for (number, time) in [(0, 0.0), (2, 1.0), (1, 2.0), (0, 3.0)] {
+            worst.count(&ONE, number, at(time));
+        }
+        worst.see_under(&OTHER, f64::NAN, 0.0, None);
+        let findings = worst.findings(&[&OTHER, &ONE]);
+        assert_eq!(findings.iter().map(|finding| finding.worst).collect::<Vec<_>>(), [f64::INFINITY, 3.0]);
+        assert_eq!(findings[1].place, Some(at(2.0)));
+    }
+}
