@@ -106,7 +106,7 @@ fn a_frame_that_is_cut_and_a_title_block_that_is_cut_are_refused() {
     let source = source(drawn(&[&[FRAME, title][..], &parts(0)].concat()));
     let is_refused = |marker: &Marker| {
         let findings = plot_audit(source.bytes(), &PlotCuts::of(marker), &Job::default());
-        findings.iter().any(|finding| finding.rule == "source/outermost" && !finding.holds())
+        findings.iter().any(|finding| finding.rule.name == "source/outermost" && !finding.holds())
     };
     let mut asked = Job::default();
     asked.profile.hpgl.frame = Frame::None;

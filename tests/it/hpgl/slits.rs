@@ -11,7 +11,7 @@ const PART: &str = "IN;SP1;PU0,0;PD12000,0,12000,16000,0,16000,0,0;";
 
 fn refused(text: &str, marker: &Marker) -> Vec<&'static str> {
     let findings = plot_audit(text.as_bytes(), &PlotCuts::of(marker), &Job::default());
-    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule).collect()
+    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect()
 }
 
 /// The slits of the part, root and tip, and the codes of what is said.
