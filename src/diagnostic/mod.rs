@@ -5,6 +5,7 @@
 pub mod code;
 mod json;
 pub mod pieces;
+mod telling;
 mod text;
 
 pub use code::{Code, Fault, Harm, Severity};
