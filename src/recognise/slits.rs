@@ -82,12 +82,11 @@ impl Slits<'_> {
         let is_foot = |end: End| feet.binary_search(&end).is_ok();
         let is_long = |end: End| self.length(end) > Notch::LONGEST_STROKE;
         match *others {
-            [] => false,
             [one] if is_long(one) => {
                 let turn = angle::turn(self.way(foot), self.way(one)).abs();
                 turn <= BEND || !self.leads_to_slit(one, feet)
             }
-            [_] => false,
+            [] | [_] => false,
             [a, b] if !is_long(a) && !is_long(b) => {
                 let is_half =
                     |end: End| !is_foot(end) && !is_foot(other(end)) && self.length(end) <= Notch::LONGEST / 2.0;
