@@ -80,7 +80,7 @@ pub struct Parts<T> {
 /// What is known of a compile when a program that shows it is ended; nothing of one that does not.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Outcome<'a> {
-    /// What the verifier found in the setpoints of the same compile.
+    /// Findings of the verifier in the setpoints of the same compile.
     pub findings: &'a [Finding],
     /// Errors for which there is no program, but for those that the findings tell.
     pub refusals: &'a [&'a Diagnostic],

@@ -15,7 +15,7 @@ pub struct Code {
     pub severity: Severity,
     /// Whether it may spoil parts. Of an error nothing is cut.
     pub harm: Harm,
-    /// What is at fault.
+    /// The thing at fault.
     pub fault: Fault,
     /// What it means, in a sentence or two.
     pub about: &'static str,

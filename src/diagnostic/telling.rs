@@ -1,4 +1,4 @@
-//! Findings as they are told: whether a program is forbidden, what may be spoilt, what is at fault, and how many are told.
+//! Properties of findings: severity, harm to parts, the thing at fault, and the number that is told.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub enum Severity {
     Warning,
 }
 
-/// Whether what a warning is about may spoil parts: such findings are told before others.
+/// Harm to parts. Findings that may spoil some are told before others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Harm {
     /// Cloth may be cut where it must not be, or at another size: that can't be mended.
@@ -21,22 +21,22 @@ pub enum Harm {
     Spares,
 }
 
-/// What is at fault.
+/// The thing at fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// What stands in the file: its bytes are shown.
+    /// The text of the file: its bytes are shown.
     Text,
-    /// What the file draws, or what is made of it: no byte of it tells anything.
+    /// The drawing, or something made of it: no byte of the file tells anything.
     Shape,
 }
 
-/// How findings of a code are told to people; programs get each.
+/// Selection of the findings of a code that people are told; programs get each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Telling {
     /// One by one: each must be mended.
     Each,
     /// A few of them: each says something else.
     Few,
-    /// How many there are, and the worst: they are alike but for place and measure.
+    /// Their number, and the worst: they are alike but for place and measure.
     Worst,
 }

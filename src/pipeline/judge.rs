@@ -17,7 +17,7 @@ use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::spray;
 use crate::units::number::{exact, fixed, up};
-use crate::verify::{self, Declared, Ground, Kind, RULES, rules};
+use crate::verify::{self, Declared, Ground, Kind, rules};
 
 /// The rule on what can be read.
 static FORMAT: [&Rule; 2] = [&rules::FORMAT, &spray::verify::rules::FORMAT];
@@ -112,7 +112,7 @@ pub(super) fn judge(
         }
     };
     verdict.findings.extend_from_slice(audit);
-    sort(&mut verdict.findings, RULES);
+    sort(&mut verdict.findings);
     Ok(verdict)
 }
 
@@ -149,7 +149,7 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
             None => findings.push(finding),
         }
     }
-    sort(&mut findings, RULES);
+    sort(&mut findings);
     let (mut untimed, mut uncut) = (first.untimed, first.uncut);
     uncut.extend(second.uncut);
     uncut.sort_unstable();
@@ -307,7 +307,7 @@ mod tests {
 
     #[test]
     fn the_limit_of_a_rule_is_a_key_of_the_profile() {
-        for rule in [RULES, spray::verify::RULES].concat() {
+        for rule in [verify::RULES, spray::verify::RULES].concat() {
             assert!(rule.key.is_none_or(|key| keys::find(key).is_some()), "{rule:?}");
         }
     }

@@ -22,7 +22,8 @@ const LEAST_DOUBTFUL: f64 = 0.15;
 const MOST_OUTSIDE: f64 = 0.1;
 /// Share of an outer frame that the frame in it takes where something lies between them: the cloth on the paper.
 const LEAST_CLOTH: f64 = 0.75;
-/// Frames beside each other hold so many parts or are filled so far that they are no parts with cut-outs.
+/// Least number of parts, or least share of the area, that rectangles beside each other hold to be frames: with less they may be
+/// parts with cut-outs.
 const SURE_PARTS: usize = 3;
 const SURE_FILL: f64 = 0.7;
 /// Frames in frames that are looked for: the paper, and the cloth on it.
@@ -206,7 +207,7 @@ impl Frames<'_> {
         inner.iter().all(|&i| is_in_frame(&self.lines[i], &outer, self.settings.band))
     }
 
-    /// What fills a rectangle, if that is around two parts or more.
+    /// The parts that fill a rectangle, if there are two or more.
     fn filling(&self, Top { line, inner }: &Top, work: &mut Budget) -> Option<Filling> {
         let frame = &self.lines[*line];
         let edged = self.beside(frame, inner, work);

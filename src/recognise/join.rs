@@ -53,14 +53,14 @@ pub(super) fn reach(unit: f64) -> f64 {
 }
 
 /// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
-pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
+pub(super) fn join(drawing: &mut Drawing, job: &Job, work: &mut Budget) -> (Vec<Line>, Moved) {
     let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
     let reach = reach(drawing.unit);
     let close = job.profile.drawing.close_mm;
     let again = again::take(drawing, &uses, close.max(reach));
     let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
     joining.close_alone();
-    let (chains, is_between) = joining.chains();
+    let (chains, is_between) = joining.chains(work);
     let strokes = std::mem::take(&mut joining.drawing.strokes);
     let mut taken = vec![false; strokes.len()];
     let mut lines = Vec::with_capacity(strokes.len());
@@ -122,7 +122,7 @@ impl Joining<'_> {
 
     /// Chains of the strokes; a stroke is added where a gap is bridged. And of each end whether others go on without its
     /// stroke there.
-    fn chains(&mut self) -> (Chains, Vec<bool>) {
+    fn chains(&mut self, work: &mut Budget) -> (Chains, Vec<bool>) {
         let frame = self.frame();
         let open = |k: &usize| {
             let ends = [place(self.drawing, 2 * k), place(self.drawing, 2 * k + 1)];
@@ -134,7 +134,7 @@ impl Joining<'_> {
         }
         let mut graph = Graph::new(self, self.nodes(ends.clone()));
         graph.put_dead_ends_aside();
-        graph.set_slits_apart();
+        graph.set_slits_apart(work);
         graph.link();
         let is_left = graph.left();
         let mut chains = graph.chains;
@@ -401,7 +401,7 @@ impl<'a, 'b> Graph<'a, 'b> {
     }
 
     /// Sets the slits apart that stand on an edge and lead nowhere: other lines begin at their foot or at their tip.
-    fn set_slits_apart(&mut self) {
+    fn set_slits_apart(&mut self, work: &mut Budget) {
         let joining = self.joining;
         let all = 0..joining.drawing.strokes.len();
         let meets = |k: &usize| [2 * k, 2 * k + 1].iter().any(|&end| self.node[end].is_some());
@@ -416,7 +416,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         };
         let touch = joining.reach;
         let slits = Slits { drawing: joining.drawing, rings: all.filter(is_ring).collect(), candidates, touch };
-        let feet = slits.feet(&mut Budget::of_a_marker());
+        let feet = slits.feet(work);
         let others = |end: End| {
             let node = self.node[end].map_or(&[][..], |node| &self.nodes[node as usize]);
             node.iter().copied().filter(|&other| other != end).collect::<Vec<End>>()

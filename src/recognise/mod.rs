@@ -7,12 +7,11 @@
 //! Never knows the dialect.
 //!
 //! `again` puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, over the gaps that
-//! `bridge` finds and without the slits that `slits` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out,
-//! and asks the others: `frame` finds the frames, `nest` what lies in what, `remains` the outlines that are not
-//! whole, `marks` and `strokes` the notches, `signs` what looks like them,
-//! `letters` and `seam` what their names say; `line` has the table of
-//! classes, and of when each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is
-//! doubtful, `doubts` that about pieces.
+//! `bridge` finds and without the slits that `slits` finds, `close` closes them, `twins` puts those aside that lie along
+//! another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `remains` the
+//! outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them, `letters` and
+//! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for.
+//! `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
 mod again;
 mod bridge;
@@ -46,9 +45,9 @@ use crate::machine::Job;
 
 /// Decides what of a drawing is cut, and makes the marker of it.
 pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
-    let (mut lines, moved) = join::join(&mut drawing, job);
-    close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     let mut work = Budget::of_a_marker();
+    let (mut lines, moved) = join::join(&mut drawing, job, &mut work);
+    close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     twins::mark(&mut lines, &drawing.vertices, sheet::band(drawing.unit), &mut work);
     let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
     let mut sheet = Sheet {

@@ -18,7 +18,7 @@ const ALIKE: f64 = 0.1;
 const BARBS: [f64; 2] = [0.1, 1.3];
 /// Greatest angle between the stem of an arrow and the way between its barbs, rad.
 const STEM: f64 = 0.2;
-/// Where the arms of a cross halve each other, as shares of their lengths, and how many times longer one may be.
+/// Shares of their lengths at which the arms of a cross halve each other, and the greatest ratio of these lengths.
 const HALF: [f64; 2] = [0.3, 0.7];
 const LONGER: f64 = 1.5;
 /// Strokes beside an arm that meet in the middle of a cross.
@@ -82,7 +82,7 @@ fn are_alike([a, b]: [f64; 2], ratio: f64) -> bool {
     a.max(b) <= ratio * a.min(b)
 }
 
-/// Where two straight strokes cross, as shares of their lengths; `None` for those that are nearly parallel.
+/// The crossing of two straight strokes, as shares of their lengths; `None` for those that are nearly parallel.
 fn halves([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<[f64; 2]> {
     let (one, other) = (b - a, d - c);
     let turn = cross(one, other);

@@ -12,7 +12,7 @@ use crate::geom::{Extent, Point, Vector, angle, polyline, ring};
 use crate::ir::drawing::Drawing;
 use crate::ir::marker::Notch;
 
-/// How far from the edge the tip of a slit is at the least, mm.
+/// Least distance of the tip of a slit from the edge, mm.
 const LEAST_DEPTH: f64 = 0.5;
 /// Greatest turn between the halves of a crossbar, rad.
 const STRAIGHT: f64 = 0.2;
@@ -38,11 +38,15 @@ impl Slits<'_> {
         let reach = Notch::MISS + self.touch;
         let at = |end: End| place(self.drawing, end);
         let boxes = Boxes::new(ends.iter().map(|&end| Extent::between(at(end), at(end)).grown(reach)).collect());
+        let rings = Boxes::new(self.rings.iter().map(|&ring| self.extent(ring)).collect());
         let mut feet = Vec::new();
         for &stroke in &self.rings {
             let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
             let line = Line::of(vertices, 0, Use::Unsaid);
             if line.size() <= SMALL_OUTLINE || boxes.near(line.extent).next().is_none() {
+                continue;
+            }
+            if line.is_rectangle(self.touch) && is_around(&rings, line.extent) {
                 continue;
             }
             let places = line.points(vertices);
@@ -54,7 +58,7 @@ impl Slits<'_> {
                 }
                 let [foot, tip] = [end, other(end)].map(|end| (at(end), polyline::distance(at(end), &places)));
                 let leads_in = foot.1 <= reach && tip.1 > foot.1.max(LEAST_DEPTH);
-                if leads_in && ring::contains(&places, tip.0) && !self.is_frame(stroke, &line) {
+                if leads_in && ring::contains(&places, tip.0) {
                     feet.push(end);
                 }
             }
@@ -64,17 +68,11 @@ impl Slits<'_> {
         feet
     }
 
-    /// Whether a closed stroke is a rectangle around others.
-    fn is_frame(&self, stroke: usize, line: &Line) -> bool {
-        let is_in = |&&other: &&usize| {
-            let vertices = &self.drawing.vertices[self.drawing.strokes[other].range()];
-            let extent = vertices.iter().fold(Extent::EMPTY, |mut extent, vertex| {
-                extent.add(vertex.at);
-                extent
-            });
-            other != stroke && line.extent.covers(&extent)
-        };
-        line.is_rectangle(self.touch) && self.rings.iter().filter(is_in).take(FRAMED).count() == FRAMED
+    fn extent(&self, stroke: usize) -> Extent {
+        self.drawing.vertices[self.drawing.strokes[stroke].range()].iter().fold(Extent::EMPTY, |mut extent, vertex| {
+            extent.add(vertex.at);
+            extent
+        })
     }
 
     /// Whether a slit ends where it meets others, given by their ends there.
@@ -111,4 +109,9 @@ impl Slits<'_> {
         let vertices = &self.drawing.vertices[self.drawing.strokes[end / 2].range()];
         polyline::length(&vertices.iter().map(|vertex| vertex.at).collect::<Vec<Point>>())
     }
+}
+
+/// Whether a rectangle, itself among some boxes, lies around so many others that it is a frame.
+fn is_around(boxes: &Boxes, rectangle: Extent) -> bool {
+    boxes.near(rectangle).filter(|&k| rectangle.covers(&boxes.all()[k])).take(1 + FRAMED).count() > FRAMED
 }

@@ -93,7 +93,7 @@ pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
         return Verdict { findings: vec![format], unread, ..Verdict::default() };
     }
     findings.push(format);
-    sort(&mut findings, RULES);
+    sort(&mut findings);
     Verdict { findings, uncut, ..Verdict::default() }
 }
 
@@ -115,6 +115,6 @@ pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     let untimed = |finding: &Finding| finding.rule.needs_time;
     let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
     let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();
-    sort(&mut findings, RULES);
+    sort(&mut findings);
     Verdict { findings, uncut, untimed: left.iter().map(|finding| finding.rule).collect(), ..Verdict::default() }
 }

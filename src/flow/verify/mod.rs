@@ -56,7 +56,7 @@ pub fn judge(plan: &str, (bytes, open): (Bytes, Open), ground: &Ground) -> io::R
         Err(Unread::Row(message)) => Some(message),
     };
     worst.see_under(&rules::FORMAT, f64::from(u8::from(unread.is_some())), 0.0, None);
-    Ok(Verdict { findings: worst.findings(RULES), unread, ..Verdict::default() })
+    Ok(Verdict { findings: worst.findings(), unread, ..Verdict::default() })
 }
 
 /// A plan with the programs of its heads.

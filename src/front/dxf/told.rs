@@ -122,13 +122,13 @@ pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     }
 }
 
-/// How much stands on the sheet around the drawing, and how much of it nobody sees.
+/// Warns of entities on the sheet around the drawing, and of cuts that nobody sees.
 pub(super) fn say_unseen(on_paper: Option<(usize, Span)>, hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
     say_on_paper(on_paper, out);
     say_hidden(hidden, out);
 }
 
-/// How much stands on the sheet around the drawing.
+/// Warns of entities on the sheet around the drawing.
 fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
     if let Some((count, span)) = on_paper {
         let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };

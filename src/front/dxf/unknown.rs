@@ -31,7 +31,7 @@ const OTHERS: [&str; 14] = [
 /// Letters of a key that a message shows.
 const SHOWN: usize = 30;
 
-/// What pieces say under a key: how many of them, the first place, and whether any of them is wanted otherwise than once.
+/// Uses of a key: the number of pieces that have it, the first place, and whether any piece is wanted otherwise than once.
 #[derive(Debug, Default)]
 struct Use {
     blocks: usize,

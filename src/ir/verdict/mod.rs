@@ -16,7 +16,7 @@ pub struct Rule {
     pub name: &'static str,
     /// Unit of its values, as it is shown; empty for counts.
     pub unit: &'static str,
-    /// What must hold.
+    /// The promise itself, in a sentence.
     pub about: &'static str,
     /// Why it matters, and what to do: a line a paragraph, an indented line an example.
     pub more: &'static str,
@@ -26,12 +26,14 @@ pub struct Rule {
     pub needs_cut: bool,
     /// The key of the profile that is its limit and nothing else.
     pub key: Option<&'static str>,
+    /// Its place in the table of its machine, from 0.
+    pub place: usize,
 }
 
 impl Rule {
     /// A rule without words, on every program: what a row of a table leaves out is this.
     pub const PLAIN: Self =
-        Self { name: "", unit: "", about: "", more: "", needs_time: false, needs_cut: false, key: None };
+        Self { name: "", unit: "", about: "", more: "", needs_time: false, needs_cut: false, key: None, place: 0 };
 }
 
 impl PartialEq for Rule {
@@ -51,8 +53,13 @@ impl fmt::Debug for Rule {
 /// Declares the rules of a machine, and the table of all of them in the order of reports.
 macro_rules! rules {
     ($($name:ident { $($field:ident: $value:expr),* })*) => {
-        $(pub(crate) static $name: $crate::ir::verdict::Rule =
-            $crate::ir::verdict::Rule { $($field: $value,)* ..$crate::ir::verdict::Rule::PLAIN };)*
+        /// Places in the table, by the names of the rules.
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
+        enum Place { $($name),* }
+
+        $(pub(crate) static $name: $crate::ir::verdict::Rule = $crate::ir::verdict::Rule {
+            place: Place::$name as usize, $($field: $value,)* ..$crate::ir::verdict::Rule::PLAIN
+        };)*
 
         /// Every rule, in the order of reports.
         pub static RULES: &[&$crate::ir::verdict::Rule] = &[$(&$name),*];
@@ -114,8 +121,8 @@ impl Sighting {
 pub struct Verdict {
     /// The worst value under each rule that says something, in the order of the table of the machine's rules.
     pub findings: Vec<Finding>,
-    /// What cannot be read, when something cannot: then nothing is said about what the program does, since all that
-    /// follows from a row that is missing would be wrong.
+    /// The row or the file that cannot be read, and why. Nothing else is judged then: all that follows from a missing row
+    /// would be wrong.
     pub unread: Option<String>,
     /// The pieces, by their place in the marker, of which the program cuts nothing although there is something to cut.
     pub uncut: Vec<u32>,
@@ -151,8 +158,7 @@ pub fn counts(findings: &[Finding]) -> (usize, usize) {
     (limited, findings.len() - limited)
 }
 
-/// Brings findings into the order of a table of rules.
-pub fn sort(findings: &mut [Finding], rules: &[&Rule]) {
-    let place = |finding: &Finding| rules.iter().position(|rule| *rule == finding.rule);
-    findings.sort_by_key(|finding| place(finding).expect("every rule stands in the table"));
+/// Brings findings of one machine into the order of its table of rules.
+pub fn sort(findings: &mut [Finding]) {
+    findings.sort_by_key(|finding| finding.rule.place);
 }

@@ -1,6 +1,6 @@
 //! The worst value under a rule, and where it was seen: of one rule, and of all rules of a machine.
 
-use super::{Finding, Rule, Sighting, sort};
+use super::{Finding, Rule, Sighting};
 
 /// Part of a value by which a later one must exceed it to be told in its place: of values that only rounding tells
 /// apart the first is the one to look at.
@@ -85,7 +85,7 @@ impl Worst {
         self.value
     }
 
-    /// What was seen.
+    /// The finding: the worst value, its limit and its place.
     pub fn finding(self) -> Finding {
         Finding {
             rule: self.rule,
@@ -97,12 +97,12 @@ impl Worst {
     }
 }
 
-/// How bad a value is against a limit: 1 = just allowed; any value is infinitely beyond a limit of nothing.
+/// Share of a limit that a value takes: 1 = just allowed; any value is infinitely beyond a limit of 0.
 fn badness(value: f64, limit: f64) -> f64 {
     if value > 0.0 { value / limit } else { 0.0 }
 }
 
-/// What values at places are compared by: part of the limit, or the value where there is none or any is infinitely beyond.
+/// Measure by which values at places are compared: the share of the limit, or the value where there is no limit or it is 0.
 fn weight(value: f64, limit: Option<f64>) -> f64 {
     limit.filter(|&limit| limit > 0.0).map_or(value, |limit| value / limit)
 }
@@ -115,45 +115,64 @@ fn or_infinite(value: f64) -> f64 {
 /// The worst under each rule of a machine of which anything was seen: of values with limits of their own the one that is
 /// farthest beyond its limit, or least below it.
 #[derive(Debug, Default)]
-pub struct WorstByRule(Vec<Finding>);
+pub struct WorstByRule {
+    /// By the places of the rules; `None` under one of which nothing was seen.
+    findings: Vec<Option<Finding>>,
+    /// Excess of each over its limit, or its value where it has none; not a number where there is none.
+    excess: Vec<f64>,
+}
 
 impl WorstByRule {
     /// Sees a value under a rule that only reports, or whose limit is set in its finding.
+    #[inline]
     pub fn see(&mut self, rule: &'static Rule, value: f64, place: impl Into<Option<Sighting>>) {
-        self.keep(Finding { rule, worst: value, limit: None, unit: rule.unit, place: place.into() });
+        self.keep(rule, value, None, place);
     }
 
     /// Sees a value under a rule, of which so much is allowed.
+    #[inline]
     pub fn see_under(&mut self, rule: &'static Rule, value: f64, limit: f64, place: impl Into<Option<Sighting>>) {
-        self.keep(Finding { rule, worst: value, limit: Some(limit), unit: rule.unit, place: place.into() });
+        self.keep(rule, value, Some(limit), place);
     }
 
     /// Adds to the count of what must not be.
     pub fn count(&mut self, rule: &'static Rule, number: usize, place: impl Into<Option<Sighting>>) {
-        let known = self.0.iter().find(|known| known.rule == rule).map_or(0.0, |known| known.worst);
+        let known = self.findings.get(rule.place).and_then(Option::as_ref).map_or(0.0, |known| known.worst);
         self.see_under(rule, known + number as f64, 0.0, place);
     }
 
     /// Sees all that was seen elsewhere, after what was seen here.
     pub fn merge(&mut self, later: Self) {
-        later.0.into_iter().for_each(|finding| self.keep(finding));
-    }
-
-    /// Keeps a finding that is worse than the one that is known; of findings alike the first.
-    fn keep(&mut self, mut seen: Finding) {
-        seen.worst = or_infinite(seen.worst);
-        let beyond = |finding: &Finding| finding.limit.map_or(finding.worst, |limit| finding.worst - limit);
-        match self.0.iter_mut().find(|known| known.rule == seen.rule) {
-            Some(known) if beyond(&seen) > beyond(known) => *known = seen,
-            Some(_) => {}
-            None => self.0.push(seen),
+        for Finding { rule, worst, limit, place, .. } in later.findings.into_iter().flatten() {
+            self.keep(rule, worst, limit, place);
         }
     }
 
+    /// Keeps a value that is worse than the one that is known; of values alike the first. Nearly all are no worse: no finding
+    /// is made of these.
+    #[inline]
+    fn keep(&mut self, rule: &'static Rule, value: f64, limit: Option<f64>, place: impl Into<Option<Sighting>>) {
+        let worst = or_infinite(value);
+        let excess = limit.map_or(worst, |limit| worst - limit);
+        if self.excess.get(rule.place).is_none_or(|&known| known.is_nan() || excess > known) {
+            self.put(Finding { rule, worst, limit, unit: rule.unit, place: place.into() }, excess);
+        }
+    }
+
+    /// Puts a finding in the place of its rule.
+    #[cold]
+    fn put(&mut self, finding: Finding, excess: f64) {
+        let place = finding.rule.place;
+        if self.findings.len() <= place {
+            self.findings.resize(place + 1, None);
+            self.excess.resize(place + 1, f64::NAN);
+        }
+        (self.findings[place], self.excess[place]) = (Some(finding), excess);
+    }
+
     /// A finding for each rule of which anything was seen, in the order of the table of rules; less than nothing is nothing.
-    pub fn findings(self, rules: &[&Rule]) -> Vec<Finding> {
-        let mut findings = self.0;
-        sort(&mut findings, rules);
+    pub fn findings(self) -> Vec<Finding> {
+        let mut findings: Vec<Finding> = self.findings.into_iter().flatten().collect();
         // Of a negative zero `max` may leave either.
         findings.iter_mut().filter(|finding| finding.worst <= 0.0).for_each(|finding| finding.worst = 0.0);
         findings
@@ -166,7 +185,7 @@ mod tests {
     use crate::geom::Point;
 
     static ONE: Rule = Rule { name: "verify/one", unit: "mm", ..Rule::PLAIN };
-    static OTHER: Rule = Rule { name: "verify/other", unit: "", ..Rule::PLAIN };
+    static OTHER: Rule = Rule { name: "verify/other", unit: "", place: 1, ..Rule::PLAIN };
 
     fn at(time: f64) -> Sighting {
         Sighting::at(time, Point::origin(), 0)
@@ -229,6 +248,7 @@ mod tests {
         assert_eq!((finding.worst, finding.limit), (0.3, Some(0.0)));
         assert_eq!(finding.place.and_then(|place| place.time), Some(2.0));
     }
+
     #[test]
     fn under_each_rule_the_value_that_is_farthest_beyond_its_limit_is_told_in_the_order_of_the_table() {
         let mut worst = WorstByRule::default();
@@ -238,7 +258,7 @@ mod tests {
         let mut later = WorstByRule::default();
         later.see(&ONE, -1.0, None);
         worst.merge(later);
-        let findings = worst.findings(&[&ONE, &OTHER]);
+        let findings = worst.findings();
         let told = |finding: &Finding| (finding.worst, finding.limit, finding.place.and_then(|place| place.time));
         assert_eq!(findings.iter().map(told).collect::<Vec<_>>(), [(0.0, None, None), (2.0, Some(3.0), Some(1.0))]);
         assert_eq!(findings[1].rule, &OTHER);
@@ -251,8 +271,8 @@ mod tests {
             worst.count(&ONE, number, at(time));
         }
         worst.see_under(&OTHER, f64::NAN, 0.0, None);
-        let findings = worst.findings(&[&OTHER, &ONE]);
-        assert_eq!(findings.iter().map(|finding| finding.worst).collect::<Vec<_>>(), [f64::INFINITY, 3.0]);
-        assert_eq!(findings[1].place, Some(at(2.0)));
+        let findings = worst.findings();
+        assert_eq!(findings.iter().map(|finding| finding.worst).collect::<Vec<_>>(), [3.0, f64::INFINITY]);
+        assert_eq!(findings[0].place, Some(at(2.0)));
     }
 }

@@ -18,7 +18,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "hpgl.unit", takes: Takes::Length(from(LEAST_UNIT_MM, GREATEST_UNIT_MM)), about: "Unit of the numbers in plots, mm. Plotters count 1/40 mm; other programs write 0.0254, 0.1, 0.01\nor the dots of a printer. The extent is always printed: compare it with the cloth." },
     Key { name: "hpgl.drill_max_mm", takes: Takes::NumberOr(from(0.0, 1000.0), Off::WORD), about: "Closed squares and circles of a plot up to this size are holes to drill; \"off\" = none is." },
     Key { name: "hpgl.inner", takes: Takes::Word(words::<Inner>), about: "Which closed lines inside parts are cut: \"ignore\" = none, but those of a pen that is a knife;\n\"cut\" = all that are no seam lines and take no more than half of their part;\n\"all\" = seam lines, too." },
-    Key { name: "hpgl.frame", takes: Takes::Word(words::<Frame>), about: "Whether a frame is drawn around the parts: \"auto\" = a rectangle around two parts or more is one;\n\"none\" = there is none; \"outermost\" = the largest closed line is one." },
+    Key { name: "hpgl.frame", takes: Takes::Word(words::<Frame>), about: "Whether a frame is drawn around the parts: \"auto\" = a rectangle around two parts or more is one;\n\"none\" = there is none; \"outermost\" = the largest closed line is one, and so is each\nrectangle beside it around two lines or more." },
     Key { name: "hpgl.pens.<pen>", takes: Takes::Word(words::<PenUse>), about: "What a pen of a plot stands for: its outermost and inner lines are cut (\"knife\"), its lines are\ndrawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Of pens without a\nkey shapes decide." },
 ];
 
@@ -93,7 +93,7 @@ pub enum Frame {
     Auto,
     /// There is none.
     None,
-    /// The largest closed line is one, whatever its shape.
+    /// The largest closed line is one, whatever its shape, and so is each rectangle beside it around two lines or more.
     Outermost,
 }
 

@@ -64,6 +64,9 @@ fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
     let mut extent = Extent::EMPTY;
     for (_, contour) in marker.contours() {
         extent.join(&Extent::of(&marker.list.points(contour.range)));
+        if !extent.is_empty() && extent.size().0.max(extent.size().1) >= LEAST_PART {
+            return; // as nearly all
+        }
     }
     let (length, width) = if extent.is_empty() { return } else { extent.size() };
     let size = format!("{} x {} mm", number::fixed(length, 1), number::fixed(width, 1));
@@ -79,7 +82,8 @@ fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Which open contours of a file with a grid have both ends beside an end of another one and not at it; says so, once.
+/// Marks the open contours of a file with a grid of which both ends lie beside an end of another one and not at it; warns of
+/// them once.
 fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnostics) -> Vec<bool> {
     let reach = MISSES * marker.unit;
     let ends =

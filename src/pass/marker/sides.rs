@@ -8,7 +8,7 @@ use crate::geom::{Point, ring};
 use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::{Contour, Piece};
 
-/// How far ends may be apart that one place was rounded to, in units of the file: a unit along X and along Y.
+/// Greatest distance of two ends to which one place was rounded, in units of the file: a unit along X and along Y.
 const APART: f64 = std::f64::consts::SQRT_2 + 1e-6;
 
 /// Joins open contours of a piece that make a ring, each of which starts beside the end of the one before. A start that lies
@@ -19,8 +19,7 @@ pub(super) fn join(list: &mut SegmentList, piece: &mut Piece, unit: f64, seam: f
     let ends: Vec<[Point; 2]> = open.iter().map(|&k| list.ends_of(piece.contours[k].range)).collect();
     let next = successors(&ends, reach);
     let mut is_taken = vec![false; piece.contours.len()];
-    for first in 0..open.len() {
-        let Some(cycle) = cycle(&next, first) else { continue };
+    for cycle in cycles(&next) {
         let ranges: Vec<Range> = cycle.iter().map(|&k| piece.contours[open[k]].range).collect();
         let places = || ranges.iter().flat_map(|range| list.points(*range).to_vec());
         let (places, length): (Vec<Point>, f64) =
@@ -29,7 +28,7 @@ pub(super) fn join(list: &mut SegmentList, piece: &mut Piece, unit: f64, seam: f
         if ring::area(&places).abs() <= reach * length {
             continue;
         }
-        piece.contours[open[first]] = Contour { range: joined(list, ranges, seam), closed: true };
+        piece.contours[open[cycle[0]]] = Contour { range: joined(list, ranges, seam), closed: true };
         cycle[1..].iter().for_each(|&k| is_taken[open[k]] = true);
     }
     let mut taken = is_taken.into_iter();
@@ -53,17 +52,21 @@ fn successors(ends: &[[Point; 2]], reach: f64) -> Vec<Option<usize>> {
     next.iter().enumerate().map(|(k, next)| next.filter(|&next| next != k && count[next] == 1)).collect()
 }
 
-/// The contours of the ring that begins with one, if that is the first of it.
-fn cycle(next: &[Option<usize>], first: usize) -> Option<Vec<usize>> {
-    let mut cycle = vec![first];
-    loop {
-        let k = next[cycle[cycle.len() - 1]]?;
-        match k {
-            _ if k == first => return Some(cycle),
-            _ if k < first || cycle.len() > next.len() => return None,
-            _ => cycle.push(k),
+/// The rings among contours, each from its first one on. None follows two, so every way ends or comes back to its start.
+fn cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+    let mut is_seen = vec![false; next.len()];
+    let mut cycles = Vec::new();
+    for first in 0..next.len() {
+        let mut cycle = Vec::new();
+        let mut at = Some(first);
+        while let Some(k) = at.filter(|&k| !is_seen[k]) {
+            is_seen[k] = true;
+            cycle.push(k);
+            at = next[k];
         }
+        cycles.extend((!cycle.is_empty() && at == Some(first)).then_some(cycle));
     }
+    cycles
 }
 
 /// One range of several that make a ring, the ends of which are moved to the middles between them.

@@ -12,7 +12,7 @@ use crate::machine::Fit;
 /// Least sine of the angle between a slit and its edge: flatter ones would need a reach without bound.
 const LEAST_SINE: f64 = 0.4;
 
-/// How far a slit of a part goes past its root along a unit vector, mm. A root on no edge that is cut with its own part lies on
+/// Length by which a slit of a part goes past its root along a unit vector, mm. A root on no edge that is cut with its own part lies on
 /// a neighbour's, of which the greatest sagitta is assumed.
 pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene: &Scene) -> f64 {
     let profile = &scene.job.profile;

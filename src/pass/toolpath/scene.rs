@@ -13,7 +13,7 @@ pub struct Scene<'a> {
     pub job: &'a Job,
     /// The parts.
     pub cloth: Cloth<'a>,
-    /// What is cut of them.
+    /// The marker, which holds the cuts as they are drawn.
     pub(super) marker: &'a Marker,
     /// The edges beside which another part's run.
     pub(super) near: NearLines<'a>,

@@ -67,6 +67,6 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
     };
     worst.see(&rules::FORMAT, f64::from(u8::from(unread.is_some())), None);
     let limited = |finding: Finding| Finding { limit: Some(rules::limit(finding.rule, ground.sewing)), ..finding };
-    let findings = worst.findings(RULES).into_iter().map(limited).collect();
+    let findings = worst.findings().into_iter().map(limited).collect();
     Ok(Verdict { findings, unread, ..Verdict::default() })
 }

@@ -38,5 +38,5 @@ pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<
         }
         Err(unread) => Some(unread),
     };
-    Ok(Verdict { findings: worst.findings(RULES), unread, ..Verdict::default() })
+    Ok(Verdict { findings: worst.findings(), unread, ..Verdict::default() })
 }

@@ -89,7 +89,7 @@ impl Worsts {
         }
     }
 
-    /// What was seen.
+    /// The finding under each rule.
     pub(in crate::verify) fn findings(self) -> impl Iterator<Item = Finding> {
         self.all().into_iter().map(Worst::finding)
     }

@@ -81,7 +81,7 @@ impl Chord {
         [self.from, self.from + way / 2.0 + self.sagitta, self.from + way]
     }
 
-    /// How far the curve that it stands for lies beside it at the most, mm.
+    /// Sagitta of the curve that it stands for, mm.
     pub(in crate::verify) fn sagitta(&self) -> f64 {
         self.sagitta.norm()
     }

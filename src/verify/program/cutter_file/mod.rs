@@ -54,6 +54,6 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
         }
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
-    sort(&mut findings, rules::RULES);
+    sort(&mut findings);
     Verdict { findings, ..Verdict::default() }
 }

@@ -156,7 +156,7 @@ impl<'a> Item<'a> {
     }
 }
 
-/// What stands before and behind the colon of a line: a wide one, in UTF-8 or a code page, behind a key, else the first.
+/// The two sides of the colon of a line: a wide one, in UTF-8 or a code page, behind a key, else the first.
 fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> {
     for at in 0..line.len() {
         let (name, rest) = line.split_at(at);

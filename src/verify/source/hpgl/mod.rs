@@ -2,9 +2,8 @@
 //!
 //! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together
 //! must be what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges
-//! by the same strokes whether the right lines are cut, `around` whether others go around these, `cloth` whether the edge
-//! of the cloth is cut, `rectangle` finds the edges
-//! of the cloth among them, `slits` the slits.
+//! by the same strokes whether the right lines are cut: `around` whether others go around these, `cloth` whether the edge of
+//! the cloth is cut, whose rectangles `rectangle` finds, `slits` whether slits are lost.
 
 mod around;
 mod cloth;

@@ -139,7 +139,7 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Where the edge of the cloth is cut, or a line outside it. Nobody has said which lines these are.
+    /// Places where the edge of the cloth is cut, or a line outside it. Nobody has said which lines these are.
     fn about_the_cloth(&self) -> Vec<Point> {
         let Job { lines, profile, .. } = self.job;
         if lines.all || profile.hpgl.frame != Frame::Auto {
@@ -304,7 +304,7 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Where a slit that is drawn by itself is not cut, or a sign at an edge is.
+    /// Tips of slits that are drawn by themselves and are not cut, and of signs at an edge that are.
     fn slits(&self) -> Vec<Point> {
         if self.job.lines.all {
             return Vec::new();
@@ -316,7 +316,7 @@ impl<'a> Judging<'a> {
         ends.extend(&self.cuts.legs);
         ends.sort_by(|a, b| a[0].x.total_cmp(&b[0].x));
         for outline in self.drawn.iter().filter(|stroke| goes_around(stroke) && gap(stroke) <= LEAST_OFF) {
-            let Some(edge) = self.part_of(outline) else { continue };
+            let Some(edge) = self.part_of(outline, &strokes) else { continue };
             let is_lost = |[foot, tip]: &[Point; 2]| {
                 !is_among(&ends, [*foot, *tip])
                     && !is_among(&ends, [*tip, *foot])
@@ -330,7 +330,7 @@ impl<'a> Judging<'a> {
     }
 
     /// The cut that an outline is, if that lies in no other and is no rectangle around others.
-    fn part_of(&self, outline: &[Point]) -> Option<&Vec<Point>> {
+    fn part_of(&self, outline: &[Point], strokes: &slits::Strokes) -> Option<&Vec<Point>> {
         let (extent, reach) = (Extent::of(outline), self.reach());
         let is_same = |&k: &usize| {
             let other = self.boxes.all()[k];
@@ -338,8 +338,7 @@ impl<'a> Judging<'a> {
         };
         let cut = self.boxes.near(extent).find(is_same).map(|k| &self.cuts.contours[k])?;
         let is_outer = |k: usize| self.boxes.all()[k].grown(reach).covers(&extent);
-        let is_in = |stroke: &&Vec<Point>| goes_around(stroke) && extent.covers(&Extent::of(stroke));
-        let is_frame = || is_own_box(outline) && self.drawn.iter().filter(is_in).count() > MOST_IN_A_PART;
+        let is_frame = || is_own_box(outline) && strokes.has_more_in(extent, MOST_IN_A_PART, goes_around);
         let is_one = self.boxes.near(extent).filter(|&k| is_outer(k)).count() == 1;
         (is_one && cut.len() > 3 && !is_frame()).then_some(cut)
     }

@@ -6,7 +6,7 @@ use crate::geom::{Extent, Point, cross, polyline};
 
 /// Lengths of slits that are looked at, mm.
 const LENGTH: [f64; 2] = [1.5, 14.5];
-/// How near to the edge a slit begins, and how far from it its tip is at the least, mm.
+/// Greatest distance of the foot of a slit from the edge, and least distance of its tip, mm.
 const FOOT: f64 = 0.05;
 const DEPTH: f64 = 1.2;
 /// Ends of strokes that meet lie so near to each other, mm.
@@ -14,7 +14,7 @@ const MEET: f64 = 0.25;
 /// Shares of two strokes at which they may make a cross where they cross, and those at which they surely do.
 const MAY_CROSS: [f64; 2] = [0.15, 0.85];
 const CROSS: [f64; 2] = [0.42, 0.58];
-/// How many times longer one stroke of a sign may be, and one that surely is.
+/// Greatest ratio of the lengths of two strokes that may be a sign, and of two that surely are.
 const MAY_BE_LONGER: f64 = 1.3;
 const LONGER: f64 = 1.2;
 /// Angle between a barb of an arrow and its stem, rad; how far one differs from the other.
@@ -47,9 +47,23 @@ impl<'a> Strokes<'a> {
         let is_slit = |stroke: &&Vec<Point>| stroke.len() == 2 && (LENGTH[0]..=LENGTH[1]).contains(&length(stroke));
         let strokes = self.boxes.near(around).map(|k| &self.all[k]).filter(is_slit);
         let leads = strokes.flat_map(|stroke| [[stroke[0], stroke[1]], [stroke[1], stroke[0]]]);
-        let stands = leads
-            .filter(|[foot, tip]| polyline::distance(*foot, edge) <= FOOT && polyline::distance(*tip, edge) >= DEPTH);
+        let leads: Vec<[Point; 2]> = leads.collect();
+        if leads.is_empty() {
+            return Vec::new(); // as around most parts
+        }
+        let chords = Boxes::new(edge.windows(2).map(|ends| Extent::between(ends[0], ends[1])).collect());
+        let is_within = |at: Point, reach: f64| {
+            let mut near = chords.near(Extent::between(at, at).grown(reach));
+            near.any(|k| polyline::distance_to_segment(at, edge[k], edge[k + 1]) <= reach)
+        };
+        let stands = leads.into_iter().filter(|[foot, tip]| is_within(*foot, FOOT) && !is_within(*tip, DEPTH));
         stands.filter(|slit| self.is_alone(*slit)).collect()
+    }
+
+    /// Whether more strokes than so many that go around something lie in a box.
+    pub(super) fn has_more_in(&self, extent: Extent, most: usize, goes_around: impl Fn(&[Point]) -> bool) -> bool {
+        let is_in = |k: &usize| extent.grown(MEET).covers(&self.boxes.all()[*k]) && goes_around(&self.all[*k]);
+        self.boxes.near(extent).filter(is_in).take(most + 1).count() > most
     }
 
     fn is_alone(&self, slit: [Point; 2]) -> bool {
@@ -112,7 +126,7 @@ fn are_alike(a: f64, b: f64, ratio: f64) -> bool {
     a.max(b) <= ratio * a.min(b)
 }
 
-/// Where two straight strokes cross, as shares of their lengths.
+/// The crossing of two straight strokes, as shares of their lengths.
 fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<[f64; 2]> {
     let (one, other) = (b - a, d - c);
     let turn = cross(one, other);
