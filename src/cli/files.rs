@@ -137,6 +137,14 @@ pub(super) fn meta(program: &Path) -> PathBuf {
     with_end(program, META)
 }
 
+/// The name of the plan of heads over a conveyor in its folder.
+pub(super) const PLAN: &str = "plan.json";
+
+/// Whether a file is a plan by its name.
+pub(super) fn is_plan(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name == PLAN)
+}
+
 /// Whether a file is a provenance by its name.
 pub(super) fn is_meta(path: &Path) -> bool {
     path.to_string_lossy().ends_with(META)

@@ -94,7 +94,11 @@ impl Named {
 struct Where {
     /// Null for what is missing from the program.
     time_s: Option<f64>,
-    /// The line of the program, from 1, or the record, from 0, where it has no lines; null for what is on none.
+    /// The head, from 1; not there where a program has no heads.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    head: Option<u32>,
+    /// The line of the program, from 1, or the record, from 0, where it has no lines; the row, from 1, of a head; null for
+    /// what is on none.
     line: Option<u64>,
     x_mm: f64,
     y_mm: f64,
@@ -127,6 +131,7 @@ impl Judged {
             unit: finding.unit,
             r#where: finding.place.map(|place| Where {
                 time_s: place.time.map(|time| pipeline::significant(time, DIGITS)),
+                head: Some(place.head).filter(|&head| head > 0),
                 line: place.line,
                 x_mm: pipeline::significant(place.point.x, DIGITS),
                 y_mm: pipeline::significant(place.point.y, DIGITS),
@@ -221,8 +226,9 @@ fn explain(rule: &Rule, told: &Told, out: &mut String) {
         lines.push(format!("the place: {piece}"));
     }
     match &told.line {
-        Some(Line { number, text: Some(text) }) => lines.push(format!("line {number} of the program: {text}")),
-        Some(Line { number, text: None }) => lines.push(format!("record {number} of the program")),
+        Some(Line { head: head @ 1.., number, .. }) => lines.push(format!("row {number} of head {head}")),
+        Some(Line { number, text: Some(text), .. }) => lines.push(format!("line {number} of the program: {text}")),
+        Some(Line { number, text: None, .. }) => lines.push(format!("record {number} of the program")),
         None => {}
     }
     lines.push(format!("what to do: {}", rule.more));
@@ -288,7 +294,7 @@ mod tests {
         let front = || PieceName { number: 4, copy: 0, label: Some("FRONT".to_owned()) };
         let text = Some("12.345,1695.377,20.000,0.000,1,0,0,268".to_owned());
         let told = vec![
-            Told { piece: Some(front()), uncut: Vec::new(), line: Some(Line { number: 12_347, text }) },
+            Told { piece: Some(front()), uncut: Vec::new(), line: Some(Line { head: 0, number: 12_347, text }) },
             Told { piece: None, uncut: vec![front()], line: None },
         ];
         Explained { verdict, told }

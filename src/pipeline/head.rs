@@ -5,7 +5,7 @@ use std::io::{self, BufReader, BufWriter, Cursor, Write};
 use super::input::{Input, Judged, read, read_to_judge};
 use super::product::{BLOCK, Medium, Product};
 use super::report::{self, Axes, Report};
-use super::told::{Explained, told};
+use super::told::{Explained, quote, told};
 use super::{judge, place};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
@@ -137,6 +137,7 @@ pub(super) fn judge_program(
     }
     let audit = judge::audited(source, input.dialect, reading, job);
     let verdict = judged(program, &input, job, audit)?;
-    let told = told(&verdict, &input.marker, source, job, program)?;
+    let mut told = told(&verdict, &input.marker, source, job);
+    quote(&mut told, program)?;
     Ok(Some(Explained { verdict, told }))
 }

@@ -7,7 +7,7 @@ use super::input::{Judged, Reading, make_cuts, read_to_judge};
 use super::off_table;
 use super::product::{BLOCK, Medium};
 use super::rounded::significant;
-use super::told::{Explained, told};
+use super::told::{Explained, quote, told};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -57,7 +57,8 @@ pub(super) fn judge_program(
     let audit = audited(source, input.dialect, reading, job);
     let marker = &input.marker;
     let verdict = judge(Asked { source, marker, ground: None, declared, job }, &audit, program)?;
-    let told = told(&verdict, marker, source, job, program)?;
+    let mut told = told(&verdict, marker, source, job);
+    quote(&mut told, program)?;
     Ok(Some(Explained { verdict, told }))
 }
 
@@ -140,7 +141,7 @@ fn uncut(marker: &Marker, mode: Mode) -> Marker {
 }
 
 /// The verdict on two programs of one compile: of each rule the finding that is worse, the first of two that are alike.
-pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
+pub fn both(first: Verdict, second: Verdict) -> Verdict {
     let mut findings = first.findings;
     for finding in second.findings {
         match findings.iter_mut().find(|known| known.rule == finding.rule) {

@@ -26,13 +26,13 @@ pub use self::advance::Advance;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{audited, figures, foreign};
+pub use judge::{audited, both, figures, foreign};
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
 pub use savings::Savings;
 pub use spent::{Spent, word};
-pub use told::{Explained, Line, Told};
+pub use told::{Explained, Line, Told, told};
 
 pub use crate::ir::verdict::Verdict;
 pub use crate::spray::{Edge, Piece};

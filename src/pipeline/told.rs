@@ -48,42 +48,39 @@ pub struct Told {
 /// A line of a program.
 #[derive(Debug)]
 pub struct Line {
-    /// Its number, the first being 1; of a program without lines its record, the first being 0.
+    /// The head that it is of, from 1, where a program has several; else 0.
+    pub head: u32,
+    /// Its number, the first being 1; of a program without lines its record, the first being 0; of a head its row, from 1.
     pub number: u64,
     /// What stands there; `None` where the program has no lines.
     pub text: Option<String>,
 }
 
-/// Tells of each rule that a program breaks.
-pub(super) fn told(
-    verdict: &Verdict,
-    marker: &Marker,
-    source: &Source,
-    job: &Job,
-    program: &mut dyn Medium,
-) -> io::Result<Vec<Told>> {
+/// Tells of each rule that a program breaks; no line is quoted yet.
+pub fn told(verdict: &Verdict, marker: &Marker, source: &Source, job: &Job) -> Vec<Told> {
     let letters = marker.letters(&job.profile.labels);
     let named = |piece: &Piece| name(piece, source, letters);
     let tell = |finding: &Finding| {
         let place = finding.place?;
         let uncut = if finding.rule == &rules::COMPLETE { &verdict.uncut[..] } else { &[] };
-        let line = place.line.map(|number| Line { number, text: None });
+        let line = place.line.map(|number| Line { head: place.head, number, text: None });
         let uncut = uncut.iter().map(|&piece| named(&marker.pieces[piece as usize])).collect();
         Some(Told { piece: piece_of(marker, place.block, place.point).map(named), uncut, line })
     };
-    let mut told: Vec<Told> = verdict.broken().map(|finding| tell(finding).unwrap_or_default()).collect();
+    verdict.broken().map(|finding| tell(finding).unwrap_or_default()).collect()
+}
+
+/// Quotes the lines of a program of which something is told.
+pub(super) fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
     let mut lines: Vec<&mut Line> = told.iter_mut().filter_map(|told| told.line.as_mut()).collect();
     lines.sort_by_key(|line| line.number);
     program.rewind()?;
     let mut program = BufReader::with_capacity(BLOCK, program);
-    if verify::has_lines(&mut program) {
-        quote(&mut program, &mut lines)?;
-    }
-    Ok(told)
+    if verify::has_lines(&mut program) { quote_lines(&mut program, &mut lines) } else { Ok(()) }
 }
 
 /// Reads what stands on some lines, in their order.
-fn quote(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result<()> {
+fn quote_lines(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result<()> {
     let (mut text, mut read) = (Vec::new(), 0);
     for line in lines {
         while read < line.number {

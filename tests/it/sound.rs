@@ -8,19 +8,21 @@ use crate::support::room::{DONE, Room};
 
 /// Drawings of `fixtures/sound` with the settings or options under which they were refused, and the habit that each shows.
 const DRAWINGS: &[(&str, &str)] = &[
-    ("barbs.cut", LONG_OVERLAPS),           // a long overlap along an edge and through a barb
-    ("bay.cut", ""),                        // a bay narrower than the blade
-    ("bends.cut", "knife.max_down_mm=100"), // a lift in a bend that is followed
-    ("castles.cut", NO_OVERLAPS),           // overlaps of one tolerance, written with six decimals
-    ("deep-end.cut", "path.tolerance_mm=0.02"), // a blade that is deepest in the part before its end
-    ("dense-blob.cut", ""),                 // points as near as their rounding
-    ("dense-hole.cut", ""),                 // the same around a hole narrower than the blade
-    ("dense-ring.cut", LONG_OVERLAPS),      // a ring that is longer than the way along it
-    ("flat-ellipse.cut", ""),               // the end of a cut in a tight curve
-    ("inch-hole.cut", ""),                  // a ring whose end must run over its start
-    ("inch-nest.cut", ""),                  // two cuts that end at one corner and go on the same way
-    ("lifted-bends.cut", "knife.max_down_mm=60"), // a lift over one bend of a coarse circle
-    ("lifted-blob.cut", "knife.max_down_mm=38"), // lifts right before bends
+    ("along-edge.plt", "--cut-all --target=gcode"), // a slit that lies along an edge, which arcs bow away from
+    ("barbs.cut", LONG_OVERLAPS),                   // a long overlap along an edge and through a barb
+    ("bay.cut", ""),                                // a bay narrower than the blade
+    ("bends.cut", "knife.max_down_mm=100"),         // a lift in a bend that is followed
+    ("castles.cut", NO_OVERLAPS),                   // overlaps of one tolerance, written with six decimals
+    ("corner-on-edge.plt", "--cut-all"),            // a corner on an edge that it leaves by 7 degrees
+    ("deep-end.cut", "path.tolerance_mm=0.02"),     // a blade that is deepest in the part before its end
+    ("dense-blob.cut", ""),                         // points as near as their rounding
+    ("dense-hole.cut", ""),                         // the same around a hole narrower than the blade
+    ("dense-ring.cut", LONG_OVERLAPS),              // a ring that is longer than the way along it
+    ("flat-ellipse.cut", ""),                       // the end of a cut in a tight curve
+    ("inch-hole.cut", ""),                          // a ring whose end must run over its start
+    ("inch-nest.cut", ""),                          // two cuts that end at one corner and go on the same way
+    ("lifted-bends.cut", "knife.max_down_mm=60"),   // a lift over one bend of a coarse circle
+    ("lifted-blob.cut", "knife.max_down_mm=38"),    // lifts right before bends
     ("lifted-coarse.csv", "knife.width_mm=3 knife.back_mm=1.5 knife.max_down_mm=30"), // lifts on chords that stand for a curve
     ("lifted-ring.cut", "knife.max_down_mm=30"),                                      // lifts amid a ring
     ("lifted-slit.csv", "knife.max_down_mm=10"), // a slit that ends on a curve where the blade is plunged
@@ -62,8 +64,9 @@ fn every_sound_drawing_has_a_program_that_is_verified() {
         room.write(name, &std::fs::read(folder.join(name)).expect("readable"));
         let argument = |word: &str| if word.starts_with("--") { format!(" {word}") } else { format!(" --set {word}") };
         let settings: String = settings.split_whitespace().map(argument).collect();
-        room.expect(&format!("compile {name} -o program.csv{settings}"), DONE);
-        let said = room.text("program.csv.meta.json");
+        let program = if settings.contains("gcode") { "program.ngc" } else { "program.csv" };
+        room.expect(&format!("compile {name} -o {program}{settings}"), DONE);
+        let said = room.text(&format!("{program}.meta.json"));
         assert!(said.contains("\"verified\": \"yes\""), "{name}: {said}");
     });
 }

@@ -7,7 +7,7 @@ use fast_glob::glob_match;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::back::{Proof, TARGETS};
-use crate::cli::files::{STDIN, is_dash, is_meta, meta};
+use crate::cli::files::{PLAN, STDIN, is_dash, is_meta, is_plan, meta};
 use crate::cli::finished::failure;
 use crate::cli::provenance;
 use crate::front::DIALECTS;
@@ -79,8 +79,11 @@ pub(in crate::cli) fn find(
 /// Finds the programs that some arguments mean: in folders those whose provenance names a target that is judged, or that have
 /// none and the extension of one; by a pattern all but provenances and what is made by other targets.
 pub(in crate::cli) fn find_programs(arguments: &[PathBuf]) -> anyhow::Result<Inputs> {
-    let belongs = |path: &Path| provenance::is_judged(path).unwrap_or_else(|| is_named_as_program(path));
-    let may = |path: &Path| provenance::is_judged(path) != Some(false) && !is_meta(path);
+    let is_judged = |path: &Path| if is_plan(path) { Some(true) } else { provenance::is_judged(path) };
+    // The programs of heads are judged with the plan that names them.
+    let is_of_plan = |path: &Path| path.with_file_name(PLAN).is_file() && !is_plan(path) && !meta(path).is_file();
+    let belongs = |path: &Path| is_judged(path).unwrap_or_else(|| is_named_as_program(path) && !is_of_plan(path));
+    let may = |path: &Path| is_judged(path) != Some(false) && !is_meta(path) && !is_of_plan(path);
     let hint = "programs are told by the `.meta.json` beside them; name others by a pattern, as in `'out/**/*.csv'`";
     find_sought(arguments, Sought { belongs: &belongs, may: &may, hint })
 }

@@ -3,11 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::files;
+use crate::cli::files::{self, PLAN};
 use crate::cli::finished::say;
-
-/// The name of a plan in its folder.
-pub(super) const PLAN: &str = "plan.json";
 
 /// Moves plan and programs of an earlier plan in a folder aside, but for those of some names, and says so.
 pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {
@@ -41,7 +38,7 @@ pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {
     said
 }
 
-/// The files that a plan names: plain names only.
+/// The files that a plan names in its folder.
 fn programs(plan: &Path) -> Vec<String> {
     let text = fs::read(plan).unwrap_or_default();
     let plan: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
@@ -49,5 +46,10 @@ fn programs(plan: &Path) -> Vec<String> {
     let files = heads.flat_map(|head| head["files"].as_array().into_iter().flatten());
     let files = files.chain(plan["pictures"].as_array().into_iter().flatten());
     let names = files.filter_map(|file| file["file"].as_str());
-    names.filter(|name| Path::new(name).file_name().is_some_and(|own| own == *name)).map(str::to_owned).collect()
+    names.filter(|name| is_plain(name)).map(str::to_owned).collect()
+}
+
+/// Whether a name is that of a file in the folder of its plan, and in none beside it.
+pub(super) fn is_plain(name: &str) -> bool {
+    Path::new(name).file_name().is_some_and(|own| own == name)
 }

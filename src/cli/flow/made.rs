@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::earlier::{self, PLAN};
+use super::earlier;
 use crate::cli::draft::{self, Draft};
-use crate::cli::files;
+use crate::cli::files::{self, PLAN};
 use crate::cli::finished::failure;
 use crate::cli::options::typed;
 use crate::cli::provenance::{CentreFile, path_of};
@@ -23,7 +23,7 @@ use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
 
 /// Bytes that are written and read at a time.
-const BLOCK_BYTES: usize = 1 << 17;
+pub(super) const BLOCK_BYTES: usize = 1 << 17;
 
 /// What is to be written.
 pub(super) struct Made<'a> {
@@ -132,10 +132,7 @@ impl Made<'_> {
             Ok(Box::new(BufReader::with_capacity(BLOCK_BYTES, file.try_clone()?)))
         };
         let judged = verify::judge(plan, (bytes, &open), &ground);
-        let mut verdict = judged.map_err(|error| {
-            let hint = "the disk may fail, or something takes files away while they are written";
-            failure(format!("the programs cannot be read back: {}", files::reason(&error)), hint)
-        })?;
+        let mut verdict = judged.map_err(|error| cannot_read_back(&error))?;
         verdict.findings.extend_from_slice(self.audit);
         Ok(verdict)
     }
@@ -165,6 +162,12 @@ impl Made<'_> {
         written.map_err(|error| files::cannot_write(&path, &error))?;
         Ok(meta)
     }
+}
+
+/// The failure of programs whose bytes cannot be had.
+pub(super) fn cannot_read_back(error: &io::Error) -> anyhow::Error {
+    let hint = "the disk may fail, or something took files away that the plan names";
+    failure(format!("the programs cannot be read back: {}", files::reason(error)), hint)
 }
 
 /// Writes a file as a draft.

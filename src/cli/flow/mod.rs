@@ -2,24 +2,26 @@
 
 mod arguments;
 mod earlier;
+mod judged;
 mod made;
 mod summary;
 
 pub(super) use arguments::Arguments;
+pub(super) use judged::{doubts, judge};
 
 use std::sync::Arc;
 
-use self::earlier::PLAN;
 use self::made::Made;
 use super::choices::Format;
 use super::destination::{not_of_another, writable};
 use super::draft::MadeFolders;
-use super::files;
+use super::files::{self, PLAN};
 use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 use super::options::counted;
 use super::report;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::flow::{self, Program, Speed, TARGETS, Target};
+use crate::front::Dialect;
 use crate::ir::{Finding, Marker};
 use crate::machine::{Centre, Job, Mode, ToolKind};
 use crate::pipeline::{self, Judged};
@@ -45,19 +47,8 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             return Ok(refused);
         }
     };
-    if job.mode != Mode::Cut {
-        return Err(failure(
-            "heads over a conveyor have no dry run and no frame",
-            "leave `--dry-run` and `--frame` out",
-        ));
-    }
-    if job.profile.tool.kind == ToolKind::Spray {
-        return Err(failure(
-            "`tool.kind` is \"spray\", and heads over a conveyor follow lines with a tool that touches the cloth",
-            "take a profile of another tool, or `cutc compile` for the spray head",
-        ));
-    }
-    let job = on_cloth(job, arguments, &source);
+    refuse_others(&job)?;
+    let job = on_cloth(job, arguments.reading.from, &source);
     let _made = MadeFolders::of([plan.as_path()])?;
     let mut diagnostics = Diagnostics::default();
     let Some(Planned { marker, program, audit }) = planned(arguments, &source, &job, &mut diagnostics) else {
@@ -81,6 +72,23 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         Format::Text => summary::text(&source, &figures, arguments.messages.quiet),
     };
     Ok(Finished { stdout: Stdout::Text(stdout), stderr: said, code: DONE })
+}
+
+/// Refuses a job that is none of heads over a conveyor.
+fn refuse_others(job: &Job) -> anyhow::Result<()> {
+    if job.mode != Mode::Cut {
+        return Err(failure(
+            "heads over a conveyor have no dry run and no frame",
+            "leave `--dry-run` and `--frame` out",
+        ));
+    }
+    if job.profile.tool.kind == ToolKind::Spray {
+        return Err(failure(
+            "`tool.kind` is \"spray\", and heads over a conveyor follow lines with a tool that touches the cloth",
+            "take a profile of another tool, or `cutc compile` for the spray head",
+        ));
+    }
+    Ok(())
 }
 
 /// What is written: what was typed, else the default.
@@ -111,11 +119,11 @@ fn planned(arguments: &Arguments, source: &Source, job: &Job, out: &mut Diagnost
 }
 
 /// The job with its centre line by places of the cloth: the front of the marker comes under the rulers first.
-fn on_cloth(job: Job, arguments: &Arguments, source: &Source) -> Job {
+fn on_cloth(job: Job, from: Option<&'static Dialect>, source: &Source) -> Job {
     let Some(centre) = &job.centre else { return job };
     // What is found about the file is said where it is read for good; no place moves along the feed until then.
     let plain = Job { centre: None, ..job.clone() };
-    let input = pipeline::read(source, arguments.reading.from, &plain, &mut Diagnostics::default());
+    let input = pipeline::read(source, from, &plain, &mut Diagnostics::default());
     let extent = input.map(|input| input.marker.extent()).filter(|extent| !extent.is_empty());
     let Some(extent) = extent else { return job };
     let rulers = extent.max.x + job.profile.flow.rulers_mm;

@@ -18,7 +18,7 @@ use crate::machine::Job;
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Arguments {
     /// Programs to judge, folders of such, or patterns as 'out/**/*.csv': what `cutc compile` writes with a target of timed
-    /// setpoints, with gcode or with iso
+    /// setpoints, with gcode or with iso, and plans of `cutc flow`, each with the programs of its heads
     ///
     /// In folders programs are told by the `.meta.json` beside them; pictures and summaries are left out.
     #[arg(required = true, value_name = "PROGRAM")]

@@ -52,6 +52,9 @@ impl SourceFolder<'_> {
 
     /// Refuses a program that was made from one file and has the name of another one's program.
     fn refuse_exchanged(&self, program: &Input, source: &Path) -> anyhow::Result<()> {
+        if files::is_plan(&program.path) {
+            return Ok(());
+        }
         let is_named_after = |file: &Path| file.file_stem() == program.path.file_stem();
         let same_place = |file: &&Input| file.path.parent() == source.parent();
         let other = self.files.iter().filter(same_place).find(|file| is_named_after(&file.path));

@@ -6,17 +6,27 @@ mod one;
 
 pub(super) use arguments::Arguments;
 
-use super::batch::{self, Inputs};
+use super::batch::{self, Input, Inputs};
+use super::files::is_plan;
 use super::finished::{Console, Finished};
+
+/// Whether the only program among some is a plan.
+fn is_only_a_plan(programs: &[Input]) -> bool {
+    programs.len() == 1 && is_plan(&programs[0].path)
+}
 
 pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
     let threads = arguments.threads.set();
     match batch::find_programs(&arguments.programs)? {
         Inputs::One(program) if arguments.source.is_dir() => {
-            let source = many::source_in(&arguments.source, &batch::Input::named(&program))?;
+            let source = many::source_in(&arguments.source, &Input::named(&program))?;
             one::run(arguments, &program, &source)
         }
         Inputs::One(program) => one::run(arguments, &program, &arguments.source),
+        // The folder of a plan is named for its programs, which are judged together.
+        Inputs::Many(programs) if is_only_a_plan(&programs) && !arguments.source.is_dir() => {
+            one::run(arguments, &programs[0].path, &arguments.source)
+        }
         Inputs::Many(programs) => many::run(arguments, &programs, threads, console),
     }
 }

@@ -9,7 +9,7 @@ use crate::cli::choices::Format;
 use crate::cli::finished::{DONE, FAULTY, Finished, failure, say};
 use crate::cli::options::counted;
 use crate::cli::verdict::{self, Judgement};
-use crate::cli::{files, provenance};
+use crate::cli::{files, flow, provenance};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
 use crate::pipeline::{self, Declared, Explained, rules};
@@ -18,7 +18,8 @@ use crate::source::Source;
 /// A program that can be judged.
 pub(super) struct Program<'a> {
     path: &'a Path,
-    file: File,
+    /// Its bytes; none of a plan, which names its programs.
+    file: Option<File>,
 }
 
 /// What was found of a program.
@@ -61,9 +62,12 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
 impl<'a> Program<'a> {
     /// Opens a file; the inner error is of one that is no program.
     pub(super) fn open(path: &'a Path) -> anyhow::Result<Result<Self, anyhow::Error>> {
+        if files::is_plan(path) {
+            return Ok(Ok(Self { path, file: None }));
+        }
         let mut file = files::open(path)?;
         let foreign = pipeline::foreign(&mut file).map_err(|error| cannot_read(path, &error))?;
-        let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, file })) };
+        let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, file: Some(file) })) };
         let first =
             "first comes what `cutc compile` wrote with a target that is judged, then its cutter file as --source";
         let message = format!("not a program: `{}`: {what}", path.display());
@@ -81,12 +85,18 @@ impl Arguments {
             Ok(declared) => declared.map(Declared::new),
             Err(fault) => return Ok(Judged { verdict: None, said: format!("error: {fault:#}\n") }),
         };
-        let verdict =
-            pipeline::judge_program(file, source, self.reading.from, job, declared.as_ref(), &mut diagnostics)
-                .map_err(|error| cannot_read(path, &error))?;
+        let from = self.reading.from;
+        let verdict = match file {
+            None => flow::judge(path, source, from, job, &mut diagnostics)?,
+            Some(file) => pipeline::judge_program(file, source, from, job, declared.as_ref(), &mut diagnostics)
+                .map_err(|error| cannot_read(path, &error))?,
+        };
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
             said.push_str(&provenance::doubts(path, &meta, source, job));
+            if files::is_plan(path) {
+                said.push_str(&flow::doubts(path));
+            }
             if declared.is_none()
                 && verdict.as_ref().is_some_and(|explained| explained.verdict.under(&rules::DECLARED).is_some())
             {

@@ -19,6 +19,9 @@ const BREAK: f64 = 2.5;
 /// How many distances of two edges from where the outlines need it two cuts may cross, or from the way on which one of them is
 /// led on: where outlines overlap one crosses the other before it ends.
 const ABOUT: f64 = 4.0;
+/// Least sine of the angle between two lines for which their crossing is looked for in full: those at a smaller angle go on along
+/// each other.
+pub(super) const LEAST_SINE: f64 = 0.1;
 /// Longest part of an edge that cuts are looked for beside at a time, mm.
 const SPAN: f64 = 32.0;
 
@@ -83,7 +86,8 @@ impl Common {
         let leads: Vec<Vec<Point>> = leads(&reference.lines);
         let boxes = Boxes::new(leads.iter().map(|lead| Extent::of(lead).grown(ABOUT * distance)).collect());
         for joint in &mut common.joints {
-            joint.about = Extent::between(joint.at, joint.at).grown(ABOUT * distance);
+            let reach = (ABOUT * distance).max(crossing(joint, reference, grid, distance));
+            joint.about = Extent::between(joint.at, joint.at).grown(reach);
             for lead in
                 boxes.at(joint.at).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= ABOUT * distance)
             {
@@ -203,6 +207,22 @@ impl Common {
     }
 }
 
+/// Greatest distance from a joint at which its cuts cross, mm, when each is off by the tolerance: lines at a small angle do so
+/// farther away.
+fn crossing(joint: &Joint, reference: &Reference, grid: &Grid, distance: f64) -> f64 {
+    let directions = |cut: u32| -> Vec<Vector> {
+        let runs = grid.near(joint.at, distance).map(|run| (&reference.lines[run.line()], run));
+        let of_cut = runs.filter(|(line, _)| line.cut.index == cut);
+        let chords = of_cut.flat_map(|(line, run)| run.chords().map(move |chord| (line, chord)));
+        let here = chords.filter(|(line, chord)| line.distance_to_chord(*chord, joint.at) <= distance);
+        here.map(|(line, chord)| line.direction(chord)).collect()
+    };
+    let [ones, others] = joint.cuts.map(directions);
+    let sines = ones.iter().flat_map(|one| others.iter().map(|other| cross(*one, *other).abs()));
+    let sine = sines.fold(0.0, f64::max);
+    if sine < LEAST_SINE { 0.0 } else { (2.0 * reference.tolerance + distance) / sine }
+}
+
 /// Whether a place lies on an edge, mm.
 fn is_on(place: Point, edge: &[Drawn], distance: f64) -> bool {
     edge.iter().any(|chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]) <= distance)
@@ -301,7 +321,7 @@ impl Stands {
 }
 
 /// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.
-fn along(from: f64, to: f64, round: Option<f64>) -> f64 {
+pub(super) fn along(from: f64, to: f64, round: Option<f64>) -> f64 {
     let way = (to - from).abs();
     round.map_or(way, |length| {
         let way = way.rem_euclid(length);

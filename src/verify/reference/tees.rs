@@ -1,15 +1,11 @@
 //! Tees: where the drawing has an open cut end on another cut, as a slit does on the edge of its part.
 
-use super::common::Joint;
+use super::common::{Joint, LEAST_SINE, along};
 use super::grid::Grid;
 use super::inside::Inside;
 use super::line::Line;
 use super::lines::Reference;
 use crate::geom::{Extent, Point, Vector, cross, polyline};
-
-/// Least sine of the angle between two lines for which their crossing is looked for in full; below it the search ends where
-/// lines at that angle would cross.
-const LEAST_SINE: f64 = 0.1;
 
 /// Distance from its end at which a cut is tested for lying in a part, in tolerances.
 const LOOK: f64 = 2.0;
@@ -29,6 +25,9 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
             if other.cut.is_edge || other.cut.index == line.cut.index {
                 continue;
             }
+            if lies_along(line, run.line(), reference, grid, limit) {
+                continue;
+            }
             let cuts = [line.cut.index, other.cut.index];
             let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= limit;
             for chord in run.chords().filter(meets) {
@@ -45,6 +44,23 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
         }
     }
     found
+}
+
+/// Whether the cut of a line lies along another line over its whole length: it parts nothing that the other one does not part.
+fn lies_along(line: &Line, other: usize, reference: &Reference, grid: &Grid, limit: f64) -> bool {
+    let of_other = &reference.lines[other];
+    let station = |at: Point| {
+        let mut chords = grid.near(at, limit).filter(|run| run.line() == other).flat_map(|run| run.chords());
+        let chord = chords.find(|&chord| of_other.distance_to_chord(chord, at) <= limit)?;
+        Some(of_other.chord(chord).deviation(at).1)
+    };
+    let does = |line: &Line| {
+        let Some(stations) = line.points().map(station).collect::<Option<Vec<f64>>>() else { return false };
+        // Where the line goes across a bay of the other one, the way along that is longer.
+        let ways = stations.windows(2).map(|ends| along(ends[0], ends[1], of_other.cut.round));
+        ways.zip(0..).all(|(way, chord)| way <= line.station(chord + 1) - line.station(chord) + limit)
+    };
+    does(line) && reference.lines.iter().filter(|of_cut| of_cut.cut.index == line.cut.index).all(does)
 }
 
 /// How far a blade of a width that is plunged over a station of a line may lie beside it there, mm: as far as an arc that turns

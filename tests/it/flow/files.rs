@@ -85,6 +85,46 @@ fn records_hold_what_rows_hold_and_pictures_are_whole() {
 }
 
 #[test]
+fn a_plan_is_judged_anew_from_the_bytes_of_all_its_programs() {
+    let room = Room::new();
+    room.write("flow.toml", &super::fixture("machines/flow.toml"));
+    room.write("in/two-discs.csv", &super::fixture("flow/two-discs.csv"));
+    room.expect("flow in/two-discs.csv -p flow.toml -o out -t csv,npy,svg", DONE);
+    let verify = |what: &str, code| room.says(&format!("verify {what} -p flow.toml"), code);
+    for named in ["out", "out/plan.json"] {
+        let said = verify(&format!("{named} --source in/two-discs.csv"), DONE);
+        assert!(said.contains("PASS  `out/plan.json` cuts what `in/two-discs.csv` says: 25 rules hold"), "{said}");
+        assert!(!said.contains("warning"), "{said}");
+    }
+    assert!(verify("out --source in", DONE).contains("1 file, 1 done"));
+    // Beside another program both are judged; the programs of heads are the plan's.
+    room.expect("compile in/two-discs.csv -o out/two-discs.ngc", DONE);
+    assert!(room.says("verify out --source in/two-discs.csv", FAULTY).contains("2 files, "));
+    // A knife that comes up too early.
+    let rows = String::from_utf8(std::fs::read(room.at("out/head-02.csv")).expect("readable")).expect("text");
+    let down = rows.lines().filter(|row| row.contains(",1,")).nth(20).expect("a stroke");
+    room.write("out/head-02.csv", rows.replacen(down, &down.replacen(",1,", ",0,", 1), 1).as_bytes());
+    let said = verify("out/plan.json --source in/two-discs.csv", FAULTY);
+    assert!(said.contains("FAIL  flow-verify/dwell") && said.contains(" of head 2"), "{said}");
+    assert!(said.contains("`out/head-02.csv` is not the program that was planned"), "{said}");
+    let json = verify("out/plan.json --source in/two-discs.csv --format json -q", FAULTY);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let dwell = json["rules"].as_array().expect("a list").iter().find(|rule| rule["code"] == "flow-verify/dwell");
+    assert_eq!(dwell.expect("judged")["where"]["head"], 2);
+    // The other target is judged, too.
+    room.write("out/head-02.csv", rows.as_bytes());
+    let mut records = std::fs::read(room.at("out/head-02.npy")).expect("readable");
+    records.pop();
+    room.write("out/head-02.npy", &records);
+    let said = verify("out/plan.json --source in/two-discs.csv", FAULTY);
+    assert!(said.contains("flow-verify/format") && said.contains("it ends before record"), "{said}");
+    std::fs::remove_file(room.at("out/head-02.npy")).expect("removable");
+    assert!(verify("out/plan.json --source in/two-discs.csv", USAGE).contains("there is no `out/head-02.npy`"));
+    room.write("out/plan.json", b"{");
+    assert!(verify("out/plan.json --source in/two-discs.csv", FAULTY).contains("plan.json is no JSON"));
+}
+
+#[test]
 fn a_plan_is_written_whole_and_takes_the_place_of_an_earlier_one() {
     let room = Room::new();
     let machine = super::fixture("machines/flow.toml");
