@@ -7,11 +7,12 @@ use serde::Serialize;
 
 use super::files;
 use super::finished::{failure, say};
-use super::options::{file_name, typed};
+use super::options::file_name;
 use super::report::pretty;
 use crate::back::{Proof, TARGETS};
 use crate::ir::declaration::Declaration;
 use crate::machine::{Job, blake3_of, sha256_hex};
+use crate::sew;
 use crate::source::Source;
 
 /// Everything that made a program, for whoever finds it later. No date, and no path but from the program to its input: folders
@@ -165,9 +166,14 @@ pub(super) fn path_of(source: &Source, beside: &Path) -> Option<String> {
 
 /// Whether a program is one that can be judged, by the target that it was made by; `None` when nothing beside it says so.
 pub(super) fn is_judged(program: &Path) -> Option<bool> {
-    let made_by = told(program, "target")?;
-    let target = TARGETS.iter().find(|target| target.name == made_by);
-    Some(target.is_some_and(|target| target.proof != Proof::None))
+    let made_by = target_of(program)?;
+    let is_cut = TARGETS.iter().any(|target| target.name == made_by && target.proof != Proof::None);
+    Some(is_cut || sew::TARGETS.iter().any(|target| target.name == made_by && target.proof.is_some()))
+}
+
+/// Name of the target that a program was made by, if that stands beside it.
+pub(super) fn target_of(program: &Path) -> Option<String> {
+    told(program, "target")
 }
 
 /// What the provenance beside a program says under a key.
@@ -200,8 +206,9 @@ pub(super) fn declared(path: &Path) -> anyhow::Result<Option<Vec<Declaration>>> 
     }
 }
 
-/// What the provenance of a program, if there is one, says against judging it by this source and profile: warnings.
-pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) -> String {
+/// What the provenance of a program, if there is one, says against judging it by this source and profile and with these options,
+/// as they are typed: warnings.
+pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, options: &str) -> String {
     let mut said = String::new();
     let Ok(bytes) = fs::read(path) else { return said };
     let path = path.display();
@@ -237,7 +244,7 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
         );
     }
     doubt_centre(&mut said, &meta, &path, job);
-    doubt_options(&mut said, &meta, &path, job);
+    doubt_options(&mut said, &meta, &path, options);
     said
 }
 
@@ -259,14 +266,10 @@ fn doubt_centre(said: &mut String, meta: &serde_json::Value, path: &impl std::fm
 }
 
 /// Says that a program was made with other options than it is judged with, if it was.
-fn doubt_options(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
-    let (made, asked) = (meta["options"].as_str().unwrap_or_default(), typed(job));
+fn doubt_options(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, asked: &str) {
+    let made = meta["options"].as_str().unwrap_or_default();
     if made != asked {
-        let made = if made.is_empty() {
-            "none of --pieces, --skip, --resume-from, --dry-run, --frame and --centre"
-        } else {
-            made
-        };
+        let made = if made.is_empty() { "no option beside the profile's" } else { made };
         say(
             said,
             format_args!(

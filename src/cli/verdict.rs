@@ -97,8 +97,8 @@ struct Where {
     /// The head, from 1; not there where a program has no heads.
     #[serde(skip_serializing_if = "Option::is_none")]
     head: Option<u32>,
-    /// The line of the program, from 1, or the record, from 0, where it has no lines; the row, from 1, of a head; null for
-    /// what is on none.
+    /// The line of the program, from 1, or the record, from 0, where it has no lines; the row of a head or the entry of a
+    /// program that is sewn, from 1; null for what is on none.
     line: Option<u64>,
     x_mm: f64,
     y_mm: f64,
@@ -140,7 +140,10 @@ impl Judged {
             holds: finding.holds(),
             piece: told.and_then(|told| told.piece.as_ref()).map(Named::of),
             uncut: told.map_or_else(Vec::new, |told| told.uncut.iter().map(Named::of).collect()),
-            text: told.and_then(|told| told.line.as_ref()?.text.clone()),
+            text: told.and_then(|told| match &told.line {
+                Some(Line::Text { text, .. }) => Some(text.clone()),
+                Some(Line::Record(_) | Line::Row { .. } | Line::Entry(_)) | None => None,
+            }),
         };
         let verdict = explained.map(|explained| &explained.verdict);
         let passes = verdict.is_some_and(pipeline::Verdict::passes);
@@ -161,6 +164,8 @@ type Cells = [String; 9];
 pub(super) struct Judgement<'a> {
     pub(super) explained: &'a Explained,
     pub(super) mode: Mode,
+    /// Work of the machine, as a verb.
+    pub(super) works: &'static str,
     /// Name of the program.
     pub(super) program: &'a str,
     /// Name of the cutter file.
@@ -169,7 +174,7 @@ pub(super) struct Judgement<'a> {
 
 /// The verdict as a table: what holds, then what is broken, then one line that says it all.
 pub(super) fn text(judgement: &Judgement) -> String {
-    let Judgement { explained: Explained { verdict, told }, mode, program, source } = *judgement;
+    let Judgement { explained: Explained { verdict, told }, mode, works, program, source } = *judgement;
     let broken: Vec<_> = verdict.broken().collect();
     let holding = verdict.findings.iter().filter(|finding| finding.holds());
     let titles = ["", "rule", "worst", "limit", "unit", "at s", "X mm", "Y mm", "block"].map(str::to_owned);
@@ -202,7 +207,7 @@ pub(super) fn text(judgement: &Judgement) -> String {
     let besides = if reported == 0 { String::new() } else { format!("{reported} without a limit, ") };
     if broken.is_empty() {
         let is = match mode {
-            Mode::Cut => format!("cuts what `{source}` says"),
+            Mode::Cut => format!("{works} what `{source}` says"),
             Mode::Dry | Mode::Frame => "moves within the limits and works on nothing".to_owned(),
         };
         say(&mut out, format_args!("\nPASS  `{program}` {is}: {besides}{total} hold"));
@@ -226,9 +231,10 @@ fn explain(rule: &Rule, told: &Told, out: &mut String) {
         lines.push(format!("the place: {piece}"));
     }
     match &told.line {
-        Some(Line { head: head @ 1.., number, .. }) => lines.push(format!("row {number} of head {head}")),
-        Some(Line { number, text: Some(text), .. }) => lines.push(format!("line {number} of the program: {text}")),
-        Some(Line { number, text: None, .. }) => lines.push(format!("record {number} of the program")),
+        Some(Line::Text { number, text }) => lines.push(format!("line {number} of the program: {text}")),
+        Some(Line::Record(number)) => lines.push(format!("record {number} of the program")),
+        Some(Line::Row { head, number }) => lines.push(format!("row {number} of head {head}")),
+        Some(Line::Entry(number)) => lines.push(format!("entry {number} of the program")),
         None => {}
     }
     lines.push(format!("what to do: {}", rule.more));
@@ -292,9 +298,9 @@ mod tests {
             untimed: Vec::new(),
         };
         let front = || PieceName { number: 4, copy: 0, label: Some("FRONT".to_owned()) };
-        let text = Some("12.345,1695.377,20.000,0.000,1,0,0,268".to_owned());
+        let text = "12.345,1695.377,20.000,0.000,1,0,0,268".to_owned();
         let told = vec![
-            Told { piece: Some(front()), uncut: Vec::new(), line: Some(Line { head: 0, number: 12_347, text }) },
+            Told { piece: Some(front()), uncut: Vec::new(), line: Some(Line::Text { number: 12_347, text }) },
             Told { piece: None, uncut: vec![front()], line: None },
         ];
         Explained { verdict, told }
@@ -303,7 +309,13 @@ mod tests {
     #[test]
     fn what_is_broken_stands_last_and_marked() {
         let explained = explained();
-        let text = text(&Judgement { explained: &explained, mode: Mode::Cut, program: "a.csv", source: "a.cut" });
+        let text = text(&Judgement {
+            explained: &explained,
+            mode: Mode::Cut,
+            works: "cuts",
+            program: "a.csv",
+            source: "a.cut",
+        });
         assert!(text.lines().all(|line| line.len() <= 100), "{text}");
         insta::assert_snapshot!(text, @r#"
               rule                         worst     limit  unit        at s    X mm  Y mm  block

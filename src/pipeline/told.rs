@@ -45,15 +45,27 @@ pub struct Told {
     pub line: Option<Line>,
 }
 
-/// A line of a program.
+/// A place in a program.
 #[derive(Debug)]
-pub struct Line {
-    /// The head that it is of, from 1, where a program has several; else 0.
-    pub head: u32,
-    /// Its number, the first being 1; of a program without lines its record, the first being 0; of a head its row, from 1.
-    pub number: u64,
-    /// What stands there; `None` where the program has no lines.
-    pub text: Option<String>,
+pub enum Line {
+    /// A line, the first being 1.
+    Text {
+        /// Its number.
+        number: u64,
+        /// What stands there.
+        text: String,
+    },
+    /// A record of a program without lines, the first being 0.
+    Record(u64),
+    /// A row of one of several heads, the first of each being 1.
+    Row {
+        /// The head, from 1.
+        head: u32,
+        /// The row.
+        number: u64,
+    },
+    /// An entry of a program that is sewn, the first being 1.
+    Entry(u64),
 }
 
 /// Tells of each rule that a program breaks; no line is quoted yet.
@@ -63,27 +75,29 @@ pub fn told(verdict: &Verdict, marker: &Marker, source: &Source, job: &Job) -> V
     let tell = |finding: &Finding| {
         let place = finding.place?;
         let uncut = if finding.rule == &rules::COMPLETE { &verdict.uncut[..] } else { &[] };
-        let line = place.line.map(|number| Line { head: place.head, number, text: None });
+        let line = place.line.map(|number| match place.head {
+            0 => Line::Record(number),
+            head => Line::Row { head, number },
+        });
         let uncut = uncut.iter().map(|&piece| named(&marker.pieces[piece as usize])).collect();
         Some(Told { piece: piece_of(marker, place.block, place.point).map(named), uncut, line })
     };
     verdict.broken().map(|finding| tell(finding).unwrap_or_default()).collect()
 }
 
-/// Quotes the lines of a program of which something is told.
+/// Quotes the lines of a program of which something is told, where it has lines.
 pub(super) fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
-    let mut lines: Vec<&mut Line> = told.iter_mut().filter_map(|told| told.line.as_mut()).collect();
-    lines.sort_by_key(|line| line.number);
     program.rewind()?;
     let mut program = BufReader::with_capacity(BLOCK, program);
-    if verify::has_lines(&mut program) { quote_lines(&mut program, &mut lines) } else { Ok(()) }
-}
-
-/// Reads what stands on some lines, in their order.
-fn quote_lines(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result<()> {
+    if !verify::has_lines(&mut program) {
+        return Ok(());
+    }
+    let places = told.iter_mut().filter_map(|told| told.line.as_mut());
+    let mut lines: Vec<(u64, &mut Line)> = places.filter_map(|line| numbered(line).map(|n| (n, line))).collect();
+    lines.sort_by_key(|(number, _)| *number);
     let (mut text, mut read) = (Vec::new(), 0);
-    for line in lines {
-        while read < line.number {
+    for (number, line) in lines {
+        while read < number {
             text.clear();
             if program.read_until(b'\n', &mut text)? == 0 {
                 return Ok(());
@@ -92,12 +106,21 @@ fn quote_lines(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result
         }
         // Of what a terminal would obey the escape is shown.
         let all: String = String::from_utf8_lossy(text.trim_ascii_end()).escape_debug().collect();
-        line.text = Some(match all.char_indices().nth(LETTERS) {
+        let text = match all.char_indices().nth(LETTERS) {
             Some((end, _)) => format!("{}...", &all[..end]),
             None => all,
-        });
+        };
+        *line = Line::Text { number, text };
     }
     Ok(())
+}
+
+/// The number of a place that may be quoted.
+fn numbered(line: &Line) -> Option<u64> {
+    match line {
+        Line::Record(number) => Some(*number),
+        Line::Text { .. } | Line::Row { .. } | Line::Entry(_) => None,
+    }
 }
 
 /// The piece in which a block cuts; of several copies the one that lies nearest to a place.

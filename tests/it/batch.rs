@@ -214,18 +214,15 @@ fn drafts(room: &Room, folder: &str) -> Vec<String> {
     names.filter(|name| name.starts_with(".cutc-")).collect()
 }
 
-/// Pieces of a marker that takes long enough to be stopped amid it, also where other tests take the processor.
-const LONG: usize = 1600;
-
-/// A marker of so many pieces.
-fn marker(pieces: usize) -> String {
+/// A marker that takes long enough to be stopped amid it.
+fn long() -> String {
     let piece = |piece: usize| {
         let (x, y) = (piece / 20 * 800, piece % 20 * 800);
         let outline = [(700, 0), (750, 300), (700, 650), (350, 700), (30, 680), (0, 350), (0, 0)];
         let points = outline.map(|(i, j)| format!("X{}Y{}*", x + i, y + j)).concat();
         format!("N{}*X{x}Y{y}*M14*{points}M15*", piece + 1)
     };
-    let pieces: Vec<String> = (0..pieces).map(piece).collect();
+    let pieces: Vec<String> = (0..400).map(piece).collect();
     format!("H1*G71*{}M0*", pieces.concat())
 }
 
@@ -250,7 +247,7 @@ fn signal(child: &Child, name: &str) {
 #[test]
 fn who_is_stopped_leaves_nothing_half_made_and_a_true_manifest() {
     let room = room();
-    room.write("in/long.cut", marker(LONG).as_bytes());
+    room.write("in/long.cut", long().as_bytes());
     for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let mut single = begun(&room, "compile in/long.cut -o alone/", "alone");
         signal(&single, name);
@@ -289,7 +286,7 @@ fn who_is_stopped_leaves_nothing_half_made_and_a_true_manifest() {
 #[test]
 fn what_a_killed_run_left_the_next_one_removes() {
     let room = room();
-    room.write("in/long.cut", marker(LONG).as_bytes());
+    room.write("in/long.cut", long().as_bytes());
     fs::create_dir(room.at("out")).expect("writable");
     let mut killed = begun(&room, "compile in/long.cut -o out/", "out");
     signal(&killed, "KILL");
@@ -311,7 +308,7 @@ fn what_a_killed_run_left_the_next_one_removes() {
 fn what_a_full_disk_refused_is_named_and_compiled_later() {
     let room = room();
     fs::remove_file(room.at("in/right/bad.cut")).expect("removable");
-    room.write("in/long.cut", marker(400).as_bytes());
+    room.write("in/long.cut", long().as_bytes());
     // No file may have more than so many blocks of 512 bytes, as if the disk had no more.
     let script = format!("trap '' XFSZ; ulimit -f 2000; {} compile in -o out", env!("CARGO_BIN_EXE_cutc"));
     let folder = room.at("in").parent().expect("the room").to_owned();

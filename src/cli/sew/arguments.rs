@@ -95,7 +95,7 @@ impl From<OnLong> for sewing::OnLong {
 }
 
 /// Reads an inset.
-fn inset(text: &str) -> Result<f64, String> {
+pub(in crate::cli) fn inset(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.0..=1000.0).contains(&value) => Ok(value),
         Ok(_) | Err(_) => Err("expected a number from 0 to 1000 mm".to_owned()),

@@ -18,7 +18,7 @@ use crate::sew::{Made, TARGETS, Target};
 /// Bytes that are kept in memory where no file is asked for; more go to a temporary one.
 const SPOOL_BYTES: usize = 16 << 20;
 /// Bytes that are written and read at a time.
-const BLOCK_BYTES: usize = 1 << 17;
+pub(super) const BLOCK_BYTES: usize = 1 << 17;
 
 /// What is to be written.
 #[derive(Clone, Copy)]

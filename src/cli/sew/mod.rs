@@ -1,6 +1,7 @@
 //! `cutc sew`: patterns and stitch files to feed pulses, queues and stitch files of a pattern-sewing machine.
 
 mod arguments;
+mod judged;
 mod made;
 mod many;
 mod one;
@@ -8,7 +9,9 @@ mod place;
 mod sewn;
 mod summary;
 
-pub(super) use arguments::Arguments;
+pub(super) use arguments::{Arguments, inset};
+pub(super) use judged::{judge, target_of};
+pub(super) use sewn::typed;
 
 use std::collections::BTreeSet;
 use std::path::Path;

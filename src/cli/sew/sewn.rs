@@ -97,7 +97,7 @@ fn planned(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> 
 }
 
 /// What was asked of a file, as it is typed.
-fn typed(asked: &Asked) -> String {
+pub(in crate::cli) fn typed(asked: &Asked) -> String {
     let from = asked.from.as_ref().map(|from| format!("--from {from}"));
     let line = asked.line.as_ref().map(|line| format!("--line {line}"));
     let inset = (asked.inset != 0.0).then(|| format!("--inset {}", asked.inset));

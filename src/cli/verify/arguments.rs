@@ -8,7 +8,9 @@ use crate::cli::batch::Threads;
 use crate::cli::choices::Format;
 use crate::cli::finished::Finished;
 use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
+use crate::cli::sew;
 use crate::machine::Job;
+use crate::sew::Asked;
 
 /// Arguments of `cutc verify`.
 ///
@@ -18,7 +20,7 @@ use crate::machine::Job;
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Arguments {
     /// Programs to judge, folders of such, or patterns as 'out/**/*.csv': what `cutc compile` writes with a target of timed
-    /// setpoints, with gcode or with iso, and plans of `cutc flow`, each with the programs of its heads
+    /// setpoints, with gcode or with iso, what `cutc sew` writes, and plans of `cutc flow`, each with the programs of its heads
     ///
     /// In folders programs are told by the `.meta.json` beside them; pictures and summaries are left out.
     #[arg(required = true, value_name = "PROGRAM")]
@@ -37,6 +39,14 @@ pub(in crate::cli) struct Arguments {
 
     #[command(flatten)]
     pub(super) reading: Reading,
+
+    /// Pen or layer of the lines that were sewn, as for `cutc sew`
+    #[arg(long, value_name = "NAME", help_heading = SEWN)]
+    pub(super) line: Option<String>,
+
+    /// Inset of closed contours that were sewn, as for `cutc sew`
+    #[arg(long, value_name = "MM", value_parser = sew::inset, help_heading = SEWN)]
+    pub(super) inset: Option<f64>,
 
     #[command(flatten)]
     pub(super) messages: Messages,
@@ -59,7 +69,16 @@ pub(in crate::cli) struct Arguments {
     pub(super) choice: Choice,
 }
 
+/// Heading of the options of programs that were sewn.
+const SEWN: &str = "Programs of cutc sew";
+
 impl Arguments {
+    /// What was asked of a file that was sewn.
+    pub(super) fn asked(&self) -> Asked {
+        let from = self.reading.from.map(|dialect| dialect.name.to_owned());
+        Asked { from, line: self.line.clone(), inset: self.inset.unwrap_or(0.0) }
+    }
+
     /// The job that programs were made by, or what is wrong with its profile or its centre line.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         self.choice.job(&self.reading)

@@ -7,19 +7,39 @@ use std::path::Path;
 use super::arguments::Arguments;
 use crate::cli::choices::Format;
 use crate::cli::finished::{DONE, FAULTY, Finished, failure, say};
-use crate::cli::options::counted;
+use crate::cli::options::{counted, typed};
 use crate::cli::verdict::{self, Judgement};
-use crate::cli::{files, flow, provenance};
+use crate::cli::{files, flow, provenance, sew};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
 use crate::pipeline::{self, Declared, Explained, rules};
+use crate::sew::Target;
 use crate::source::Source;
 
 /// A program that can be judged.
 pub(super) struct Program<'a> {
     path: &'a Path,
-    /// Its bytes; none of a plan, which names its programs.
-    file: Option<File>,
+    machine: Machine,
+}
+
+/// The machine of a program, with the bytes of that.
+enum Machine {
+    /// A cutter or a spray head.
+    Cutter(File),
+    /// Heads over a conveyor: the plan names their programs.
+    Heads,
+    /// A sewing machine.
+    Sewing(File, &'static Target),
+}
+
+impl Machine {
+    /// Its work, as a verb.
+    fn works(&self) -> &'static str {
+        match self {
+            Self::Cutter(_) | Self::Heads => "cuts",
+            Self::Sewing(..) => "sews",
+        }
+    }
 }
 
 /// What was found of a program.
@@ -50,8 +70,8 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
     let stdout = match (arguments.format, &verdict) {
         (Format::Json, verdict) => verdict::json(verdict.as_ref()),
         (Format::Text, Some(explained)) => {
-            let program = program.path.display().to_string();
-            verdict::text(&Judgement { explained, mode: job.mode, program: &program, source: source.name() })
+            let (works, program) = (program.machine.works(), program.path.display().to_string());
+            verdict::text(&Judgement { explained, mode: job.mode, works, program: &program, source: source.name() })
         }
         (Format::Text, None) => String::new(),
     };
@@ -63,13 +83,15 @@ impl<'a> Program<'a> {
     /// Opens a file; the inner error is of one that is no program.
     pub(super) fn open(path: &'a Path) -> anyhow::Result<Result<Self, anyhow::Error>> {
         if files::is_plan(path) {
-            return Ok(Ok(Self { path, file: None }));
+            return Ok(Ok(Self { path, machine: Machine::Heads }));
         }
         let mut file = files::open(path)?;
+        if let Some(target) = sew::target_of(path) {
+            return Ok(Ok(Self { path, machine: Machine::Sewing(file, target) }));
+        }
         let foreign = pipeline::foreign(&mut file).map_err(|error| cannot_read(path, &error))?;
-        let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, file: Some(file) })) };
-        let first =
-            "first comes what `cutc compile` wrote with a target that is judged, then its cutter file as --source";
+        let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, machine: Machine::Cutter(file) })) };
+        let first = "first comes what `cutc compile`, `cutc sew` or `cutc flow` wrote with a target that is judged, then its source as --source";
         let message = format!("not a program: `{}`: {what}", path.display());
         Ok(Err(failure(message, format!("{hint}; {first}"))))
     }
@@ -78,7 +100,14 @@ impl<'a> Program<'a> {
 impl Arguments {
     /// Judges a program by a source.
     pub(super) fn judge(&self, program: &mut Program, source: &Source, job: &Job) -> anyhow::Result<Judged> {
-        let Program { path, file } = program;
+        let Program { path, machine } = program;
+        let asked = self.asked();
+        if !matches!(machine, Machine::Sewing(..)) && (self.line.is_some() || self.inset.is_some()) {
+            return Err(failure(
+                format!("`{}` is no program of `cutc sew`: --line and --inset do nothing to it", path.display()),
+                "leave them out",
+            ));
+        }
         let mut diagnostics = Diagnostics::default();
         let meta = self.meta.clone().unwrap_or_else(|| files::meta(path));
         let declared = match provenance::declared(&meta) {
@@ -86,15 +115,22 @@ impl Arguments {
             Err(fault) => return Ok(Judged { verdict: None, said: format!("error: {fault:#}\n") }),
         };
         let from = self.reading.from;
-        let verdict = match file {
-            None => flow::judge(path, source, from, job, &mut diagnostics)?,
-            Some(file) => pipeline::judge_program(file, source, from, job, declared.as_ref(), &mut diagnostics)
-                .map_err(|error| cannot_read(path, &error))?,
+        let verdict = match machine {
+            Machine::Heads => flow::judge(path, source, from, job, &mut diagnostics)?,
+            Machine::Sewing(file, target) => sew::judge((file, target), source, &asked, job, &mut diagnostics)?,
+            Machine::Cutter(file) => {
+                pipeline::judge_program(file, source, from, job, declared.as_ref(), &mut diagnostics)
+                    .map_err(|error| cannot_read(path, &error))?
+            }
         };
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
-            said.push_str(&provenance::doubts(path, &meta, source, job));
-            if files::is_plan(path) {
+            let options = match machine {
+                Machine::Cutter(_) | Machine::Heads => typed(job),
+                Machine::Sewing(..) => sew::typed(&asked),
+            };
+            said.push_str(&provenance::doubts(path, &meta, source, job, &options));
+            if let Machine::Heads = machine {
                 said.push_str(&flow::doubts(path));
             }
             if declared.is_none()

@@ -88,6 +88,7 @@ fn records_hold_what_rows_hold_and_pictures_are_whole() {
 fn a_plan_is_judged_anew_from_the_bytes_of_all_its_programs() {
     let room = Room::new();
     room.write("flow.toml", &super::fixture("machines/flow.toml"));
+    std::fs::create_dir(room.at("in")).expect("writable");
     room.write("in/two-discs.csv", &super::fixture("flow/two-discs.csv"));
     room.expect("flow in/two-discs.csv -p flow.toml -o out -t csv,npy,svg", DONE);
     let verify = |what: &str, code| room.says(&format!("verify {what} -p flow.toml"), code);

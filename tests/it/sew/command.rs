@@ -31,6 +31,39 @@ fn many_files_are_sewn_below_one_folder() {
 }
 
 #[test]
+fn programs_are_judged_anew_by_what_they_were_sewn_from() {
+    let room = Room::new();
+    std::fs::create_dir(room.at("in")).expect("writable");
+    room.write("in/pocket.csv", &fixture("sew/pocket.csv"));
+    room.write("in/disc.cut", &fixture("iso/seed-circle.cut"));
+    room.expect("sew in/pocket.csv -t queue,jsonl,pulses,pulses-npy,dst,exp,svg -o out/", DONE);
+    let said = room.says("verify out --source in/pocket.csv", DONE);
+    assert!(said.contains("6 files, 6 done"), "{said}");
+    let said = room.says("verify out/pocket.queue.csv --source in/pocket.csv", DONE);
+    assert!(said.contains("PASS  `out/pocket.queue.csv` sews what `in/pocket.csv` says"), "{said}");
+    assert!(!said.contains("warning"), "{said}");
+    // Without its provenance a program is told by its name.
+    room.write("carried.dst", &room.read("out/pocket.dst"));
+    room.expect("verify carried.dst --source in/pocket.csv", DONE);
+    let mut bytes = room.read("out/pocket.dst");
+    bytes[600] ^= 1;
+    room.write("out/pocket.dst", &bytes);
+    let said = room.says("verify out/pocket.dst --source in/pocket.csv", FAULTY);
+    assert!(said.contains("FAIL  sew-verify/needle-point") && said.contains("\n      entry "), "{said}");
+    assert!(said.contains("its bytes are others"), "{said}");
+    // What it was sewn with is given again; what does nothing to it is refused.
+    room.expect("sew in/disc.cut --inset 3 -t queue -o inset/", DONE);
+    let judged = "verify inset/disc.queue.csv --source in/disc.cut";
+    let said = room.says(&format!("{judged} --inset 3"), DONE);
+    assert!(!said.contains("warning: the program was made with other options"), "{said}");
+    let said = room.says(judged, FAULTY);
+    assert!(said.contains("with --inset 3") && said.contains("FAIL  sew-verify/"), "{said}");
+    assert!(room.says(&format!("{judged} --pieces 1"), USAGE).contains("`--pieces 1` does nothing"));
+    room.expect("compile in/disc.cut -o disc.csv", DONE);
+    assert!(room.says("verify disc.csv --source in/disc.cut --inset 3", USAGE).contains("no program of `cutc sew`"));
+}
+
+#[test]
 fn pictures_are_not_said_to_be_read_back() {
     let room = Room::new();
     room.write("pocket.csv", &fixture("sew/pocket.csv"));
