@@ -76,9 +76,10 @@ fn programs(plan: &Path, text: &str) -> Vec<Programs> {
     let of_target = |target: &Target| {
         let Kind::Heads { bytes, .. } = target.kind else { return None };
         let named: Vec<Option<&str>> = heads.iter().map(|head| named(head, target.extension)).collect();
-        let name = |(head, name): (usize, &Option<&str>)| name.map_or_else(|| target.file(head), str::to_owned);
-        let paths = named.iter().enumerate().map(|of_head| folder.join(name(of_head))).collect();
-        Some((named.iter().any(Option::is_some), Programs { bytes, paths }))
+        let is_any = named.iter().any(Option::is_some);
+        let name = |(head, name): (usize, Option<&str>)| name.map_or_else(|| target.file(head), str::to_owned);
+        let paths = named.into_iter().enumerate().map(|of_head| folder.join(name(of_head))).collect();
+        Some((is_any, Programs { bytes, paths }))
     };
     let (named, unnamed): (Vec<_>, Vec<_>) = TARGETS.iter().filter_map(of_target).partition(|(is_named, _)| *is_named);
     let kept = if named.is_empty() { unnamed.into_iter().take(1).collect() } else { named };

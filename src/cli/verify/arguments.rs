@@ -26,7 +26,7 @@ pub(in crate::cli) struct Arguments {
     #[arg(required = true, value_name = "PROGRAM")]
     pub(super) programs: Vec<PathBuf>,
 
-    /// Cutter file that the program must cut, `-` for standard input; or the folder that programs were compiled from
+    /// File that the program must cut or sew, `-` for standard input; or the folder that programs were made from
     ///
     /// In a folder the source of each program is found by its `.meta.json`, in the same place below this folder as the
     /// program below its own.

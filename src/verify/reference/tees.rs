@@ -1,7 +1,7 @@
 //! Tees: where the drawing has an open cut end on another cut, as a slit does on the edge of its part.
 
 use super::common::{Joint, LEAST_SINE, along};
-use super::grid::Grid;
+use super::grid::{Grid, Run};
 use super::inside::Inside;
 use super::line::Line;
 use super::lines::Reference;
@@ -50,7 +50,7 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
 fn lies_along(line: &Line, other: usize, reference: &Reference, grid: &Grid, limit: f64) -> bool {
     let of_other = &reference.lines[other];
     let station = |at: Point| {
-        let mut chords = grid.near(at, limit).filter(|run| run.line() == other).flat_map(|run| run.chords());
+        let mut chords = grid.near(at, limit).filter(|run| run.line() == other).flat_map(Run::chords);
         let chord = chords.find(|&chord| of_other.distance_to_chord(chord, at) <= limit)?;
         Some(of_other.chord(chord).deviation(at).1)
     };
