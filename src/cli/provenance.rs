@@ -206,8 +206,8 @@ pub(super) fn declared(path: &Path) -> anyhow::Result<Option<Vec<Declaration>>> 
     }
 }
 
-/// What the provenance of a program, if there is one, says against judging it by this source and profile and with these options,
-/// as they are typed: warnings.
+/// Warnings where the provenance of a program names another source, another profile or other options than those given; none
+/// where there is no provenance. Options are compared as they are typed.
 pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, options: &str) -> String {
     let mut said = String::new();
     let Ok(bytes) = fs::read(path) else { return said };

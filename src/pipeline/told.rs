@@ -52,7 +52,7 @@ pub enum Line {
     Text {
         /// Its number.
         number: u64,
-        /// What stands there.
+        /// Its text, shortened.
         text: String,
     },
     /// A record of a program without lines, the first being 0.

@@ -111,7 +111,7 @@ impl Slits<'_> {
     }
 }
 
-/// Whether a rectangle, itself among some boxes, lies around so many others that it is a frame.
+/// Whether a rectangle holds enough of the boxes to be a frame. It is one of them itself.
 fn is_around(boxes: &Boxes, rectangle: Extent) -> bool {
     boxes.near(rectangle).filter(|&k| rectangle.covers(&boxes.all()[k])).take(1 + FRAMED).count() > FRAMED
 }

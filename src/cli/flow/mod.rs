@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     Ok(Finished { stdout: Stdout::Text(stdout), stderr: said, code: DONE })
 }
 
-/// Refuses a job that is none of heads over a conveyor.
+/// Refusal of jobs that heads over a conveyor cannot do: dry runs, frames and spray tools.
 fn refuse_others(job: &Job) -> anyhow::Result<()> {
     if job.mode != Mode::Cut {
         return Err(failure(

@@ -96,7 +96,7 @@ fn planned(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> 
     Some((program, fifo))
 }
 
-/// What was asked of a file, as it is typed.
+/// Options of a file that is sewn, as they are typed.
 pub(in crate::cli) fn typed(asked: &Asked) -> String {
     let from = asked.from.as_ref().map(|from| format!("--from {from}"));
     let line = asked.line.as_ref().map(|line| format!("--line {line}"));

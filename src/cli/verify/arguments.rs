@@ -73,7 +73,7 @@ pub(in crate::cli) struct Arguments {
 const SEWN: &str = "Programs of cutc sew";
 
 impl Arguments {
-    /// What was asked of a file that was sewn.
+    /// Options with which a file was sewn.
     pub(super) fn asked(&self) -> Asked {
         let from = self.reading.from.map(|dialect| dialect.name.to_owned());
         Asked { from, line: self.line.clone(), inset: self.inset.unwrap_or(0.0) }

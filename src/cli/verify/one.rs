@@ -91,7 +91,8 @@ impl<'a> Program<'a> {
         }
         let foreign = pipeline::foreign(&mut file).map_err(|error| cannot_read(path, &error))?;
         let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, machine: Machine::Cutter(file) })) };
-        let first = "first comes what `cutc compile`, `cutc sew` or `cutc flow` wrote with a target that is judged, then its source as --source";
+        let first = "first comes what `cutc compile`, `cutc sew` or `cutc flow` wrote with a target that is judged, then \
+                     its source as --source";
         let message = format!("not a program: `{}`: {what}", path.display());
         Ok(Err(failure(message, format!("{hint}; {first}"))))
     }

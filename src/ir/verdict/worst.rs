@@ -118,7 +118,8 @@ fn or_infinite(value: f64) -> f64 {
 pub struct WorstByRule {
     /// By the places of the rules; `None` under one of which nothing was seen.
     findings: Vec<Option<Finding>>,
-    /// Excess of each over its limit, or its value where it has none; not a number where there is none.
+    /// Excesses over the limits, by the places of the rules; a rule without a limit has its value here, one without a
+    /// finding NaN.
     excess: Vec<f64>,
 }
 

@@ -51,7 +51,7 @@ fn programs_are_judged_anew_by_what_they_were_sewn_from() {
     let said = room.says("verify out/pocket.dst --source in/pocket.csv", FAULTY);
     assert!(said.contains("FAIL  sew-verify/needle-point") && said.contains("\n      entry "), "{said}");
     assert!(said.contains("its bytes are others"), "{said}");
-    // What it was sewn with is given again; what does nothing to it is refused.
+    // Options of sewing are given again; options without an effect are refused.
     room.expect("sew in/disc.cut --inset 3 -t queue -o inset/", DONE);
     let judged = "verify inset/disc.queue.csv --source in/disc.cut";
     let said = room.says(&format!("{judged} --inset 3"), DONE);

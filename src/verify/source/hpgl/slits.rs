@@ -60,7 +60,7 @@ impl<'a> Strokes<'a> {
         stands.filter(|slit| self.is_alone(*slit)).collect()
     }
 
-    /// Whether more strokes than so many that go around something lie in a box.
+    /// Whether a box holds more than `most` strokes that go around something.
     pub(super) fn has_more_in(&self, extent: Extent, most: usize, goes_around: impl Fn(&[Point]) -> bool) -> bool {
         let is_in = |k: &usize| extent.grown(MEET).covers(&self.boxes.all()[*k]) && goes_around(&self.all[*k]);
         self.boxes.near(extent).filter(is_in).take(most + 1).count() > most
