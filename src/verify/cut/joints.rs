@@ -11,6 +11,7 @@ use crate::verify::reference::common::Joint;
 #[derive(Debug)]
 pub(in crate::verify) struct Joints<'a> {
     all: &'a [Joint],
+    /// Where their cuts must cross, the boxes of one joint after those of the other.
     boxes: Boxes,
     /// The ways that come by each joint; `None` once its cuts are known to cross.
     ways: Vec<Option<Vec<Way>>>,
@@ -27,10 +28,9 @@ struct Way {
 impl<'a> Joints<'a> {
     /// Joints with no way seen yet.
     pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
-        let extents = joints.iter().map(|joint| joint.about);
         Self {
             all: joints,
-            boxes: Boxes::new(extents.collect()),
+            boxes: Boxes::new(joints.iter().flat_map(|joint| joint.about).collect()),
             ways: joints.iter().map(|_| Some(Vec::new())).collect(),
         }
     }
@@ -40,10 +40,11 @@ impl<'a> Joints<'a> {
         if self.all.is_empty() {
             return;
         }
-        for i in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
+        for place in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
+            let i = place / self.all[0].about.len();
             let Some(known) = &mut self.ways[i] else { continue };
             let before = known.len();
-            known.extend(ways(points, cut, self.boxes.all()[i]));
+            known.extend(ways(points, cut, self.boxes.all()[place]));
             let crosses = |way: &Way| known.iter().any(|other| self.all[i].is_of([way, other]) && way.crosses(other));
             if known[before..].iter().any(crosses) {
                 self.ways[i] = None;
@@ -95,7 +96,7 @@ fn ways(points: &[Point], cut: u32, about: Extent) -> Vec<Way> {
 fn gap(joint: &Joint, ways: &[Way]) -> f64 {
     let [from, to] = joint.cuts;
     // What is not there at all is as far away as can be.
-    let (width, height) = joint.about.size();
+    let (width, height) = joint.about[0].size();
     let most = width.hypot(height);
     let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { most }).collect();
     let mut is_done = vec![false; ways.len()];

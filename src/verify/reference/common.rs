@@ -45,8 +45,17 @@ pub(in crate::verify) struct Joint {
     pub(in crate::verify) block: u32,
     /// The cuts, by their places among those of the marker.
     pub(in crate::verify) cuts: [u32; 2],
-    /// Where they must cross: about the place, and about the ways on which cuts are led on there.
-    pub(in crate::verify) about: Extent,
+    /// Where they must cross, in one of these: about the place and the ways on which cuts are led on there, or about where their
+    /// lines cross before it.
+    pub(in crate::verify) about: [Extent; 2],
+}
+
+/// A cut that stands for an edge from a place on.
+struct Stood {
+    cut: u32,
+    from: Sighting,
+    /// Where the line of the cut before it crosses its own while both stand for the edge.
+    crossing: Extent,
 }
 
 /// A stretch of an edge for which a cut stands.
@@ -64,12 +73,20 @@ struct Beside {
     over: [f64; 2],
     /// The cut, by its place among those of the marker.
     cut: u32,
-    /// How far off it is at the most, mm.
-    off: f64,
+    /// How far to the left of the edge it is at both ends, mm.
+    aside: [f64; 2],
     /// Where the cut is there, mm along it.
     at: [f64; 2],
     /// Length of the cut when it is closed, mm.
     round: Option<f64>,
+}
+
+impl Beside {
+    /// How far it lies to the left of the edge at a station of that, mm.
+    fn aside_at(&self, station: f64) -> f64 {
+        let [from, to] = self.over;
+        self.aside[0] + (self.aside[1] - self.aside[0]) * ((station - from) / (to - from))
+    }
 }
 
 impl Common {
@@ -87,11 +104,12 @@ impl Common {
         let boxes = Boxes::new(leads.iter().map(|lead| Extent::of(lead).grown(ABOUT * distance)).collect());
         for joint in &mut common.joints {
             let reach = (ABOUT * distance).max(crossing(joint, reference, grid, distance));
-            joint.about = Extent::between(joint.at, joint.at).grown(reach);
+            let about = &mut joint.about[0];
+            *about = Extent::between(joint.at, joint.at).grown(reach);
             for lead in
                 boxes.at(joint.at).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= ABOUT * distance)
             {
-                joint.about.join(&boxes.all()[lead]);
+                about.join(&boxes.all()[lead]);
             }
         }
         common
@@ -114,14 +132,14 @@ impl Common {
         let mut ring = ring.to_vec();
         ring.rotate_left(start.unwrap_or(0));
         let mut spared = spared(&ring);
-        let mut cuts: Vec<(u32, Sighting)> = Vec::new();
+        let mut cuts: Vec<Stood> = Vec::new();
         // A cut that leaves the edge and comes back to it leaves what lies between.
         let mut left: Vec<(usize, f64, Sighting)> = Vec::new();
         let mut is_in_spared = false;
         for stretch in &ring {
             let [from, _] = stretch.ends;
             match stretch.cut {
-                Some(cut) => cuts.push((cut, sighting(from, stretch.block))),
+                Some(cut) => cuts.push(Stood { cut, from: sighting(from, stretch.block), crossing: Extent::EMPTY }),
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
@@ -138,14 +156,14 @@ impl Common {
         let count = cuts.len();
         for (next, length, place) in left {
             // Between two cuts it is measured whether these meet.
-            if count == 0 || cuts[next % count].0 == cuts[(next + count - 1) % count].0 {
+            if count == 0 || cuts[next % count].cut == cuts[(next + count - 1) % count].cut {
                 self.uncut.push((length, place));
             }
         }
-        for (i, &(cut, Sighting { point: at, block, .. })) in cuts.iter().enumerate() {
-            let before = cuts[(i + count - 1) % count].0;
+        for (i, &Stood { cut, from: Sighting { point: at, block, .. }, crossing }) in cuts.iter().enumerate() {
+            let before = cuts[(i + count - 1) % count].cut;
             if before != cut {
-                self.joints.push(Joint { at, block, cuts: [before, cut], about: Extent::EMPTY });
+                self.joints.push(Joint { at, block, cuts: [before, cut], about: [Extent::EMPTY, crossing] });
             }
         }
     }
@@ -158,7 +176,7 @@ impl Common {
         reference: &Reference,
         grid: &Grid,
         distance: f64,
-    ) -> Vec<(u32, Sighting)> {
+    ) -> Vec<Stood> {
         let points: Vec<Point> =
             std::iter::once(edge[0].ends[0]).chain(edge.iter().map(|chord| chord.ends[1])).collect();
         let stations = polyline::stations(&points);
@@ -174,7 +192,8 @@ impl Common {
                 found.add(Beside { over: one.over.map(|way| way + start), ..one });
             }
         }
-        let Stands { all: stands, covered, left, shift, .. } = found;
+        let Stands { all: stands, pieces, left, shift, .. } = found;
+        let covered: Vec<[f64; 2]> = pieces.iter().map(|piece| piece.over).collect();
         for gap in left {
             let (length, at) = longest_without(gap, &covered);
             if length > distance / 2.0 {
@@ -188,17 +207,29 @@ impl Common {
         self.joints.extend(slits.filter_map(|slit| {
             let cut = first_across(slit, &stands, reference, grid, distance)?;
             let (at, block) = (root(slit), slit.block(0));
-            Some(Joint { at, block, cuts: [cut, slit.cut.index], about: Extent::EMPTY })
+            Some(Joint { at, block, cuts: [cut, slit.cut.index], about: [Extent::EMPTY; 2] })
         }));
-        let (mut at, mut chain) = (0.0, Vec::new());
+        let crossing = |before: &Stand, next: &Stand| {
+            let over = [before.over[0].max(next.over[0]), before.over[1].min(next.over[1])];
+            let of_cuts = [before, next].map(|stand| pieces.iter().filter(|piece| piece.cut == stand.cut));
+            let reach = 2.0 * reference.tolerance + distance;
+            let Some([from, to]) = last_crossing(of_cuts, over, reach) else { return Extent::EMPTY };
+            let inner = stations.iter().zip(&points).filter(|(station, _)| (from..=to).contains(*station));
+            let ends = [from, to].map(|station| polyline::place(&points, &stations, station));
+            let along: Vec<Point> = inner.map(|(_, point)| *point).chain(ends).collect();
+            Extent::of(&along).grown(distance)
+        };
+        let (mut at, mut chain, mut before) = (0.0, Vec::new(), None);
         while length - at > reach {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
-            if let Some(Stand { over, cut, .. }) = next {
-                chain.push((*cut, seen(at)));
-                at = over[1];
+            if let Some(next) = next {
+                let crossing = before.map_or(Extent::EMPTY, |before| crossing(before, next));
+                chain.push(Stood { cut: next.cut, from: seen(at), crossing });
+                (at, before) = (next.over[1], Some(next));
                 continue;
             }
+            before = None;
             let ahead = stands.iter().map(|stand| stand.over[0]).filter(|&from| from > at).fold(length, f64::min);
             self.uncut.push((ahead - at, seen(f64::midpoint(at, ahead))));
             at = ahead;
@@ -284,8 +315,8 @@ fn leads(lines: &[Line]) -> Vec<Vec<Point>> {
 #[derive(Default)]
 struct Stands {
     all: Vec<Stand>,
-    /// What all their pieces lie beside, mm along the edge.
-    covered: Vec<[f64; 2]>,
+    /// All their pieces.
+    pieces: Vec<Beside>,
     /// Over what a cut does not go straight on, mm along the edge.
     left: Vec<[f64; 2]>,
     /// How far off one is at the most, and where, mm.
@@ -296,11 +327,13 @@ struct Stands {
 
 impl Stands {
     /// Adds the next piece of a cut.
-    fn add(&mut self, Beside { over, cut, off, at, round }: Beside) {
+    fn add(&mut self, piece: Beside) {
+        let Beside { over, cut, aside, at, round } = piece;
+        self.pieces.push(piece);
+        let off = aside[0].abs().max(aside[1].abs());
         if off > self.shift.0 {
             self.shift = (off, over[0]);
         }
-        self.covered.push(over);
         let reach = self.reach;
         let meets = |known: &&mut Stand| {
             known.cut == cut && over[0] <= known.over[1] + reach && over[1] >= known.over[0] - reach
@@ -318,6 +351,29 @@ impl Stands {
         }
         known.over = [known.over[0].min(over[0]), known.over[1].max(over[1])];
     }
+}
+
+/// The last stretch of an edge over which the lines of two cuts cross that lie `over` it, when each is off so that they come
+/// `reach` mm nearer, mm along the edge.
+fn last_crossing<'a>(
+    of_cuts: [impl Iterator<Item = &'a Beside>; 2],
+    over: [f64; 2],
+    reach: f64,
+) -> Option<[f64; 2]> {
+    let [mut ones, mut others] = of_cuts.map(Iterator::peekable);
+    let mut found = None;
+    while let (Some(one), Some(other)) = (ones.peek(), others.peek()) {
+        let [from, to] = [one.over[0].max(other.over[0]).max(over[0]), one.over[1].min(other.over[1]).min(over[1])];
+        if from < to {
+            let [first, last] = [from, to].map(|station| one.aside_at(station) - other.aside_at(station));
+            if (first < 0.0) != (last < 0.0) {
+                let (at, way) = (from + (to - from) * (first / (first - last)), reach * (to - from) / (last - first).abs());
+                found = Some([(at - way).max(over[0]), (at + way).min(over[1])]);
+            }
+        }
+        if one.over[1] < other.over[1] { ones.next() } else { others.next() };
+    }
+    found
 }
 
 /// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.
@@ -393,8 +449,8 @@ fn beside_part(
             if high > low {
                 let (from, way) = (line.cut.offset + line.station(i), line.station(i + 1) - line.station(i));
                 let at = [low, high].map(|place| from + way * ((place - a.0) / (b.0 - a.0)));
-                let off = off(low).abs().max(off(high).abs()).min(distance);
-                found.push(Beside { over: [low, high], cut: line.cut.index, off, at, round: line.cut.round });
+                let aside = [low, high].map(|way| off(way).clamp(-distance, distance));
+                found.push(Beside { over: [low, high], cut: line.cut.index, aside, at, round: line.cut.round });
             }
         }
     }

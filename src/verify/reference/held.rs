@@ -1,7 +1,7 @@
 //! What lies in a part, and must be cut and drilled before the part comes free: a loose part shifts.
 //!
-//! Judged by the drawing alone: a contour lies in the smallest closed one that holds all of its places, a slit or a hole in the
-//! smallest one of its own piece. Edges of two pieces within the band are one edge: places so near to that of another piece lie
+//! Judged by the drawing alone: a contour lies in the smallest closed one of its own piece that holds all of its places, or else
+//! in the smallest one of another piece; a slit or a hole in the smallest one of its own piece. Edges of two pieces within the band are one edge: places so near to that of another piece lie
 //! in it, and where each of two contours lies in the other so, a cut-out holds the part that fills it. Where something is asked
 //! of the operator in between, the file wants it so.
 
@@ -95,7 +95,8 @@ impl<'a> Contours<'a> {
         around.min_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]).then(a.cmp(&b)))
     }
 
-    /// The smallest closed contour that holds all places of another.
+    /// The smallest closed contour that holds all places of another, one of its own piece before those of others: where outlines
+    /// overlap, a line belongs to the part that it was drawn for.
     fn around(&self, contour: usize) -> Option<usize> {
         let (piece, inner) = self.all[contour];
         let points = self.marker.list.points(inner.range);
@@ -111,8 +112,11 @@ impl<'a> Contours<'a> {
             let is_near = |other: &Around| self.all[other.contour].0 != piece && other.is_at_edge(point, self.band);
             around.retain(|other| here.binary_search(&(other.contour as u32)).is_ok() || is_near(other));
         }
+        let is_other = |contour: usize| self.all[contour].0 != piece;
         let around = around.into_iter().map(|around| around.contour);
-        let smallest = around.min_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]).then(a.cmp(&b)))?;
+        let smallest = around.min_by(|&a, &b| {
+            is_other(a).cmp(&is_other(b)).then(self.areas[a].total_cmp(&self.areas[b])).then(a.cmp(&b))
+        })?;
         // Behind what is asked the file has it.
         (self.asked[self.all[smallest].0] >= self.asked[piece]).then_some(smallest)
     }

@@ -37,8 +37,8 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
                 let beside = bow(other, chord.deviation(end).1, width) + chord.sagitta();
                 let about = Extent::between(end, end).grown((2.0 * (reference.tolerance + limit) + beside) / sine);
                 match found[before..].iter_mut().find(|joint| joint.cuts == cuts) {
-                    Some(joint) => joint.about.join(&about),
-                    None => found.push(Joint { at: end, block, cuts, about }),
+                    Some(joint) => joint.about[0].join(&about),
+                    None => found.push(Joint { at: end, block, cuts, about: [about, Extent::EMPTY] }),
                 }
             }
         }
