@@ -189,7 +189,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
                 format!("the limit is the profile's `{key}`; where that is its default this is a fault of `cutc`")
             }
             (None, _) if finding.rule == &rules::TABLE => off_table::advice(marker, job),
-            (None, _) => fault(crossing),
+            (None, _) => fault(crossing, job.lines.all),
         };
         let at = finding.place.map(|place| Box::new(place.point.into()));
         let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
@@ -198,9 +198,14 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
     over_the_edge(verdict, diagnostics);
 }
 
-/// Whose fault it is that a rule does not hold which no key of the profile limits; outlines may be known to cross.
-fn fault(crossing: Option<&Code>) -> String {
+/// Whose fault it is that a rule does not hold which no key of the profile limits; outlines may be known to cross, as they do
+/// where every line of a plot is cut.
+fn fault(crossing: Option<&Code>, is_all_cut: bool) -> String {
     match crossing {
+        Some(Code { name, .. }) if is_all_cut => format!(
+            "`--cut-all` cuts seam lines, grain lines and letters across each other (`{name}`): compile without it, or \
+             name pens that do not cross with `--cut-pens`"
+        ),
         Some(Code { name, .. }) => {
             format!(
                 "mend the outlines of which `{name}` tells; what is still said is a fault of `cutc`: please report it"
@@ -267,6 +272,7 @@ fn span_of(marker: &Marker, block: u32) -> Option<Span> {
 mod tests {
     use super::*;
     use crate::machine::keys;
+    use crate::machine::plot::Lines;
 
     #[test]
     fn a_broken_limit_is_seen_in_the_figures() {
@@ -288,7 +294,7 @@ mod tests {
 
     #[test]
     fn a_refusal_tells_of_outlines_that_cross_before_it_blames_the_compiler() {
-        let said = |known: &[&'static Code]| {
+        let said_of = |known: &[&'static Code], job: Job| {
             let finding =
                 Finding { rule: &rules::OVERLAP, worst: 0.8, limit: Some(0.05), unit: "mm missing", place: None };
             let verdict = Verdict { findings: vec![finding], ..Verdict::default() };
@@ -296,14 +302,18 @@ mod tests {
             for code in known {
                 diagnostics.push(Diagnostic::new(code, ""));
             }
-            report(&verdict, &Marker::default(), &Job::default(), &mut diagnostics);
+            report(&verdict, &Marker::default(), &job, &mut diagnostics);
             let last = diagnostics.iter().last().expect("a refusal");
             last.hints.join(" ")
         };
+        let said = |known: &[&'static Code]| said_of(known, Job::default());
         assert!(
             said(&[&code::MARKER_SELF_CROSSING]).contains("mend the outlines of which `marker/self-crossing` tells")
         );
         assert!(said(&[]).contains("this is a fault of `cutc`, whatever the file"));
+        let every_line = Lines { all: true, ..Lines::default() };
+        let of_every_line = said_of(&[&code::MARKER_SELF_CROSSING], Job { lines: every_line, ..Job::default() });
+        assert!(of_every_line.contains("compile without it") && !of_every_line.contains("fault"), "{of_every_line}");
     }
 
     #[test]

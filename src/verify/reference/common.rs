@@ -355,11 +355,7 @@ impl Stands {
 
 /// The last stretch of an edge over which the lines of two cuts cross that lie `over` it, when each is off so that they come
 /// `reach` mm nearer, mm along the edge.
-fn last_crossing<'a>(
-    of_cuts: [impl Iterator<Item = &'a Beside>; 2],
-    over: [f64; 2],
-    reach: f64,
-) -> Option<[f64; 2]> {
+fn last_crossing<'a>(of_cuts: [impl Iterator<Item = &'a Beside>; 2], over: [f64; 2], reach: f64) -> Option<[f64; 2]> {
     let [mut ones, mut others] = of_cuts.map(Iterator::peekable);
     let mut found = None;
     while let (Some(one), Some(other)) = (ones.peek(), others.peek()) {
@@ -367,11 +363,16 @@ fn last_crossing<'a>(
         if from < to {
             let [first, last] = [from, to].map(|station| one.aside_at(station) - other.aside_at(station));
             if (first < 0.0) != (last < 0.0) {
-                let (at, way) = (from + (to - from) * (first / (first - last)), reach * (to - from) / (last - first).abs());
+                let (at, way) =
+                    (from + (to - from) * (first / (first - last)), reach * (to - from) / (last - first).abs());
                 found = Some([(at - way).max(over[0]), (at + way).min(over[1])]);
             }
         }
-        if one.over[1] < other.over[1] { ones.next() } else { others.next() };
+        if one.over[1] < other.over[1] {
+            ones.next()
+        } else {
+            others.next()
+        };
     }
     found
 }
