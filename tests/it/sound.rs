@@ -14,16 +14,17 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("bends.cut", "knife.max_down_mm=100"),         // a lift in a bend that is followed
     ("castles.cut", NO_OVERLAPS),                   // overlaps of one tolerance, written with six decimals
     ("corner-on-edge.plt", "--cut-all"),            // a corner on an edge that it leaves by 7 degrees
-    ("crossed-earlier.plt", "--cut-all"), // a corner that ends beside an edge which its own edge crosses before
-    ("deep-end.cut", "path.tolerance_mm=0.02"), // a blade that is deepest in the part before its end
-    ("dense-blob.cut", ""),               // points as near as their rounding
-    ("dense-hole.cut", ""),               // the same around a hole narrower than the blade
-    ("dense-ring.cut", LONG_OVERLAPS),    // a ring that is longer than the way along it
-    ("flat-ellipse.cut", ""),             // the end of a cut in a tight curve
-    ("inch-hole.cut", ""),                // a ring whose end must run over its start
-    ("inch-nest.cut", ""),                // two cuts that end at one corner and go on the same way
-    ("lifted-bends.cut", "knife.max_down_mm=60"), // a lift over one bend of a coarse circle
-    ("lifted-blob.cut", "knife.max_down_mm=38"), // lifts right before bends
+    ("crossed-earlier.plt", "--cut-all"),           // two cuts beside an edge that cross before the one ends
+    ("deep-end.cut", "path.tolerance_mm=0.02"),     // a blade that is deepest in the part before its end
+    ("dense-blob.cut", ""),                         // points as near as their rounding
+    ("dense-hole.cut", ""),                         // the same around a hole narrower than the blade
+    ("dense-ring.cut", LONG_OVERLAPS),              // a ring that is longer than the way along it
+    ("flat-ellipse.cut", ""),                       // the end of a cut in a tight curve
+    ("inch-hole.cut", ""),                          // a ring whose end must run over its start
+    ("inch-nest.cut", ""),                          // two cuts that end at one corner and go on the same way
+    ("led-to-one-end.ggt", "knife.width_mm=8.89"), // two cuts that are led on to one place, where the drawing has neither
+    ("lifted-bends.cut", "knife.max_down_mm=60"),  // a lift over one bend of a coarse circle
+    ("lifted-blob.cut", "knife.max_down_mm=38"),   // lifts right before bends
     ("lifted-coarse.csv", "knife.width_mm=3 knife.back_mm=1.5 knife.max_down_mm=30"), // lifts on chords that stand for a curve
     ("lifted-ring.cut", "knife.max_down_mm=30"),                                      // lifts amid a ring
     ("lifted-slit.csv", "knife.max_down_mm=10"), // a slit that ends on a curve where the blade is plunged

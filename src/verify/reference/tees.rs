@@ -5,6 +5,7 @@ use super::grid::{Grid, Run};
 use super::inside::Inside;
 use super::line::Line;
 use super::lines::Reference;
+use super::shared::SAME;
 use crate::geom::{Extent, Point, Vector, cross, polyline};
 
 /// Distance from its end at which a cut is tested for lying in a part, in tolerances.
@@ -15,10 +16,9 @@ const LOOK: f64 = 2.0;
 /// frees nothing.
 pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, limit]: [f64; 2]) -> Vec<Joint> {
     let mut found: Vec<Joint> = Vec::new();
-    let comes_out = |(end, along, ..): &(Point, Vector, &Line, u32)| {
-        !inside.pieces_at(end + along * (LOOK * reference.tolerance)).is_empty()
-    };
-    for (end, along, line, block) in ends(&reference.lines).filter(comes_out) {
+    let comes_out = |end: &End| !inside.pieces_at(end.at + end.along * (LOOK * reference.tolerance)).is_empty();
+    for End { at: end, along, line, station, block } in ends(&reference.lines).filter(comes_out) {
+        let is_led = is_aside(line, station);
         let before = found.len();
         for run in grid.near(end, limit) {
             let other = &reference.lines[run.line()];
@@ -29,7 +29,9 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
                 continue;
             }
             let cuts = [line.cut.index, other.cut.index];
-            let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= limit;
+            // Where both were led on, the drawing has neither.
+            let is_drawn = |chord| !(is_led && is_aside(other, other.chord(chord).deviation(end).1));
+            let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= limit && is_drawn(chord);
             for chord in run.chords().filter(meets) {
                 // Both off by the tolerance they cross as far from there as they are askew.
                 let sine = cross(along, other.direction(chord)).abs().max(LEAST_SINE);
@@ -74,15 +76,32 @@ fn bow(line: &Line, station: f64, width: f64) -> f64 {
     polyline::sagitta(width, reach[1] - reach[0])
 }
 
-/// The ends of open cuts, each with the unit vector along its line from there and its block.
-fn ends<'a>(lines: &'a [Line<'a>]) -> impl Iterator<Item = (Point, Vector, &'a Line<'a>, u32)> {
+/// Whether a line at a station is what its cut was led on there.
+fn is_aside(line: &Line, station: f64) -> bool {
+    line.aside.iter().any(|[from, to]| (from - SAME..=to + SAME).contains(&station))
+}
+
+/// An end of an open cut.
+struct End<'a> {
+    at: Point,
+    /// The unit vector along its line from there.
+    along: Vector,
+    line: &'a Line<'a>,
+    station: f64,
+    block: u32,
+}
+
+/// The ends of open cuts.
+fn ends<'a>(lines: &'a [Line<'a>]) -> impl Iterator<Item = End<'a>> {
     let is_of_cut = |other: Option<&Line>, line: &Line| other.is_some_and(|other| other.cut.index == line.cut.index);
     let open = lines.iter().enumerate().filter(|(_, line)| !line.cut.is_edge && line.cut.round.is_none());
     open.flat_map(move |(i, line)| {
         let last = line.chords() - 1;
         let begins = !is_of_cut(i.checked_sub(1).map(|before| &lines[before]), line);
         let ends = !is_of_cut(lines.get(i + 1), line);
-        let start = begins.then(|| (line.point(0), line.direction(0), line, line.block(0)));
-        start.into_iter().chain(ends.then(|| (line.point(last + 1), -line.direction(last), line, line.block(last))))
+        let start = End { at: line.point(0), along: line.direction(0), line, station: 0.0, block: line.block(0) };
+        let (at, along, block) = (line.point(last + 1), -line.direction(last), line.block(last));
+        let end = End { at, along, line, station: line.length(), block };
+        begins.then_some(start).into_iter().chain(ends.then_some(end))
     })
 }
