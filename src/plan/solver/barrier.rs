@@ -14,6 +14,11 @@ pub(in crate::plan) trait Problem<const N: usize> {
     /// The slacks of the constraints, in order, all positive.
     fn slacks(&self, x: &[[f64; N]], slacks: &mut Vec<f64>) -> Result<(), Outside>;
 
+    /// How many of the constraints bound nothing, with slacks of 1: they only fill what is worked out at once.
+    fn idle(&self) -> usize {
+        0
+    }
+
     /// The Newton direction and the square of its decrement; `None` when the numbers break down.
     fn newton(&self, x: &[[f64; N]], forces: &Forces) -> Option<(Vec<[f64; N]>, f64)>;
 }
@@ -28,7 +33,27 @@ pub(in crate::plan) struct Forces<'a> {
     /// Weight of the objective.
     pub(in crate::plan) weight: f64,
     /// The constraints, in order.
-    pub(in crate::plan) walls: &'a [Wall],
+    pub(in crate::plan) walls: Walls<'a>,
+}
+
+/// Constraints, seen from an iterate, in order: of each what a [`Wall`] has.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::plan) struct Walls<'a> {
+    pub(in crate::plan) slopes: &'a [f64],
+    pub(in crate::plan) shares: &'a [f64],
+}
+
+impl<'a> Walls<'a> {
+    /// One by one.
+    pub(in crate::plan) fn iter(self) -> impl Iterator<Item = Wall> + 'a {
+        self.slopes.iter().zip(self.shares).map(|(&slope, &share)| Wall { slope, share })
+    }
+
+    /// Those before a place, and those from it on.
+    pub(in crate::plan) fn split_at(self, place: usize) -> [Self; 2] {
+        let ((before, behind), (shares, others)) = (self.slopes.split_at(place), self.shares.split_at(place));
+        [Self { slopes: before, shares }, Self { slopes: behind, shares: others }]
+    }
 }
 
 /// A constraint, seen from an iterate.
@@ -113,7 +138,11 @@ struct Descent<'a, P, const N: usize> {
     /// The objective, weighed, less the logarithms of the slacks.
     value: f64,
     weight: f64,
-    walls: Vec<Wall>,
+    /// Of each constraint what a [`Wall`] has.
+    slopes: Vec<f64>,
+    shares: Vec<f64>,
+    /// How many constraints bound anything.
+    count: f64,
     /// Newton steps so far.
     steps: usize,
     /// Where a line search looks, and the slacks there.
@@ -126,20 +155,24 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
     fn new(problem: &'a P, x: Vec<[f64; N]>, schedule: Schedule) -> Option<Self> {
         let mut slacks = Vec::new();
         problem.slacks(&x, &mut slacks).ok()?;
-        let walls: Vec<Wall> = slacks.iter().map(|slack| Wall { slope: 1.0 / slack, share: 1.0 }).collect();
+        let slopes: Vec<f64> = slacks.iter().map(|slack| 1.0 / slack).collect();
+        let shares = vec![1.0; slopes.len()];
+        let count = (slopes.len() - problem.idle()) as f64;
         let objective = problem.objective(&x).max(f64::MIN_POSITIVE);
-        let weight = schedule.start * walls.len() as f64 / objective;
+        let weight = schedule.start * count / objective;
         let value = weight * objective - logarithms(&slacks);
         let finite = weight.is_finite() && value.is_finite();
-        finite.then(|| Self { problem, schedule, next: x.clone(), x, value, weight, walls, steps: 0, slacks })
+        let next = x.clone();
+        finite.then_some(Self { problem, schedule, x, value, weight, slopes, shares, count, steps: 0, next, slacks })
     }
 
     /// Newton steps with one weight until the iterate is near the optimum for it.
     fn round(&mut self) {
-        let near = self.schedule.decrement * self.walls.len() as f64;
+        let near = self.schedule.decrement * self.count;
         for _ in 0..self.schedule.steps_a_round {
             self.steps += 1;
-            let forces = Forces { weight: self.weight, walls: &self.walls };
+            let walls = Walls { slopes: &self.slopes, shares: &self.shares };
+            let forces = Forces { weight: self.weight, walls };
             let Some((direction, decrement)) = self.problem.newton(&self.x, &forces) else { return };
             let Some(step) = self.search(&direction, decrement) else { return };
             self.follow(step);
@@ -173,10 +206,10 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
     /// before, (z s) becomes ratio (1 + (z s) (1 - ratio) / step).
     fn follow(&mut self, step: f64) {
         let pace = 1.0 / step;
-        for (wall, slack) in self.walls.iter_mut().zip(&self.slacks) {
-            let ratio = slack * wall.slope;
-            let share = ratio * (1.0 + wall.share * (1.0 - ratio) * pace);
-            *wall = Wall { slope: 1.0 / slack, share: share.clamp(1.0 / SHARE_MAX, SHARE_MAX) };
+        for ((slope, share), slack) in self.slopes.iter_mut().zip(&mut self.shares).zip(&self.slacks) {
+            let ratio = slack * *slope;
+            *share = (ratio * (1.0 + *share * (1.0 - ratio) * pace)).clamp(1.0 / SHARE_MAX, SHARE_MAX);
+            *slope = 1.0 / slack;
         }
     }
 
@@ -187,14 +220,14 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
             // Of one that rounding leaves nothing of nothing is to be won, as on a straight.
             return 0.0;
         }
-        self.walls.len() as f64 / (self.schedule.gap * objective) / self.weight
+        self.count / (self.schedule.gap * objective) / self.weight
     }
 
     /// Raises the weight; the multipliers, which are in parts of it, grow as much.
     fn raise(&mut self, growth: f64) {
         self.value += (growth - 1.0) * self.weight * self.problem.objective(&self.x);
         self.weight *= growth;
-        self.walls.iter_mut().for_each(|wall| wall.share = (wall.share * growth).min(SHARE_MAX));
+        self.shares.iter_mut().for_each(|share| *share = (*share * growth).min(SHARE_MAX));
     }
 }
 
@@ -237,7 +270,7 @@ mod tests {
         }
 
         fn newton(&self, x: &[[f64; 1]], forces: &Forces) -> Option<(Vec<[f64; 1]>, f64)> {
-            let (x, wall) = (x[0][0], forces.walls[0]);
+            let (x, wall) = (x[0][0], forces.walls.iter().next().expect("one"));
             let slope = -forces.weight / (x * x) + wall.slope;
             let bend = 2.0 * forces.weight / x.powi(3) + wall.bend();
             Some((vec![[-slope / bend]], slope * slope / bend))

@@ -413,7 +413,7 @@ impl barrier::Problem<2> for Window<'_> {
             let first = samples[0].first - self.near.start;
             let mut block = Block::default();
             for (sample, wall) in samples.iter().zip(walls.by_ref()) {
-                block.add(sample, &control[first..], wall);
+                block.add(sample, &control[first..], &wall);
             }
             hessian.add_block(2 * first, &block.lower_half());
             for (sum, slope) in gradient[2 * first..].iter_mut().zip(block.slope.as_flattened()) {

@@ -1,9 +1,11 @@
-//! What the limits say at one place of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
-//! which all limits of the place follow (see [`super::profile()`]), and the slopes of the barrier with them.
+//! What the limits say at places of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
+//! which all limits of a place follow (see [`super::profile()`]), and the slopes of the barrier with them. They are worked out
+//! for some places at once.
+
+use wide::f64x4;
 
 use crate::machine::Limits;
 use crate::plan::orientation::Axes;
-use crate::plan::solver::barrier::Wall;
 
 /// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
 pub(super) const BOUNDS: usize = 13;
@@ -13,8 +15,14 @@ const JERK: usize = 7;
 /// Least derivative of an axis that bounds its speed: smaller ones allow any.
 const SLOPE_EPSILON: f64 = 1e-12;
 
+/// Places that are worked out at once.
+pub(super) const LANES: usize = 4;
+
 /// b, b' and b''.
 pub(super) type Pace = [f64; 3];
+
+/// The constraints of some places: those of one kind beside each other.
+pub(super) type Bounded = [f64x4; BOUNDS];
 
 /// The limits at a place.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +35,23 @@ pub(super) struct Load {
     jerk: [[f64; 3]; 3],
 }
 
-/// The second-order model of the barrier by b, b' and b''.
+/// The limits at some places.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Loads {
+    speed: f64x4,
+    acceleration: [[f64x4; 2]; 3],
+    jerk: [[f64x4; 3]; 3],
+}
+
+/// The second-order models of the barrier by b, b' and b'' at some places.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Models {
+    slope: [[f64; LANES]; 3],
+    /// The lower half, row by row.
+    bend: [[f64; LANES]; 6],
+}
+
+/// The second-order model of the barrier at one place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Model {
     pub(super) slope: [f64; 3],
@@ -57,55 +81,6 @@ impl Load {
         [self.speed * pace[0], a, j * pace[0].sqrt()]
     }
 
-    /// The slacks of all constraints; not positive where one is broken.
-    pub(super) fn slacks(&self, pace: &Pace) -> [f64; BOUNDS] {
-        let root = pace[0].sqrt();
-        let a = self.acceleration.map(|a| acceleration(&a, pace));
-        let j = self.jerk.map(|j| root * jerk(&j, pace));
-        let mut slacks = [1.0; BOUNDS];
-        slacks[0] -= self.speed * pace[0];
-        for k in 0..3 {
-            slacks[ACCELERATION + k] -= a[k];
-            slacks[ACCELERATION + 3 + k] += a[k];
-            slacks[JERK + k] -= j[k];
-            slacks[JERK + 3 + k] += j[k];
-        }
-        slacks
-    }
-
-    /// The model of the barrier there. It takes g g^T for each constraint, so that it is positive definite everywhere.
-    pub(super) fn model(&self, pace: &Pace, walls: &[Wall; BOUNDS]) -> Model {
-        let root = pace[0].sqrt();
-        let half = 0.5 / root;
-        let mut slope = [self.speed * walls[0].slope, 0.0, 0.0];
-        let mut bend = [self.speed * self.speed * walls[0].bend(), 0.0, 0.0, 0.0, 0.0, 0.0];
-        for k in 0..3 {
-            let [c0, c1] = self.acceleration[k];
-            let (up, down) = (walls[ACCELERATION + k], walls[ACCELERATION + 3 + k]);
-            let (force, stiffness) = (up.slope - down.slope, up.bend() + down.bend());
-            slope[0] += force * c0;
-            slope[1] += force * c1;
-            bend[0] += stiffness * c0 * c0;
-            bend[1] += stiffness * c0 * c1;
-            bend[2] += stiffness * c1 * c1;
-            // The slope of sqrt(b) (c . pace).
-            let c = &self.jerk[k];
-            let g = [root * c[0] + half * jerk(c, pace), root * c[1], root * c[2]];
-            let (up, down) = (walls[JERK + k], walls[JERK + 3 + k]);
-            let (force, stiffness) = (up.slope - down.slope, up.bend() + down.bend());
-            for (slope, g) in slope.iter_mut().zip(g) {
-                *slope += force * g;
-            }
-            let h = g.map(|g| stiffness * g);
-            bend[0] += h[0] * g[0];
-            bend[1] += h[1] * g[0];
-            bend[2] += h[1] * g[1];
-            bend[3] += h[2] * g[0];
-            bend[4] += h[2] * g[1];
-            bend[5] += h[2] * g[2];
-        }
-        Model { slope, bend }
-    }
 }
 
 fn acceleration(c: &[f64; 2], pace: &Pace) -> f64 {
@@ -117,10 +92,89 @@ fn jerk(c: &[f64; 3], pace: &Pace) -> f64 {
     c[0] * pace[0] + c[1] * pace[1] + c[2] * pace[2]
 }
 
+/// One number of some places; 0 beyond the last.
+fn lanes(loads: &[Load], part: impl Fn(&Load) -> f64) -> f64x4 {
+    f64x4::new(std::array::from_fn(|lane| loads.get(lane).map_or(0.0, &part)))
+}
+
+impl Loads {
+    /// Those of some places; nothing is limited beyond the last.
+    pub(super) fn of(loads: &[Load]) -> Self {
+        Self {
+            speed: lanes(loads, |load| load.speed),
+            acceleration: std::array::from_fn(|k| {
+                std::array::from_fn(|i| lanes(loads, |load| load.acceleration[k][i]))
+            }),
+            jerk: std::array::from_fn(|k| std::array::from_fn(|i| lanes(loads, |load| load.jerk[k][i]))),
+        }
+    }
+
+    /// The slacks of all constraints; not positive where one is broken.
+    pub(super) fn slacks(&self, pace: &[f64x4; 3]) -> Bounded {
+        let root = pace[0].sqrt();
+        let a = self.acceleration.map(|c| c[0] * pace[0] + c[1] * pace[1]);
+        let j = self.jerk.map(|c| root * (c[0] * pace[0] + c[1] * pace[1] + c[2] * pace[2]));
+        let mut slacks = [f64x4::ONE; BOUNDS];
+        slacks[0] -= self.speed * pace[0];
+        for k in 0..3 {
+            slacks[ACCELERATION + k] -= a[k];
+            slacks[ACCELERATION + 3 + k] += a[k];
+            slacks[JERK + k] -= j[k];
+            slacks[JERK + 3 + k] += j[k];
+        }
+        slacks
+    }
+
+    /// The models of the barrier there, whose walls have these slopes and shares. They take g g^T for each constraint, so that
+    /// they are positive definite everywhere.
+    pub(super) fn models(&self, pace: &[f64x4; 3], slopes: &Bounded, shares: &Bounded) -> Models {
+        let bends: Bounded = std::array::from_fn(|i| shares[i] * slopes[i] * slopes[i]);
+        let root = pace[0].sqrt();
+        let half = f64x4::splat(0.5) / root;
+        let none = f64x4::ZERO;
+        let mut slope = [self.speed * slopes[0], none, none];
+        let mut bend = [self.speed * self.speed * bends[0], none, none, none, none, none];
+        for k in 0..3 {
+            let [c0, c1] = self.acceleration[k];
+            let (up, down) = (ACCELERATION + k, ACCELERATION + 3 + k);
+            let (force, stiffness) = (slopes[up] - slopes[down], bends[up] + bends[down]);
+            slope[0] += force * c0;
+            slope[1] += force * c1;
+            bend[0] += stiffness * c0 * c0;
+            bend[1] += stiffness * c0 * c1;
+            bend[2] += stiffness * c1 * c1;
+            // The slope of sqrt(b) (c . pace).
+            let c = &self.jerk[k];
+            let whole = c[0] * pace[0] + c[1] * pace[1] + c[2] * pace[2];
+            let g = [root * c[0] + half * whole, root * c[1], root * c[2]];
+            let (up, down) = (JERK + k, JERK + 3 + k);
+            let (force, stiffness) = (slopes[up] - slopes[down], bends[up] + bends[down]);
+            for (slope, g) in slope.iter_mut().zip(g) {
+                *slope += force * g;
+            }
+            let h = g.map(|g| stiffness * g);
+            bend[0] += h[0] * g[0];
+            bend[1] += h[1] * g[0];
+            bend[2] += h[1] * g[1];
+            bend[3] += h[2] * g[0];
+            bend[4] += h[2] * g[1];
+            bend[5] += h[2] * g[2];
+        }
+        Models { slope: slope.map(f64x4::to_array), bend: bend.map(f64x4::to_array) }
+    }
+}
+
+impl Models {
+    /// The model at one of the places.
+    pub(super) fn at(&self, lane: usize) -> Model {
+        Model { slope: self.slope.map(|slope| slope[lane]), bend: self.bend.map(|bend| bend[lane]) }
+    }
+}
+
 impl Model {
-    /// The product of the bend with b, b' and b''.
-    pub(super) fn times(&self, v: [f64; 3]) -> [f64; 3] {
-        let [b00, b10, b11, b20, b21, b22] = self.bend;
+    /// The product of the bend with b, b' and b'', each of several at once.
+    pub(super) fn times(&self, v: &[f64x4; 3]) -> [f64x4; 3] {
+        let [b00, b10, b11, b20, b21, b22] = self.bend.map(f64x4::splat);
         [
             b00 * v[0] + b10 * v[1] + b20 * v[2],
             b10 * v[0] + b11 * v[1] + b21 * v[2],
@@ -128,7 +182,6 @@ impl Model {
         ]
     }
 }
-
 #[cfg(test)]
 mod tests {
     use super::*;

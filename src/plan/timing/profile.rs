@@ -14,15 +14,18 @@
 
 use std::ops::Range;
 
+use arrayvec::ArrayVec;
+use wide::f64x4;
+
 use super::clock::Clock;
 use super::feed::Feed;
 use super::grid::{self, Grid};
-use super::place::{BOUNDS, Load, Pace};
+use super::place::{BOUNDS, Bounded, LANES, Load, Loads, Model};
 use crate::geom::spline::{self, Piecewise};
 use crate::machine::Limits;
 use crate::plan::orientation::{Walk, Way};
 use crate::plan::solver::banded::BandMatrix;
-use crate::plan::solver::barrier::{self, Forces, Outside, Schedule, Wall};
+use crate::plan::solver::barrier::{self, Forces, Outside, Schedule, Walls};
 use crate::plan::solver::windows::{self, Chain, Windows};
 
 /// Order of beta: cubic.
@@ -105,20 +108,31 @@ struct LimitPlace {
     first: usize,
     /// b, b' and b'', as rows over four control values.
     rows: [[f64; ORDER]; 3],
-    load: Load,
 }
 
-/// A node of the integral for the duration.
-struct Node {
+/// Some places where the limits hold.
+struct LimitPlaces {
+    /// One or more, up to [`LANES`].
+    all: ArrayVec<LimitPlace, LANES>,
+    loads: Loads,
+}
+
+/// The nodes of a span in the integral for the duration.
+struct Nodes {
+    /// First of the control values that matter there.
     first: usize,
-    /// b, as a row over four control values.
-    row: [f64; ORDER],
-    weight: f64,
+    /// b at all nodes, as a row over four control values.
+    row: [f64x4; ORDER],
+    weight: f64x4,
 }
 
-fn dot(a: &[f64; ORDER], control: &[[f64; 1]]) -> f64 {
-    let control = control.first_chunk::<ORDER>().expect("each span has four control values");
-    a[0] * control[0][0] + a[1] * control[1][0] + a[2] * control[2][0] + a[3] * control[3][0]
+/// The four control values from the first of some on.
+fn four(control: &[[f64; 1]]) -> [f64; ORDER] {
+    control.as_flattened().first_chunk().copied().expect("each span has four control values")
+}
+
+fn dot(a: &[f64; ORDER], control: &[f64; ORDER]) -> f64 {
+    a[0] * control[0] + a[1] * control[1] + a[2] * control[2] + a[3] * control[3]
 }
 
 impl<'a> Problem<'a> {
@@ -154,7 +168,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The places of some spans.
-    fn places(&self, spans: Range<usize>) -> Vec<LimitPlace> {
+    fn places(&self, spans: Range<usize>) -> Vec<LimitPlaces> {
         let last = self.breaks.len() - 1;
         let first = |span: usize| match span {
             0 => 0,
@@ -164,27 +178,34 @@ impl<'a> Problem<'a> {
         let stations = &self.stations[first(spans.start)..first(spans.end)];
         let mut walk = self.way.walk(self.way.from + self.breaks[spans.start]);
         let mut span = spans.start;
-        let mut places = Vec::with_capacity(stations.len());
-        for &s in stations {
-            while span + 1 < last && self.breaks[span + 1] <= s {
-                span += 1;
+        let mut places = Vec::with_capacity(stations.len().div_ceil(LANES));
+        for stations in stations.chunks(LANES) {
+            let (mut all, mut loads) = (ArrayVec::new(), ArrayVec::<Load, LANES>::new());
+            for &s in stations {
+                while span + 1 < last && self.breaks[span + 1] <= s {
+                    span += 1;
+                }
+                all.push(LimitPlace { first: span, rows: self.rows(span, s) });
+                loads.push(self.load(&mut walk, s));
             }
-            places.push(LimitPlace { first: span, rows: self.rows(span, s), load: self.load(&mut walk, s) });
+            places.push(LimitPlaces { all, loads: Loads::of(&loads) });
         }
         places
     }
 
     /// The nodes of some spans.
-    fn nodes(&self, spans: Range<usize>) -> Vec<Node> {
-        let mut nodes = Vec::with_capacity(grid::GAUSS * spans.len());
-        for span in spans {
-            for (s, weight) in grid::cell(&self.breaks, span).gauss() {
+    fn nodes(&self, spans: Range<usize>) -> Vec<Nodes> {
+        let of_span = |span: usize| {
+            let gauss = grid::cell(&self.breaks, span).gauss();
+            let rows = gauss.map(|(s, _)| {
                 let [beta] = spline::basis::<ORDER, 1>(&self.knots, span, s);
                 let [w, ..] = self.ends.weight(s);
-                nodes.push(Node { first: span, row: beta.map(|v| w * v), weight });
-            }
-        }
-        nodes
+                beta.map(|v| w * v)
+            });
+            let row = std::array::from_fn(|i| f64x4::new(rows.map(|row| row[i])));
+            Nodes { first: span, row, weight: f64x4::new(gauss.map(|(_, weight)| weight)) }
+        };
+        spans.map(of_span).collect()
     }
 
     /// A constant beta well inside every limit.
@@ -238,99 +259,118 @@ impl Chain<1> for Problem<'_> {
 /// Some control values of a problem, the others standing still.
 struct Window {
     /// The places and the nodes on which they bear.
-    places: Vec<LimitPlace>,
-    nodes: Vec<Node>,
+    places: Vec<LimitPlaces>,
+    nodes: Vec<Nodes>,
     /// The control values that are known, and those of them that are free.
     near: Range<usize>,
     free: Range<usize>,
 }
 
-/// Slope and lower half of the bend by the four control values of a span.
+/// Slope and bend by the four control values of a span.
 #[derive(Default)]
 struct Block {
-    slope: [f64; ORDER],
-    bend: [[f64; ORDER]; ORDER],
+    slope: f64x4,
+    /// Column by column; of each only what lies in the lower half counts.
+    bend: [f64x4; ORDER],
 }
 
 impl Block {
-    /// Adds what a node says about the duration. It is exact.
-    fn add_node(&mut self, node: &Node, near: &[[f64; 1]], weight: f64) {
-        let b = dot(&node.row, near);
-        let slope = -0.5 * weight * node.weight / (b * b.sqrt());
-        let bend = -1.5 * slope / b;
-        for i in 0..ORDER {
-            self.slope[i] += slope * node.row[i];
-            let half = bend * node.row[i];
-            for j in 0..=i {
-                self.bend[i][j] += half * node.row[j];
+    /// Adds what the nodes of a span say about the duration. It is exact.
+    fn add_nodes(&mut self, nodes: &Nodes, control: &[f64; ORDER], weight: f64) {
+        let b = nodes.paces(control);
+        let slopes = f64x4::splat(-0.5 * weight) * nodes.weight / (b * b.sqrt());
+        let bends = (f64x4::splat(-1.5) * slopes / b).to_array();
+        let rows = nodes.row.map(f64x4::to_array);
+        for (node, (slope, bend)) in slopes.to_array().into_iter().zip(bends).enumerate() {
+            let row = rows.map(|row| row[node]);
+            let lanes = f64x4::new(row);
+            self.slope += f64x4::splat(slope) * lanes;
+            let half = f64x4::splat(bend) * lanes;
+            for (column, value) in self.bend.iter_mut().zip(row) {
+                *column += half * f64x4::splat(value);
             }
         }
     }
 
     /// Adds what a place says about the limits.
-    fn add_place(&mut self, place: &LimitPlace, near: &[[f64; 1]], walls: &[Wall; BOUNDS]) {
-        let [r0, r1, r2] = &place.rows;
-        let model = place.load.model(&place.pace(near), walls);
-        let [g0, g1, g2] = model.slope;
-        for i in 0..ORDER {
-            self.slope[i] += g0 * r0[i] + g1 * r1[i] + g2 * r2[i];
-            let [h0, h1, h2] = model.times([r0[i], r1[i], r2[i]]);
-            for j in 0..=i {
-                self.bend[i][j] += h0 * r0[j] + h1 * r1[j] + h2 * r2[j];
-            }
+    fn add_place(&mut self, place: &LimitPlace, model: &Model) {
+        let rows = place.rows.map(f64x4::new);
+        let [g0, g1, g2] = model.slope.map(f64x4::splat);
+        self.slope += g0 * rows[0] + g1 * rows[1] + g2 * rows[2];
+        let [h0, h1, h2] = model.times(&rows);
+        for (j, column) in self.bend.iter_mut().enumerate() {
+            let [r0, r1, r2] = place.rows.map(|row| f64x4::splat(row[j]));
+            *column += h0 * r0 + h1 * r1 + h2 * r2;
         }
+    }
+
+    /// The bend, row by row.
+    fn rows(&self) -> [[f64; ORDER]; ORDER] {
+        let columns = self.bend.map(f64x4::to_array);
+        std::array::from_fn(|i| columns.map(|column| column[i]))
     }
 }
 
 impl barrier::Problem<1> for Window {
     /// The duration, s.
     fn objective(&self, control: &[[f64; 1]]) -> f64 {
-        self.nodes.iter().map(|n| n.weight / dot(&n.row, &control[n.first - self.near.start..]).sqrt()).sum()
+        let times = self.nodes.iter().flat_map(|nodes| {
+            let b = nodes.paces(&four(&control[nodes.first - self.near.start..]));
+            (nodes.weight / b.sqrt()).to_array()
+        });
+        times.sum()
     }
 
     fn slacks(&self, control: &[[f64; 1]], slacks: &mut Vec<f64>) -> Result<(), Outside> {
         slacks.clear();
-        for place in &self.places {
-            let here = place.load.slacks(&place.pace(&control[place.first - self.near.start..]));
+        for places in &self.places {
+            let here = places.loads.slacks(&places.paces(control, self.near.start));
             // A root of a negative b is no number, and no slack is positive then.
-            if here.iter().any(|&slack| slack.is_nan() || slack <= 0.0) {
+            let is_positive = |slack: &f64x4| slack.simd_gt(f64x4::ZERO);
+            if !here[1..].iter().fold(is_positive(&here[0]), |all, slack| all & is_positive(slack)).all() {
                 return Err(Outside);
             }
-            slacks.extend_from_slice(&here);
+            slacks.extend_from_slice(here.map(f64x4::to_array).as_flattened());
         }
         // A B-spline lies between its control values: b stays positive between the nodes, too.
         slacks.extend(control.as_flattened());
         if control.as_flattened().iter().all(|&value| value > 0.0) { Ok(()) } else { Err(Outside) }
     }
 
+    fn idle(&self) -> usize {
+        self.places.last().map_or(0, |places| BOUNDS * (LANES - places.all.len()))
+    }
+
     fn newton(&self, control: &[[f64; 1]], forces: &Forces) -> Option<(Vec<[f64; 1]>, f64)> {
         let mut hessian = BandMatrix::<ORDER>::zero(control.len());
         let mut gradient = vec![0.0; control.len()];
-        let (walls, positive) = forces.walls.split_at(BOUNDS * self.places.len());
+        let [walls, positive] = forces.walls.split_at(BOUNDS * LANES * self.places.len());
         for (i, wall) in positive.iter().enumerate() {
             hessian.add_entry(i, i, wall.bend());
             gradient[i] -= wall.slope;
         }
         let mut add = |first: usize, block: &Block| {
-            hessian.add_block(first, &block.bend);
-            gradient[first..].iter_mut().zip(&block.slope).for_each(|(sum, slope)| *sum += slope);
+            hessian.add_block(first, &block.rows());
+            gradient[first..].iter_mut().zip(block.slope.to_array()).for_each(|(sum, slope)| *sum += slope);
         };
-        for nodes in self.nodes.chunk_by(|a, b| a.first == b.first) {
-            let first = nodes[0].first - self.near.start;
+        for nodes in &self.nodes {
+            let first = nodes.first - self.near.start;
             let mut block = Block::default();
-            for node in nodes {
-                block.add_node(node, &control[first..], forces.weight);
-            }
+            block.add_nodes(nodes, &four(&control[first..]), forces.weight);
             add(first, &block);
         }
-        let mut walls = walls.as_chunks::<BOUNDS>().0.iter();
-        for places in self.places.chunk_by(|a, b| a.first == b.first) {
-            let first = places[0].first - self.near.start;
-            let mut block = Block::default();
-            for (place, walls) in places.iter().zip(walls.by_ref()) {
-                block.add_place(place, &control[first..], walls);
+        let mut open: Option<(usize, Block)> = None;
+        for (places, [slopes, shares]) in self.places.iter().zip(bounded(walls)) {
+            let models = places.loads.models(&places.paces(control, self.near.start), &slopes, &shares);
+            for (lane, place) in places.all.iter().enumerate() {
+                if let Some((first, block)) = open.take_if(|(first, _)| *first != place.first) {
+                    add(first - self.near.start, &block);
+                }
+                open.get_or_insert_with(|| (place.first, Block::default())).1.add_place(place, &models.at(lane));
             }
-            add(first, &block);
+        }
+        if let Some((first, block)) = open {
+            add(first - self.near.start, &block);
         }
         let (before, behind) = (self.free.start - self.near.start, self.free.end - self.near.start);
         for fixed in (0..before).chain(behind..control.len()) {
@@ -344,9 +384,32 @@ impl barrier::Problem<1> for Window {
     }
 }
 
-impl LimitPlace {
-    fn pace(&self, near: &[[f64; 1]]) -> Pace {
-        [dot(&self.rows[0], near), dot(&self.rows[1], near), dot(&self.rows[2], near)]
+/// The walls of places that are worked out at once: their slopes and their shares.
+fn bounded(walls: Walls<'_>) -> impl Iterator<Item = [Bounded; 2]> {
+    let of_lanes = |values: &[[f64; LANES]; BOUNDS]| values.map(f64x4::new);
+    let [slopes, shares] = [walls.slopes, walls.shares].map(|values| values.as_chunks().0.as_chunks().0.iter());
+    slopes.zip(shares).map(move |(slopes, shares)| [of_lanes(slopes), of_lanes(shares)])
+}
+
+impl LimitPlaces {
+    /// b, b' and b'' at each; 1 beyond the last.
+    fn paces(&self, control: &[[f64; 1]], near: usize) -> [f64x4; 3] {
+        let mut paces = [[1.0; LANES]; 3];
+        for (lane, place) in self.all.iter().enumerate() {
+            let control = four(&control[place.first - near..]);
+            for (pace, row) in paces.iter_mut().zip(&place.rows) {
+                pace[lane] = dot(row, &control);
+            }
+        }
+        paces.map(f64x4::new)
+    }
+}
+
+impl Nodes {
+    /// b at each.
+    fn paces(&self, control: &[f64; ORDER]) -> f64x4 {
+        let [c0, c1, c2, c3] = control.map(f64x4::splat);
+        self.row[0] * c0 + self.row[1] * c1 + self.row[2] * c2 + self.row[3] * c3
     }
 }
 
