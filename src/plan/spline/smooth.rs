@@ -131,6 +131,7 @@ struct Sample {
 impl Sample {
     /// Where it is, by the control points from the first that moves it on.
     fn point(&self, control: &[[f64; 2]]) -> Point {
+        let control: &[[f64; 2]; ORDER] = control.first_chunk().expect("each sample has as many as the order");
         let mut point = Point::origin();
         for (weight, c) in self.weights.iter().zip(control) {
             point.x += weight * c[0];

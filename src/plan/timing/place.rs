@@ -80,7 +80,6 @@ impl Load {
         let j = greatest(self.jerk.map(|j| jerk(&j, pace)));
         [self.speed * pace[0], a, j * pace[0].sqrt()]
     }
-
 }
 
 fn acceleration(c: &[f64; 2], pace: &Pace) -> f64 {

@@ -322,19 +322,21 @@ impl barrier::Problem<1> for Window {
     }
 
     fn slacks(&self, control: &[[f64; 1]], slacks: &mut Vec<f64>) -> Result<(), Outside> {
-        slacks.clear();
-        for places in &self.places {
+        slacks.resize(BOUNDS * LANES * self.places.len() + control.len(), 0.0);
+        let (of_places, positive) = slacks.split_at_mut(BOUNDS * LANES * self.places.len());
+        for (places, slacks) in self.places.iter().zip(of_places.as_chunks_mut::<LANES>().0.as_chunks_mut::<BOUNDS>().0)
+        {
             let here = places.loads.slacks(&places.paces(control, self.near.start));
             // A root of a negative b is no number, and no slack is positive then.
             let is_positive = |slack: &f64x4| slack.simd_gt(f64x4::ZERO);
             if !here[1..].iter().fold(is_positive(&here[0]), |all, slack| all & is_positive(slack)).all() {
                 return Err(Outside);
             }
-            slacks.extend_from_slice(here.map(f64x4::to_array).as_flattened());
+            slacks.iter_mut().zip(here).for_each(|(slack, here)| *slack = here.to_array());
         }
         // A B-spline lies between its control values: b stays positive between the nodes, too.
-        slacks.extend(control.as_flattened());
-        if control.as_flattened().iter().all(|&value| value > 0.0) { Ok(()) } else { Err(Outside) }
+        positive.copy_from_slice(control.as_flattened());
+        if positive.iter().all(|&value| value > 0.0) { Ok(()) } else { Err(Outside) }
     }
 
     fn idle(&self) -> usize {

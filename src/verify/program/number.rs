@@ -39,22 +39,27 @@ pub(in crate::verify) fn short(field: &[u8]) -> Option<f64> {
 /// Such a number at the beginning of a text, and how many bytes it takes.
 pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
     let start = usize::from(text.first() == Some(&b'-'));
-    let (mut at, mut value, mut point) = (start, 0_u64, None);
-    while let Some(&byte) = text.get(at) {
-        let digit = byte.wrapping_sub(b'0');
-        if digit < 10 {
-            value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
-        } else if byte == b'.' && point.is_none() {
-            point = Some(at);
-        } else {
-            break;
-        }
-        at += 1;
+    let (before, mut value) = digits(&text[start..], 0);
+    let (mut at, mut decimals) = (start + before, 0);
+    if text.get(at) == Some(&b'.') {
+        (decimals, value) = digits(&text[at + 1..], value);
+        at += 1 + decimals;
     }
-    let count = at - start - usize::from(point.is_some());
-    let decimals = point.map_or(0, |point| at - point - 1);
+    let count = before + decimals;
     let magnitude = || value as f64 / POWERS[decimals];
     (1..=EXACT_DIGITS).contains(&count).then(|| (if start == 0 { magnitude() } else { -magnitude() }, at))
+}
+
+/// How many digits a text begins with, and the number that they continue.
+fn digits(text: &[u8], mut value: u64) -> (usize, u64) {
+    for (i, byte) in text.iter().enumerate() {
+        let digit = byte.wrapping_sub(b'0');
+        if digit >= 10 {
+            return (i, value);
+        }
+        value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
+    }
+    (text.len(), value)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Read as _};
 
 use super::counts::{self, Counts};
-use super::number::{decimal, quoted, whole};
+use super::number::{decimal, leading, quoted, whole};
 use super::row::{FIRST_LINE, ROUNDING, Rounding, Row};
 use super::{hal, npy};
 use crate::geom::Point;
@@ -270,7 +270,42 @@ fn parse(line: &[u8], tick: u64) -> Result<Row, String> {
     })
 }
 
+/// The fields of a row: numbers, then outputs.
+type Fields = ([f64; 4], [u32; 4]);
+
 fn row(line: &[u8], tick: u64) -> Result<Row, String> {
+    let ([t, x, y, c_deg], [knife, drill, event, block]) = plain(line).map_or_else(|| fields(line), Ok)?;
+    Ok(Row {
+        tick,
+        t,
+        centre: Point::new(x, y),
+        c_deg,
+        knife: knife == 1,
+        drill: drill as u8,
+        event: event as u8,
+        block,
+        line: tick + FIRST_LINE,
+    })
+}
+
+/// The fields of a row whose numbers have few digits, as nearly all have; `None` of any other line.
+fn plain(line: &[u8]) -> Option<Fields> {
+    let (mut numbers, mut outputs, mut rest) = ([0.0; 4], [0; 4], line);
+    for number in &mut numbers {
+        let (value, length) = leading(rest)?;
+        (*number, rest) = (value, rest[length..].strip_prefix(b",")?);
+    }
+    for (output, most) in outputs[..3].iter_mut().zip(GREATEST) {
+        let [digit, b',', behind @ ..] = rest else { return None };
+        let value = u32::from(digit.wrapping_sub(b'0'));
+        (*output, rest) = (Some(value).filter(|value| *value <= most)?, behind);
+    }
+    outputs[3] = whole(rest)?;
+    Some((numbers, outputs))
+}
+
+/// The fields of any row, or why it is none.
+fn fields(line: &[u8]) -> Result<Fields, String> {
     let mut fields = line.split(|&b| b == b',');
     let mut field = || fields.next().unwrap_or_default();
     let mut numbers = [0.0; 4];
@@ -288,18 +323,7 @@ fn row(line: &[u8], tick: u64) -> Result<Row, String> {
     if fields.next().is_some() {
         return Err(String::new());
     }
-    let ([t, x, y, c_deg], [knife, drill, event, block]) = (numbers, outputs);
-    Ok(Row {
-        tick,
-        t,
-        centre: Point::new(x, y),
-        c_deg,
-        knife: knife == 1,
-        drill: drill as u8,
-        event: event as u8,
-        block,
-        line: tick + FIRST_LINE,
-    })
+    Ok((numbers, outputs))
 }
 
 #[cfg(test)]
