@@ -51,6 +51,19 @@ impl Declared {
         self.find(kind, stretch).next().is_some()
     }
 
+    /// Whether a plunge is declared over all of a stretch, and as long as that: what its neighbours on the line declare is not
+    /// enough. `length` is the least that counts as all of it, mm.
+    pub(super) fn has_nibble(&self, stretch: Stretch, length: f64) -> bool {
+        let [a, b] = stretch.stations.map(|station| station + stretch.line.cut.offset);
+        let (low, high) = (a.min(b), a.max(b));
+        let aside = ASIDE.min((high - low) / 4.0);
+        let covers = |entry: &Declaration| {
+            let places = [low + aside, high - aside];
+            places.iter().all(|&at| stretch.line.cut.meets([at; 2], [entry.from_mm, entry.to_mm]))
+        };
+        self.find(Kind::Nibbled, stretch).any(|entry| covers(entry) && entry.magnitude_mm >= length)
+    }
+
     /// What is declared of a kind there.
     pub(super) fn find(&self, kind: Kind, stretch: Stretch) -> impl Iterator<Item = &Declaration> {
         self.places(kind, stretch).map(|place| &self.entries[place])

@@ -181,6 +181,7 @@ impl Model {
         ]
     }
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -194,11 +195,18 @@ mod tests {
 
     const PACE: Pace = [9e4, 300.0, -40.0];
 
+    /// The slacks at one place, the last of some that are not all there.
+    fn slacks(load: Load, pace: &Pace) -> [f64; BOUNDS] {
+        let slacks = Loads::of(&[load; LANES - 1]).slacks(&pace.map(f64x4::splat));
+        assert!(slacks.iter().all(|slacks| slacks.to_array()[LANES - 1] == 1.0), "nothing is limited beyond the last");
+        slacks.map(|slacks| slacks.to_array()[LANES - 2])
+    }
+
     #[test]
     fn what_is_left_of_a_limit_is_the_slack() {
         let load = load();
         let used = load.parts(&PACE).into_iter().fold(0.0, f64::max);
-        let least = load.slacks(&PACE).into_iter().fold(f64::INFINITY, f64::min);
+        let least = slacks(load, &PACE).into_iter().fold(f64::INFINITY, f64::min);
         assert!((used + least - 1.0).abs() < 1e-12, "{used} {least}");
         let grown = load.parts(&PACE.map(|v| 4.0 * v));
         let expected = load.parts(&PACE);
@@ -210,9 +218,10 @@ mod tests {
     #[test]
     fn the_model_has_the_slope_of_the_barrier_and_its_bend_along_straight_constraints() {
         let load = load();
-        let barrier = |pace: &Pace| -load.slacks(pace).iter().map(|slack| slack.ln()).sum::<f64>();
-        let walls = load.slacks(&PACE).map(|slack| Wall { slope: 1.0 / slack, share: 1.0 });
-        let model = load.model(&PACE, &walls);
+        let barrier = |pace: &Pace| -slacks(load, pace).iter().map(|slack| slack.ln()).sum::<f64>();
+        let slopes = slacks(load, &PACE).map(|slack| f64x4::splat(1.0 / slack));
+        let models = Loads::of(&[load]).models(&PACE.map(f64x4::splat), &slopes, &[f64x4::ONE; BOUNDS]);
+        let model = models.at(0);
         for k in 0..3 {
             let step = [1.0, 1e-2, 1e-3][k];
             let moved = |by: f64| std::array::from_fn(|i| if i == k { PACE[i] + by } else { PACE[i] });
@@ -220,9 +229,9 @@ mod tests {
             let numeric = (behind - before) / (2.0 * step);
             assert!((model.slope[k] / numeric - 1.0).abs() < 1e-5, "{k}: {} {numeric}", model.slope[k]);
             // By b'' all constraints are straight, by b' likewise.
-            let unit = std::array::from_fn(|i| f64::from(u8::from(i == k)));
+            let unit = std::array::from_fn(|i| f64x4::splat(f64::from(u8::from(i == k))));
             let numeric = (behind - 2.0 * barrier(&PACE) + before) / (step * step);
-            let bend = model.times(unit)[k];
+            let bend = model.times(&unit)[k].to_array()[0];
             assert!(k == 0 || (bend / numeric - 1.0).abs() < 1e-3, "{k}: {bend} {numeric}");
         }
     }

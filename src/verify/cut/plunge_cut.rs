@@ -14,6 +14,9 @@ use crate::verify::reference::line::Line;
 
 /// Part of the tolerance by which a line is off a straight one where it bends, however little.
 const SLIGHT_SHARE: f64 = 0.1;
+/// Part of what a plunge cuts of its line that its declaration says at the least: a noisy line is longer in one way of
+/// measuring than in another.
+const NIBBLE_SHARE: f64 = 0.75;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-6;
 
@@ -82,7 +85,10 @@ impl Judge<'_> {
         let length = (to - from).abs();
         let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
         let may = match self.tracer.declared {
-            Some(declared) => declared.has(Kind::Nibbled, Stretch { line, stations: trial.reach, end: None }),
+            Some(declared) => {
+                let least = NIBBLE_SHARE * length - 2.0 * self.tracer.allowed;
+                declared.has_nibble(Stretch { line, stations: trial.reach, end: None }, least)
+            }
             None => !is_straight,
         };
         if !is_all && !may {
