@@ -6,6 +6,9 @@ const INTEGER_PATH_MAX: f64 = 9.0e15;
 /// The most characters of such a number: its digits and those that decimals ask for, a point and a sign.
 const DIGITS: usize = 32;
 
+/// Room for the characters of a number, which end in its middle: so many are copied at once from wherever they begin.
+type Digits = [u8; 2 * DIGITS];
+
 /// The digits of the numbers below a hundred.
 const PAIRS: [[u8; 2]; 100] = {
     let mut pairs = [[0; 2]; 100];
@@ -36,7 +39,7 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
     // What is left behind the whole part is exact.
     let whole = scaled.abs() as u64;
     let rounded = whole + u64::from(scaled.abs() - whole as f64 >= 0.5);
-    let mut digits = [0_u8; DIGITS];
+    let mut digits: Digits = [0; 2 * DIGITS];
     let mut at = DIGITS;
     let mut before = rounded;
     if decimals > 0 {
@@ -50,12 +53,19 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
         at -= 1;
         digits[at] = b'-';
     }
-    out.extend_from_slice(&digits[at..]);
+    append(out, &digits, at);
+}
+
+/// Appends the characters that begin at a place.
+fn append(out: &mut Vec<u8>, digits: &Digits, at: usize) {
+    let end = out.len() + DIGITS - at;
+    out.extend_from_slice(digits[at..].first_chunk::<DIGITS>().expect("a number begins before the middle"));
+    out.truncate(end);
 }
 
 /// Writes a number of at least so many digits before a place; where it then begins. From behind and two by two, so that
 /// there are few divisions, each by a hundred, for which a multiplication stands.
-fn put(digits: &mut [u8; DIGITS], end: usize, (mut value, least): (u64, usize)) -> usize {
+fn put(digits: &mut Digits, end: usize, (mut value, least): (u64, usize)) -> usize {
     let mut at = end;
     while value >= 10 || end - at + 1 < least {
         at -= 2;
@@ -71,9 +81,9 @@ fn put(digits: &mut [u8; DIGITS], end: usize, (mut value, least): (u64, usize)) 
 
 /// Appends a whole number.
 pub fn push_integer(out: &mut Vec<u8>, value: u64) {
-    let mut digits = [0_u8; DIGITS];
+    let mut digits: Digits = [0; 2 * DIGITS];
     let at = put(&mut digits, DIGITS, (value, 1));
-    out.extend_from_slice(&digits[at..]);
+    append(out, &digits, at);
 }
 
 /// `value` with exactly `decimals` decimals, as [`push_fixed`] prints it.

@@ -27,18 +27,3 @@ impl Ground<'_> {
 
 /// Rounding of rows of six decimals, mm, three of which make a place of the blade.
 pub(super) const ROUNDING: f64 = 1e-5;
-
-/// Why something cannot be read.
-#[derive(Debug)]
-pub(super) enum Unread {
-    /// The file itself.
-    Io(std::io::Error),
-    /// A row, record or key.
-    Row(String),
-}
-
-impl From<std::io::Error> for Unread {
-    fn from(error: std::io::Error) -> Self {
-        Self::Io(error)
-    }
-}

@@ -32,7 +32,6 @@ use rayon::prelude::*;
 
 use self::cover::Covers;
 use self::follow::Follower;
-use self::ground::Unread;
 use self::limits::Limits;
 use self::lines::Lines;
 use self::plan_file::Plan;
@@ -41,6 +40,7 @@ use self::rows::Row;
 use self::strokes::{Stroke, Strokes};
 use crate::geom::Point;
 use crate::ir::verdict::{Sighting, Verdict, WorstByRule};
+use crate::verify::columns::Unread;
 use crate::verify::required;
 
 /// Gives the program of a head, by its place in the plan, once.

@@ -1,8 +1,9 @@
 //! The plan, as it is read back: which heads there are, and where they stand.
 
-use super::ground::{Ground, Unread};
+use super::ground::Ground;
 use super::rules;
 use crate::ir::verdict::WorstByRule;
+use crate::verify::columns::Unread;
 
 /// What a plan says that programs need.
 #[derive(Debug, Clone, PartialEq)]

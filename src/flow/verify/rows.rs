@@ -1,8 +1,8 @@
 //! The programs of heads, as they are read back: rows of text or records of an array.
 
-use std::io::{BufRead, Read as _};
+use std::io::BufRead;
 
-use super::ground::Unread;
+use crate::verify::columns::{self, Lines, Unread, float};
 use crate::verify::number;
 
 /// What kind of bytes the programs of heads are.
@@ -33,10 +33,11 @@ pub(super) struct Row {
 
 /// Bytes of a record: five numbers, a flag, a block.
 const RECORD: usize = 5 * 8 + 1 + 4;
-/// Fields of a row.
-const FIELDS: usize = 7;
 /// The names of the fields, in their order.
-const NAMES: [&str; FIELDS] = ["t_s", "conv_mm", "x_mm", "y_mm", "c_deg", "knife", "block"];
+const NAMES: &str = "t_s,conv_mm,x_mm,y_mm,c_deg,knife,block";
+/// The fields of a record.
+const FIELDS: &str = "('t_s','<f8'),('conv_mm','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
+    ('knife','|u1'),('block','<u4')";
 
 /// Reads a program, row by row.
 pub(super) fn read(bytes: Bytes, input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {
@@ -47,22 +48,12 @@ pub(super) fn read(bytes: Bytes, input: &mut dyn BufRead, each: &mut dyn FnMut(R
 }
 
 fn text(input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {
-    let mut line = Vec::new();
-    input.read_until(b'\n', &mut line)?;
-    if line.trim_ascii_end() != NAMES.join(",").as_bytes() {
-        return Err(Unread::Row(format!("the first line is not {}", NAMES.join(","))));
-    }
+    let mut lines = Lines::default();
+    lines.header(input, NAMES)?;
     let mut last = Last::default();
-    for number in 2.. {
-        line.clear();
-        if input.read_until(b'\n', &mut line)? == 0 {
-            return Ok(());
-        }
-        if line.last() != Some(&b'\n') {
-            return Err(Unread::Row(format!("line {number} is cut off")));
-        }
-        let row = last.row(line.trim_ascii_end());
-        each(row.ok_or_else(|| Unread::Row(format!("line {number} is no row")))?);
+    while let Some(line) = lines.next(input)? {
+        let row = last.row(line.as_bytes());
+        each(row.ok_or_else(|| lines.is("it is none of a program"))?);
     }
     Ok(())
 }
@@ -103,47 +94,22 @@ fn of_fields(fields: &[u8]) -> Option<Row> {
 }
 
 fn records(input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {
-    let short = |_| Unread::Row("the array ends in its header".to_owned());
-    let mut start = [0; 10];
-    input.read_exact(&mut start).map_err(short)?;
-    if !start.starts_with(b"\x93NUMPY\x01\x00") {
-        return Err(Unread::Row("it is no array of NumPy, version 1.0".to_owned()));
-    }
-    let mut header = vec![0; usize::from(u16::from_le_bytes([start[8], start[9]]))];
-    input.read_exact(&mut header).map_err(short)?;
-    let header = String::from_utf8_lossy(&header).into_owned();
-    let mut fields: Vec<String> = NAMES[..5].iter().map(|name| format!("('{name}', '<f8')")).collect();
-    fields.extend(["('knife', '|u1')".to_owned(), "('block', '<u4')".to_owned()]);
-    if !header.contains(&format!("[{}]", fields.join(", "))) {
-        return Err(Unread::Row("its records have other fields".to_owned()));
-    }
-    let shape = header.split_once("'shape': (").and_then(|(_, rest)| rest.split_once(','));
-    let Some(count) = shape.and_then(|(count, _)| count.parse::<u64>().ok()) else {
-        return Err(Unread::Row("its header does not tell how many records it has".to_owned()));
-    };
-    let mut record = [0; RECORD];
-    for number in 0..count {
-        let cut_off = |_| Unread::Row(format!("it ends before record {number} of {count}"));
-        input.read_exact(&mut record).map_err(cut_off)?;
-        each(of_record(&record).ok_or_else(|| Unread::Row(format!("record {number} is no row")))?);
-    }
-    let mut rest = [0];
-    if input.take(1).read(&mut rest)? > 0 {
-        return Err(Unread::Row("there is something behind the last record".to_owned()));
+    let mut left = columns::records(input, FIELDS)?;
+    let (mut record, mut number) = ([0; RECORD], 0);
+    while columns::record(input, &mut left, &mut record)? {
+        number += 1;
+        each(of_record(&record).ok_or_else(|| Unread::row(number, "it is none of a program"))?);
     }
     Ok(())
 }
 
 fn of_record(record: &[u8; RECORD]) -> Option<Row> {
-    let number = |i: usize| {
-        let bytes: [u8; 8] = record[8 * i..8 * i + 8].try_into().ok()?;
-        Some(f64::from_le_bytes(bytes)).filter(|value| value.is_finite())
-    };
+    let number = |place: usize| float(record, 8 * place);
     let knife = match record[40] {
         0 => false,
         1 => true,
         _ => return None,
     };
-    let block = u32::from_le_bytes(record[41..45].try_into().ok()?);
+    let block = u32::from_le_bytes(*record[41..].first_chunk()?);
     Some(Row { time: number(0)?, conveyor: number(1)?, place: [number(2)?, number(3)?], c: number(4)?, knife, block })
 }

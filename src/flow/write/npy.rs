@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use super::target::{Kind, Target};
 use crate::flow::program::{Head, Program};
 use crate::flow::verify::Bytes;
-use crate::units::deg;
+use crate::units::{array, deg};
 
 pub(super) const TARGET: Target = Target {
     name: "npy",
@@ -17,15 +17,14 @@ pub(super) const TARGET: Target = Target {
     kind: Kind::Heads { write, bytes: Bytes::Records },
 };
 
-/// Bytes before the first record: a multiple of 64, so that memory maps are aligned.
-const HEADER_BYTES: usize = 256;
-/// Magic string, version 1.0.
-const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
+/// The fields of a record.
+const FIELDS: &str = "('t_s', '<f8'), ('conv_mm', '<f8'), ('x_mm', '<f8'), ('y_mm', '<f8'), ('c_deg', '<f8'), \
+                      ('knife', '|u1'), ('block', '<u4')";
 /// Bytes that are gathered before they are written.
 const BLOCK: usize = 1 << 16;
 
 fn write(program: &Program, head: &Head, out: &mut dyn Write) -> io::Result<()> {
-    let mut bytes = header(program.ticks);
+    let mut bytes = array::header(FIELDS, program.ticks);
     for setpoint in program.setpoints(head) {
         let conveyor = program.conveyor(setpoint.tick);
         let state = setpoint.state;
@@ -41,18 +40,4 @@ fn write(program: &Program, head: &Head, out: &mut dyn Write) -> io::Result<()> 
         }
     }
     out.write_all(&bytes)
-}
-
-/// The header of an array of `count` records: a Python literal, padded with blanks and ended by a line feed.
-fn header(count: u64) -> Vec<u8> {
-    let mut bytes = MAGIC.to_vec();
-    let length = HEADER_BYTES - MAGIC.len() - 2;
-    bytes.extend_from_slice(&(length as u16).to_le_bytes());
-    let fields = "('t_s', '<f8'), ('conv_mm', '<f8'), ('x_mm', '<f8'), ('y_mm', '<f8'), ('c_deg', '<f8'), \
-                  ('knife', '|u1'), ('block', '<u4')";
-    let text = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({count},), }}");
-    bytes.extend_from_slice(text.as_bytes());
-    bytes.resize(HEADER_BYTES - 1, b' ');
-    bytes.push(b'\n');
-    bytes
 }

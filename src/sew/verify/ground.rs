@@ -1,7 +1,5 @@
 //! What a program is held against, and why it may not be read.
 
-use std::io;
-
 use crate::geom::Point;
 use crate::ir::verdict::Sighting;
 use crate::machine::Sewing;
@@ -37,26 +35,4 @@ pub enum Original<'a> {
 /// A place of the needle at an entry, from 1; 0 = at none.
 pub(super) fn sighting(entry: u32, point: Point) -> Sighting {
     Sighting { line: Some(entry.into()), ..Sighting::missing(point, 0) }
-}
-
-/// Why the rest of a program is not read.
-#[derive(Debug)]
-pub(super) enum Unread {
-    /// The disk.
-    Io(io::Error),
-    /// Something that is no part of a program.
-    Row(String),
-}
-
-impl From<io::Error> for Unread {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl Unread {
-    /// Of a row that is none.
-    pub(super) fn row(number: u64, what: &str) -> Self {
-        Self::Row(format!("row {number}: {what}"))
-    }
 }

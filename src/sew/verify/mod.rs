@@ -22,9 +22,9 @@ pub use rules::RULES;
 
 use std::io::{self, BufRead};
 
-use self::ground::Unread;
 use crate::ir::Finding;
 use crate::ir::verdict::{Verdict, WorstByRule};
+use crate::verify::columns::Unread;
 
 /// What kind of bytes are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use std::io::BufRead;
 
-use super::ground::Unread;
 use super::pulses::{OPS, Row};
+use crate::verify::columns::{Lines, Unread};
 
 /// How well an interval is known, microseconds: both ends have three decimals.
 pub(super) const TICK_US: f64 = 0.001_1;
@@ -13,29 +13,13 @@ const FIELDS: usize = 7;
 
 /// Reads row by row.
 pub(super) fn read(input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {
-    let mut line = String::new();
-    let mut number = 0;
-    loop {
-        line.clear();
-        number += 1;
-        match input.read_line(&mut line) {
-            Ok(0) if number == 1 => return Err(Unread::row(1, "there is no row")),
-            Ok(0) => return Ok(()),
-            Ok(_) => {}
-            Err(error) if error.kind() == std::io::ErrorKind::InvalidData => {
-                return Err(Unread::row(number, "it is no text"));
-            }
-            Err(error) => return Err(error.into()),
-        }
-        let Some(text) = line.strip_suffix('\n') else { return Err(Unread::row(number, "it is cut off")) };
-        if number == 1 {
-            if text != HEADER {
-                return Err(Unread::row(1, "it is not the header"));
-            }
-            continue;
-        }
-        each(row(text).ok_or_else(|| Unread::row(number, "it is none of a program"))?);
+    let mut lines = Lines::default();
+    lines.header(input, HEADER)?;
+    while let Some(line) = lines.next(input)? {
+        let row = row(line);
+        each(row.ok_or_else(|| lines.is("it is none of a program"))?);
     }
+    Ok(())
 }
 
 fn row(text: &str) -> Option<Row> {

@@ -1,13 +1,14 @@
 //! Every pulse: how many there are, which way, when, and where the needle stands then.
 
 use super::clock;
-use super::ground::{Ground, Unread, sighting};
+use super::ground::{Ground, sighting};
 use super::rules;
 use super::spindle::Spindle;
 use crate::geom::Point;
 use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::sew::stitches::Op;
 use crate::units::US_PER_S;
+use crate::verify::columns::Unread;
 
 /// A row of a program.
 #[derive(Debug, Clone, Copy)]

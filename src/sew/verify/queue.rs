@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::io::BufRead;
 
 use super::clock;
-use super::ground::{Ground, Unread, sighting};
+use super::ground::{Ground, sighting};
 use super::rules;
 use super::spindle::Spindle;
 use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
+use crate::verify::columns::{Lines, Unread};
 
 /// Rounding of times, as a part of the window: the speed is a whole number.
 const WINDOW_EPSILON: f64 = 2e-6;
@@ -47,23 +48,15 @@ pub(super) fn judge(
     ground: &Ground,
     worst: &mut WorstByRule,
 ) -> Result<(), Unread> {
-    let (mut line, mut number, mut i) = (String::new(), 0, 0);
+    let (mut lines, mut i) = (Lines::default(), 0);
+    if let Some(head) = form.head {
+        lines.header(input, head)?;
+    }
     // Few moves are different.
     let mut times: BTreeMap<u64, f64> = BTreeMap::new();
     let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::default(), false);
-    loop {
-        number += 1;
-        if !fetch(input, &mut line, number)? {
-            break;
-        }
-        let text = line.strip_suffix('\n').ok_or_else(|| Unread::row(number, "it is cut off"))?;
-        if let Some(head) = form.head.filter(|_| number == 1) {
-            if text == head {
-                continue;
-            }
-            return Err(Unread::row(number, "it is not the header"));
-        }
-        let entry = (form.entry)(text).filter(|_| !is_ended).ok_or_else(|| Unread::row(number, "it is no entry"))?;
+    while let Some(text) = lines.next(input)? {
+        let entry = (form.entry)(text).filter(|_| !is_ended).ok_or_else(|| lines.is("it is no entry"))?;
         let (is_asked, way) = match entry {
             Entry::Speed(speed) => {
                 rpm = speed;
@@ -92,20 +85,10 @@ pub(super) fn judge(
         i += 1;
     }
     if !is_ended {
-        return Err(Unread::row(number, "END is missing"));
+        return Err(lines.is("END is missing"));
     }
     worst.count(&rules::ENTRIES, ground.stitches.steps.len().abs_diff(i), None);
     Ok(())
-}
-
-/// Reads the line of a number; `false` behind the last one.
-fn fetch(input: &mut dyn BufRead, line: &mut String, number: u64) -> Result<bool, Unread> {
-    line.clear();
-    match input.read_line(line) {
-        Ok(read) => Ok(read > 0),
-        Err(error) if error.kind() == std::io::ErrorKind::InvalidData => Err(Unread::row(number, "it is no text")),
-        Err(error) => Err(error.into()),
-    }
 }
 
 fn op(ground: &Ground, i: usize) -> Option<Op> {

@@ -2,13 +2,14 @@
 
 use std::io::BufRead;
 
-use super::ground::{Ground, Unread, sighting};
+use super::ground::{Ground, sighting};
 use super::records::{Decoded, File, Kind, Record};
 use super::rules;
 use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 use crate::units::TENTHS_PER_MM;
+use crate::verify::columns::Unread;
 
 /// The longest move of a record at which no rounding makes it two, mm.
 const LONGEST: f64 = 12.0;

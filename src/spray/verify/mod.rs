@@ -19,6 +19,7 @@ use std::io::{self, BufRead};
 use self::jet::Jet;
 use crate::ir::verdict::{Verdict, WorstByRule};
 use crate::machine::Job;
+use crate::verify::columns::Unread;
 
 /// Whether bytes begin as a program of a head does.
 pub fn begins(bytes: &[u8]) -> bool {
@@ -28,7 +29,7 @@ pub fn begins(bytes: &[u8]) -> bool {
 /// Judges a program from its bytes.
 pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<Verdict> {
     let mut worst = WorstByRule::default();
-    let read = rows::read(input)?;
+    let read = rows::read(input);
     worst.see_under(&rules::FORMAT, f64::from(u8::from(read.is_err())), 0.0, None);
     let unread = match read {
         Ok(rows) => {
@@ -36,7 +37,8 @@ pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<
             Jet::new(&rows, ground, job).judge(&mut worst);
             None
         }
-        Err(unread) => Some(unread),
+        Err(Unread::Io(error)) => return Err(error),
+        Err(Unread::Row(what)) => Some(what),
     };
     Ok(Verdict { findings: worst.findings(), unread, ..Verdict::default() })
 }

@@ -1,9 +1,10 @@
 //! Rows of a program, read from its bytes.
 
-use std::io::{self, BufRead};
+use std::io::BufRead;
 
 use crate::geom::Point;
 use crate::ir::verdict::Sighting;
+use crate::verify::columns::{Lines, Unread};
 
 /// How a program begins.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,vx_mm_s,vy_mm_s,jet,block";
@@ -42,42 +43,25 @@ impl Row {
     }
 }
 
-/// All rows; or what cannot be read, with its line.
-pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Result<Vec<Row>, String>> {
-    let mut rows = Vec::new();
-    let mut text = Vec::new();
-    let mut line = 0;
-    loop {
-        text.clear();
-        if input.read_until(b'\n', &mut text)? == 0 {
-            break;
-        }
-        line += 1;
-        let Some(whole) = text.strip_suffix(b"\n") else {
-            return Ok(Err(format!("line {line} has no end")));
-        };
-        let whole = std::str::from_utf8(whole).unwrap_or("?").trim_end_matches('\r');
-        if line == 1 {
-            if whole != HEADER {
-                return Ok(Err(format!("line 1 is not `{HEADER}`")));
-            }
-            continue;
-        }
-        match row(whole, line) {
-            Some(row) => rows.push(row),
-            None => return Ok(Err(format!("line {line} is not eight numbers, the jet 0 or 1"))),
-        }
+/// All rows.
+pub(super) fn read(input: &mut dyn BufRead) -> Result<Vec<Row>, Unread> {
+    let (mut rows, mut lines) = (Vec::new(), Lines::default());
+    lines.header(input, HEADER)?;
+    while let Some(line) = lines.next(input)? {
+        let row = row(line);
+        let row = row.ok_or_else(|| lines.is("it is not eight numbers, the jet 0 or 1"))?;
+        rows.push(Row { line: lines.number(), ..row });
     }
-    Ok(if rows.is_empty() { Err("there are no rows".to_owned()) } else { Ok(rows) })
+    if rows.is_empty() { Err(lines.is("there is no row")) } else { Ok(rows) }
 }
 
-/// The row of a line.
-fn row(text: &str, line: u64) -> Option<Row> {
+/// The row of a line, still without the number of that.
+fn row(text: &str) -> Option<Row> {
     let fields: Vec<&str> = text.split(',').collect();
     let [time, x, y, c, vx, vy, jet, block] = fields[..] else { return None };
     let number = |text: &str| text.parse::<f64>().ok().filter(|value| value.is_finite());
     Some(Row {
-        line,
+        line: 0,
         time: number(time)?,
         head: Point::new(number(x)?, number(y)?),
         c_deg: number(c)?,
