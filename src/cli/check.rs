@@ -13,6 +13,7 @@ use super::options::{LeftOut, Messages, Reading, counted};
 use super::report::{Findings, pretty};
 use super::setup;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::ir::Marker;
 use crate::machine::{Job, OrderPolicy};
 use crate::pipeline;
 use crate::source::Source;
@@ -56,8 +57,8 @@ struct Checked {
     source: Source,
     diagnostics: Diagnostics,
     dialect: Option<&'static str>,
-    /// What of a good file is counted.
-    row: Row,
+    /// What a good file says.
+    marker: Option<Marker>,
 }
 
 pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
@@ -87,8 +88,8 @@ fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
     let (mut said, mut verdicts, mut code) = (String::new(), Vec::new(), DONE);
     match arguments.checked(file, job) {
         Ok(checked) => {
-            let Checked { source, diagnostics, dialect, row } = &checked;
-            if row.state == State::Failed {
+            let Checked { source, diagnostics, dialect, marker } = &checked;
+            if marker.is_none() {
                 code = FAULTY;
             }
             said.push_str(&arguments.said(&checked));
@@ -122,14 +123,8 @@ impl Arguments {
         job.profile.order.policy = OrderPolicy::File;
         let input = pipeline::check(&source, self.reading.from, &job, &mut diagnostics);
         let dialect = input.as_ref().map(|input| input.dialect.name);
-        let good = input.filter(|_| !diagnostics.has_errors()).map(|input| input.marker);
-        let row = Row {
-            pieces: good.as_ref().map(|marker| marker.pieces.len()),
-            cut_m: good.as_ref().map(|marker| marker.cut_length() / MM_PER_M),
-            worst: batch::worst(&diagnostics).unwrap_or_default().to_owned(),
-            ..Row::new(Path::new(source.name()), if good.is_some() { State::Done } else { State::Failed })
-        };
-        Ok(Checked { source, diagnostics, dialect, row })
+        let marker = input.filter(|_| !diagnostics.has_errors()).map(|input| input.marker);
+        Ok(Checked { source, diagnostics, dialect, marker })
     }
 
     /// What is said of a file.
@@ -142,7 +137,7 @@ impl Arguments {
         match self.checked(&input.path, job) {
             Ok(checked) => {
                 let json = (self.format == Format::Json).then(|| pretty(&checked.verdict()));
-                Outcome { said: self.said(&checked), json, row: Some(checked.row) }
+                Outcome { said: self.said(&checked), json, row: Some(checked.row()) }
             }
             Err(error) => Outcome::failed(input, &error),
         }
@@ -150,6 +145,17 @@ impl Arguments {
 }
 
 impl Checked {
+    /// Its row in the table of many files.
+    fn row(&self) -> Row {
+        let Self { source, diagnostics, marker, .. } = self;
+        Row {
+            pieces: marker.as_ref().map(|marker| marker.pieces.len()),
+            cut_m: marker.as_ref().map(|marker| marker.cut_length() / MM_PER_M),
+            worst: batch::worst(diagnostics).unwrap_or_default().to_owned(),
+            ..Row::new(Path::new(source.name()), if marker.is_some() { State::Done } else { State::Failed })
+        }
+    }
+
     fn verdict(&self) -> Verdict {
         let Self { source, diagnostics, dialect, .. } = self;
         Verdict { file: source.name().to_owned(), dialect: *dialect, findings: Findings::of(diagnostics, source) }
