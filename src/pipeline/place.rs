@@ -20,9 +20,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
     for finding in diagnostics.iter().skip(known).filter(|finding| finding.piece.is_none()) {
         wanted.extend(finding.span.map(|span| (span.start, Vec::new())));
     }
-    if wanted.is_empty() {
-        return;
-    }
+    let Some((least, most)) = wanted.keys().copied().next().zip(wanted.keys().copied().next_back()) else { return };
     for (i, piece) in marker.pieces.iter().enumerate() {
         let mut see = |span: Span, point: Option<Point>| {
             // What came from no block is at no place of the source.
@@ -36,7 +34,9 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
         };
         for contour in &piece.contours {
             // The first segment of a contour stands for its first point as well, which is in no other's span.
-            marker.list.walk(contour.range).for_each(|(_, segment)| see(segment.span, Some(segment.to)));
+            let (points, spans) = (marker.list.points(contour.range), marker.list.spans(contour.range));
+            let ends = spans.iter().zip(&points[1..]).filter(|(span, _)| (least..=most).contains(&span.start));
+            ends.for_each(|(&span, &to)| see(span, Some(to)));
         }
         piece.notches.iter().flat_map(Notch::strokes).for_each(|stroke| see(stroke.span, Some(stroke.to)));
         piece.drills.iter().for_each(|drill| see(drill.span, Some(drill.at)));
