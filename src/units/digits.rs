@@ -32,17 +32,34 @@ pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
     let [first, second, _] = [0, 1, 2].map(|word| bytes.as_chunks().0[word]);
     // Both ends are looked for at once: the next number of a file, which begins behind the second, waits for them alone.
     let ends = others(first);
-    let behind = ends & ends.wrapping_sub(1);
+    if ends == 0 {
+        return pair_behind_a_word(bytes);
+    }
+    let behind = ends & (ends - 1);
     let middle = ends.trailing_zeros() as usize / WORD;
     let end = match behind {
         0 => WORD + others(second).trailing_zeros() as usize / WORD,
         _ => behind.trailing_zeros() as usize / WORD,
     };
-    let count = end.wrapping_sub(middle + 1);
-    if !(1..WORD).contains(&middle) || !(1..=WORD).contains(&count) {
+    let count = end - middle - 1;
+    // One comparison sees both that there are digits and that they are not too many.
+    if middle == 0 || count.wrapping_sub(1) >= WORD {
         return None;
     }
     Some(([value(first, middle), value(*bytes[middle + 1..].first_chunk()?, count)], [middle, end]))
+}
+
+/// The same where the first number has eight digits: places of long markers do. The second has fewer than seven.
+fn pair_behind_a_word(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
+    let [first, second, _] = [0, 1, 2].map(|word| bytes.as_chunks().0[word]);
+    let ends = others(second);
+    let behind = ends & ends.wrapping_sub(1);
+    let count = (behind.trailing_zeros() as usize / WORD).wrapping_sub(1);
+    if ends.trailing_zeros() as usize / WORD != 0 || !(1..WORD - 1).contains(&count) {
+        return None;
+    }
+    let number = value(*bytes[WORD + 1..].first_chunk()?, count);
+    Some(([value(first, WORD), number], [WORD, WORD + 1 + count]))
 }
 
 /// The highest bit of each byte that is no digit. A carry reaches later bytes only, from bytes above 0x7f: the first
@@ -107,12 +124,20 @@ mod tests {
             let numbers = [x, y].map(|digits| digits.parse().expect("a number"));
             assert_eq!(of(&format!("{x}Y{y}*")), Some((numbers, [first, first + 1 + second])));
         }
+        for second in 1..7 {
+            let y = &"98765432"[..second];
+            let numbers = [12_345_678, y.parse().expect("a number")];
+            assert_eq!(of(&format!("12345678Y{y}*")), Some((numbers, [8, 9 + second])));
+        }
         for none in [
             "",
             "Y1*",
             "1*",
             "1Y*",
-            "12345678Y1*",
+            "12345678Y*",
+            "12345678Y1234567*",
+            "12345678Y12345678*",
+            "12345678Y-1*",
             "123456789Y1*",
             "1234567812*",
             "12345678901*",

@@ -2,6 +2,7 @@
 
 use nom::Err;
 
+use super::run::Run;
 use super::syntax::{self, Code, Fault, FaultKind, Point, Words};
 use crate::diagnostic::{Diagnostic, code};
 use crate::source::Span;
@@ -133,33 +134,44 @@ impl<'a> Blocks<'a> {
         Some((code, self.step_to(after)))
     }
 
-    /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone, as most of a
-    /// file is: with far fewer steps than [`Self::next_point`] takes, which reads the very last ones.
-    #[inline]
-    pub(super) fn each_plain(&mut self, mut each: impl FnMut([f64; 2], Span)) {
-        let Self { bytes, mut at, mut number, .. } = *self;
-        while let Some(rest) = bytes.get(at..) {
-            if let Some((length, place)) = rest.first_chunk().and_then(syntax::plain_block) {
-                let start = at;
-                at += length;
-                number += 1;
-                each(place, Span { start: start as u32, end: at as u32 - 1, block: number });
-                continue;
+    /// Fills a run with the next blocks as long as they are X and Y alone, as most of a file is: with far fewer steps
+    /// than [`Self::next_point`] takes, which reads the very last ones. `false` when there is none.
+    #[inline(never)] // apart, all that it works with stays in registers
+    pub(super) fn next_run(&mut self, run: &mut Run) -> bool {
+        let Self { bytes, mut at, number, .. } = *self;
+        let count = run.fill(|place| {
+            loop {
+                let rest = bytes.get(at..)?;
+                if let Some((length, x, y)) = rest.first_chunk().and_then(syntax::plain_block) {
+                    let start = at;
+                    at += length;
+                    let block = number + 1 + place as u32;
+                    return Some(([x, y], Span { start: start as u32, end: at as u32 - 1, block }));
+                }
+                let blanks = rest.iter().take_while(|&&byte| is_blank(byte)).count();
+                if blanks == 0 {
+                    return None;
+                }
+                at += blanks;
             }
-            let blanks = rest.iter().take_while(|&&byte| is_blank(byte)).count();
-            if blanks == 0 {
-                break;
-            }
-            at += blanks;
-        }
-        (self.at, self.number) = (at, number);
+        });
+        (self.at, self.number) = (at, number + count as u32);
+        count > 0
     }
 
     /// The next block if it is a point alone; otherwise it stays the next one. Reads what [`Self::next`] reads, without
     /// making room for codes and faults.
     pub(super) fn next_point(&mut self) -> Option<(Point, Span)> {
         self.skip_blanks();
-        let (after, point) = syntax::point(self.bytes.get(self.at..)?).ok()?;
+        let rest = self.bytes.get(self.at..)?;
+        if let Some((length, x, y)) = rest.first_chunk().and_then(syntax::signed_block) {
+            let point = Point { x: Some(x.into()), y: Some(y.into()), ..Point::default() };
+            return Some((point, self.step_to(&rest[length..])));
+        }
+        if rest.first().is_some_and(|&letter| syntax::is_code_letter(letter)) {
+            return None;
+        }
+        let (after, point) = syntax::point(rest).ok()?;
         let (b'*', after) = after.split_first()? else { return None };
         Some((point, self.step_to(after)))
     }

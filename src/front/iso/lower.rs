@@ -8,11 +8,12 @@ use super::block::Blocks;
 use super::draft::{Draft, LabelId};
 use super::label;
 use super::meaning::{Meaning, meaning, name, whole};
+use super::run::Run;
 use super::syntax::{Code, Point, Words};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
-use super::unit::{Sized, Unit, check_plausible, convert, scale};
+use super::unit::{Sized, Unit, check_plausible, convert, convert_run, scale};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{self, Heading, Vector};
 use crate::ir::Marker;
@@ -41,6 +42,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         blocks: Blocks::new(source.bytes()),
         knife: Draft::with_room(source.bytes().len() / BYTES_A_SEGMENT, source.bytes().len() / BYTES_A_PIECE),
         unit: Unit::new(job.profile.units),
+        run: Run::default(),
         place: [None, None],
         damaged: false,
         far: None,
@@ -66,6 +68,7 @@ struct Lowering<'a> {
     blocks: Blocks<'a>,
     knife: Draft,
     unit: Unit,
+    run: Run,
     /// The last X and Y, in units of the file: one that a block does not write keeps its value.
     place: [Option<f64>; 2],
     /// Whether a block could not be read: it may have held the place that is missing.
@@ -146,14 +149,13 @@ impl Lowering<'_> {
     /// Cuts on as far as blocks are X and Y alone: most of a file, and nothing but vertices, since the first block behind a
     /// code has what that asked for. Gives the last of them; `None` when there is none, or the knife is not cutting.
     fn cut_on(&mut self) -> Option<Span> {
-        let Self { knife, blocks, unit, far, .. } = self;
+        let Self { knife, blocks, unit, far, run, .. } = self;
         let mut last = None;
         let span = knife.cut_on(|vertices| {
             let unit = unit.convert();
-            blocks.each_plain(|place, span| {
-                vertices.add(convert(place, unit, span, far), span);
-                last = Some(place);
-            });
+            while blocks.next_run(run) {
+                last = convert_run(run, unit, far, vertices);
+            }
         });
         self.place = last?.map(Some);
         span
@@ -259,8 +261,8 @@ impl Lowering<'_> {
 
     /// Obeys the codes of a block, but for what they ask for at its place.
     fn obey_codes(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> AtPlace {
-        let names_end = codes.iter().any(|&code| meaning(code) == Meaning::End);
-        let mut asked = AtPlace { names_end, ..AtPlace::default() };
+        let names_end = || codes.iter().any(|&code| meaning(code) == Meaning::End);
+        let mut asked = AtPlace::default();
         for &code in codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
@@ -288,7 +290,7 @@ impl Lowering<'_> {
                     self.knife.begin_piece(number, span, self.out);
                 }
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
-                Meaning::Drill(tool) => asked.drill = Some(tool),
+                Meaning::Drill(tool) => (asked.drill, asked.names_end) = (Some(tool), names_end()),
                 Meaning::Arc(way) => (asked.turn, self.turn) = (Some(way), Some(way)),
                 Meaning::Line => self.turn = None,
                 Meaning::Rapid => {

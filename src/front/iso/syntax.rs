@@ -122,7 +122,8 @@ impl Point {
     }
 }
 
-fn is_code_letter(letter: u8) -> bool {
+/// Whether a code begins with a letter.
+pub(super) fn is_code_letter(letter: u8) -> bool {
     letter.is_ascii_uppercase() && !matches!(letter, b'X' | b'Y' | b'I' | b'J')
 }
 
@@ -159,28 +160,29 @@ const PLAIN_BYTES: usize = 40;
 
 /// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`]
 /// says of it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
-#[inline] // most of a file is read here
-pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
+#[inline] // most of a file is read here, and from one place only: from more the compiler would not inline it
+pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     // First as if there were no signs, as there mostly are none.
     let digits = i[1..].first_chunk()?;
     match digits::pair(digits) {
-        Some((place, [middle, end])) if [i[0], digits[middle], digits[end]] == *b"XY*" => {
-            Some((end + 2, place.map(f64::from)))
+        Some(([x, y], [middle, end])) if i[0] == b'X' && digits[middle] == b'Y' && digits[end] == b'*' => {
+            Some((end + 2, x.cast_signed(), y.cast_signed()))
         }
-        _ => signed_block(i),
+        // Taken apart: otherwise what stands above would go through memory, as this does.
+        _ => signed_block(i).map(|(length, x, y)| (length, x, y)),
     }
 }
 
-/// The same with signs.
+/// The same with signs, or none.
 #[inline(never)] // apart, it is not in the way of the others
-fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
+pub(super) fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let (at, x) = plain_coordinate(i, 0, b'X')?;
     let (at, y) = plain_coordinate(i, at, b'Y')?;
-    (i[at] == b'*').then_some((at + 1, [x, y]))
+    (i[at] == b'*').then_some((at + 1, x, y))
 }
 
 /// A letter at a place and a whole number of at most eight digits, below [`VALUE_MAX`]: where it ends, and the number.
-fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usize, f64)> {
+fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usize, i32)> {
     if i[at] != letter {
         return None;
     }
@@ -188,7 +190,7 @@ fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usi
     let start = at + 1 + usize::from(is_negative);
     let (magnitude, count) = digits::leading(&i[start..])?;
     let value = magnitude.cast_signed();
-    Some((start + count, f64::from(if is_negative { -value } else { value })))
+    Some((start + count, if is_negative { -value } else { value }))
 }
 
 /// `<block>`, when it is one code alone, with a whole number or none, as most others are: likewise.
@@ -301,12 +303,11 @@ mod tests {
         let ends = ["*", "", "M31*", "*X1Y1*", "Y1*", " *"];
         for (x, y) in numbers.iter().flat_map(|x| numbers.map(|y| (x, y))) {
             for text in ends.map(|end| format!("X{x}Y{y}{end}")) {
-                let Some((length, [x, y])) = plain_block(&padded(text.as_bytes())) else { continue };
+                let Some((length, x, y)) = plain_block(&padded(text.as_bytes())) else { continue };
                 let rest = &text.as_bytes()[length..];
                 let (left, words) = block(text.as_bytes()).expect("a block");
-                let point = Point { x: Some(x), y: Some(y), ..Point::default() };
+                let point = Point { x: Some(x.into()), y: Some(y.into()), ..Point::default() };
                 assert_eq!((rest, words), (left, Words { point: Some(point), ..Words::default() }), "{text}");
-                assert!([x, y].iter().all(|value| *value != 0.0 || value.is_sign_positive()));
             }
         }
         assert!(plain_block(&padded(b"X12Y-34*X56789*")).is_some());

@@ -1,6 +1,8 @@
 //! The unit of the numbers: what the file says, what the profile says, and whether the result is plausible.
 
+use super::run::Run;
 use super::title::Title;
+use super::vertex::Vertices;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
@@ -246,6 +248,22 @@ pub(super) fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(
         keep_first(far, to, span);
     }
     to
+}
+
+/// The places of a run, mm, added to some vertices; likewise. Gives the last of them.
+pub(super) fn convert_run(
+    run: &Run,
+    unit: f64,
+    far: &mut Option<(Point, Span)>,
+    vertices: &mut Vertices,
+) -> Option<[f64; 2]> {
+    vertices.extend(run.places().map(|place| scale(place, unit)), run.spans());
+    if far.is_none() && run.bound() * unit > FARTHEST {
+        for (place, &span) in run.places().zip(run.spans()) {
+            convert(place, unit, span, far);
+        }
+    }
+    run.places().next_back()
 }
 
 #[cold]

@@ -49,14 +49,14 @@ impl Vertices {
         if !asked.is_nothing() {
             *self.asked_mut(self.points.len()) = asked;
         }
-        self.add(at, span);
-    }
-
-    /// Adds one at which nothing is asked for.
-    #[inline] // most of a file comes here
-    pub(super) fn add(&mut self, at: Point, span: Span) {
         self.points.push(at);
         self.spans.push(span);
+    }
+
+    /// Adds some, each with its span, at which nothing is asked for.
+    pub(super) fn extend(&mut self, points: impl ExactSizeIterator<Item = Point>, spans: &[Span]) {
+        self.points.extend(points);
+        self.spans.extend_from_slice(spans);
     }
 
     /// Gives the way to each vertex from `first` on a speed, percent.
