@@ -151,6 +151,11 @@ impl Nesting {
         self.ended
     }
 
+    /// Whether no line lies in another.
+    pub fn is_flat(&self) -> bool {
+        self.around.is_empty()
+    }
+
     /// The lines around one, the smallest first.
     pub fn around(&self, line: usize) -> impl DoubleEndedIterator<Item = usize> + ExactSizeIterator + '_ {
         self.around.get(&line).map_or(&[][..], Vec::as_slice).iter().map(|&outer| outer as usize)

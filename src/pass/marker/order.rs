@@ -27,6 +27,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         diagnostics.push(too_many_outlines(&marker.pieces[nesting.lines()[line].group as usize]));
         return;
     }
+    if nesting.is_flat() {
+        return; // as most markers of whole parts: nothing lies in anything
+    }
     for (piece, i) in marker.pieces.iter_mut().zip(0..) {
         sort_contours(piece, nesting.of_group(i), &nesting);
     }
