@@ -125,7 +125,7 @@ impl Nesting {
     /// What holds each of some contours, each with its group.
     fn of_contours(list: &SegmentList, contours: &[(usize, &Contour)], hold: Hold) -> Self {
         let line = |&(group, contour): &(usize, &Contour)| Line {
-            extent: Extent::of(&list.points(contour.range)),
+            extent: list.extent(contour.range),
             group: group as u32,
             is_closed: contour.closed,
             may_hold: contour.closed,

@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 use super::links::{Link, Links};
 use super::scattered::Scattered;
-use crate::geom::Point;
+use crate::geom::{Extent, Point};
 use crate::source::Span;
 
 /// A straight piece of a contour as the file says it, mm.
@@ -107,6 +107,15 @@ pub struct SegmentList {
     spans: Vec<Span>,
     asked: Scattered<Asked>,
     links: Links,
+    /// The boxes around the ranges that [`SegmentList::append_line`] made, in order, as long as no point is moved.
+    boxes: Vec<Boxed>,
+}
+
+/// A range as it was appended, by its first segment and its last, and the box around it.
+#[derive(Debug, Clone, Copy)]
+struct Boxed {
+    ends: [SegmentId; 2],
+    extent: Extent,
 }
 
 impl SegmentList {
@@ -150,11 +159,21 @@ impl SegmentList {
         self.spans.push(Span::default());
         self.spans.extend_from_slice(&spans[1..points.len()]);
         let [first, last] = [front + 1, self.ends.len() - 1].map(id);
+        self.boxes.push(Boxed { ends: [first, last], extent: Extent::of(points) });
         Some(Range { first, last, backward: false, in_order: true })
+    }
+
+    /// The box around a range, mm. Of most it is known.
+    pub fn extent(&self, range: Range) -> Extent {
+        let Range { first, last, backward, in_order } = range;
+        let place = self.boxes.partition_point(|boxed| boxed.ends[0] < first);
+        let known = self.boxes.get(place).filter(|boxed| boxed.ends == [first, last] && in_order && !backward);
+        known.map_or_else(|| Extent::of(&self.points(range)), |boxed| boxed.extent)
     }
 
     /// Moves every point.
     pub fn move_points(&mut self, to: impl Fn(Point) -> Point) {
+        self.boxes.clear();
         self.ends.iter_mut().for_each(|end| *end = to(*end));
     }
 
@@ -165,15 +184,21 @@ impl SegmentList {
     }
 
     /// The points of a range in its direction: one more than its segments. Nearly all ranges have them side by side.
+    #[inline] // every stage asks for those of every outline
     pub fn points(&self, range: Range) -> Cow<'_, [Point]> {
         if range.in_order && !range.backward {
-            return Cow::Borrowed(&self.ends[range.first.0 as usize - 1..=range.last.0 as usize]);
+            Cow::Borrowed(&self.ends[range.first.0 as usize - 1..=range.last.0 as usize])
+        } else {
+            Cow::Owned(self.gathered(range))
         }
+    }
+
+    fn gathered(&self, range: Range) -> Vec<Point> {
         let nodes = || self.nodes(range);
         // Counted first: large markers have little room for what a vector grows by.
         let mut points = Vec::with_capacity(nodes().count());
         points.extend(nodes().map(|id| self.ends[id as usize]));
-        Cow::Owned(points)
+        points
     }
 
     /// The blocks that the segments of a range came from, in its direction.
@@ -341,11 +366,13 @@ impl Cursor<'_> {
     /// Where the segment under the cursor starts and the one before it ends, to change.
     pub fn from_mut(&mut self) -> &mut Point {
         let before = self.link().prev;
+        self.list.boxes.clear();
         &mut self.list.ends[before as usize]
     }
 
     /// Where the segment under the cursor ends and the next one starts, to change.
     pub fn to_mut(&mut self) -> &mut Point {
+        self.list.boxes.clear();
         &mut self.list.ends[self.at.0 as usize]
     }
 
@@ -381,6 +408,7 @@ impl Cursor<'_> {
     pub fn split(&mut self, point: Point) -> SegmentId {
         let Asked { percent, .. } = self.list.asked(self.at);
         let behind = id(self.list.ends.len());
+        self.list.boxes.clear();
         if percent != FULL_SPEED {
             self.list.asked_mut(behind).percent = percent;
         }
@@ -488,6 +516,30 @@ mod tests {
         cursor.advance();
         assert!(cursor.remove());
         expect(&list, range, &[1.0, 2.0, 4.0], false);
+    }
+
+    #[test]
+    fn the_box_around_a_range_is_that_of_its_points_whatever_is_done_to_them() {
+        let mut list = SegmentList::default();
+        let points: Vec<Point> = [0.0, 3.0, -2.0, 1.0].map(|x| Point::new(x, 2.0 * x)).into();
+        let spans = vec![Span::default(); points.len()];
+        let [mut range, other] = [(); 2].map(|()| list.append_line(&points, &spans).expect("three segments"));
+        let check = |list: &SegmentList, range: Range| {
+            for range in [range, range.reversed(), other] {
+                assert_eq!(list.extent(range), Extent::of(&list.points(range)));
+            }
+        };
+        check(&list, range);
+        assert!(list.cursor(&mut range).remove());
+        check(&list, range);
+        list.cursor(&mut range).split(Point::new(7.0, 7.0));
+        check(&list, range);
+        *list.cursor(&mut range).to_mut() = Point::new(9.0, 9.0);
+        check(&list, range);
+        list.move_points(|at| Point::new(at.y, at.x));
+        check(&list, range);
+        *list.cursor(&mut range).from_mut() = Point::new(-9.0, 9.0);
+        check(&list, range);
     }
 
     #[test]

@@ -516,7 +516,7 @@ impl Draft {
             for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
                 let (first, last) = chain.ends();
                 if let Some(range) = chain.write(&mut self.list) {
-                    self.extent.join(&Extent::of(chain.points()));
+                    self.extent.join(&self.list.extent(range));
                     let piece = chain.piece.expect("every stroke was claimed");
                     let contours = &mut self.pieces[piece].contours;
                     // Most pieces have one.

@@ -63,7 +63,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
     let mut extent = Extent::EMPTY;
     for (_, contour) in marker.contours() {
-        extent.join(&Extent::of(&marker.list.points(contour.range)));
+        extent.join(&marker.list.extent(contour.range));
         if !extent.is_empty() && extent.size().0.max(extent.size().1) >= LEAST_PART {
             return; // as nearly all
         }
@@ -149,7 +149,7 @@ impl Boxed {
             places.extend((0..piece.contours.len() as u32).map(|k| [i, k]));
         }
         let range = |[piece, k]: ContourPlace| marker.pieces[piece as usize].contours[k as usize].range;
-        let extent = |place: &ContourPlace| Extent::of(&marker.list.points(range(*place)));
+        let extent = |place: &ContourPlace| marker.list.extent(range(*place));
         let extents = places.par_iter().map(extent).collect();
         Self { places, extents }
     }
