@@ -120,27 +120,44 @@ impl Measure {
     }
 
     /// Whether a closed line has a tip; the last of its points is the first again.
+    #[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
     fn has_tip(self, points: &[Point]) -> bool {
         let count = points.len() - 1;
         if count <= LEAST_LEFT {
             return false;
         }
         let most = self.width * self.width;
-        let mut before = points[count] - points[count - 1];
-        let mut bottom = points[1] - points[0];
-        for i in 0..count {
-            let next = if i + 2 <= count { points[i + 2] - points[i + 1] } else { points[1] - points[0] };
-            if is_tip([before, bottom, next], most) {
-                let [a, b] = [points[if i == 0 { count - 1 } else { i - 1 }], points[i]];
-                let [c, d] = [points[i + 1], points[if i + 2 <= count { i + 2 } else { 1 }]];
-                if self.may_follow([b, a], [b, c]) || self.may_follow([b, a], [c, d]) {
+        let first = points[1] - points[0];
+        let last = points[count] - points[count - 1];
+        let (mut bottom, mut was_on) = (first, goes_on(last, first));
+        for (i, ends) in points[1..].windows(2).enumerate() {
+            let next = ends[1] - ends[0];
+            let is_on = goes_on(bottom, next);
+            if !(was_on & is_on) {
+                let before = if i == 0 { last } else { points[i] - points[i - 1] };
+                if is_tip([before, bottom, next], most) && self.is_narrow(points, i) {
                     return true;
                 }
             }
-            (before, bottom) = (bottom, next);
+            (bottom, was_on) = (next, is_on);
         }
-        false
+        is_tip([points[count - 1] - points[count - 2], last, first], most) && self.is_narrow(points, count - 1)
     }
+
+    /// Whether the sides beside a segment of a closed line stay beside each other at first, or the one before it does so
+    /// beside the segment itself.
+    fn is_narrow(self, points: &[Point], i: usize) -> bool {
+        let count = points.len() - 1;
+        let [a, b] = [points[if i == 0 { count - 1 } else { i - 1 }], points[i]];
+        let [c, d] = [points[i + 1], points[if i + 2 <= count { i + 2 } else { 1 }]];
+        self.may_follow([b, a], [b, c]) || self.may_follow([b, a], [c, d])
+    }
+}
+
+/// Whether two ways go on both in X and in Y, as most of a line do. Three of which each goes on behind the one before have
+/// no tip.
+fn goes_on(before: Vector, next: Vector) -> bool {
+    (before.x * next.x > 0.0) & (before.y * next.y > 0.0)
 }
 
 /// Whether a line turns back where the first of three segments ends, or over the second when that is short; `most` is the
