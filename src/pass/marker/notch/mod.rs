@@ -122,8 +122,10 @@ impl<'a> Outline<'a> {
         &self.points[..self.points.len() - 1]
     }
 
+    /// A vertex, less than three times round.
     fn at(&self, i: usize) -> Point {
-        self.points[i % (self.points.len() - 1)]
+        let count = self.points.len() - 1;
+        self.points[if i < count { i } else { i % count }]
     }
 
     /// A notch, when the part lies on the left or not.

@@ -32,6 +32,8 @@ const NEXT_TURN: f64 = PI / 3.0;
 const NEXT_COSINE: f64 = 0.5;
 /// Square of the cosine of the least turn at the end of a mouth: 12 degrees.
 const LEAST_TURN: f64 = 0.957;
+/// Tangent of a turn that is less than that one, beyond all rounding: 11 degrees.
+const SURELY_STRAIGHT: f64 = 0.194;
 /// The edge before a mouth has its direction over so much of it, mm.
 const EDGE: f64 = 2.0;
 /// How far from the first end a notch can go, mm: the far corner of the largest.
@@ -64,23 +66,39 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     let count = points.len() - 1;
     let mut found = Vec::new();
     let ring = Ring { points: &points[..count], slack: if unit > 0.0 { ROUNDING * unit } else { LEAST_SLACK } };
-    let mut before = points[0] - points[count - 1];
-    let mut squared = before.norm_squared();
-    for (i, ends) in points.windows(2).enumerate() {
-        let after = ends[1] - ends[0];
-        let (dot, next) = (before.dot(&after), after.norm_squared());
-        let may_begin = next <= FAR * FAR && (dot <= 0.0 || dot * dot < LEAST_TURN * squared * next);
-        if may_begin {
-            let is_left = cross(before, after) > 0.0;
-            // Beside a tooth the edge is short, on a grid it has the direction of the grid where it is.
-            let [long, short] = [EDGE.max(4.0 * ring.slack), 2.0 * ring.slack].map(|least| ring.edge(i, least));
-            let by_long = long.and_then(|edge| ring.mouth(i, edge, is_left));
-            let short = short.filter(|_| by_long.is_none() && short != long);
-            found.extend(by_long.or_else(|| short.and_then(|edge| ring.mouth(i, edge, is_left))));
+    let mut see = |i: usize, from: Point| {
+        let (before, after) = (points[i] - from, points[i + 1] - points[i]);
+        if is_turn(before, after) {
+            found.extend(ring.begun(i, cross(before, after) > 0.0));
         }
-        (before, squared) = (after, next);
+    };
+    see(0, points[count - 1]);
+    let mut i = 0;
+    while let Some(next) = next_turn(points, i) {
+        see(next, points[next - 1]);
+        i = next;
     }
     found
+}
+
+/// The first vertex behind one of a line at which a notch may begin. Most turn by far less, which takes no lengths to see.
+#[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
+fn next_turn(points: &[Point], behind: usize) -> Option<usize> {
+    let mut before = points[behind + 1] - points[behind];
+    for (k, ends) in points[behind + 1..].windows(2).enumerate() {
+        let after = ends[1] - ends[0];
+        if cross(before, after).abs() >= SURELY_STRAIGHT * before.dot(&after) {
+            return Some(behind + 1 + k);
+        }
+        before = after;
+    }
+    None
+}
+
+/// Whether a notch may begin between two segments.
+fn is_turn(before: Vector, after: Vector) -> bool {
+    let (dot, next) = (before.dot(&after), after.norm_squared());
+    next <= FAR * FAR && (dot <= 0.0 || dot * dot < LEAST_TURN * before.norm_squared() * next)
 }
 
 /// The vertices of a closed line.
@@ -100,8 +118,19 @@ struct Way {
 }
 
 impl Ring<'_> {
+    /// A vertex, less than twice round.
     fn at(&self, i: usize) -> Point {
-        self.points[i % self.points.len()]
+        let count = self.points.len();
+        self.points[if i < count { i } else { i - count }]
+    }
+
+    /// The notch that begins at a vertex, to that side.
+    fn begun(&self, i: usize, is_left: bool) -> Option<Mouth> {
+        let long = self.edge(i, EDGE.max(4.0 * self.slack));
+        let by_long = long.and_then(|edge| self.mouth(i, edge, is_left));
+        // Beside a tooth the edge is short, on a grid it has the direction of the grid where it is.
+        let short = || self.edge(i, 2.0 * self.slack).filter(|short| long != Some(*short));
+        by_long.or_else(|| short().and_then(|edge| self.mouth(i, edge, is_left)))
     }
 
     /// The notch that begins at a vertex, to that side of the edge that leads there.
@@ -119,7 +148,9 @@ impl Ring<'_> {
             if width > FAR || is_low && highest < DEPTH[0] - self.slack {
                 return None;
             }
-            highest = highest.max(height);
+            if height > highest {
+                highest = height;
+            }
             let is_back = height.abs() <= width * MOUTH_TURN.tan() + self.slack;
             if steps > 1 && is_back && width <= MOUTH[1] + self.slack && width >= V_MOUTH[0] - self.slack {
                 let found = self.between(i, steps, side);
@@ -145,6 +176,7 @@ impl Ring<'_> {
     }
 
     /// The notch between a vertex and the one so many steps ahead.
+    #[inline(never)] // seldom asked for: apart, it leaves the registers to the steps
     fn between(&self, i: usize, steps: usize, side: f64) -> Option<Mouth> {
         let chord = self.at(i + steps) - self.points[i];
         let width = chord.norm();
@@ -153,7 +185,7 @@ impl Ring<'_> {
             let way = self.at(i + k) - self.points[i];
             [way.dot(&along), side * cross(along, way)]
         };
-        let points: Vec<[f64; 2]> = (0..=steps).map(local).collect();
+        let points: Vec<[f64; 2]> = (0..steps + 1).map(local).collect();
         let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
         let way = Way { points, width, depth };
         if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
