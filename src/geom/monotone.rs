@@ -83,23 +83,34 @@ pub fn crossing(
 /// The same of chains whose boxes, which stand beside them, overlap.
 fn crossing_in(
     points: [&[Point]; 2],
-    [(a, box_a), (b, box_b)]: [(Chain, Extent); 2],
+    [(mut a, mut box_a), (mut b, mut box_b)]: [(Chain, Extent); 2],
     work: &mut Budget,
     wanted: &mut impl FnMut(&Crossing) -> bool,
 ) -> Option<Crossing> {
-    if a.segments() == 1 && b.segments() == 1 {
-        let segments = [a.first as usize, b.first as usize];
-        let ends = |k: usize| [points[k][segments[k]], points[k][segments[k] + 1]];
-        return cross_at(ends(0), ends(1)).map(|at| Crossing { segments, at }).filter(wanted);
+    while a.segments() != 1 || b.segments() != 1 {
+        let is_a = a.segments() >= b.segments();
+        let (halves, of_longer, other) =
+            if is_a { (a.halves(), points[0], box_b) } else { (b.halves(), points[1], box_a) };
+        let [first, second] = halves.map(|half| (half, half.extent(of_longer)));
+        if work.spend(1) && first.1.overlaps(&other) {
+            let pair = if is_a { [first, (b, box_b)] } else { [(a, box_a), first] };
+            let found = crossing_in(points, pair, work, wanted);
+            if found.is_some() {
+                return found;
+            }
+        }
+        if !work.spend(1) || !second.1.overlaps(&other) {
+            return None;
+        }
+        if is_a {
+            (a, box_a) = second;
+        } else {
+            (b, box_b) = second;
+        }
     }
-    let is_a = a.segments() >= b.segments();
-    let (halves, of_longer, other) = if is_a { (a.halves(), points[0], box_b) } else { (b.halves(), points[1], box_a) };
-    halves.into_iter().find_map(|half| {
-        let extent = half.extent(of_longer);
-        let pair = if is_a { [(half, extent), (b, box_b)] } else { [(a, box_a), (half, extent)] };
-        let may_cross = work.spend(1) && extent.overlaps(&other);
-        if may_cross { crossing_in(points, pair, work, wanted) } else { None }
-    })
+    let segments = [a.first as usize, b.first as usize];
+    let ends = |k: usize| [points[k][segments[k]], points[k][segments[k] + 1]];
+    cross_at(ends(0), ends(1)).map(|at| Crossing { segments, at }).filter(wanted)
 }
 
 /// Whether two chains may come as near to each other as `slack` mm: the boxes of two of their segments do. So they may when
