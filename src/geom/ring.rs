@@ -6,7 +6,12 @@ use super::{Point, cross};
 pub fn area(ring: &[Point]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
     // Seen from a vertex, so that far from the table's origin no digits are lost.
-    ring.windows(2).map(|w| cross(w[0] - origin, w[1] - origin)).sum::<f64>() / 2.0
+    let mut before = origin - origin;
+    let doubled = ring[1..].iter().map(|&vertex| {
+        let after = vertex - origin;
+        cross(std::mem::replace(&mut before, after), after)
+    });
+    doubled.sum::<f64>() / 2.0
 }
 
 /// Whether a point lies inside, by the even-odd rule: how often a ray along +X meets the ring. A point on the ring itself

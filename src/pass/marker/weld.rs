@@ -89,8 +89,10 @@ impl Dropped {
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
     let longest = dropped.longest;
     let has_length = |way: Vector| has_length(way, longest);
-    if list.points(*range).windows(2).all(|ends| has_length(ends[1] - ends[0])) {
-        return true; // as in nearly all of them
+    // Nearly all have, and along X alone.
+    let is_long = |ends: &[Point]| (ends[1].x - ends[0].x).abs() > longest || has_length(ends[1] - ends[0]);
+    if list.points(*range).windows(2).all(is_long) {
+        return true;
     }
     let mut cursor = list.cursor(range);
     let mut carried = Joint::default();
