@@ -1,12 +1,12 @@
 //! Closed polylines: area and inside. A ring is given by its vertices; whether the first is repeated does not matter.
 
-use super::{Point, cross};
+use super::{Point, Vector, cross};
 
 /// Area, mm2; positive when the ring runs counter-clockwise.
 pub fn area(ring: &[Point]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
     // Seen from a vertex, so that far from the table's origin no digits are lost.
-    let mut before = origin - origin;
+    let mut before = Vector::zeros();
     let doubled = ring[1..].iter().map(|&vertex| {
         let after = vertex - origin;
         cross(std::mem::replace(&mut before, after), after)

@@ -168,8 +168,7 @@ pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
         Some(([x, y], [middle, end])) if i[0] == b'X' && digits[middle] == b'Y' && digits[end] == b'*' => {
             Some((end + 2, x.cast_signed(), y.cast_signed()))
         }
-        // Taken apart: otherwise what stands above would go through memory, as this does.
-        _ => signed_block(i).map(|(length, x, y)| (length, x, y)),
+        _ => signed_block(i),
     }
 }
 

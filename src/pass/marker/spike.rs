@@ -133,7 +133,7 @@ impl Measure {
         for (i, ends) in points[1..].windows(2).enumerate() {
             let next = ends[1] - ends[0];
             let is_on = goes_on(bottom, next);
-            if !(was_on & is_on) {
+            if !(was_on && is_on) {
                 let before = if i == 0 { last } else { points[i] - points[i - 1] };
                 if is_tip([before, bottom, next], most) && self.is_narrow(points, i) {
                     return true;
@@ -157,7 +157,7 @@ impl Measure {
 /// Whether two ways go on both in X and in Y, as most of a line do. Three of which each goes on behind the one before have
 /// no tip.
 fn goes_on(before: Vector, next: Vector) -> bool {
-    (before.x * next.x > 0.0) & (before.y * next.y > 0.0)
+    before.x * next.x > 0.0 && before.y * next.y > 0.0
 }
 
 /// Whether a line turns back where the first of three segments ends, or over the second when that is short; `most` is the

@@ -185,7 +185,7 @@ impl Ring<'_> {
             let way = self.at(i + k) - self.points[i];
             [way.dot(&along), side * cross(along, way)]
         };
-        let points: Vec<[f64; 2]> = (0..steps + 1).map(local).collect();
+        let points: Vec<[f64; 2]> = (0..=steps).map(local).collect();
         let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
         let way = Way { points, width, depth };
         if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
