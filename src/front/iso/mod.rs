@@ -6,10 +6,10 @@
 //! Codes that are not obeyed are reported with their count. Never closes a contour that the file leaves open, and never
 //! recognises a notch by its shape: that is for the passes.
 //!
-//! Arcs are chords. [`block`] cuts the bytes into blocks, plain ones in [`run`]s, [`syntax`] is the grammar of one, [`mod@meaning`] the table of
-//! codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file, [`draft`]
-//! gathers what it cuts in [`chain`]s of places ([`vertex`]), [`lost`] finds signs of lost knife codes, and [`owner`] says
-//! whose slits are whose where pieces have no numbers.
+//! Arcs are chords. [`block`] cuts the bytes into blocks, plain ones in [`run`]s, [`syntax`] is the grammar of one,
+//! [`mod@meaning`] the table of codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`]
+//! follows the file, [`draft`] gathers what it cuts in [`chain`]s of places ([`vertex`]), [`lost`] finds signs of lost knife
+//! codes, and [`owner`] says whose slits are whose where pieces have no numbers.
 
 mod arc;
 mod at_place;
