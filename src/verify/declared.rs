@@ -16,6 +16,9 @@ const ASIDE: f64 = 1.0;
 const LESS: f64 = 4.0;
 /// Further shortfall allowed, mm: blade and line are looked at in steps.
 const STEPS: f64 = 0.2;
+/// Part of where a plunge is declared that it says of itself at the least: a noisy line is longer in one way of measuring than
+/// in another.
+const NIBBLE_SHARE: f64 = 0.75;
 /// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.
 const NOWHERE: f64 = 1.0;
 
@@ -51,17 +54,16 @@ impl Declared {
         self.find(kind, stretch).next().is_some()
     }
 
-    /// Whether a plunge is declared over all of a stretch, and as long as that: what its neighbours on the line declare is not
-    /// enough. `length` is the least that counts as all of it, mm.
-    pub(super) fn has_nibble(&self, stretch: Stretch, length: f64) -> bool {
-        let [a, b] = stretch.stations.map(|station| station + stretch.line.cut.offset);
-        let (low, high) = (a.min(b), a.max(b));
-        let aside = ASIDE.min((high - low) / 4.0);
-        let covers = |entry: &Declaration| {
-            let places = [low + aside, high - aside];
-            places.iter().all(|&at| stretch.line.cut.meets([at; 2], [entry.from_mm, entry.to_mm]))
-        };
-        self.find(Kind::Nibbled, stretch).any(|entry| covers(entry) && entry.magnitude_mm >= length)
+    /// Whether a plunge is declared over the middle of a stretch, as long as where it is declared: those beside it on a curve
+    /// are declared up to it and from it on. Stations may be off by `aside` mm.
+    pub(super) fn has_nibble(&self, stretch: Stretch, aside: f64) -> bool {
+        let cut = stretch.line.cut;
+        let middle = f64::midpoint(stretch.stations[0], stretch.stations[1]) + cut.offset;
+        self.find(Kind::Nibbled, stretch).any(|entry| {
+            let length = cut.length_of([entry.from_mm, entry.to_mm]);
+            cut.meets([middle - aside, middle + aside], [entry.from_mm, entry.to_mm])
+                && entry.magnitude_mm >= NIBBLE_SHARE * length
+        })
     }
 
     /// What is declared of a kind there.

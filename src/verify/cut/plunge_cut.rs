@@ -14,9 +14,6 @@ use crate::verify::reference::line::Line;
 
 /// Part of the tolerance by which a line is off a straight one where it bends, however little.
 const SLIGHT_SHARE: f64 = 0.1;
-/// Part of what a plunge cuts of its line that its declaration says at the least: a noisy line is longer in one way of
-/// measuring than in another.
-const NIBBLE_SHARE: f64 = 0.75;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-6;
 
@@ -86,8 +83,7 @@ impl Judge<'_> {
         let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
         let may = match self.tracer.declared {
             Some(declared) => {
-                let least = NIBBLE_SHARE * length - 2.0 * self.tracer.allowed;
-                declared.has_nibble(Stretch { line, stations: trial.reach, end: None }, least)
+                declared.has_nibble(Stretch { line, stations: trial.reach, end: None }, self.tracer.allowed)
             }
             None => !is_straight,
         };

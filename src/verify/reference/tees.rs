@@ -11,7 +11,11 @@ use crate::geom::{Extent, Point, Vector, cross, polyline};
 /// Distance from its end at which a cut is tested for lying in a part, in tolerances.
 const LOOK: f64 = 2.0;
 
-/// The tees of the open cuts that come out of parts. Lines meet that are drawn within `limit` mm; one that is met may be cut
+/// Part of the widest thread within which lines are drawn to meet: a file may leave a gap as wide as a thread, and so does
+/// whoever cuts what it says.
+const MET_SHARE: f64 = 0.5;
+
+/// The tees of the open cuts that come out of parts. A thread may be `limit` mm wide; one that is met may be cut
 /// beside its chord, as the curve that this stands for, or by a blade of `width` mm that is plunged over it. A slit in the waste
 /// frees nothing.
 pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, limit]: [f64; 2]) -> Vec<Joint> {
@@ -31,7 +35,7 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
             let cuts = [line.cut.index, other.cut.index];
             // Where both were led on, the drawing has neither.
             let is_drawn = |chord| !(is_led && is_aside(other, other.chord(chord).deviation(end).1));
-            let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= limit && is_drawn(chord);
+            let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= MET_SHARE * limit && is_drawn(chord);
             for chord in run.chords().filter(meets) {
                 // Both off by the tolerance they cross as far from there as they are askew.
                 let sine = cross(along, other.direction(chord)).abs().max(LEAST_SINE);
