@@ -369,6 +369,10 @@ fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
             if i == way.first || i == 0 {
                 asked = merged(asked, segment.joint);
             }
+            // Two ways may begin where the same segment ends: between their mouths the outline goes straight on.
+            if let Some(other) = before.filter(|other| other.first != way.first && other.root != way.root) {
+                left.push(Segment { from: other.root, to: way.root, joint: Joint::default(), ..*segment });
+            }
             continue;
         }
         let from = before.map_or(segment.from, |way| way.root);
@@ -391,5 +395,36 @@ fn merged(one: Joint, other: Joint) -> Joint {
         lift: one.lift | other.lift,
         full_advance: one.full_advance | other.full_advance,
         no_overcut: one.no_overcut | other.no_overcut,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::list::FULL_SPEED;
+    use crate::source::Span;
+
+    /// An outline with two teeth that stand side by side, from any of its points on.
+    #[test]
+    fn an_outline_goes_on_from_mouth_to_mouth_of_ways_that_touch() {
+        let points = [(0, 0), (400, 0), (400, 50), (402, 1), (404, 50), (406, 0), (800, 0), (800, 800), (0, 800)];
+        let points = points.map(|(x, y)| Point::new(f64::from(x) / 10.0, f64::from(y) / 10.0));
+        let count = points.len();
+        for start in 0..count {
+            let at = |i: usize| points[(start + i) % count];
+            let segment = |i: usize| {
+                let (joint, span) = (Joint::default(), Span::default());
+                Segment { from: at(i), to: at(i + 1), span, joint, percent: FULL_SPEED }
+            };
+            let segments: Vec<Segment> = (0..count).map(segment).collect();
+            let way = |first: usize| {
+                let first = (first + count - start) % count;
+                Way { first, count: 2, root: at(first) + (at(first + 2) - at(first)) / 2.0, slits: Vec::new() }
+            };
+            let left = without(&segments, &[way(1), way(3)]);
+            assert_eq!(left.len(), 6, "from {start}");
+            let next = left.iter().cycle().skip(1);
+            assert!(left.iter().zip(next).all(|(one, next)| one.to == next.from), "from {start}: {left:?}");
+        }
     }
 }
