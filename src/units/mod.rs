@@ -1,6 +1,7 @@
 //! Units. Inside, lengths are mm, times s, angles rad; every conversion factor stands here.
 
 pub mod array;
+pub mod columns;
 pub mod digits;
 pub mod number;
 pub mod quantity;

@@ -54,15 +54,16 @@ impl Declared {
         self.find(kind, stretch).next().is_some()
     }
 
-    /// Whether a plunge is declared over the middle of a stretch, as long as where it is declared: those beside it on a curve
-    /// are declared up to it and from it on. Stations may be off by `aside` mm.
-    pub(super) fn has_nibble(&self, stretch: Stretch, aside: f64) -> bool {
+    /// Whether a plunge is declared that has half of itself in common with a stretch, or half of that: those beside it on a
+    /// curve have less. It is as long as where it is declared.
+    pub(super) fn has_nibble(&self, stretch: Stretch) -> bool {
         let cut = stretch.line.cut;
-        let middle = f64::midpoint(stretch.stations[0], stretch.stations[1]) + cut.offset;
+        let reach = stretch.stations.map(|station| station + cut.offset);
+        let reach = [reach[0].min(reach[1]), reach[0].max(reach[1])];
         self.find(Kind::Nibbled, stretch).any(|entry| {
-            let length = cut.length_of([entry.from_mm, entry.to_mm]);
-            cut.meets([middle - aside, middle + aside], [entry.from_mm, entry.to_mm])
-                && entry.magnitude_mm >= NIBBLE_SHARE * length
+            let over = [entry.from_mm, entry.to_mm];
+            let least = cut.length_of(over).min(reach[1] - reach[0]) / 2.0;
+            cut.common(reach, over) >= least && entry.magnitude_mm >= NIBBLE_SHARE * cut.length_of(over)
         })
     }
 

@@ -31,7 +31,7 @@ pub use source::kept::Works;
 pub use source::sheet::Drawn;
 
 pub(crate) use axes::crawl;
-pub(crate) use program::{columns, number};
+pub(crate) use program::number;
 
 use std::io::BufRead;
 

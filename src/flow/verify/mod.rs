@@ -40,7 +40,7 @@ use self::rows::Row;
 use self::strokes::{Stroke, Strokes};
 use crate::geom::Point;
 use crate::ir::verdict::{Sighting, Verdict, WorstByRule};
-use crate::verify::columns::Unread;
+use crate::units::columns::Unread;
 use crate::verify::required;
 
 /// Gives the program of a head, by its place in the plan, once.

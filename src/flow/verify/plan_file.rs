@@ -3,7 +3,7 @@
 use super::ground::Ground;
 use super::rules;
 use crate::ir::verdict::WorstByRule;
-use crate::verify::columns::Unread;
+use crate::units::columns::Unread;
 
 /// What a plan says that programs need.
 #[derive(Debug, Clone, PartialEq)]

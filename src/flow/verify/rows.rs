@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use crate::verify::columns::{self, Lines, Unread, float};
+use crate::units::columns::{self, Lines, Unread, float};
 use crate::verify::number;
 
 /// What kind of bytes the programs of heads are.

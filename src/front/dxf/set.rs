@@ -404,13 +404,8 @@ impl Set {
             let (width, height) = Extent::of(&piece.plain.points()).size();
             width.max(height)
         };
-        if self.pieces.len() > 1 {
-            doubt(
-                self.pieces.iter().filter(|piece| !piece.is_at_fault()).map(side).fold(f64::NEG_INFINITY, f64::max),
-                asked,
-                out,
-            );
-        }
+        let sides = self.pieces.iter().filter(|piece| !piece.is_at_fault()).map(side);
+        doubt(sides.fold(f64::NEG_INFINITY, f64::max), self.pieces.len() == 1, asked, out);
     }
 
     /// Says which notches are left out or cut in another way, with the numbers of their pieces.

@@ -193,7 +193,22 @@ fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
         Some((&line[..at], at + colon.len()))
     });
     let colon = || memchr::memchr(b':', line).map(|at| (&line[..at], at + 1));
-    wide.or_else(colon).or_else(|| counted(line, letters))
+    wide.or_else(colon).or_else(|| counted(line, letters)).or_else(|| sized(line, letters))
+}
+
+/// The name of a size before `=`, or before one word that begins with a digit, and the offset of the size.
+fn sized<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
+    let (end, from) = match memchr::memchr(b'=', line) {
+        Some(sign) => (sign, sign + 1),
+        None => {
+            let last = line.trim_ascii_end().iter().rposition(|byte| byte.is_ascii_whitespace())?;
+            (last, line.get(last + 1).filter(|byte| byte.is_ascii_digit()).map(|_| last + 1)?)
+        }
+    };
+    let name = line[..end].trim_ascii_end();
+    let name = name.strip_suffix(b"-").map_or(name, <[u8]>::trim_ascii_end);
+    let at = from + line[from..].iter().position(|byte| !byte.is_ascii_whitespace())?;
+    matches!(key(&letters.text(name)), Some(Key::Size | Key::SampleSize)).then_some((name, at))
 }
 
 /// The name before a number that stands behind a quantity and a blank, `=` or `-`, and the offset of the number.

@@ -24,11 +24,12 @@ const SHOWN: usize = 24;
 /// What to do where nobody knows which it is.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
-/// Cuts of a file, mm, beyond which its unit is doubted, and of one line: no cloth is so long, nor is the outline of a part.
-const LONGEST: f64 = 1e6;
+/// Length of a line, mm, beyond which the unit of the header is none: no part has such an outline.
 const LONGEST_LINE: f64 = 3e4;
 /// Largest side of the largest of several pieces, mm, below which the unit is doubted: no garment is so small.
 const SMALLEST: f64 = 100.0;
+/// Largest side of a piece, mm, beyond which the unit is doubted: garments, covers and sails in one piece are smaller.
+const LARGEST: f64 = 10_000.0;
 
 /// Lengths of what is cut in a file, in its own unit: of all, and of the longest line.
 #[derive(Debug, Clone, Copy, Default)]
@@ -50,24 +51,8 @@ pub(super) fn unit(
     }
     let Some(first) = file.units.first else {
         if let Some(span) = of_header.filter(|span| syntax::whole(source.slice(*span)) != Some(NO_UNIT)) {
-            let known = syntax::whole(source.slice(span)).and_then(|number| UNITS.iter().find(|unit| unit.0 == number));
-            if let Some(&(_, mm)) = known {
-                let lengths = if mm > MM_PER_INCH { lengths() } else { Lengths::default() };
-                if mm * lengths.all <= LONGEST || mm * lengths.longest <= LONGEST_LINE {
-                    return mm;
-                }
-                let long = mm * lengths.all / 1e6;
-                let message = format!("the header's unit ($INSUNITS) would make {long:.1} km of cuts; taken for mm");
-                let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message).at(span);
-                out.push(
-                    finding
-                        .hint("compare the extent that is printed with the pieces; inches are `--set dxf.unit=inch`"),
-                );
-                return 1.0;
-            }
-            let message = format!("`{}` ($INSUNITS) is no unit of patterns", shown(&letters.text(source.slice(span))));
-            out.push(Diagnostic::new(&code::DXF_UNIT, message).at(span).hint(SAY_WHICH));
-            return 1.0;
+            let named = shown(&letters.text(source.slice(span)));
+            return of_number(syntax::whole(source.slice(span)), span, &named, lengths, out);
         }
         let message = "the file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm";
         let finding = Diagnostic::new(&code::DXF_NO_UNIT, message);
@@ -98,15 +83,46 @@ pub(super) fn unit(
     }
 }
 
-/// Doubts the unit where the largest of several pieces, whose largest side is so long, mm, is smaller than garments are.
-pub(super) fn doubt(largest: f64, Asked { job, .. }: &Asked, out: &mut Diagnostics) {
-    if job.profile.dxf.unit.mm().is_none() && (0.0..SMALLEST).contains(&largest) {
-        let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");
-        let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message);
-        out.push(
-            finding.hint("METRIC may stand over cm or inches: `--set dxf.unit=cm`; `--set dxf.unit=mm` if it is mm"),
-        );
+/// Length of the unit that a number of the header stands for, mm, where the cuts allow it.
+fn of_number(
+    number: Option<i64>,
+    span: Span,
+    named: &str,
+    lengths: impl FnOnce() -> Lengths,
+    out: &mut Diagnostics,
+) -> f64 {
+    let Some(&(_, mm)) = number.and_then(|number| UNITS.iter().find(|unit| unit.0 == number)) else {
+        let message = format!("`{named}` ($INSUNITS) is no unit of patterns");
+        out.push(Diagnostic::new(&code::DXF_UNIT, message).at(span).hint(SAY_WHICH));
+        return 1.0;
+    };
+    let lengths = if mm > MM_PER_INCH { lengths() } else { Lengths::default() };
+    if mm * lengths.longest <= LONGEST_LINE {
+        return mm;
     }
+    let (all, longest) = (mm * lengths.all / 1e6, mm * lengths.longest / 1e3);
+    let message = format!(
+        "the header's unit ($INSUNITS) would make {all:.1} km of cuts, the longest of {longest:.0} m; taken for mm"
+    );
+    let finding = Diagnostic::new(&code::DXF_UNIT_DOUBTED, message).at(span);
+    out.push(finding.hint("compare the extent that is printed with the pieces; inches are `--set dxf.unit=inch`"));
+    1.0
+}
+
+/// Doubts the unit where the largest of some pieces, whose largest side is so long, mm, is larger than garments are, or that of
+/// several is smaller: one may be a label.
+pub(super) fn doubt(largest: f64, is_one: bool, Asked { job, .. }: &Asked, out: &mut Diagnostics) {
+    let is_small = !is_one && (0.0..SMALLEST).contains(&largest);
+    if job.profile.dxf.unit.mm().is_some() || !is_small && largest <= LARGEST {
+        return;
+    }
+    let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");
+    let hint = if is_small {
+        "METRIC may stand over cm or inches: `--set dxf.unit=cm`; `--set dxf.unit=mm` if it is mm"
+    } else {
+        "numbers in mm may stand under another unit: `--set dxf.unit=mm`; say the unit if it is right"
+    };
+    out.push(Diagnostic::new(&code::DXF_UNIT_DOUBTED, message).hint(hint));
 }
 
 /// The beginning of a text in a message.

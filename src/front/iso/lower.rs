@@ -167,7 +167,7 @@ impl Lowering<'_> {
         let (mut marker, extent) = self.knife.finish(last, self.unit.mm(), self.out);
         if let Some((place, span)) = self.far {
             let size = place.x.abs().max(place.y.abs()) / MM_PER_M;
-            let message = format!("the place is {size:.0} m from the origin, with a unit of {} mm", marker.unit);
+            let message = format!("the place is {size:.0} m from the origin, with a unit of {} mm", self.unit.mm());
             let finding = Diagnostic::new(&code::ISO_FAR_PLACE, message).at(span);
             self.out.push(finding.hint("a digit may be doubled; or set `units` in the profile if the unit is wrong"));
         }

@@ -168,6 +168,17 @@ fn of_decimals(unit: &Unit, extent: &Extent) -> Diagnostic {
     finding.hint(format!("let the CAD write whole numbers, {per_inch:.0} an inch; or as mm with G71, 10 a mm"))
 }
 
+/// The doubt about a file whose numbers are most likely mm with decimals.
+fn of_decimal_mm(unit: &Unit, extent: &Extent) -> Diagnostic {
+    let (length, width) = extent.size();
+    let message =
+        format!("coordinates have decimals: in units of {} mm the drawing is {length:.1} x {width:.1} mm", unit.mm);
+    let [length, width] = [length, width].map(|side| side / unit.mm);
+    let finding = Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message);
+    let finding = finding.hint(format!("read as mm it would be {length:.0} x {width:.0} mm"));
+    finding.hint("let the CAD write whole numbers, 10 a mm; where it is right, `--set units=mm/10` says so")
+}
+
 /// The doubt about the unit of a drawing that fits neither its title nor any table.
 fn doubt(Sized { unit, extent, title, .. }: Sized) -> Diagnostic {
     let (length, width) = extent.size();
@@ -213,6 +224,11 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
             && length.max(width) * scale >= SMALLEST
     };
     let fits = |scale: f64| fits_as((length, width), scale);
+    let is_mm = || !unit.by_profile && title.is_none() && fits(1.0 / unit.mm) && has_decimals(bytes);
+    if !unit.is_of_inches() && is_mm() {
+        out.push(of_decimal_mm(unit, extent));
+        return;
+    }
     if fits(1.0) {
         return;
     }

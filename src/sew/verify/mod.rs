@@ -24,7 +24,7 @@ use std::io::{self, BufRead};
 
 use crate::ir::Finding;
 use crate::ir::verdict::{Verdict, WorstByRule};
-use crate::verify::columns::Unread;
+use crate::units::columns::Unread;
 
 /// What kind of bytes are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use super::pulses::{OPS, Row};
-use crate::verify::columns::{self, Unread, float};
+use crate::units::columns::{self, Unread, float};
 
 /// How well an interval is known, microseconds: times are unrounded.
 pub(super) const TICK_US: f64 = 1e-6;

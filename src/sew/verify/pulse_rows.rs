@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use super::pulses::{OPS, Row};
-use crate::verify::columns::{Lines, Unread};
+use crate::units::columns::{Lines, Unread};
 
 /// How well an interval is known, microseconds: both ends have three decimals.
 pub(super) const TICK_US: f64 = 0.001_1;

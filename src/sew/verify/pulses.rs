@@ -8,7 +8,7 @@ use crate::geom::Point;
 use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::sew::stitches::Op;
 use crate::units::US_PER_S;
-use crate::verify::columns::Unread;
+use crate::units::columns::Unread;
 
 /// A row of a program.
 #[derive(Debug, Clone, Copy)]

@@ -10,7 +10,7 @@ use super::spindle::Spindle;
 use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
-use crate::verify::columns::{Lines, Unread};
+use crate::units::columns::{Lines, Unread};
 
 /// Rounding of times, as a part of the window: the speed is a whole number.
 const WINDOW_EPSILON: f64 = 2e-6;

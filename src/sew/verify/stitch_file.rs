@@ -9,7 +9,7 @@ use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 use crate::units::TENTHS_PER_MM;
-use crate::verify::columns::Unread;
+use crate::units::columns::Unread;
 
 /// The longest move of a record at which no rounding makes it two, mm.
 const LONGEST: f64 = 12.0;

@@ -19,7 +19,7 @@ use std::io::{self, BufRead};
 use self::jet::Jet;
 use crate::ir::verdict::{Verdict, WorstByRule};
 use crate::machine::Job;
-use crate::verify::columns::Unread;
+use crate::units::columns::Unread;
 
 /// Whether bytes begin as a program of a head does.
 pub fn begins(bytes: &[u8]) -> bool {

@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use crate::geom::Point;
 use crate::ir::verdict::Sighting;
-use crate::verify::columns::{Lines, Unread};
+use crate::units::columns::{Lines, Unread};
 
 /// How a program begins.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,vx_mm_s,vy_mm_s,jet,block";

@@ -3,7 +3,6 @@
 //! Receives bytes, promises rows, or the findings on a cutter file, or the place from which on they cannot be read. Never
 //! judges what the rows cut.
 
-pub(crate) mod columns;
 pub(super) mod counts;
 pub(super) mod cutter_file;
 pub(super) mod gcode;

@@ -3,9 +3,9 @@
 
 use std::io::BufRead;
 
-use super::columns::{self, MAGIC, float};
 use super::row::Row;
 use crate::geom::Point;
+use crate::units::columns::{self, MAGIC, float};
 
 /// The fields of a record, blanks left out.
 const FIELDS: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\

@@ -177,8 +177,7 @@ impl Common {
         grid: &Grid,
         distance: f64,
     ) -> Vec<Stood> {
-        let points: Vec<Point> =
-            std::iter::once(edge[0].ends[0]).chain(edge.iter().map(|chord| chord.ends[1])).collect();
+        let points: Vec<Point> = edge[..1].iter().map(|chord| chord.ends[0]).chain(ends(edge)).collect();
         let stations = polyline::stations(&points);
         let length = stations[edge.len()];
         let seen = |station: f64| {
@@ -209,22 +208,16 @@ impl Common {
             let (at, block) = (root(slit), slit.block(0));
             Some(Joint { at, block, cuts: [cut, slit.cut.index], about: [Extent::EMPTY; 2] })
         }));
-        let crossing = |before: &Stand, next: &Stand| {
-            let over = [before.over[0].max(next.over[0]), before.over[1].min(next.over[1])];
-            let of_cuts = [before, next].map(|stand| pieces.iter().filter(|piece| piece.cut == stand.cut));
-            let reach = 2.0 * reference.tolerance + distance;
-            let Some([from, to]) = last_crossing(of_cuts, over, reach) else { return Extent::EMPTY };
-            let inner = stations.iter().zip(&points).filter(|(station, _)| (from..=to).contains(*station));
-            let ends = [from, to].map(|station| polyline::place(&points, &stations, station));
-            let along: Vec<Point> = inner.map(|(_, point)| *point).chain(ends).collect();
-            Extent::of(&along).grown(distance)
+        let about_crossing = |before: &Stand, next: &Stand| {
+            let crossing = last_crossing(&pieces, [before, next], 2.0 * reference.tolerance + distance);
+            crossing.map_or(Extent::EMPTY, |over| around(&points, &stations, over).grown(distance))
         };
         let (mut at, mut chain, mut before) = (0.0, Vec::new(), None);
         while length - at > reach {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
             if let Some(next) = next {
-                let crossing = before.map_or(Extent::EMPTY, |before| crossing(before, next));
+                let crossing = before.map_or(Extent::EMPTY, |before| about_crossing(before, next));
                 chain.push(Stood { cut: next.cut, from: seen(at), crossing });
                 (at, before) = (next.over[1], Some(next));
                 continue;
@@ -353,10 +346,15 @@ impl Stands {
     }
 }
 
-/// The last stretch of an edge over which the lines of two cuts cross that lie `over` it, when each is off so that they come
-/// `reach` mm nearer, mm along the edge.
-fn last_crossing<'a>(of_cuts: [impl Iterator<Item = &'a Beside>; 2], over: [f64; 2], reach: f64) -> Option<[f64; 2]> {
-    let [mut ones, mut others] = of_cuts.map(Iterator::peekable);
+/// The last stretch of an edge, mm along it, over which the lines of two cuts cross while both stand for it; each is off so that
+/// they come `reach` mm nearer.
+fn last_crossing(pieces: &[Beside], [before, next]: [&Stand; 2], reach: f64) -> Option<[f64; 2]> {
+    let over = [before.over[0].max(next.over[0]), before.over[1].min(next.over[1])];
+    let of_cut = |stand: &Stand| {
+        let cut = stand.cut;
+        pieces.iter().filter(move |piece| piece.cut == cut).peekable()
+    };
+    let [mut ones, mut others] = [before, next].map(of_cut);
     let mut found = None;
     while let (Some(one), Some(other)) = (ones.peek(), others.peek()) {
         let [from, to] = [one.over[0].max(other.over[0]).max(over[0]), one.over[1].min(other.over[1]).min(over[1])];
@@ -375,6 +373,18 @@ fn last_crossing<'a>(of_cuts: [impl Iterator<Item = &'a Beside>; 2], over: [f64;
         };
     }
     found
+}
+
+/// Where the chords of an edge end.
+fn ends(edge: &[Drawn]) -> impl Iterator<Item = Point> {
+    edge.iter().map(|chord| chord.ends[1])
+}
+
+/// The box around a stretch of a polyline, mm along it.
+fn around(points: &[Point], stations: &[f64], [from, to]: [f64; 2]) -> Extent {
+    let inner = stations.iter().zip(points).filter(|(station, _)| (from..=to).contains(*station));
+    let ends = [from, to].map(|station| polyline::place(points, stations, station));
+    Extent::of(&inner.map(|(_, point)| *point).chain(ends).collect::<Vec<_>>())
 }
 
 /// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.

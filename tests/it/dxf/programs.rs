@@ -4,6 +4,7 @@
 use cutc::geom::{Extent, Point};
 use cutc::ir::Marker;
 use cutc::ir::marker::Piece;
+use cutc::machine::patterns::PatternUnit;
 use cutc::machine::{Job, Numbers, Selection, Start};
 use fastrand::Rng;
 
@@ -192,6 +193,14 @@ fn a_unit_that_makes_kilometres_is_not_believed() {
     assert!(found.is_empty());
     let (doubted, found) = read(&file(6, [500.0, 300.0]), &Job::default());
     assert_eq!((contours(&doubted), found), (contours(&mm), vec!["dxf/unit-doubted"]));
+    let (pocket, found) = read(&file(6, [150.0, 160.0]), &Job::default());
+    assert_eq!((contours(&pocket)[0].len(), found), (5, vec!["dxf/unit-doubted"]), "a line of 620 m");
+    // Inches that nobody wears are cut as they are said, with a doubt; not where the unit is said beside the file.
+    let (inches, found) = read(&file(1, [600.0, 200.0]), &Job::default());
+    assert_eq!((inches.extent().size().0.round(), found), (15_240.0, vec!["dxf/unit-doubted"]));
+    let mut job = Job::default();
+    job.profile.dxf.unit = PatternUnit::Inch;
+    assert!(read(&file(1, [600.0, 200.0]), &job).1.is_empty());
     // Metres that are meant.
     let (metres, found) = read(&file(6, [0.5, 0.3]), &Job::default());
     let is_same = contours(&metres)[0].iter().zip(&contours(&mm)[0]).all(|(a, b)| (a - b).norm() < 1e-9);

@@ -48,6 +48,20 @@ fn the_sample_size_is_cut_unless_others_are_asked_for() {
 }
 
 #[test]
+fn a_size_is_said_with_a_colon_an_equals_sign_or_a_blank() {
+    for sign in [":", ": ", "=", " = ", " - "] {
+        let mut text = set(&["Sample size = 38"]);
+        for (letter, number) in [("S", "36"), ("M", "38"), ("L", "40")] {
+            for before in [format!("Size :  {letter}"), format!("SIZE:{letter}")] {
+                text = text.replace(&before, &format!("Size{sign}{number}"));
+            }
+        }
+        let found = widths(&text, Patterns::default());
+        assert_eq!(found, (vec![110.0; 3], vec!["dxf/cutting-sample"]), "`{sign}`");
+    }
+}
+
+#[test]
 fn pieces_lie_beside_each_other_and_the_left_one_is_mirrored() {
     let job = Job { patterns: of("M"), ..Job::default() };
     let (marker, _) = as_read(&source(set(&[])), &job);

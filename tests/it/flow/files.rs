@@ -118,7 +118,7 @@ fn a_plan_is_judged_anew_from_the_bytes_of_all_its_programs() {
     records.pop();
     room.write("out/head-02.npy", &records);
     let said = verify("out/plan.json --source in/two-discs.csv", FAULTY);
-    assert!(said.contains("flow-verify/format") && said.contains("it ends before record"), "{said}");
+    assert!(said.contains("flow-verify/format") && said.contains("the array: it is cut off"), "{said}");
     std::fs::remove_file(room.at("out/head-02.npy")).expect("removable");
     assert!(verify("out/plan.json --source in/two-discs.csv", USAGE).contains("there is no `out/head-02.npy`"));
     room.write("out/plan.json", b"{");

@@ -25,8 +25,7 @@ const SAMPLES: usize = 720;
 const UNITS: [(f64, f64); 7] =
     [(1.0, MM_PER_INCH), (2.0, 304.8), (4.0, 1.0), (5.0, 10.0), (6.0, 1000.0), (10.0, 914.4), (14.0, 100.0)];
 
-/// Cuts longer than those of any cloth, and a line longer than the outline of any part, mm.
-const MOST_CUT: f64 = 1e6;
+/// A line longer than the outline of any part, mm.
 const LONGEST: f64 = 3e4;
 
 /// Below this an insertion neither turns nor scales: rounding of an angle in degrees, rad.
@@ -126,20 +125,16 @@ impl<'a> Sheets<'a> {
         sheets
     }
 
-    /// Whether the cuts would be longer in a unit, mm, than any cloth, and one line longer than the outline of any part.
+    /// Whether a line would be longer in a unit, mm, than the outline of any part.
     fn is_too_long_in(&self, unit: f64) -> bool {
         if unit <= MM_PER_INCH {
             return false;
         }
         let measure = Measure { unit: 1.0, sagitta: 1.0, notch: 0.0 };
-        let (mut all, mut longest) = (0.0, 0.0);
-        for sheet in self.blocks.iter().chain([&self.loose]) {
-            for path in [1, 11].into_iter().flat_map(|layer| paths(&sheet.items, layer, measure)) {
-                let length: f64 = (0..path.curves.len()).map(|k| path.length(k)).sum();
-                (all, longest) = (all + length, f64::max(longest, length));
-            }
-        }
-        all * unit > MOST_CUT && longest * unit > LONGEST
+        let sheets = self.blocks.iter().chain([&self.loose]);
+        let mut paths =
+            sheets.flat_map(|sheet| [1, 11].into_iter().flat_map(|layer| paths(&sheet.items, layer, measure)));
+        paths.any(|path| (0..path.curves.len()).map(|k| path.length(k)).sum::<f64>() * unit > LONGEST)
     }
 
     /// Whether an insertion outside blocks moves its block.

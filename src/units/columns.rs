@@ -4,11 +4,11 @@
 use std::io::{self, BufRead};
 
 /// Magic string of a `NumPy` array; no text begins so.
-pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
+pub const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Why the rest of a program is not read.
 #[derive(Debug)]
-pub(crate) enum Unread {
+pub enum Unread {
     /// The disk.
     Io(io::Error),
     /// A row, record or key that is no part of a program.
@@ -23,7 +23,7 @@ impl From<io::Error> for Unread {
 
 impl Unread {
     /// A row that is none, by its number from 1.
-    pub(crate) fn row(number: u64, what: &str) -> Self {
+    pub fn row(number: u64, what: &str) -> Self {
         Self::Row(format!("row {number}: {what}"))
     }
 
@@ -34,14 +34,18 @@ impl Unread {
 
 /// Lines of a text, numbered from 1.
 #[derive(Debug, Default)]
-pub(crate) struct Lines {
+pub struct Lines {
     line: Vec<u8>,
     number: u64,
 }
 
 impl Lines {
-    /// The next line without its end; `None` behind the last. A last line that has no end is how a program cut short looks.
-    pub(crate) fn next(&mut self, input: &mut dyn BufRead) -> Result<Option<&str>, Unread> {
+    /// The next line without its end; `None` behind the last.
+    ///
+    /// # Errors
+    ///
+    /// The disk's, and where a line is no text or has no end, as in a program cut short.
+    pub fn next(&mut self, input: &mut dyn BufRead) -> Result<Option<&str>, Unread> {
         self.line.clear();
         self.number += 1;
         if input.read_until(b'\n', &mut self.line)? == 0 {
@@ -53,7 +57,11 @@ impl Lines {
     }
 
     /// Reads the first line, which names the fields.
-    pub(crate) fn header(&mut self, input: &mut dyn BufRead, names: &str) -> Result<(), Unread> {
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::next`], and where it names others.
+    pub fn header(&mut self, input: &mut dyn BufRead, names: &str) -> Result<(), Unread> {
         match self.next(input)? {
             Some(line) if line == names => Ok(()),
             Some(_) => Err(self.is(&format!("it is not the header `{names}`"))),
@@ -62,18 +70,22 @@ impl Lines {
     }
 
     /// The number of the line that was read last.
-    pub(crate) fn number(&self) -> u64 {
+    pub fn number(&self) -> u64 {
         self.number
     }
 
     /// What is wrong with that line.
-    pub(crate) fn is(&self, what: &str) -> Unread {
+    pub fn is(&self, what: &str) -> Unread {
         Unread::row(self.number, what)
     }
 }
 
 /// Reads the header of an array of packed records with these fields, as Python writes them: how many records follow.
-pub(crate) fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
+///
+/// # Errors
+///
+/// The disk's, and where it is none or has other fields.
+pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
     let mut start = [0; 8];
     fill(input, &mut start, "its header is cut off")?;
     if !start.starts_with(MAGIC) {
@@ -96,7 +108,11 @@ pub(crate) fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unre
 }
 
 /// Reads the next record, of which `left` are to come; `false` at the end of the program, which is that of the file.
-pub(crate) fn record(input: &mut dyn BufRead, left: &mut u64, record: &mut [u8]) -> Result<bool, Unread> {
+///
+/// # Errors
+///
+/// The disk's, and where the array ends before its last record or behind it.
+pub fn record(input: &mut dyn BufRead, left: &mut u64, record: &mut [u8]) -> Result<bool, Unread> {
     if *left == 0 {
         let is_over = retried(input)?.is_empty();
         return if is_over { Ok(false) } else { Err(Unread::array("bytes stand behind its last record")) };
@@ -123,7 +139,7 @@ fn fill(input: &mut dyn BufRead, bytes: &mut [u8], cut: &str) -> Result<(), Unre
 }
 
 /// A number of a record, little-endian, from a byte of it on; `None` when it is not finite.
-pub(crate) fn float(record: &[u8], at: usize) -> Option<f64> {
+pub fn float(record: &[u8], at: usize) -> Option<f64> {
     let bytes = record.get(at..)?.first_chunk()?;
     Some(f64::from_le_bytes(*bytes)).filter(|value| value.is_finite())
 }
