@@ -198,12 +198,11 @@ fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
 
 /// The name of a size before `=`, or before one word that begins with a digit, and the offset of the size.
 fn sized<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
-    let (end, from) = match memchr::memchr(b'=', line) {
-        Some(sign) => (sign, sign + 1),
-        None => {
-            let last = line.trim_ascii_end().iter().rposition(|byte| byte.is_ascii_whitespace())?;
-            (last, line.get(last + 1).filter(|byte| byte.is_ascii_digit()).map(|_| last + 1)?)
-        }
+    let (end, from) = if let Some(sign) = memchr::memchr(b'=', line) {
+        (sign, sign + 1)
+    } else {
+        let last = line.trim_ascii_end().iter().rposition(u8::is_ascii_whitespace)?;
+        (last, line.get(last + 1).filter(|byte| byte.is_ascii_digit()).map(|_| last + 1)?)
     };
     let name = line[..end].trim_ascii_end();
     let name = name.strip_suffix(b"-").map_or(name, <[u8]>::trim_ascii_end);
