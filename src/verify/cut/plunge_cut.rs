@@ -82,7 +82,7 @@ impl Judge<'_> {
         let length = (to - from).abs();
         let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
         let may = match self.tracer.declared {
-            Some(declared) => declared.has_nibble(Stretch { line, stations: trial.reach, end: None }),
+            Some(declared) => declared.has(Kind::Nibbled, Stretch { line, stations: trial.reach, end: None }),
             None => !is_straight,
         };
         if !is_all && !may {
