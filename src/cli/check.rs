@@ -57,7 +57,7 @@ struct Checked {
     source: Source,
     diagnostics: Diagnostics,
     dialect: Option<&'static str>,
-    /// What a good file says.
+    /// The marker of a good file.
     marker: Option<Marker>,
 }
 

@@ -198,8 +198,8 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
     over_the_edge(verdict, diagnostics);
 }
 
-/// Whose fault it is that a rule does not hold which no key of the profile limits; outlines may be known to cross, as they do
-/// where every line of a plot is cut.
+/// Advice on a broken rule that no key of the profile limits. Outlines may be known to cross, as they do where every line of a
+/// plot is cut.
 fn fault(crossing: Option<&Code>, is_all_cut: bool) -> String {
     match crossing {
         Some(Code { name, .. }) if is_all_cut => format!(

@@ -22,7 +22,7 @@ impl From<io::Error> for Unread {
 }
 
 impl Unread {
-    /// A row that is none, by its number from 1.
+    /// Message on a row that cannot be read, by its number from 1.
     pub fn row(number: u64, what: &str) -> Self {
         Self::Row(format!("row {number}: {what}"))
     }
@@ -44,7 +44,7 @@ impl Lines {
     ///
     /// # Errors
     ///
-    /// The disk's, and where a line is no text or has no end, as in a program cut short.
+    /// Errors of the disk; a line that is no text or has no end, as in a program cut short.
     pub fn next(&mut self, input: &mut dyn BufRead) -> Result<Option<&str>, Unread> {
         self.line.clear();
         self.number += 1;
@@ -60,7 +60,7 @@ impl Lines {
     ///
     /// # Errors
     ///
-    /// Those of [`Self::next`], and where it names others.
+    /// Errors of [`Self::next`]; a line that names other fields.
     pub fn header(&mut self, input: &mut dyn BufRead, names: &str) -> Result<(), Unread> {
         match self.next(input)? {
             Some(line) if line == names => Ok(()),
@@ -74,7 +74,7 @@ impl Lines {
         self.number
     }
 
-    /// What is wrong with that line.
+    /// Message on that line.
     pub fn is(&self, what: &str) -> Unread {
         Unread::row(self.number, what)
     }
@@ -84,7 +84,7 @@ impl Lines {
 ///
 /// # Errors
 ///
-/// The disk's, and where it is none or has other fields.
+/// Errors of the disk; a file that is no array, or one with other fields.
 pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
     let mut start = [0; 8];
     fill(input, &mut start, "its header is cut off")?;
@@ -111,7 +111,7 @@ pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
 ///
 /// # Errors
 ///
-/// The disk's, and where the array ends before its last record or behind it.
+/// Errors of the disk; an array that ends before its last record or goes on behind it.
 pub fn record(input: &mut dyn BufRead, left: &mut u64, record: &mut [u8]) -> Result<bool, Unread> {
     if *left == 0 {
         let is_over = retried(input)?.is_empty();
@@ -121,7 +121,7 @@ pub fn record(input: &mut dyn BufRead, left: &mut u64, record: &mut [u8]) -> Res
     fill(input, record, "it is cut off").map(|()| true)
 }
 
-/// What is buffered, empty at the end of the file.
+/// Buffered bytes; none at the end of the file.
 fn retried(input: &mut dyn BufRead) -> io::Result<&[u8]> {
     while let Err(error) = input.fill_buf() {
         if error.kind() != io::ErrorKind::Interrupted {

@@ -6,7 +6,7 @@ const INTEGER_PATH_MAX: f64 = 9.0e15;
 /// The most characters of such a number: its digits and those that decimals ask for, a point and a sign.
 const DIGITS: usize = 32;
 
-/// Room for the characters of a number, which end in its middle: so many are copied at once from wherever they begin.
+/// Buffer of a number. Its characters end in the middle, so that a copy of constant length can begin at any of them.
 type Digits = [u8; 2 * DIGITS];
 
 /// The digits of the numbers below a hundred.

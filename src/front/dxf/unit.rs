@@ -24,7 +24,7 @@ const SHOWN: usize = 24;
 /// What to do where nobody knows which it is.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
-/// Length of a line, mm, beyond which the unit of the header is none: no part has such an outline.
+/// Greatest length of a line in the unit of the header, mm: no part has a longer outline.
 const LONGEST_LINE: f64 = 3e4;
 /// Largest side of the largest of several pieces, mm, below which the unit is doubted: no garment is so small.
 const SMALLEST: f64 = 100.0;

@@ -134,8 +134,8 @@ impl<'a> Blocks<'a> {
         Some((code, self.step_to(after)))
     }
 
-    /// Fills a run with the next blocks as long as they are X and Y alone, as most of a file is: with far fewer steps
-    /// than [`Self::next_point`] takes, which reads the very last ones. `false` when there is none.
+    /// Fills a run with the next blocks as long as they are X and Y alone, as most of a file is; `false` when there is none.
+    /// It takes far fewer steps than [`Self::next_point`], which reads the very last ones.
     #[inline(never)] // apart, all that it works with stays in registers
     pub(super) fn next_run(&mut self, run: &mut Run) -> bool {
         let Self { bytes, mut at, number, .. } = *self;

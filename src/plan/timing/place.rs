@@ -1,4 +1,4 @@
-//! What the limits say at places of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
+//! Limits at places of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
 //! which all limits of a place follow (see [`super::profile()`]), and the slopes of the barrier with them. They are worked out
 //! for some places at once.
 

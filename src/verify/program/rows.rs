@@ -304,7 +304,7 @@ fn plain(line: &[u8]) -> Option<Fields> {
     Some((numbers, outputs))
 }
 
-/// The fields of any row, or why it is none.
+/// The fields of any row, or a message on what is wrong with it.
 fn fields(line: &[u8]) -> Result<Fields, String> {
     let mut fields = line.split(|&b| b == b',');
     let mut field = || fields.next().unwrap_or_default();

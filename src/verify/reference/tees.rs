@@ -15,7 +15,7 @@ const LOOK: f64 = 2.0;
 /// whoever cuts what it says.
 const MET_SHARE: f64 = 0.5;
 
-/// The tees of the open cuts that come out of parts. A thread may be `limit` mm wide; a line that is met may be
+/// The tees of the open cuts that come out of parts. A thread may be `limit` mm wide; a line that is met may be cut
 /// beside its chord, as the curve that this stands for, or by a blade of `width` mm that is plunged over it. A slit in the waste
 /// frees nothing.
 pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, limit]: [f64; 2]) -> Vec<Joint> {
