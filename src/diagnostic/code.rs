@@ -163,7 +163,7 @@ codes! {
 
     // What drawings want cut.
     /// The file is not whole.
-    DRAWING_CUT_SHORT = error(Text, "drawing/cut-short", "A drawing ends amid a number, or amid a line outside all parts that does not close: it is most likely cut short.", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes. If only the last PU or a semicolon is missing, write it at the end.\n  PD4000,4000;PU;");
+    DRAWING_CUT_SHORT = error(Text, "drawing/cut-short", "A drawing ends amid a number or a pair of coordinates, or amid a line outside all parts that does not close: it is most likely cut short.", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes. If only the last PU or a semicolon is missing, write it at the end.\n  PD4000,4000;PU;");
     /// A search without an end.
     DRAWING_TOO_MANY = error(Shape, "drawing/too-many-lines", "A drawing has so many closed lines that the search for which lies in which was ended: inner lines would be cut as parts.", "Nobody could tell which outline lies in which any more: inner lines would be cut as parts. Split the plot, or leave fills and hatchings out of the export.");
     /// No line is to be cut.
@@ -260,12 +260,14 @@ codes! {
     DXF_NO_UNIT = warning(Spoils, Shape, "dxf/no-unit", "A DXF file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm.", "Patterns in inches would be 25 times too small. Compare the extent that is printed with the pieces, then say the unit.\n  cutc compile pattern.dxf --set dxf.unit=inch");
     /// A whole piece with a fold line.
     DXF_FOLD_ACROSS = warning(Spoils, Shape, "dxf/fold-across", "A piece is drawn on both sides of its fold line (layer 6), so it is taken for a whole one.", "Half pieces end at their fold line. One that goes on across it is whole already, or its line is wrong. Look at the picture (-t svg) before you cut.");
+    /// Half a piece that may be cut.
+    DXF_FOLD_UNSAID = warning(Spoils, Shape, "dxf/fold-unsaid", "A text of a piece in a DXF file says that it is cut on the fold, and no fold line (layer 6) shows where: the piece is cut as it is drawn.", "Patterns for paper draw half a piece beside the fold of the cloth. A cutter cuts single plies that lie flat: half a piece would be cut. Look at the picture (-t svg); if it is half, let the CAD system unfold the piece.");
     /// A piece of other sizes only.
     DXF_SIZE_MISSING = warning(Spares, Shape, "dxf/size-missing", "A piece of a set has none of the sizes that are cut, and is not cut.", "A set holds each piece in its sizes, and those of one size are a garment. A piece that is there in other sizes only would be missing: some CAD systems name sizes of accessories otherwise. Name all that are wanted.\n  cutc compile pattern.dxf --size 38,40");
     /// A block without a size beside one of a size.
     DXF_SIZE_UNSAID = warning(Spares, Shape, "dxf/size-unsaid", "A piece of a set is drawn in a size that is cut and once more in a block without a size; both are cut.", "A block without a size goes with every size. Where another block of that name has one, its size most likely stands under a key that cutc does not know, and it is another size. See in the picture (-t svg) which is right, and leave the other out.\n  cutc compile pattern.dxf --skip 2");
     /// A sample size without sizes.
-    DXF_NO_SIZES = warning(Spoils, Shape, "dxf/no-sizes", "A DXF file says which size is its sample size, and no piece says a size: all pieces are cut.", "If the pieces are of several sizes, all of them would be cut. Their sizes may stand under a key that cutc does not know, or in letters that it does not read: see in the picture (-t svg) whether pieces come again in other sizes.");
+    DXF_NO_SIZES = warning(Spoils, Shape, "dxf/no-sizes", "No piece of a DXF file says a size, though the file says which is its sample size, or several pieces have one name: all pieces are cut.", "If the pieces are of several sizes, all of them would be cut. Their sizes may stand under a key that cutc does not know, or in letters that it does not read: see in the picture (-t svg) whether pieces come again in other sizes.");
     /// A key that may be the quantity.
     DXF_KEY = warning(Spares, Text, "dxf/unknown-key", "Every piece of a DXF file has a small number under a key that cutc does not know, and no quantity; each is cut once.", "The number may say how often the piece is cut: then pieces would be missing. Compare the count of `cutc info` with the garment, and let the CAD system write QUANTITY.\n  QUANTITY: 2");
     /// Texts in an encoding that nobody gives.
@@ -274,6 +276,10 @@ codes! {
     DXF_LETTERS_LOST = warning(Spoils, Text, "dxf/unread-key", "Texts of a DXF file have bytes before their colon or number that are no letters in the encoding in which the file is read.", "A size, a sample size or a quantity may stand there: then all sizes would be cut, or too few pieces. Compare the count of `cutc info` with the garment, and say the encoding.\n  cutc compile pattern.dxf --set labels.encoding=big5");
     /// A notch that is not cut.
     DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one or at its place.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
+    /// A notch that is drawn in its outline and marked by a point.
+    DXF_NOTCH_DRAWN = warning(Spares, Shape, "dxf/notch-drawn", "Points of notches in a DXF file lie in the mouth or at the bottom of notches that the outline makes itself; each is cut once, as it is drawn.", "Some programs write a notch as a stretch of the outline and mark it by a point on layer 4 as well. A second notch at the same place would go deeper into the part.");
+    /// A notch whose angle leads out of the part.
+    DXF_NOTCH_TURNED = warning(Spares, Shape, "dxf/notch-turned", "The angles (group 50) of notches in a DXF file lead out of their pieces; the notches are cut inwards.", "Some programs write the angle of a notch as it is seen from outside. A notch that stands out of the edge of a part can't be cut into it: let the CAD system draw it in the outline.");
     /// A notch that becomes a slit.
     DXF_NOTCH_AS_SLIT = warning(Spares, Shape, "dxf/notch-as-slit", "A V, T, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline, or its crossbar would leave the part. A slit of the same depth marks the same place.");
     /// Something to cut outside.

@@ -36,7 +36,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
         return Likeness::No;
     };
     let is_number = |field: &[u8]| std::str::from_utf8(field.trim_ascii()).is_ok_and(|f| f.parse::<f64>().is_ok());
-    if line.eq_ignore_ascii_case(HEADER) {
+    if is_header(line) {
         Likeness::Sure
     } else if line.iter().any(|b| b",;".contains(b)) && line.split(|b| b",;".contains(b)).all(is_number)
         || (line.starts_with(b"x") || line.starts_with(b"X")) && line.contains(&b',')
@@ -45,6 +45,12 @@ fn sniff(bytes: &[u8]) -> Likeness {
     } else {
         Likeness::No
     }
+}
+
+/// Whether a row is the header, in letters of any case and with blanks between its words.
+fn is_header(line: &[u8]) -> bool {
+    let letters = line.iter().filter(|byte| !byte.is_ascii_whitespace());
+    letters.map(u8::to_ascii_lowercase).eq(HEADER.iter().copied())
 }
 
 /// A row of the file: a point, or the end of a contour.
@@ -68,7 +74,7 @@ fn rows(source: &Source, out: &mut Diagnostics) -> Vec<(Row, Span)> {
         at += length + 1;
         if line.trim_ascii().is_empty() {
             rows.push((Row::Blank, span));
-        } else if !headed && line.trim_ascii().eq_ignore_ascii_case(HEADER) {
+        } else if !headed && is_header(line) {
             headed = true;
         } else {
             if !headed {

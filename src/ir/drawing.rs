@@ -75,6 +75,8 @@ pub enum Ending {
     PenDown(Span),
     /// Amid a number that draws, or behind one that may lack digits.
     AmidNumber(Span),
+    /// With one coordinate of two, and nothing behind it.
+    AmidPair(Span),
 }
 
 impl PenStroke {

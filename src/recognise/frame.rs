@@ -19,7 +19,7 @@ const LEAST_FILL: f64 = 0.5;
 const LEAST_DOUBTFUL: f64 = 0.15;
 /// Area of all that lies outside frames, as a share of theirs, at the most: title blocks and test squares. More may be
 /// parts, and then the rectangle may be one of them.
-const MOST_OUTSIDE: f64 = 0.1;
+pub(super) const MOST_OUTSIDE: f64 = 0.1;
 /// Share of an outer frame that the frame in it takes where something lies between them: the cloth on the paper.
 const LEAST_CLOTH: f64 = 0.75;
 /// Least number of parts, or least share of the area, that rectangles beside each other hold to be frames: with less they may be

@@ -18,6 +18,7 @@ use super::close::along;
 use super::line::{Class, Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::pens::{self, Use};
 use super::slits::Slits;
+use super::succession::Ends;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::closing;
@@ -438,8 +439,22 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Decides at every place, first where two lines meet, then where more do, then among those that lead nowhere.
+    /// Closes the rings that strokes draw in succession.
+    fn close_rings(&mut self) {
+        for ring in (Ends { nodes: &self.nodes, node: &self.node, is_dead: &self.is_dead }).rings() {
+            let [first, last] = [*ring.start(), *ring.end()];
+            let closing = [2 * last + 1, 2 * first];
+            if !self.are_one_notch(closing) {
+                (first..last).for_each(|stroke| self.chains.join([2 * stroke + 1, 2 * stroke + 2]));
+                self.chains.join(closing);
+            }
+        }
+    }
+
+    /// Decides at every place, first for rings, then where two lines meet, then where more do, then among those that lead
+    /// nowhere.
     fn link(&mut self) {
+        self.close_rings();
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open(k, false)[..]
                 && !self.are_one_notch([a, b])

@@ -5,16 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::doubts::{self, finding};
 use super::frame;
-use super::line::{Class, Line, SMALL_OUTLINE};
+use super::line::{Class, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::marks::Lie;
 use super::pens::Use;
 use super::sheet::Sheet;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Extent;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::ring;
+use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Ending;
+use crate::ir::marker::Notch;
 use crate::machine::Job;
 use crate::machine::plot::{Inner, PenUse};
 use crate::units::MM_PER_M;
@@ -102,12 +102,12 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let mut by_part: BTreeMap<usize, Vec<&Line>> = BTreeMap::new();
     // Closed lines that stand on an outline have a warning of their own.
     let standing = standing(sheet);
-    // A rectangle that is all there is may be the edge of the cloth around one part.
-    let is_alone = sheet.lines.iter().filter(|line| line.class == Class::Part).count() == 1;
+    let is_alone = is_alone(sheet);
     let is_left = |line: &Line| !line.is_cut && line.usage != Use::Drawn;
     let is_inner = |&i: &usize| {
         let line = &sheet.lines[i];
-        let is_far_seam = || is_alone && line.class == Class::Seam && has_wide_margins(sheet, i);
+        let is_far_seam =
+            || is_alone && line.class == Class::Seam && (has_wide_margins(sheet, i) || has_notches(sheet, i));
         is_left(line) && (line.class == Class::Inner || is_far_seam())
     };
     for i in (0..sheet.lines.len()).filter(is_inner).filter(|i| !standing.contains(i)) {
@@ -155,6 +155,35 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         };
         out.push(finding(&code::DRAWING_INNER_LINES, message, first, sheet).hint(hint));
     }
+}
+
+/// Whether one part is nearly all there is, beside a test square or a title: it may be the edge of the cloth around one part.
+fn is_alone(sheet: &Sheet) -> bool {
+    let areas = sheet.lines.iter().filter(|line| line.class == Class::Part).map(|line| line.area);
+    let (all, largest) = areas.fold((0.0, 0.0), |(all, largest): (f64, f64), area| (all + area, largest.max(area)));
+    all - largest <= frame::MOST_OUTSIDE * largest
+}
+
+/// Whether a short stroke begins on a seam line in a rectangle on whose edge no notch stands: the seam line may be the part.
+fn has_notches(sheet: &Sheet, seam: usize) -> bool {
+    let Some(part) = sheet.nest.outermost(seam).filter(|&part| sheet.lines[part].is_rectangle(sheet.band())) else {
+        return false;
+    };
+    if sheet.marks.iter().any(|mark| mark.outline == part) || sheet.strokes.iter().any(|one| one.outline == part) {
+        return false;
+    }
+    let points = sheet.lines[seam].points(&sheet.vertices);
+    let is_short = |line: &&Line| {
+        let is_open = !line.is_closed && line.is_open_question();
+        is_open && (SHORTEST_NOTCH..=Notch::LONGEST).contains(&line.length)
+    };
+    let mut work = Budget::of_a_marker();
+    let is_on = |line: &Line| {
+        let ends = line.as_drawn(&sheet.vertices);
+        let distance = |at: Point| polyline::distance(at, &points);
+        work.spend(points.len()) && [0, ends.len() - 1].iter().any(|&end| distance(ends[end].at) <= Notch::MISS)
+    };
+    sheet.lines.iter().filter(is_short).any(is_on)
 }
 
 /// Whether the outline of a seam line is a rectangle that may be a frame around a part: most of its sides lie farther off than
@@ -320,6 +349,11 @@ fn cut_short(sheet: &Sheet) -> Option<Diagnostic> {
         Ending::Proper => return None,
         Ending::PenDown(span) => (span, false),
         Ending::AmidNumber(span) => (span, true),
+        Ending::AmidPair(span) => {
+            let message = "the file ends amid a pair of coordinates";
+            let found = Diagnostic::new(&code::DRAWING_CUT_SHORT, message).at(span);
+            return Some(found.hint("it is cut short: export it again, or transfer it again"));
+        }
     };
     let is_last = |line: &&Line| line.vertices(&sheet.vertices).iter().any(|vertex| vertex.span == span);
     // A line that returns to its start is whole, unless a curve does so whatever its last number was.

@@ -8,6 +8,10 @@ use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
 pub(super) const FARTHEST: f64 = 60.0;
 /// The same for the sides of their boxes: at a sharp point of a part the two are farther apart.
 pub(super) const BOX_MARGIN: f64 = 2.5 * FARTHEST;
+/// Widest allowance of a seam, mm, and the least share of a seam line at which it is no wider: hems are on some edges only.
+/// What lies farther off all around is an opening, as of a facing.
+const WIDEST_ALLOWANCE: f64 = 26.0;
+const LEAST_AT_SEAM: f64 = 0.25;
 /// Sine of the greatest angle between a seam line and the edge beside it: edges that curve are hemmed along their
 /// chord.
 const LARGEST_TURN: f64 = 0.5;
@@ -56,14 +60,15 @@ pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
         return false;
     }
     let samples = samples(line);
-    let (mut near, mut along) = (0, 0);
+    let (mut near, mut at_seam, mut along) = (0, 0, 0);
     for (at, way) in &samples {
         let (distance, edge) = nearest(*at, outline);
         near += usize::from(distance <= FARTHEST);
+        at_seam += usize::from(distance <= WIDEST_ALLOWANCE);
         along += usize::from(is_along(*way, edge));
     }
     let share = |count: usize| count as f64 / samples.len() as f64;
-    share(near) >= NEAR && share(along) >= ALONG
+    share(near) >= NEAR && share(at_seam) >= LEAST_AT_SEAM && share(along) >= ALONG
 }
 
 /// The edge of a line nearest to a place: how far it is, mm, and its way.
@@ -114,6 +119,8 @@ mod tests {
             (rectangle(10.0, 50.0, 380.0, 240.0), true),
             (rectangle(10.0, 10.0, 380.0, 100.0), false),
             (rectangle(100.0, 100.0, 100.0, 100.0), false),
+            // The opening of a facing lies far from all edges.
+            (rectangle(50.0, 50.0, 300.0, 200.0), false),
             // A slot beside an edge goes along it, but not around.
             (rectangle(10.0, 10.0, 100.0, 4.0), false),
         ] {

@@ -250,10 +250,13 @@ impl Sheet {
             };
             seams.extend(tried.filter(|i| is_seam(i)).copied().next());
         }
-        // What follows a seam line is a cut-out in it: a part has one seam line.
+        // What lies in a seam line is a cut-out: a part has one seam line.
         seams.sort_unstable();
-        let is_seam = |i: Option<usize>| i.is_some_and(|i| seams.binary_search(&i).is_ok());
-        for &i in seams.iter().filter(|&&i| !is_seam(self.nest.parent(i))) {
+        let is_in_seam = |i: usize| {
+            let mut around = std::iter::successors(self.nest.parent(i), |&outer| self.nest.parent(outer));
+            around.any(|outer| seams.binary_search(&outer).is_ok())
+        };
+        for &i in seams.iter().filter(|&&i| !is_in_seam(i)) {
             self.lines[i].class = Class::Seam;
         }
     }

@@ -22,6 +22,10 @@ pub(super) enum Reason {
     LeavesPart,
     /// In the mouth of another one, or at the place of one of another kind.
     InAnother,
+    /// A notch that the outline makes itself.
+    Drawn,
+    /// Cut into the part, while its angle leads out of it.
+    Turned,
     /// Cut as a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar that leaves the part.
     AsSlit,
 }
@@ -39,8 +43,8 @@ impl Doubt {
     /// Whether the notch is left out.
     pub(super) fn leaves_out(&self) -> bool {
         match self.reason {
-            Reason::OffEdge | Reason::TooDeep | Reason::LeavesPart | Reason::InAnother => true,
-            Reason::AsSlit => false,
+            Reason::OffEdge | Reason::TooDeep | Reason::LeavesPart | Reason::InAnother | Reason::Drawn => true,
+            Reason::AsSlit | Reason::Turned => false,
         }
     }
 }
@@ -102,6 +106,20 @@ fn words(reason: Reason, notches: &str, mm: &str, is_one: bool) -> Words {
                 verb("lies in the mouth of another one or at its place", "lie in mouths of others or at their places")
             ),
             "one of both is enough: see which in the picture (-t svg)",
+        ),
+        Reason::Drawn => (
+            &code::DXF_NOTCH_DRAWN,
+            format!("{notches} {} drawn in the outline, too: cut once, as drawn", verb("is", "are")),
+            "look at them in the picture (-t svg)",
+        ),
+        Reason::Turned => (
+            &code::DXF_NOTCH_TURNED,
+            format!(
+                "{} of {notches} {} out of the part: cut inwards",
+                verb("the angle", "the angles"),
+                verb("leads", "lead")
+            ),
+            "a notch that stands out of the edge has to be drawn in the outline",
         ),
         Reason::AsSlit => (
             &code::DXF_NOTCH_AS_SLIT,

@@ -1,8 +1,12 @@
 //! Half pieces: what is drawn on one side of a fold line is on the other, too, and the fold itself is no line.
 
 use super::chain::{Chain, REACH};
+use super::entity::{Block, Entity, TEXT};
+use super::tally::{Tally, Thing};
+use super::text::{Facts, is_text};
 use crate::geom::{Point, Vector, cross, left};
 use crate::ir::drawing::Vertex;
+use crate::machine::letters::Letters;
 
 /// Vertices of a chain from fold to fold that has an inside.
 const LEAST_HALF: usize = 3;
@@ -10,6 +14,32 @@ const LEAST_HALF: usize = 3;
 /// Least ratio of the narrower side to the wider one, beside the fold of a whole piece. Below it the fold line was meant to
 /// lie on the edge.
 const LEAST_SIDE: f64 = 0.1;
+
+/// Layer of fold lines.
+const LAYER: u16 = 6;
+/// Words by which texts say that a piece is cut on the fold, in capitals.
+#[rustfmt::skip] // a table: a row a few languages
+const WORDS: [&str; 14] = [
+    "ON FOLD", "ON THE FOLD", "STOFFBRUCH", "IM BRUCH", "AU PLI", "SUR LE PLI", "PLIURE", "SULLA PIEGA", "AL DOBLEZ",
+    "EN DOBLEZ", "NA DOBRA", "STOFVOUW", "AAN DE VOUW", "НА СГИБЕ",
+];
+
+/// Counts the blocks whose texts say that they are cut on the fold, and that have nothing on its layer.
+pub(super) fn see_unsaid(blocks: &[(&Block, &Facts)], letters: &Letters, tally: &mut Tally) {
+    let is_fold = |entity: &&Entity| entity.layer() == Some(LAYER);
+    let says = |entity: &&Entity| is_text(entity) && is_said(&letters.text(entity.bytes(TEXT)));
+    for (block, _) in blocks.iter().filter(|(block, _)| !block.entities.iter().any(|entity| is_fold(&entity))) {
+        if let Some(text) = block.entities.iter().find(says) {
+            tally.add(Thing::FoldUnsaid, text.span());
+        }
+    }
+}
+
+/// Whether a text says that its piece is cut on the fold.
+fn is_said(text: &str) -> bool {
+    let text = text.to_uppercase().split_whitespace().collect::<Vec<_>>().join(" ");
+    WORDS.iter().any(|words| text.contains(words))
+}
 
 /// A fold line.
 #[derive(Debug, Clone, Copy)]

@@ -7,8 +7,8 @@
 //!
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
 //! mm with [`arc`] and the [`mod@unit`]; [`text`] reads what texts say in their [`letters`](mod@letters) by their [`key`]s with [`markup`] and [`choice`] which blocks that
-//! lets be cut; [`unknown`] names keys that may be quantities. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
-//! [`mod@notch`] by the table of [`layer`]s. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
+//! lets be cut; [`unknown`] names keys that may be quantities, [`namesakes`] pieces that may be sizes. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
+//! [`mod@notch`] by the table of [`layer`]s that is not [`drawn`] already. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
 //! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
 //! not done as the file says.
 
@@ -17,6 +17,7 @@ mod chain;
 mod choice;
 mod curves;
 mod doubts;
+mod drawn;
 mod entity;
 mod fold;
 mod group;
@@ -26,6 +27,7 @@ mod layer;
 mod letters;
 mod marker;
 mod markup;
+mod namesakes;
 mod notch;
 mod outline;
 mod over;

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_3, PI};
 
 use super::doubts::{Doubt, Reason};
+use super::drawn::{self, LEAST_DEPTH};
 use super::layer::Form;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, Vector, left, polyline, ring};
@@ -14,9 +15,8 @@ use crate::source::Span;
 
 /// Distance to both sides of a notch between which the direction of the edge is taken, mm.
 const BESIDE: f64 = 1.0;
-/// Least and largest width, and least depth, of a notch in the outline, mm: others become slits.
+/// Least and largest width of a notch in the outline, mm: others become slits.
 pub(super) const MOUTHS: [f64; 2] = [1.0, Notch::WIDEST];
-pub(super) const LEAST_DEPTH: f64 = 1.5;
 /// Least length of a mouth, as a part of the edge that it is cut into: there the edge bends by a third of a right angle.
 const STRAIGHT: f64 = 0.98;
 /// Chords of a round bottom.
@@ -62,6 +62,8 @@ struct Site {
     root: Point,
     /// Unit vector into the part.
     inwards: Vector,
+    /// Whether its angle leads out of the part.
+    is_turned: bool,
 }
 
 /// Outline with its measures.
@@ -80,8 +82,15 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
     if !marks.is_empty() {
         let edge = Edge::of(&outline);
         for mark in marks {
+            if drawn::makes_notch_at(&edge.points, mark.at, work) {
+                notched.doubts.push(mark.doubt(Reason::Drawn));
+                continue;
+            }
             match edge.place(mark, work) {
-                Ok(found) => placed.push(found),
+                Ok(found) => {
+                    notched.doubts.extend(found.is_turned.then(|| mark.doubt(Reason::Turned)));
+                    placed.push(found);
+                }
                 Err((reason, mm)) => notched.doubts.push(Doubt { reason, mm, span: mark.span }),
             }
         }
@@ -192,9 +201,10 @@ impl<'a> Edge<'a> {
         let inwards = left(way).try_normalize(0.0).unwrap_or(left(b - a) / (b - a).norm());
         let inwards = if self.is_left { inwards } else { -inwards };
         // An angle that leads out of the part is that of the notch seen from outside. One along the edge is ignored.
+        let is_turned = mark.along.is_some_and(|along| along.dot(&inwards) <= -FRAC_PI_3.cos());
         let along = mark.along.map(|along| if along.dot(&inwards) < 0.0 { -along } else { along });
         let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
-        let placed = Site { mark: *mark, station, root, inwards };
+        let placed = Site { mark: *mark, station, root, inwards, is_turned };
         let is_inside = ring::contains(&self.points[..self.vertices.len()], placed.tip());
         if is_inside { Ok(placed) } else { Err((Reason::LeavesPart, mark.depth)) }
     }

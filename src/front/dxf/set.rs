@@ -7,10 +7,12 @@ use super::choice::{Asked, Chosen};
 use super::curves::{CurveCounts, Drafting, Size, lend};
 use super::doubts;
 use super::entity::{Block, Entity, NAME, Sections, sections};
+use super::fold;
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Does, Named, Names};
 use super::letters::letters;
+use super::namesakes;
 use super::over;
 use super::piece::{Making, Piece};
 use super::placing::{Held, MOST_COPIES, MOST_PIECES, Placing};
@@ -183,8 +185,8 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     }
     set.is_plain = !file.says_anything() && set.pieces.is_empty();
     set.lay(&placing, loose, &mut making);
-    let wanted = (0..blocks.len()).filter(|&k| is_cut(k) && chosen.has(&facts[k]));
-    set.say_unknown_keys(&wanted.map(|k| (&blocks[k], &facts[k])).collect::<Vec<_>>(), &asked, making.out);
+    let wanted = (0..blocks.len()).filter(|&k| is_cut(k) && chosen.has(&facts[k])).map(|k| (&blocks[k], &facts[k]));
+    set.say_texts(&wanted.collect::<Vec<_>>(), &asked, &mut making);
     making.report();
     let uncut = if set.count() > 0 { uncut(blocks, &own, &held, &placing, &chosen) } else { Vec::new() };
     say_uncut(&uncut, &asked, making.out);
@@ -342,10 +344,18 @@ impl Set {
         }
     }
 
-    /// Says which keys of the blocks that are cut may be quantities, where these matter.
-    fn say_unknown_keys(&self, pieces: &[(&Block, &Facts)], asked: &Asked, out: &mut Diagnostics) {
-        if self.placed.is_none() && self.quantity == Quantity::File {
-            unknown::say(pieces, asked, out);
+    /// Says which of the blocks that are cut may be of several sizes or half a piece, and which of their keys may be quantities,
+    /// where these matter.
+    fn say_texts(&self, pieces: &[(&Block, &Facts)], asked: &Asked, making: &mut Making) {
+        fold::see_unsaid(pieces, &asked.letters, &mut making.tally);
+        if self.placed.is_some() {
+            return;
+        }
+        if self.quantity == Quantity::File {
+            unknown::say(pieces, asked, making.out);
+        }
+        if asked.file.sample_size.first.is_none() {
+            namesakes::say(pieces, asked.source, &asked.letters, making.out);
         }
     }
 

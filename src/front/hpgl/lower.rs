@@ -133,7 +133,9 @@ impl Lowering<'_> {
             self.out.push(finding.hint("the file is most likely cut short; export it again"));
         }
         let drawing = &mut self.plotter.drawing;
-        if let Some(last) = drawing.vertices.last() {
+        if let Some(last) = self.tally.last_odd.filter(|last| self.reader.ends_with(*last)) {
+            drawing.ending = FileEnding::AmidPair(last);
+        } else if let Some(last) = drawing.vertices.last() {
             drawing.ending = match (self.last_drew && self.reader.ends_with_digit(), drawing.is_lifted()) {
                 (true, _) => FileEnding::AmidNumber(last.span),
                 (false, false) => FileEnding::PenDown(last.span),

@@ -124,6 +124,11 @@ impl<'a> Reader<'a> {
         self.bytes.last().is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
     }
 
+    /// Whether the file ends with a number.
+    pub(super) fn ends_with(&self, number: Span) -> bool {
+        number.end as usize >= self.bytes.len()
+    }
+
     /// From `start` to the next byte.
     fn span(&self, start: usize) -> Span {
         // A `Source` is below 4 GiB.

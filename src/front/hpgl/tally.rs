@@ -20,6 +20,8 @@ pub(super) struct Tally {
     sound: usize,
     junk: Count,
     odd: Count,
+    /// The last number without its partner.
+    pub(super) last_odd: Option<Span>,
     unknown: BTreeMap<[u8; 2], Count>,
     unknown_total: usize,
     left_out: BTreeMap<[u8; 2], (&'static str, Count)>,
@@ -52,6 +54,7 @@ impl Tally {
     /// A number without its partner.
     pub(super) fn odd(&mut self, span: Span) {
         self.odd.add(span);
+        self.last_odd = Some(span);
     }
 
     /// An instruction that is in no table.

@@ -143,3 +143,34 @@ fn what_is_on_a_layer_that_is_not_cut_changes_nothing() {
     }
     assert_eq!(cut(&[11]).0.contours().count(), 2);
 }
+
+#[test]
+fn a_point_that_marks_a_drawn_notch_changes_nothing() {
+    let mut random = Rng::with_seed(4);
+    for _ in 0..60 {
+        let tenths = |low: i32, high: i32, random: &mut Rng| f64::from(random.i32(low..=high)) / 10.0;
+        let (x, depth) = (tenths(300, 1700, &mut random), tenths(20, 120, &mut random));
+        let half = [0.0, tenths(10, 60, &mut random)][random.usize(0..2)];
+        let is_castle = half > 0.0 && random.bool();
+        let inner = if is_castle { half } else { 0.0 };
+        let notch = [[x - half, 0.0], [x - inner, depth], [x + inner, depth], [x + half, 0.0]];
+        let at = [[x, 0.0], [x, depth]][random.usize(0..2)];
+        let cut = |is_marked: bool| {
+            let mut places = vec![[0.0, 0.0]];
+            places.extend(notch);
+            places.extend([[200.0, 0.0], [200.0, 100.0], [0.0, 100.0]]);
+            places.dedup();
+            let mut file = Writer::begin();
+            file.block("A").outline(1, &places, Drawn::Closed);
+            if is_marked {
+                file.point(4, at, [depth, 2.0 * half]);
+            }
+            file.end_block();
+            as_read(&source(file.end(&["UNITS: METRIC"])), &Job::default())
+        };
+        let [(drawn, _), (marked, told)] = [cut(false), cut(true)];
+        let what = format!("{half} wide, {depth} deep at {x}, marked at {at:?}");
+        assert_same(&drawn, &marked, &what);
+        assert_eq!(told, ["dxf/notch-drawn"], "{what}");
+    }
+}

@@ -133,7 +133,7 @@ fn places_that_put_pieces_on_each_other_are_none() {
         let (row, of_row) = read(&plain, &Job::default());
         assert_eq!(
             (found, of_row),
-            (vec!["dxf/no-places", "dxf/cutting-sample"], vec!["dxf/cutting-sample"]),
+            (vec!["dxf/no-places", "dxf/no-sizes", "dxf/cutting-sample"], vec!["dxf/no-sizes", "dxf/cutting-sample"]),
             "{seed}"
         );
         assert_eq!(contours(&marker), contours(&row), "seed {seed}");

@@ -51,6 +51,11 @@ fn outermost_closed_lines_are_parts_and_nothing_in_them_is_cut() {
     check(&(part() + &seam()), "1 part*, 1 seam line", &[]);
     check(&(seam() + &cut_out() + &part()), "1 part*, 1 inner line, 1 seam line", &["drawing/inner-lines"]);
     check(&(part() + &seam() + "PU9000,9000;PD12000,9000;"), "1 part*, 1 seam line, 1 other line", &[]);
+    // A title beside it hides no border around one rectangle, and neither do even margins where a notch stands on the inner line.
+    let border = rectangle(0, 0, 60_000, 24_000) + &rectangle(800, 800, 58_400, 22_400);
+    check(&(border + &rectangle(62_000, 0, 2000, 2000)), "2 part*, 1 seam line", &["drawing/may-be-frame"]);
+    let notched = part() + &seam() + "PU9000,4400;PD9000,4600;";
+    check(&notched, "1 part*, 1 seam line, 1 other line", &["drawing/may-be-frame"]);
     check(&(part() + "PU4000,9000;PD12000,9000;"), "1 part*, 1 line from edge", &["drawing/line-from-edge"]);
 }
 
@@ -67,6 +72,45 @@ fn inner_lines_are_cut_when_they_are_asked_for_and_seam_lines_only_with_all() {
     let large = part() + "PU10000,10000;CI5600;";
     asked(&large, inner(Inner::Cut), "1 part*, 1 inner line");
     asked(&large, inner(Inner::All), "1 part*, 1 inner line*");
+}
+
+#[test]
+fn the_opening_of_a_facing_is_no_seam_line() {
+    // 50 mm from its edges all around; with a hem of 50 mm on one side it is a seam line.
+    let text = part() + &rectangle(6000, 6000, 8000, 8000);
+    check(&(text.clone() + &rectangle(20_000, 4000, 9000, 9000)), "2 part*, 1 inner line", &["drawing/inner-lines"]);
+    let inner = |inner| Lines { inner: Some(inner), ..Lines::default() };
+    asked(&text, inner(Inner::Cut), "1 part*, 1 inner line*");
+    let hemmed = part() + &rectangle(4400, 6000, 11_200, 9600) + &rectangle(20_000, 4000, 9000, 9000);
+    check(&hemmed, "2 part*, 1 seam line", &[]);
+}
+
+#[test]
+fn parts_in_strokes_are_apart_though_both_draw_the_edge_between_them() {
+    let mut random = fastrand::Rng::with_seed(44);
+    for _ in 0..40 {
+        let [columns, rows] = [random.i64(1..=4), random.i64(1..=3)];
+        let [width, height] = [random.i64(40..=200) * 40, random.i64(40..=200) * 40];
+        let mut parts: Vec<String> = (0..columns * rows)
+            .map(|k| in_strokes(&mut random, [k % columns * width, k / columns * height], [width, height]))
+            .collect();
+        random.shuffle(&mut parts);
+        let (classes, codes) = found(&parts.concat(), &Job::default());
+        assert_eq!((classes, codes), (format!("{} part*", columns * rows), Vec::new()), "{}", parts.concat());
+    }
+}
+
+/// A rectangle in four strokes, each from where the last one ends, from any corner on and either way round.
+fn in_strokes(random: &mut fastrand::Rng, [x, y]: [i64; 2], [width, height]: [i64; 2]) -> String {
+    let mut corners = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]];
+    corners.rotate_left(random.usize(0..4));
+    if random.bool() {
+        corners.reverse();
+    }
+    let ends = |k: usize| [corners[k], corners[(k + 1) % 4]];
+    (0..4)
+        .map(ends)
+        .fold(String::new(), |text, [from, to]| text + &format!("PU{},{};PD{},{};", from[0], from[1], to[0], to[1]))
 }
 
 #[test]

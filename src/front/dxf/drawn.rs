@@ -1,0 +1,127 @@
+//! Notches that an outline makes itself: a point that marks one of them asks for no second cut.
+
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
+
+use crate::geom::budget::Budget;
+use crate::geom::{Point, Vector, polyline};
+use crate::ir::marker::Notch;
+use crate::machine::patterns::Dxf;
+
+/// Least depth of a notch in the outline, mm.
+pub(super) const LEAST_DEPTH: f64 = 1.5;
+/// Stretch of an edge that its direction beside a mouth is taken from, mm.
+const BESIDE: f64 = 1.0;
+/// Narrowest mouth that has a direction, mm: the feet of a narrower one are one place.
+const NARROW: f64 = 0.5;
+/// Least turn of an outline where a mouth begins, as the cosine: 12 degrees.
+const LEAST_TURN: f64 = 0.978;
+/// Least share of the depth of a notch at which its bottom begins.
+const BOTTOM: f64 = 0.7;
+
+/// Whether an outline, whose first point is repeated at its end, makes a notch that a place marks: in its mouth or at its
+/// bottom.
+pub(super) fn makes_notch_at(outline: &[Point], at: Point, work: &mut Budget) -> bool {
+    let ring = Ring(&outline[..outline.len() - 1]);
+    let count = ring.0.len();
+    if count < 3 || !work.spend(count) {
+        return false;
+    }
+    let reach = Notch::WIDEST + Notch::LONGEST;
+    let is_near = |i: &usize| (ring.0[*i] - at).amax() <= reach;
+    (0..count).filter(is_near).any(|i| ring.turns_at(i) && ring.notch_from(i, at, work))
+}
+
+/// Vertices of an outline.
+struct Ring<'a>(&'a [Point]);
+
+impl Ring<'_> {
+    fn at(&self, i: usize) -> Point {
+        self.0[i % self.0.len()]
+    }
+
+    /// Unit vector of the edge before a vertex, or behind it, from or to a place on it that is not nearer than [`BESIDE`].
+    fn beside(&self, i: usize, is_before: bool) -> Option<Vector> {
+        let count = self.0.len();
+        let step = |k: usize| self.at(if is_before { i + count - k } else { i + k });
+        let far = (1..count).map(step).find(|point| (point - self.at(i)).norm() >= BESIDE)?;
+        let way = (far - self.at(i)).normalize();
+        Some(if is_before { -way } else { way })
+    }
+
+    fn turns_at(&self, i: usize) -> bool {
+        let [before, behind] = [true, false].map(|is_before| self.beside(i, is_before));
+        before.zip(behind).is_some_and(|(before, behind)| before.dot(&behind) < LEAST_TURN)
+    }
+
+    /// Whether a notch begins at a vertex that a place marks.
+    fn notch_from(&self, first: usize, at: Point, work: &mut Budget) -> bool {
+        let mut way = 0.0;
+        for last in first + 1..first + self.0.len() {
+            way += (self.at(last) - self.at(last - 1)).norm();
+            if way > Notch::LONGEST_STROKE || !work.spend(last - first) {
+                return false;
+            }
+            if last > first + 1 && self.is_mouth([first, last]) && self.is_marked([first, last], at) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether two vertices are the ends of a mouth: the edge goes on behind it as it came.
+    fn is_mouth(&self, [first, last]: [usize; 2]) -> bool {
+        let mouth = self.at(last) - self.at(first);
+        let Some((before, after)) = self.beside(first, true).zip(self.beside(last, false)) else { return false };
+        let is_along = |way: Vector| way.dot(&mouth) >= FRAC_PI_6.cos() * mouth.norm();
+        mouth.norm() <= Notch::WIDEST
+            && before.dot(&after) >= FRAC_PI_3.cos()
+            && (mouth.norm() <= NARROW || is_along(before) && is_along(after))
+    }
+
+    /// Whether a place lies in the mouth of a notch with these ends, or at its bottom.
+    fn is_marked(&self, [first, last]: [usize; 2], at: Point) -> bool {
+        let mouth = [self.at(first), self.at(last)];
+        let depth = |place: Point| polyline::distance_to_segment(place, mouth[0], mouth[1]);
+        let deepest = (first + 1..last).map(|i| depth(self.at(i))).fold(0.0, f64::max);
+        let off = |i: usize| polyline::distance_to_segment(at, self.at(i), self.at(i + 1));
+        let is_on_way = || (first..last).any(|i| off(i) <= Dxf::NOTCH_OFF);
+        (LEAST_DEPTH..=Notch::LONGEST).contains(&deepest)
+            && (depth(at) <= Dxf::NOTCH_OFF || depth(at) >= BOTTOM * deepest && is_on_way())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_marked(edge: &[(f64, f64)], at: (f64, f64)) -> bool {
+        let corners = [(100.0, 0.0), (100.0, 50.0), (0.0, 50.0), (0.0, 0.0)];
+        let outline: Vec<Point> =
+            [(0.0, 0.0)].iter().chain(edge).chain(&corners).map(|&(x, y)| Point::new(x, y)).collect();
+        makes_notch_at(&outline, Point::new(at.0, at.1), &mut Budget::of_a_marker())
+    }
+
+    #[test]
+    fn a_point_in_the_mouth_or_at_the_bottom_of_a_drawn_notch_marks_it() {
+        let slit = [(40.0, 0.0), (40.0, 6.0), (40.0, 0.0)];
+        let vee = [(37.0, 0.0), (40.0, 6.0), (43.0, 0.0)];
+        let castle = [(38.0, 0.0), (38.0, 6.0), (42.0, 6.0), (42.0, 0.0)];
+        let outside = [(37.0, 0.0), (40.0, -6.0), (43.0, 0.0)];
+        for edge in [&slit[..], &vee, &castle, &outside] {
+            let tip = if edge[1].1 < 0.0 { -6.0 } else { 6.0 };
+            assert!(is_marked(edge, (40.0, 0.0)), "{edge:?}");
+            assert!(is_marked(edge, (40.0, tip)), "{edge:?}");
+            assert!(!is_marked(edge, (50.0, 0.0)), "{edge:?}");
+        }
+        assert!(is_marked(&castle, (38.0, 0.0)));
+    }
+
+    #[test]
+    fn a_point_on_a_plain_edge_or_at_a_corner_marks_none() {
+        assert!(!is_marked(&[(40.0, 0.0)], (40.0, 0.0)));
+        assert!(!is_marked(&[], (0.0, 0.0)));
+        // A corner that goes in, as at a neck, and a step.
+        assert!(!is_marked(&[(40.0, 0.0), (40.0, 6.0)], (40.0, 6.0)));
+        assert!(!is_marked(&[(40.0, 0.0), (40.0, 6.0), (60.0, 6.0), (60.0, 0.0)], (40.0, 0.0)));
+    }
+}

@@ -1,0 +1,80 @@
+//! Pieces that may be of several sizes though none says a size: blocks of one name, or with names that differ in their last
+//! part alone, as `FRONT-S`, `FRONT-M` and `FRONT-L`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::entity::{Block, NAME};
+use super::text::Facts;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::letters::Letters;
+use crate::source::{Source, Span};
+
+/// Characters before the last part of a name.
+const BEFORE_LAST: [char; 5] = ['-', '_', '.', ' ', '/'];
+/// Last parts of two names that are sides and no sizes.
+const SIDES: [[&str; 2]; 3] = [["L", "R"], ["LEFT", "RIGHT"], ["1", "2"]];
+
+/// Blocks of one name.
+struct Namesakes {
+    first: Span,
+    count: usize,
+    /// Last parts of their names, in capitals; empty where they say the name of their piece.
+    ends: BTreeSet<String>,
+}
+
+impl Namesakes {
+    fn may_be_sizes(&self) -> bool {
+        let are_sides = SIDES.iter().any(|sides| self.ends.iter().eq(sides.iter()));
+        self.count > 1 && !are_sides
+    }
+}
+
+/// Tells the blocks that are cut and may be of several sizes, where none of them says one.
+pub(super) fn say(blocks: &[(&Block, &Facts)], source: &Source, letters: &Letters, out: &mut Diagnostics) {
+    if blocks.iter().any(|(_, facts)| facts.size.first.is_some()) {
+        return;
+    }
+    let mut names: BTreeMap<String, Namesakes> = BTreeMap::new();
+    for (block, facts) in blocks {
+        let of_block = letters.name(block.head.bytes(NAME)).to_uppercase();
+        let (name, end) = match facts.name.first {
+            Some(span) => (letters.name(source.slice(span)), String::new()),
+            None => match of_block.rsplit_once(BEFORE_LAST) {
+                Some((stem, end)) if !stem.is_empty() && !end.is_empty() => (stem.to_owned(), end.to_owned()),
+                _ => continue,
+            },
+        };
+        let of_name = Namesakes { first: block.head.span(), count: 0, ends: BTreeSet::new() };
+        let of_name = names.entry(name).or_insert(of_name);
+        of_name.count += 1;
+        of_name.ends.extend((!end.is_empty()).then_some(end));
+    }
+    names.retain(|_, of_name| of_name.may_be_sizes());
+    let Some((name, Namesakes { first, count, .. })) = names.first_key_value() else { return };
+    let others = match names.len() {
+        1 => String::new(),
+        2 => ", and those of another name".to_owned(),
+        n => format!(", and those of {} other names", n - 1),
+    };
+    let message = format!("{count} pieces are named `{name}`{others}, and none says a size: all are cut");
+    let hint = "if they are sizes, leave the others out with `--skip`; `cutc manual inputs` lists the keys of sizes";
+    out.push(Diagnostic::new(&code::DXF_NO_SIZES, message).at(*first).hint(hint));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_are_no_sizes() {
+        let ends = |ends: &[&str]| Namesakes {
+            first: Span::default(),
+            count: ends.len(),
+            ends: ends.iter().map(|end| (*end).to_owned()).collect(),
+        };
+        assert!(ends(&["S", "M", "L"]).may_be_sizes());
+        assert!(ends(&["36", "38"]).may_be_sizes());
+        assert!(!ends(&["L", "R"]).may_be_sizes());
+        assert!(!ends(&["M"]).may_be_sizes());
+    }
+}
