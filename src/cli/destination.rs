@@ -7,19 +7,50 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use super::files::{STDIN, directory, is_dash, meta, path_from, stale};
 use super::finished::failure;
 use super::provenance;
-use crate::back::{TARGETS, Target};
+use crate::{back, sew, track};
 
 /// What is a directory everywhere.
 const DIRECTORY: &str = ".";
 
-/// What a compile reads, and what the user said of where its programs go.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Asked<'a> {
+/// Target of some machine, as far as it matters where its program goes.
+pub(super) trait Target: Sized + 'static {
+    /// Every target of the machine; the first is the default.
+    const ALL: &'static [Self];
+
+    /// Name, as `-t` takes it.
+    fn name(&self) -> &'static str;
+
+    /// What its files end in, without the first dot.
+    fn extension(&self) -> &'static str;
+}
+
+/// Implements [`Target`] for the rows of a table of targets.
+macro_rules! targets {
+    ($($machine:ident),*) => {$(
+        impl Target for $machine::Target {
+            const ALL: &'static [Self] = $machine::TARGETS;
+
+            fn name(&self) -> &'static str {
+                self.name
+            }
+
+            fn extension(&self) -> &'static str {
+                self.extension
+            }
+        }
+    )*};
+}
+
+targets!(back, sew, track);
+
+/// What is read, and what the user said of where its programs go.
+#[derive(Debug)]
+pub(super) struct Asked<'a, T: Target> {
     /// The place as typed.
     pub(super) out: Option<&'a Path>,
     /// The targets as typed; none = what the place says.
-    pub(super) targets: &'a [&'static Target],
-    /// The cutter file.
+    pub(super) targets: &'a [&'static T],
+    /// The file that is read.
     pub(super) input: &'a Path,
     /// The machine profile, and the centre line.
     pub(super) beside: [Option<&'a Path>; 2],
@@ -27,11 +58,11 @@ pub(super) struct Asked<'a> {
     pub(super) force: bool,
 }
 
-/// The programs of a compile, and where they go.
-#[derive(Debug, Clone)]
-pub(super) struct Destination {
-    /// What is written, at least one.
-    pub(super) targets: Vec<&'static Target>,
+/// Programs, and where they go.
+#[derive(Debug)]
+pub(super) struct Destination<T: Target> {
+    /// What is written.
+    pub(super) targets: Vec<&'static T>,
     /// Where.
     pub(super) place: Place,
 }
@@ -45,10 +76,20 @@ pub(super) enum Place {
     Files(Vec<PathBuf>),
 }
 
-impl Asked<'_> {
+impl Place {
+    /// Its files; none of standard output.
+    pub(super) fn files(&self) -> &[PathBuf] {
+        match self {
+            Self::Stdout => &[],
+            Self::Files(paths) => paths,
+        }
+    }
+}
+
+impl<T: Target> Asked<'_, T> {
     /// Finds what is written and where: `out` as typed, a directory for `<stem>.<extension>`, or without it the current
     /// directory. Never over the input itself, nor the profile. Without a target the extension of `out` chooses it.
-    pub(super) fn destination(self) -> anyhow::Result<Destination> {
+    pub(super) fn destination(&self) -> anyhow::Result<Destination<T>> {
         let targets = self.targets()?;
         let is_stdout = self.out.is_some_and(is_dash);
         if let Some(out) = self.out.filter(|out| targets.len() > 1 && (is_stdout || !names_directory(out))) {
@@ -65,8 +106,8 @@ impl Asked<'_> {
     }
 
     /// What is written: what was typed, else what the extension of the place says, else the default.
-    fn targets(&self) -> anyhow::Result<Vec<&'static Target>> {
-        let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension).collect();
+    fn targets(&self) -> anyhow::Result<Vec<&'static T>> {
+        let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension()).collect();
         if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
             return Err(failure(
                 format!("two of the targets would write the same file, of extension `{twice}`"),
@@ -75,21 +116,21 @@ impl Asked<'_> {
         }
         let file = self.out.filter(|out| !is_dash(out) && !names_directory(out));
         let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy().to_ascii_lowercase());
-        let ends =
-            |target: &&Target| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension)));
-        let told = TARGETS.iter().find(ends);
+        let ends = |target: &&T| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension())));
+        let told = T::ALL.iter().find(ends);
+        let is_ambiguous = |file: &Path| names_program(file) && T::ALL.iter().any(|target| target.name() == "gcode");
         match (self.targets, told, file) {
-            ([one], Some(told), Some(file)) if one.extension != told.extension => Err(failure(
+            ([one], Some(told), Some(file)) if one.extension() != told.extension() => Err(failure(
                 format!(
                     "`-t {}` and `-o {}` disagree: the name is one of target {}",
-                    one.name,
+                    one.name(),
                     file.display(),
-                    told.name
+                    told.name()
                 ),
-                format!("leave -t out, or write to `-o {}`", file.with_extension(one.extension).display()),
+                format!("leave -t out, or write to `-o {}`", file.with_extension(one.extension()).display()),
             )),
             ([], Some(told), _) => Ok(vec![told]),
-            ([], None, Some(file)) if names_program(file) => Err(failure(
+            ([], None, Some(file)) if is_ambiguous(file) => Err(failure(
                 format!("`-o {}` may be G-code or a cut file: its name does not say", file.display()),
                 "say which with `-t gcode` or `-t iso`; alone `.ngc` is G-code here, `.iso` a cut file",
             )),
@@ -97,19 +138,19 @@ impl Asked<'_> {
                 format!("`-o {}` is the name of no target", file.display()),
                 format!(
                     "choose a target with -t, such as `-t {}`, or end the name as one does: {}",
-                    TARGETS[0].name,
-                    TARGETS.iter().map(|target| format!("`.{}`", target.extension)).collect::<Vec<_>>().join(", ")
+                    T::ALL[0].name(),
+                    T::ALL.iter().map(|target| format!("`.{}`", target.extension())).collect::<Vec<_>>().join(", ")
                 ),
             )),
-            ([], None, _) => Ok(vec![&TARGETS[0]]),
+            ([], None, _) => Ok(vec![&T::ALL[0]]),
             (typed, _, _) => Ok(typed.to_vec()),
         }
     }
 
     /// The file of one program.
-    fn path(&self, target: &Target) -> anyhow::Result<PathBuf> {
+    fn path(&self, target: &T) -> anyhow::Result<PathBuf> {
         let Self { out, input, beside, force, .. } = *self;
-        let name = program_name(input, target.extension);
+        let name = program_name(input, target.extension());
         let path = match out {
             None if is_dash(input) => {
                 return Err(failure(
@@ -130,7 +171,10 @@ impl Asked<'_> {
                 let shown = out.display();
                 return Err(failure(
                     format!("`-o {shown}` may be a file or a directory"),
-                    format!("write `-o {shown}/` for a directory, which is made, or `-o {shown}.{}`", target.extension),
+                    format!(
+                        "write `-o {shown}/` for a directory, which is made, or `-o {shown}.{}`",
+                        target.extension()
+                    ),
                 ));
             }
             Some(out) => out.to_owned(),
@@ -171,7 +215,7 @@ pub(super) fn of_many(out: &Path) -> anyhow::Error {
 }
 
 /// The targets of many files, which go below a folder.
-pub(super) fn targets_of_many(out: &Path, typed: &[&'static Target]) -> anyhow::Result<Vec<&'static Target>> {
+pub(super) fn targets_of_many<T: Target>(out: &Path, typed: &[&'static T]) -> anyhow::Result<Vec<&'static T>> {
     if is_one_file(out) {
         return Err(of_many(out));
     }
@@ -263,10 +307,11 @@ fn same_file(a: &Path, b: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::back::TARGETS;
     use crate::cli::files;
 
     fn find(out: Option<&Path>, input: &Path) -> Result<Place, String> {
-        let asked = Asked { out, targets: &[], input, beside: [None; 2], force: false };
+        let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 2], force: false };
         asked.destination().map(|found| found.place).map_err(|error| error.to_string())
     }
 
@@ -285,7 +330,7 @@ mod tests {
 
     #[test]
     fn without_a_target_the_extension_chooses_it() {
-        let written = |out: &str, targets: &[&'static Target]| {
+        let written = |out: &str, targets: &[&'static back::Target]| {
             let asked = Asked {
                 out: Some(Path::new(out)),
                 targets,
@@ -336,8 +381,8 @@ mod tests {
         fs::write(&program, "t_s").expect("writable");
         fs::write(meta(&program), r#"{"source": "m05.cut"}"#).expect("writable");
         let find = |input: &str, force| {
-            let asked =
-                Asked { out: Some(directory.path()), targets: &[], input: Path::new(input), beside: [None; 2], force };
+            let (out, input) = (Some(directory.path()), Path::new(input));
+            let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 2], force };
             asked.destination().map(|found| found.place).map_err(|error| error.to_string())
         };
         assert!(find("in/m05.plt", false).expect_err("refused").contains("made from `m05.cut`, not from `m05.plt`"));

@@ -20,6 +20,7 @@ mod flow;
 mod help;
 mod info;
 mod labels;
+mod made;
 mod manual;
 mod options;
 mod price;

@@ -1,10 +1,12 @@
 //! Where a program comes from: the `.meta.json` beside it.
 
 use std::fs;
+use std::io::{Read, Seek, Write as _};
 use std::path::Path;
 
 use serde::Serialize;
 
+use super::draft::Draft;
 use super::files;
 use super::finished::{failure, say};
 use super::options::file_name;
@@ -59,7 +61,7 @@ struct Scale {
 
 /// The file of a centre line.
 #[derive(Serialize)]
-pub(super) struct CentreFile {
+struct CentreFile {
     /// Without its directory.
     file: String,
     sha256: String,
@@ -67,7 +69,7 @@ pub(super) struct CentreFile {
 
 impl CentreFile {
     /// That of a job; `None` where it has none.
-    pub(super) fn of(job: &Job) -> Option<Self> {
+    fn of(job: &Job) -> Option<Self> {
         let centre = job.centre.as_ref()?;
         Some(Self { file: file_name(&centre.source), sha256: sha256_hex(centre.source.bytes()) })
     }
@@ -96,16 +98,12 @@ pub(super) enum Verified {
 /// What a program was made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Made<'a> {
-    /// Where the provenance stands: beside the program.
-    pub(super) beside: &'a Path,
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
-    /// Name of the target.
+    /// Name of the target; of several programs under one plan their names.
     pub(super) target: &'a str,
     /// What it is worth.
     pub(super) verified: Verified,
-    /// Digest of its bytes.
-    pub(super) blake3: &'a str,
     /// Where it is one of a cutter.
     pub(super) cut: Option<Cut<'a>>,
     /// What was chosen beside the profile, as it is typed.
@@ -119,14 +117,27 @@ pub(super) struct Cut<'a> {
     pub(super) declared: Option<&'a [Declaration]>,
 }
 
-/// The provenance of a program as JSON.
-pub(super) fn json(Made { beside, source, job, target, verified, blake3, cut, options }: &Made) -> String {
+/// The provenance of a program, as a draft of the file at `path`, which stands beside it.
+///
+/// # Errors
+///
+/// The program cannot be read, or the draft cannot be written.
+pub(super) fn draft<P: Read + Seek + ?Sized>(path: &Path, program: &mut P, made: &Made) -> anyhow::Result<Draft> {
+    let mut draft = Draft::new(path)?;
+    let digest = program.rewind().and_then(|()| blake3_of(&mut *program));
+    let written = digest.and_then(|blake3| draft.file().write_all(json(path, &blake3, made).as_bytes()));
+    written.map_err(|error| files::cannot_write(path, &error))?;
+    Ok(draft)
+}
+
+/// The provenance of a program with this digest, as the JSON that stands at `path`.
+fn json(path: &Path, blake3: &str, Made { source, job, target, verified, cut, options }: &Made) -> String {
     let scale =
         || Scale { period_ms: job.profile.time.period_ms, units: Units { time: "s", length: "mm", angle: "deg" } };
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
         source: file_name(source),
-        source_path: path_of(source, beside),
+        source_path: path_of(source, path),
         source_sha256: sha256_hex(source.bytes()),
         profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
@@ -156,7 +167,7 @@ pub(super) fn is_made_from(program: &Path, bytes: &[u8]) -> bool {
 }
 
 /// Path of an input from the folder of a file; `None` of standard input.
-pub(super) fn path_of(source: &Source, beside: &Path) -> Option<String> {
+fn path_of(source: &Source, beside: &Path) -> Option<String> {
     if source.name() == files::STDIN {
         None
     } else {

@@ -1,6 +1,6 @@
 //! Programs that are written: all of a file whole, with their provenance beside them, or none at all.
 
-use std::io::{self, Seek as _, Write as _};
+use std::io::{self, Seek as _};
 use std::path::{Path, PathBuf};
 
 use super::arguments::Making;
@@ -11,7 +11,7 @@ use crate::cli::finished::say;
 use crate::cli::options::typed;
 use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
-use crate::machine::{Job, blake3_of, sha256_of};
+use crate::machine::{Job, sha256_of};
 use crate::pipeline::{self, Advance, Choices, Compiled, Medium, Product};
 use crate::source::Source;
 
@@ -128,17 +128,13 @@ impl Compile<'_> {
         };
         let declared = compiled.map_or(&[][..], |compiled| &compiled.declared);
         let Self { source, job, .. } = *self;
-        let mut meta = Draft::new(path)?;
-        let written = program.rewind().and_then(|()| blake3_of(program)).and_then(|blake3| {
-            let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
-            let cut = Some(Cut { declared: is_moved.then_some(declared) });
-            let (target, options) = (target.name, &typed(job));
-            let text =
-                provenance::json(&Made { beside: path, source, job, target, verified, blake3: &blake3, cut, options });
-            meta.file().write_all(text.as_bytes())
-        });
-        written.map_err(|error| files::cannot_write(path, &error))?;
-        Ok(meta)
+        let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
+        let cut = Some(Cut { declared: is_moved.then_some(declared) });
+        provenance::draft(
+            path,
+            program,
+            &Made { source, job, target: target.name, verified, cut, options: &typed(job) },
+        )
     }
 
     /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.

@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::earlier::is_plain;
-use super::made::{BLOCK_BYTES, cannot_read_back};
+use super::made::cannot_read_back;
 use super::{on_cloth, refuse_others};
 use crate::cli::files;
 use crate::cli::finished::{failure, say};
+use crate::cli::made::BLOCK_BYTES;
 use crate::diagnostic::Diagnostics;
 use crate::flow::verify::{self, Bytes, Ground};
 use crate::flow::{Kind, TARGETS, Target};

@@ -5,25 +5,23 @@ use std::io::{self, BufRead, BufReader, BufWriter, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use serde::Serialize;
 
 use super::earlier;
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::{self, PLAN};
 use crate::cli::finished::failure;
+use crate::cli::made::{BLOCK_BYTES, say_broken};
 use crate::cli::options::typed;
-use crate::cli::provenance::{CentreFile, path_of};
+use crate::cli::provenance::{self, Verified};
 use crate::cli::report::pretty;
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostics, code};
 use crate::flow::verify::{self, Bytes, Ground};
 use crate::flow::{self, Head, Kind, Program, Target};
+use crate::ir::verdict::Sighting;
 use crate::ir::verdict::Verdict;
 use crate::ir::{Finding, Marker};
-use crate::machine::{Job, blake3_of, sha256_hex};
+use crate::machine::{Job, blake3_of};
 use crate::source::Source;
-
-/// Bytes that are written and read at a time.
-pub(super) const BLOCK_BYTES: usize = 1 << 17;
 
 /// What is to be written.
 pub(super) struct Made<'a> {
@@ -46,26 +44,6 @@ pub(super) struct Written {
     pub(super) files: usize,
     /// What is said of earlier ones.
     pub(super) said: String,
-}
-
-/// Everything that made a plan. No date, and no path but from the plan to its input: folders that are moved together keep their
-/// bytes.
-#[derive(Serialize)]
-struct Provenance<'a> {
-    version: &'static str,
-    source: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    source_path: Option<String>,
-    source_sha256: String,
-    profile: &'a str,
-    profile_sha256: String,
-    target: String,
-    verified: &'static str,
-    program_blake3: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    centre: Option<CentreFile>,
-    #[serde(skip_serializing_if = "String::is_empty")]
-    options: String,
 }
 
 impl Made<'_> {
@@ -102,7 +80,11 @@ impl Made<'_> {
         for (target, bytes, mut programs) in judged {
             if self.verify {
                 let verdict = self.judged(&text, bytes, &mut programs)?;
-                tell(&verdict, target, out);
+                let place = |place: Sighting| {
+                    let row = place.line.filter(|_| place.head > 0);
+                    row.map(|row| format!("head {}, row {row}", place.head))
+                };
+                say_broken(&verdict, target.name, &code::FLOW_BROKEN, place, out);
                 verdicts.push((target.name, verdict));
             }
             drafts.append(&mut programs);
@@ -111,7 +93,11 @@ impl Made<'_> {
         let path = folder.join(PLAN);
         let mut draft = Draft::new(&path)?;
         draft.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
-        drafts.push(self.meta(&path, &mut draft)?);
+        let verified = if self.verify { Verified::Yes } else { Verified::No };
+        let target = &self.targets.iter().map(|target| target.name).collect::<Vec<_>>().join(",");
+        let Self { source, job, .. } = *self;
+        let of_plan = provenance::Made { source, job, target, verified, cut: None, options: &typed(job) };
+        drafts.push(provenance::draft(&files::meta(&path), draft.file(), &of_plan)?);
         drafts.push(draft);
         let mut said = String::new();
         if !out.has_errors() {
@@ -135,32 +121,6 @@ impl Made<'_> {
         let mut verdict = judged.map_err(|error| cannot_read_back(&error))?;
         verdict.findings.extend_from_slice(self.audit);
         Ok(verdict)
-    }
-
-    /// The provenance of a plan, as a draft of a file.
-    fn meta(&self, plan: &Path, draft: &mut Draft) -> anyhow::Result<Draft> {
-        let path = files::meta(plan);
-        let mut meta = Draft::new(&path)?;
-        let name = Path::new(self.source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
-        let file = draft.file();
-        let written = file.rewind().and_then(|()| blake3_of(&mut *file)).and_then(|blake3| {
-            let text = pretty(&Provenance {
-                version: env!("CARGO_PKG_VERSION"),
-                source: name.unwrap_or_else(|| self.source.name().to_owned()),
-                source_path: path_of(self.source, &path),
-                source_sha256: sha256_hex(self.source.bytes()),
-                profile: self.job.origin.name(),
-                profile_sha256: self.job.profile.digest(),
-                target: self.targets.iter().map(|target| target.name).collect::<Vec<_>>().join(","),
-                verified: if self.verify { "yes" } else { "no" },
-                program_blake3: &blake3,
-                centre: CentreFile::of(self.job),
-                options: typed(self.job),
-            });
-            meta.file().write_all(text.as_bytes())
-        });
-        written.map_err(|error| files::cannot_write(&path, &error))?;
-        Ok(meta)
     }
 }
 
@@ -189,27 +149,4 @@ fn written(
     })();
     let blake3 = blake3.map_err(|error| files::cannot_write(&path, &error))?;
     Ok((draft, flow::File { file: name.to_owned(), blake3 }))
-}
-
-/// Says which rules the programs of a target break.
-fn tell(verdict: &Verdict, target: &Target, out: &mut Diagnostics) {
-    if let Some(unread) = &verdict.unread {
-        let message = format!("the programs (target {}) cannot be read back: {unread}", target.name);
-        out.push(Diagnostic::new(&code::FLOW_BROKEN, message));
-    }
-    for finding in verdict.broken().filter(|_| verdict.unread.is_none()) {
-        let limit = finding.limit.unwrap_or(f64::INFINITY);
-        let place = finding.place.filter(|place| place.head > 0).and_then(|place| Some((place.head, place.line?)));
-        let place = place.map_or(String::new(), |(head, row)| format!(", head {head}, row {row}"));
-        let message = format!(
-            "{} (target {}): {:.4} {}, allowed {limit:.4}{place}",
-            finding.rule.name, target.name, finding.worst, finding.unit
-        );
-        let mut broken =
-            Diagnostic::new(&code::FLOW_BROKEN, message).hint(format!("`cutc explain {}`", finding.rule.name));
-        if let Some(place) = finding.place {
-            broken = broken.on_cloth(place.point);
-        }
-        out.push(broken);
-    }
 }

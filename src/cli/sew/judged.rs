@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{BufReader, Seek as _};
 use std::path::Path;
 
-use super::made::BLOCK_BYTES;
 use crate::cli::finished::failure;
+use crate::cli::made::BLOCK_BYTES;
 use crate::cli::{files, options, provenance};
 use crate::diagnostic::Diagnostics;
 use crate::ir::Finding;

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::arguments::Arguments;
-use super::place;
 use super::sewn::Sewing;
 use crate::cli::batch::{self, Batch, Columns, Input, Outcome, Row, State, Telling, refuse_collisions};
 use crate::cli::choices::Format;
-use crate::cli::destination::{below, not_of_another};
+use crate::cli::destination::{Place, below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
 use crate::cli::files;
 use crate::cli::finished::{Console, Finished};
@@ -15,7 +14,7 @@ use crate::cli::finished::{Console, Finished};
 pub(super) fn run(arguments: &Arguments, inputs: &[Input], console: &mut Console) -> anyhow::Result<Finished> {
     let threads = arguments.threads.set();
     let out = arguments.out.as_deref().unwrap_or(Path::new(""));
-    let targets = place::targets_of_many(arguments)?;
+    let targets = targets_of_many(out, &arguments.targets)?;
     let job = match arguments.machine.job()? {
         Ok(job) => arguments.of(job),
         Err(refused) => return Ok(refused),
@@ -41,7 +40,7 @@ impl Sewing<'_> {
             paths.iter().try_for_each(|path| not_of_another(path, &input.path))?;
         }
         let source = files::read(&input.path)?;
-        let sewn = self.sew(&source, paths)?;
+        let sewn = self.sew(&source, &Place::Files(paths.to_vec()))?;
         let estimate = sewn.made.as_ref().map(|made| &made.estimate);
         let row = Row {
             stitches: estimate.map(|sum| sum.stitches),

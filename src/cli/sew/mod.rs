@@ -5,7 +5,6 @@ mod judged;
 mod made;
 mod many;
 mod one;
-mod place;
 mod sewn;
 mod summary;
 

@@ -4,22 +4,25 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::Arguments;
 use super::sewn::{Programs, Sewing};
-use super::{place, summary};
+use super::summary;
 use crate::cli::choices::Format;
+use crate::cli::destination::{Asked, Destination, Place};
 use crate::cli::draft::MadeFolders;
 use crate::cli::files;
 use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
-    let targets = place::targets(arguments)?;
-    let is_stdout = arguments.out.as_deref().is_some_and(files::is_dash);
-    if is_stdout && (arguments.format == Format::Json || targets.len() > 1) {
+    let Arguments { out, targets, force, machine, .. } = arguments;
+    let beside = [machine.profile.as_deref(), None];
+    let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
+    let Destination { targets, place } = asked.destination()?;
+    if place == Place::Stdout && arguments.format == Format::Json {
         return Err(failure(
-            "`-o -` is one place for one program, without `--format json`",
-            "write to files with -o DIRECTORY",
+            "`-o -` and `--format json` both want standard output",
+            "write the program to a file with -o FILE, or leave --format out",
         ));
     }
-    let paths = if is_stdout { Vec::new() } else { place::paths(arguments, file, &targets)? };
+    let paths = place.files();
     let source = files::read(file)?;
     let job = match arguments.machine.job()? {
         Ok(job) => arguments.of(job),
@@ -32,7 +35,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         }
     };
     let _made = MadeFolders::of(paths.iter().map(PathBuf::as_path))?;
-    let sewn = Sewing { arguments, targets: &targets, job: &job }.sew(&source, &paths)?;
+    let sewn = Sewing { arguments, targets: &targets, job: &job }.sew(&source, &place)?;
     let json = (arguments.format == Format::Json).then(|| sewn.json(&source, &job));
     let mut said = sewn.said;
     let Some(Programs { figures, written, .. }) = sewn.made else {

@@ -1,10 +1,9 @@
 //! A file from its bytes to programs in their places: what `cutc sew` does with each.
 
-use std::path::PathBuf;
-
 use super::arguments::Arguments;
 use super::made::{Writing, Written};
 use super::summary;
+use crate::cli::destination::Place;
 use crate::cli::finished::say;
 use crate::cli::options::counted;
 use crate::cli::{files, report};
@@ -41,7 +40,7 @@ pub(super) struct Programs {
 impl Sewing<'_> {
     /// Sews a file: programs to their paths, or the only one for standard output. What is refused leaves nothing; older
     /// programs of these names are moved aside.
-    pub(super) fn sew(&self, source: &Source, paths: &[PathBuf]) -> anyhow::Result<Sewn> {
+    pub(super) fn sew(&self, source: &Source, place: &Place) -> anyhow::Result<Sewn> {
         let Self { arguments, targets, job } = *self;
         let asked = arguments.asked();
         let mut diagnostics = Diagnostics::default();
@@ -50,7 +49,7 @@ impl Sewing<'_> {
             let of = Made { program: &program, source, job };
             let options = &typed(&asked);
             let written =
-                Writing { made: of, targets, options, verify: !arguments.no_verify }.write(paths, &mut diagnostics)?;
+                Writing { made: of, targets, options, verify: !arguments.no_verify }.write(place, &mut diagnostics)?;
             let figures = summary::Figures::of(of, fifo, targets, &written.verdicts);
             made = Some(Programs { estimate: sew::estimate(&program, job), figures, written });
         }
@@ -60,7 +59,7 @@ impl Sewing<'_> {
             let errors = counted(diagnostics.count(Severity::Error), "error");
             let warnings = counted(diagnostics.count(Severity::Warning), "warning");
             say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
-            said.extend(paths.iter().map(|path| files::move_aside(path)));
+            said.extend(place.files().iter().map(|path| files::move_aside(path)));
         }
         Ok(Sewn { diagnostics, made, said })
     }

@@ -7,14 +7,15 @@ mod summary;
 
 pub(super) use arguments::Arguments;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use self::made::Made;
-use self::place::Place;
+use self::made::product;
 use super::choices::Format;
+use super::destination::{Destination, Place};
 use super::draft::MadeFolders;
 use super::files;
 use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+use super::made::Origin;
 use super::options::counted;
 use super::report;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
@@ -23,17 +24,12 @@ use crate::source::Source;
 use crate::track::{Needs, Tracked};
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
-    let places = place::places(arguments)?;
-    if arguments.format == Format::Json && places.iter().any(|(_, place)| *place == Place::Stdout) {
+    let destinations = place::destinations(arguments)?;
+    let is_stdout = destinations.iter().any(|found| found.place == Place::Stdout);
+    if arguments.format == Format::Json && is_stdout {
         return Err(failure("`-o -` and `--format json` both want standard output", "write to a file with -o FILE"));
     }
-    let paths: Vec<&Path> = places
-        .iter()
-        .filter_map(|(_, place)| match place {
-            Place::File(path) => Some(path.as_path()),
-            Place::Stdout => None,
-        })
-        .collect();
+    let paths: Vec<&Path> = destinations.iter().flat_map(|found| found.place.files()).map(PathBuf::as_path).collect();
     let source = files::read(&arguments.file)?;
     let job = match arguments.machine.job()? {
         Ok(job) => job,
@@ -46,7 +42,8 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         }
     };
     let _made = MadeFolders::of(paths.iter().copied())?;
-    let needs = places.iter().map(|(target, _)| target.needs).max().unwrap_or(Needs::Commands);
+    let needs = destinations.iter().flat_map(|found| &found.targets).map(|target| target.needs).max();
+    let needs = needs.unwrap_or(Needs::Commands);
     let mut diagnostics = Diagnostics::default();
     let track = &job.profile.track;
     let tracked = if arguments.simulate {
@@ -57,8 +54,12 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let Some(tracked) = tracked else {
         return Ok(refused(arguments, &source, &paths, &diagnostics, &job));
     };
-    let made = Made { tracked: &tracked, places: &places, source: &source, job: &job };
-    let spool = made.write(&mut diagnostics)?;
+    let mut spool = None;
+    for Destination { targets, place } in &destinations {
+        let products: Vec<_> = targets.iter().map(|target| product(target, &tracked, &job)).collect();
+        let origin = Origin { source: &source, job: &job, options: "" };
+        spool = origin.write(&products, place, &mut diagnostics)?.or(spool);
+    }
     if diagnostics.has_errors() {
         return Ok(refused(arguments, &source, &paths, &diagnostics, &job));
     }

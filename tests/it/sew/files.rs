@@ -113,7 +113,7 @@ fn the_command_writes_what_it_proves_and_nothing_else() {
     assert!(!room.has("long.dst") && room.has("long.dst.stale"));
     assert!(room.says("sew long.csv -t dst --on-long split", DONE).contains("penetrations"));
     assert!(room.says("sew pocket.csv --set sewing.feed_end_deg=250", USAGE).contains("no time to move"));
-    assert!(room.says("sew pocket.csv -o x.csv", USAGE).contains("does not say what to write"));
+    assert!(room.says("sew pocket.csv -o x.csv", USAGE).contains("is the name of no target"));
     assert!(room.says("sew pocket.csv -o pocket.csv -t queue", USAGE).contains("is an input"));
     assert!(room.says("sew pocket.csv -t queue --set sewing.producer_hz=20", DONE).contains("runs dry"));
     let (json, _) = room.expect("sew pocket.csv -t queue --format json", DONE);

@@ -1,0 +1,128 @@
+//! Programs of the machines beside the knife, written: whole and judged, with their provenance beside them, or none at all.
+
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
+
+use tempfile::SpooledTempFile;
+
+use super::destination::Place;
+use super::draft::{self, Draft};
+use super::files;
+use super::finished::failure;
+use super::provenance::{self, Made, Verified};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+
+use crate::ir::verdict::{Sighting, Verdict};
+use crate::machine::Job;
+use crate::source::Source;
+
+/// Bytes that are kept in memory where no file is asked for; more go to a temporary one.
+const SPOOL_BYTES: usize = 16 << 20;
+/// Bytes that are written and read at a time.
+pub(super) const BLOCK_BYTES: usize = 1 << 17;
+
+/// Writes a program.
+pub(super) type Writer<'a> = dyn Fn(&mut dyn Write) -> io::Result<()> + 'a;
+/// Judges a program by its bytes: what is wrong with it goes to the diagnostics.
+pub(super) type Judge<'a> = dyn Fn(&mut dyn BufRead, &mut Diagnostics) -> io::Result<()> + 'a;
+
+/// Program of a target, about to be written.
+pub(super) struct Product<'a> {
+    /// Name of the target.
+    pub(super) target: &'static str,
+    pub(super) write: Box<Writer<'a>>,
+    /// What its provenance says of it.
+    pub(super) verified: Verified,
+    /// `None` of what is not judged.
+    pub(super) judge: Option<Box<Judge<'a>>>,
+}
+
+impl Product<'_> {
+    /// Writes it, and judges what was written.
+    pub(super) fn make(&self, file: &mut (impl Read + Write + Seek), out: &mut Diagnostics) -> io::Result<()> {
+        let mut writer = BufWriter::with_capacity(BLOCK_BYTES, &mut *file);
+        (self.write)(&mut writer)?;
+        writer.flush()?;
+        drop(writer);
+        file.rewind()?;
+        if let Some(judge) = &self.judge {
+            judge(&mut BufReader::with_capacity(BLOCK_BYTES, &mut *file), out)?;
+            file.rewind()?;
+        }
+        Ok(())
+    }
+
+    /// Writes it to a temporary file.
+    pub(super) fn spool(&self, out: &mut Diagnostics) -> anyhow::Result<SpooledTempFile> {
+        let mut spool = SpooledTempFile::new(SPOOL_BYTES);
+        self.make(&mut spool, out).map_err(|error| {
+            let hint = "make room for temporary files, or write to a file";
+            failure(format!("cannot spool the program: {error}"), hint)
+        })?;
+        Ok(spool)
+    }
+}
+
+/// Source and machine of programs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Origin<'a> {
+    pub(super) source: &'a Source,
+    pub(super) job: &'a Job,
+    /// What was asked of the file, as it is typed.
+    pub(super) options: &'a str,
+}
+
+impl Origin<'_> {
+    /// Writes every program to its place; the one for standard output is handed back. Nothing takes its place when one is
+    /// refused.
+    pub(super) fn write(
+        &self,
+        products: &[Product],
+        place: &Place,
+        out: &mut Diagnostics,
+    ) -> anyhow::Result<Option<SpooledTempFile>> {
+        let paths = match place {
+            Place::Stdout => return products.first().map(|product| product.spool(out)).transpose(),
+            Place::Files(paths) => paths,
+        };
+        let mut drafts = Vec::new();
+        for (product, path) in products.iter().zip(paths) {
+            let mut draft = Draft::new(path)?;
+            product.make(draft.file(), out).map_err(|error| files::cannot_write(path, &error))?;
+            let (Self { source, job, options }, Product { target, verified, .. }) = (*self, product);
+            let made = Made { source, job, target, verified: *verified, cut: None, options };
+            drafts.push(provenance::draft(&files::meta(path), draft.file(), &made)?);
+            drafts.push(draft);
+        }
+        if !out.has_errors() {
+            draft::publish(drafts, || Ok(()))?;
+        }
+        Ok(None)
+    }
+}
+
+/// Says which rules the program of a target breaks, or that it cannot be read back. `place` says where a rule is broken.
+pub(super) fn say_broken(
+    verdict: &Verdict,
+    target: &str,
+    code: &'static Code,
+    place: impl Fn(Sighting) -> Option<String>,
+    out: &mut Diagnostics,
+) {
+    if let Some(unread) = &verdict.unread {
+        out.push(Diagnostic::new(code, format!("the program (target {target}) cannot be read back: {unread}")));
+        return;
+    }
+    for finding in verdict.broken() {
+        let limit = finding.limit.unwrap_or(f64::INFINITY);
+        let place = finding.place.and_then(&place).map_or(String::new(), |place| format!(", {place}"));
+        let message = format!(
+            "{} (target {target}): {:.4} {}, allowed {limit:.4}{place}",
+            finding.rule.name, finding.worst, finding.unit
+        );
+        let broken = Diagnostic::new(code, message).hint(format!("`cutc explain {}`", finding.rule.name));
+        out.push(match finding.place {
+            Some(place) => broken.on_cloth(place.point),
+            None => broken,
+        });
+    }
+}
