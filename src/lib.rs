@@ -34,7 +34,7 @@
 //! | [`plan`] | `spline`: smooth curves inside the tolerance band; `orientation`: the blade along them; `timing`: jerk-limited speed; `solver`: their kernels; then rapids, and samples that keep the limits |
 //! | [`plan::arcs`] | few arcs and lines inside the band, for controllers that plan for themselves |
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`]; printing only |
-//! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader |
+//! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader; `flow`, `spray`: other heads |
 //! | [`pipeline`] | names every stage once, in order |
 //! | [`sew`] | the pattern-sewing machine, a pipeline of its own: patterns to stitches, pulses and stitch files |
 //! | [`spray`] | the head that follows edges at a distance: rings to offsets, courses and setpoints with velocities |
@@ -44,8 +44,9 @@
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
 //! Other machines of the sewing floor are small pipelines of the same shape: [`sew`] reads what `front` reads and has its own
-//! forms, targets and verifier; [`spray`] takes what the cutter reads and has its own course, targets and verifier; [`track`] reads logs, and a firmware can take its controller over; [`flow`] takes the Marker that
-//! the cutter would cut, asks `pass` and `plan` for the motion over the cloth, and has programs, targets and verifier of its own.
+//! forms, targets and verifier; [`spray`] takes what the cutter reads and has its own course and targets; [`track`] reads
+//! logs, and a firmware can take its controller over; [`flow`] takes the Marker that the cutter would cut, asks `pass` and
+//! `plan` for the motion over the cloth, and has programs and targets of its own. `verify::spray` and `verify::flow` judge them.
 //!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
 //! `plan`'s, a wrong column `back`'s.

@@ -11,7 +11,7 @@ use crate::front::DIALECTS;
 use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
-use crate::{pipeline, sew, spray};
+use crate::{pipeline, sew};
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
@@ -48,7 +48,7 @@ fn topics() -> impl Iterator<Item = Topic> {
         about: code.about,
         more: code.more,
     });
-    let rules = [pipeline::RULES, sew::verify::RULES, flow::verify::RULES, spray::verify::RULES].concat();
+    let rules = [pipeline::RULES, sew::verify::RULES, flow::verify::RULES, pipeline::SPRAY_RULES].concat();
     let rules = rules.into_iter();
     let rules = rules.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
     codes.chain(rules)

@@ -27,10 +27,11 @@ mod rows;
 mod search;
 mod stroke;
 mod track;
-pub mod verify;
 mod write;
 mod yielding;
 
+/// How programs are judged.
+pub use crate::verify::flow as verify;
 pub use asked::Speed;
 pub use bound::Bounds;
 pub use heads::Start;

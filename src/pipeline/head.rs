@@ -14,8 +14,9 @@ use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::plan::Peaks;
 use crate::source::Source;
-use crate::spray::verify::Ground;
 use crate::spray::{self, Program, TARGETS, Target};
+use crate::verify;
+use crate::verify::spray::Ground;
 
 /// Compiles a source, read as a dialect, to several programs of a head, as [`super::compile_all`] does for a knife: its
 /// figures, and with `verify` what it is worth.
@@ -118,7 +119,7 @@ fn judged(program: &mut dyn Medium, input: &Input, job: &Job, audit: Vec<Finding
     program.rewind()?;
     let ground = Ground::new(&input.marker, &job.profile);
     let mut bytes = BufReader::with_capacity(BLOCK, program);
-    let mut verdict = spray::verify::judge(&mut bytes, &ground, job)?;
+    let mut verdict = verify::spray::judge(&mut bytes, &ground, job)?;
     verdict.findings.extend(audit);
     Ok(verdict)
 }

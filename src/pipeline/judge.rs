@@ -15,12 +15,11 @@ use crate::ir::verdict::{Rule, Verdict, sort};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
-use crate::spray;
 use crate::units::number::{exact, fixed, up};
 use crate::verify::{self, Declared, Ground, Kind, rules};
 
 /// The rule on what can be read.
-static FORMAT: [&Rule; 2] = [&rules::FORMAT, &spray::verify::rules::FORMAT];
+static FORMAT: [&Rule; 2] = [&rules::FORMAT, &verify::spray::rules::FORMAT];
 /// The least that is said of the rule on the table while it holds, mm.
 const EDGE_SHOWN: f64 = 0.01;
 /// What is said of outlines that cross themselves or others: which side of them is the part is in doubt there.
@@ -66,7 +65,7 @@ pub(super) fn judge_program(
 pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     file.rewind()?;
     let mut file = BufReader::with_capacity(BLOCK, file);
-    if spray::verify::begins(file.fill_buf()?) { Ok(None) } else { verify::foreign(&mut file) }
+    if verify::spray::begins(file.fill_buf()?) { Ok(None) } else { verify::foreign(&mut file) }
 }
 
 /// What a program is judged by.
@@ -318,7 +317,7 @@ mod tests {
 
     #[test]
     fn the_limit_of_a_rule_is_a_key_of_the_profile() {
-        for rule in [verify::RULES, spray::verify::RULES].concat() {
+        for rule in [verify::RULES, verify::spray::RULES].concat() {
             assert!(rule.key.is_none_or(|key| keys::find(key).is_some()), "{rule:?}");
         }
     }

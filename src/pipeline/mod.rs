@@ -37,6 +37,7 @@ pub use told::{Explained, Line, Told, told};
 pub use crate::ir::verdict::Verdict;
 pub use crate::spray::{Edge, Piece};
 pub(crate) use crate::verify::rules;
+pub use crate::verify::spray::RULES as SPRAY_RULES;
 pub use crate::verify::{Declared, RULES};
 
 use std::io::{self, BufWriter, Write};

@@ -30,7 +30,6 @@ mod slow;
 mod slower;
 mod table;
 mod tangle;
-pub mod verify;
 mod write;
 
 pub use figures::{Edge, Piece};

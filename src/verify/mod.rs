@@ -6,16 +6,18 @@
 //!
 //! The way: `program` reads rows; `axes` watches them as they come; the rows between a plunge and a lift are a stroke,
 //! which `cut` follows along the lines of the `reference` and judges; `source` holds the marker against the bytes it
-//! came from.
+//! came from. Heads over a conveyor and at a distance have rules and rows of their own, in [`flow`] and [`spray`].
 
 mod axes;
 mod cut;
 mod declared;
+pub mod flow;
 mod program;
 mod reference;
 pub(crate) mod rules;
 mod simulate;
 mod source;
+pub mod spray;
 
 pub use declared::Declared;
 pub use program::cutter_file::cutter_file;
@@ -29,9 +31,6 @@ pub use source::dxf::{CutPlaces, pattern_audit};
 pub use source::hpgl::{PlotCuts, plot_audit};
 pub use source::kept::Works;
 pub use source::sheet::Drawn;
-
-pub(crate) use axes::crawl;
-pub(crate) use program::number;
 
 use std::io::BufRead;
 

@@ -275,42 +275,23 @@ fn a_module_imports_only_what_the_architecture_allows() {
     report(&faults);
 }
 
-/// What a verifier that lies in a folder of its machine may name of that: forms, but nothing of who makes them.
-const VERIFIERS: &[(&str, &[&str])] = &[("sew", &["pattern", "stitches", "verify"]), ("flow", &["verify"])];
+/// What the verifier in the folder of sewing may name of that: forms, but nothing of who makes them.
+const SEWN_FORMS: &[&str] = &["pattern", "stitches", "verify"];
 
 #[test]
-fn verifiers_of_other_machines_know_their_forms_and_nothing_of_who_makes_them() {
+fn the_verifier_of_sewing_knows_its_forms_and_nothing_of_who_makes_them() {
     let mut faults = Vec::new();
-    for (machine, forms) in VERIFIERS {
-        for file in sources(&format!("src/{machine}/verify")) {
-            for rest in after(&file.code, &format!("{machine}::")) {
-                let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-                if !forms.contains(&named.as_str()) {
-                    faults.push(format!("{}: names `{machine}::{named}`", file.path.display()));
-                }
-            }
-            // What plans for the cutter plans for other machines too.
-            for stage in ["analysis", "front", "recognise", "pass", "plan", "back", "pipeline"] {
-                if imports(&file.code).contains(stage) {
-                    faults.push(format!("{}: must not import `{stage}`", file.path.display()));
-                }
-            }
-            if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
-                faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
+    for file in sources("src/sew/verify") {
+        for rest in after(&file.code, "sew::") {
+            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            if !SEWN_FORMS.contains(&named.as_str()) {
+                faults.push(format!("{}: names `sew::{named}`", file.path.display()));
             }
         }
-    }
-    report(&faults);
-}
-
-#[test]
-fn the_verifier_of_heads_knows_nothing_of_who_moves_them() {
-    let mut faults = Vec::new();
-    for file in sources("src/spray/verify") {
-        for rest in after(&file.code, "spray::").chain(after(&file.code, "super::super")) {
-            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-            if named != "verify" {
-                faults.push(format!("{}: names `spray::{named}`", file.path.display()));
+        // What reads for the cutter reads for this machine, too.
+        for stage in ["analysis", "front", "recognise", "pass", "plan", "back", "pipeline"] {
+            if imports(&file.code).contains(stage) {
+                faults.push(format!("{}: must not import `{stage}`", file.path.display()));
             }
         }
         if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {

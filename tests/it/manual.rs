@@ -12,7 +12,8 @@ use cutc::front::DIALECTS;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
 use cutc::verify::RULES;
-use cutc::{sew, spray, track};
+use cutc::verify::spray::RULES as SPRAY_RULES;
+use cutc::{sew, track};
 use yaml_rust2::{Yaml, YamlLoader};
 
 use crate::support::page::{blocks, commands, expect_same, page, search_path, section};
@@ -163,7 +164,7 @@ fn list(name: &str) -> String {
             flow::TARGETS.iter().map(row).collect()
         }
         "flow rules" => flow::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
-        "spray rules" => spray::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
+        "spray rules" => SPRAY_RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();

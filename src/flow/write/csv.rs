@@ -7,8 +7,8 @@ use std::io::{self, Write};
 
 use super::target::{Kind, Target};
 use crate::flow::program::{Head, Program, Setpoint};
-use crate::flow::verify::Bytes;
 use crate::units::{deg, number};
+use crate::verify::flow::Bytes;
 
 pub(super) const TARGET: Target = Target {
     name: "csv",

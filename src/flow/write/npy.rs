@@ -7,8 +7,8 @@ use std::io::{self, Write};
 
 use super::target::{Kind, Target};
 use crate::flow::program::{Head, Program};
-use crate::flow::verify::Bytes;
 use crate::units::{array, deg};
+use crate::verify::flow::Bytes;
 
 pub(super) const TARGET: Target = Target {
     name: "npy",

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use crate::flow::program::{Head, Program};
-use crate::flow::verify::Bytes;
 use crate::ir::Marker;
+use crate::verify::flow::Bytes;
 
 /// What a program is written as: a row of [`TARGETS`](super::TARGETS).
 #[derive(Debug)]

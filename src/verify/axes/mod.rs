@@ -3,7 +3,8 @@
 //! Receives rows as they come and the profile, promises the worst value of each rule on axes and outputs. Never judges what
 //! is cut.
 
-pub(crate) mod crawl;
+pub(super) mod crawl;
+pub(super) mod differences;
 pub(super) mod events;
 pub(super) mod limits;
 pub(super) mod rest;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use cutc::machine::{Job, Mode};
-use cutc::spray::verify::RULES;
+use cutc::verify::spray::RULES;
 
 use super::{broken, compiled, fixture, job};
 use crate::support::damage::survives;

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use crate::units::columns::{self, Lines, Unread, float};
-use crate::verify::number;
+use crate::verify::program::number;
 
 /// What kind of bytes the programs of heads are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use super::strokes::Stroke;
 use super::trail::reach;
 use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
-use crate::verify::crawl;
+use crate::verify::axes::crawl;
 
 /// How much farther along the line than it seems a place of the blade may be, mm: caps change at places.
 const ASIDE: f64 = 1.0;

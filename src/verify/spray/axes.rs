@@ -3,12 +3,11 @@
 use super::rows::{POSITION_ROUNDING, Row, SPEED_ROUNDING, TIME_ROUNDING};
 use super::rules::{self, OF_AXES};
 use crate::ir::verdict::WorstByRule;
-use crate::machine::{Job, Limits, Table};
-use crate::units::deg;
+use crate::machine::{Job, Table};
+use crate::verify::axes::differences::{Differences, ORDERS};
 
-/// Rounding of computations: of times, s, and relative to a limit.
+/// Rounding of times, s.
 const TIME_EPSILON: f64 = 1e-9;
-const LIMIT_EPSILON: f64 = 1e-6;
 
 /// Judges how the axes move.
 pub(super) fn judge(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
@@ -45,39 +44,15 @@ fn ends(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     worst.see_under(&rules::END, end, 2.0 * POSITION_ROUNDING, last.sighting());
 }
 
-/// What an axis may do at each order, mm or degrees.
-fn limits([x, y, c]: [Limits; 3]) -> [[f64; 3]; 3] {
-    [
-        [x.speed, y.speed, deg(c.speed)],
-        [x.acceleration, y.acceleration, deg(c.acceleration)],
-        [x.jerk, y.jerk, deg(c.jerk)],
-    ]
-}
-
 /// Differences of order 1 to 3; before the first row and behind the last the axes rest.
 fn differences(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
-    let period = job.profile.time.period();
-    let [jet, air] = [job.profile.axes.limits(), job.profile.axes.travel_limits()].map(limits);
-    let last = rows.len() - 1;
-    // Counted from three rows before the first.
-    let of = |i: usize| &rows[i.saturating_sub(3).min(last)];
-    let place = |i: usize| [of(i).head.x, of(i).head.y, of(i).c_deg];
-    for i in 3..last + 7 {
-        let [a, b, c, d] = [i, i - 1, i - 2, i - 3].map(place);
-        // Without jet the head travels, or gathers speed for an edge: the wider limits hold.
-        let sprays = (i - 3..=i).all(|j| of(j).jet);
-        for axis in 0..3 {
-            let differences = [
-                (a[axis] - b[axis]).abs(),
-                (a[axis] - 2.0 * b[axis] + c[axis]).abs(),
-                (a[axis] - 3.0 * b[axis] + 3.0 * c[axis] - d[axis]).abs(),
-            ];
-            for (order, power) in [1, 2, 3].into_iter().enumerate() {
-                let h = period.powi(power);
-                let most = if sprays { jet[order][axis] } else { jet[order][axis].max(air[order][axis]) };
-                let rounding = POSITION_ROUNDING * 2.0_f64.powi(power) / h;
-                let limit = most * (1.0 + LIMIT_EPSILON) + rounding;
-                worst.see_under(OF_AXES[order][axis], differences[order] / h, limit, of(i).sighting());
+    let mut differences = Differences::new(&job.profile, [POSITION_ROUNDING; 3]).with_run_ups();
+    let last = &rows[rows.len() - 1];
+    for row in rows.iter().chain([last; ORDERS]) {
+        let rates = differences.see([row.head.x, row.head.y, row.c_deg], row.jet);
+        for (rules, rates) in OF_AXES.into_iter().zip(rates.into_iter().flatten()) {
+            for (rule, rate) in rules.into_iter().zip(rates) {
+                worst.see_under(rule, rate.value, rate.limit, row.sighting());
             }
         }
     }
