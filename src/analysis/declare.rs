@@ -95,11 +95,16 @@ impl OfCut<'_> {
             self.declare(Kind::Swing, ends, None, swing.off);
         }
         self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
+        let stands_still = self.stands_still(run);
+        if stands_still {
+            self.nibble(&run.points, run.ends, ends);
+        }
         for (which, (end, length)) in
             [Which::Start, Which::End].into_iter().zip(run.ends.iter().zip([run.heel, run.front]))
         {
             let at = end_of(ends, which, run.turned);
             match end.side {
+                Side::Contour if stands_still => {}
                 Side::Contour => self.declare(Kind::Lift, [at; 2], Some(which), 0.0),
                 Side::Part if length > SAME_EPSILON => self.declare(Kind::Overcut, [at; 2], Some(which), length),
                 Side::Waste | Side::Part | Side::Gap => {}
@@ -115,9 +120,7 @@ impl OfCut<'_> {
         if farthest > self.worth() {
             self.declare(Kind::Plunge, ends, None, farthest);
         }
-        if cut.ends.iter().any(|end| end.side == Side::Contour) {
-            self.declare(Kind::Nibbled, ends, None, polyline::length(&cut.points));
-        }
+        self.nibble(&cut.points, cut.ends, ends);
         let tip = cut.pose.centre + cut.along * self.knife.radius();
         let beyond = [[from, tip - cut.along * self.knife.width_mm], [to, tip]];
         for ((which, Overcut { own, other }), beyond) in
@@ -133,6 +136,24 @@ impl OfCut<'_> {
             }
         }
         self.ends([cut.heel, cut.front], cut.ends, cut.turned, ends, Shape::Open);
+    }
+
+    /// Whether the blade goes nowhere on a run, but for as little as its tip may be off anyway: a leg of a nibbled curve that is
+    /// hardly longer than the blade.
+    fn stands_still(&self, run: &Run) -> bool {
+        let width = self.knife.width_mm;
+        let goes_nowhere = || {
+            let path = run.extended();
+            Plunge::at_start(&path, width).stands_still(&path, self.toolpath.tolerance)
+        };
+        width > 0.0 && run.shape == Shape::Open && goes_nowhere()
+    }
+
+    /// Declares a blade that stands still over some points as a nibble where the contour goes on from one of its ends.
+    fn nibble(&mut self, points: &[Point], ends: [End; 2], stretch: [f64; 2]) {
+        if ends.iter().any(|end| end.side == Side::Contour) {
+            self.declare(Kind::Nibbled, stretch, None, polyline::length(points));
+        }
     }
 
     /// Declares how far the path lies beside the blade that is plunged at its start.

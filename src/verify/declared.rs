@@ -13,7 +13,7 @@ use crate::ir::verdict::{Sighting, Worst};
 const ASIDE: f64 = 1.0;
 /// Tolerances by which the measured deviation may fall short of its declaration: smoothing moves the two ends of the blade and
 /// the line at each of them, by one each.
-const LESS: f64 = 4.0;
+pub(super) const LESS: f64 = 4.0;
 /// Further shortfall allowed, mm: blade and line are looked at in steps.
 const STEPS: f64 = 0.2;
 /// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.

@@ -9,6 +9,9 @@ pub const PASSING_SHARE: f64 = 0.9;
 /// An arc of 0.55 blade widths has this.
 const HEEL_COSINE_MIN: f64 = 0.4;
 
+/// Longest way, in tolerances, on which a tip stands where it is: smoothing moves it as far.
+pub(super) const STILL: f64 = 2.0;
+
 /// Whether a blade, from its heel to its tip, stands across a path that has a direction at its heel.
 pub fn stands_across(blade: Vector, direction: Vector) -> bool {
     blade.dot(&direction) < HEEL_COSINE_MIN * blade.norm()
@@ -47,6 +50,17 @@ impl Plunge {
     pub fn has_way(&self, path: &[Point], least: f64) -> bool {
         let last = path.len() - 1;
         !self.covers_all && (self.chord + 1 < last || (path[last] - self.tip).norm() > least)
+    }
+
+    /// Length of the path behind its tip, mm.
+    pub fn way(&self, path: &[Point]) -> f64 {
+        let next = self.chord + 1;
+        (path[next] - self.tip).norm() + polyline::length(&path[next..])
+    }
+
+    /// Whether its tip stays where it stands until it is lifted, but for what smoothing may move it.
+    pub fn stands_still(&self, path: &[Point], tolerance: f64) -> bool {
+        self.covers_all || self.way(path) <= STILL * tolerance
     }
 
     /// From its heel to its tip, mm.

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::blade::{PASSING_SHARE, Plunge, stands_across};
+use super::blade::{PASSING_SHARE, Plunge, STILL, stands_across};
 use super::overlaps::overlaps;
 use crate::analysis::cloth::Surroundings;
 use crate::geom::{Point, polyline};
@@ -15,8 +15,6 @@ pub const WORTH_SHARE: f64 = 0.25;
 const SHARE: f64 = 0.45;
 /// The same at a bend, which smoothing takes on the side of the blade: more would be a lift for the rounding of the file.
 const BEND_TOLERANCE_SHARE: f64 = 0.8;
-/// Longest way, in tolerances, on which a tip stands where it is: smoothing moves it as far.
-const STILL: f64 = 2.0;
 /// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
 const BEND_SHARE: f64 = 0.7;
 
@@ -80,7 +78,7 @@ impl Deviation {
             distance,
             most: arc.min(if distance > WORTH_SHARE * tolerance { distance } else { 0.0 }) + tolerance,
             fits: under.is_sure(tolerance) && distance <= arc + share * tolerance,
-            covers_all: under.plunge.covers_all || under.way() <= STILL * tolerance,
+            covers_all: under.plunge.stands_still(&under.path, tolerance),
             is_curve: turns.is_curve,
             turned: turns.signed,
         })
@@ -166,12 +164,6 @@ impl Under {
                 .take_while(|(vertex, _)| *vertex <= self.plunge.chord)
                 .chain(behind)
                 .any(|far| is_near(&far))
-    }
-
-    /// How far the tip goes behind the plunge, mm.
-    fn way(&self) -> f64 {
-        let next = self.plunge.chord + 1;
-        (self.path[next] - self.plunge.tip).norm() + polyline::length(&self.path[next..])
     }
 
     fn distance(&self, vertex: usize) -> f64 {

@@ -68,6 +68,12 @@ impl Cut {
         self.length() - self.stations[self.body]
     }
 
+    /// Greatest distance of the tip from where it plunges, mm.
+    pub(in crate::verify) fn tip_travel(&self) -> f64 {
+        let [plunged, ..] = self.points[self.body..] else { return 0.0 };
+        self.points[self.body..].iter().map(|tip| (tip - plunged).norm()).fold(0.0, f64::max)
+    }
+
     /// Whether the blade plunges and lifts without a way.
     pub(in crate::verify) fn is_plunge_cut(&self) -> bool {
         self.stands_still

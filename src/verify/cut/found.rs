@@ -10,7 +10,7 @@ use super::trial::Trial;
 use crate::geom::{Point, polyline};
 use crate::ir::declaration::{Kind, Which};
 use crate::machine::Follow;
-use crate::verify::declared::{Account, Stretch};
+use crate::verify::declared::{Account, LESS, Stretch};
 
 /// Distance of two places at which the drawn line is looked at, mm.
 const SWING_STEP: f64 = 0.25;
@@ -36,8 +36,11 @@ impl Judge<'_> {
         if account.lacks(Kind::Plunge, plunged) {
             account.see(Kind::Plunge, plunged, self.beside(cut, trial));
         }
-        if cut.is_plunge_cut() {
+        // Smoothing may move the tip of a blade that is declared to stand still.
+        if account.lacks(Kind::Nibbled, whole) && cut.tip_travel() <= LESS * self.reference.tolerance {
             account.see(Kind::Nibbled, whole, (trial.reach[1] - trial.reach[0]).abs());
+        }
+        if cut.is_plunge_cut() {
             self.find_surplus(cut, trial, account);
             return;
         }
