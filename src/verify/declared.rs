@@ -16,6 +16,9 @@ const ASIDE: f64 = 1.0;
 pub(super) const LESS: f64 = 4.0;
 /// Further shortfall allowed, mm: blade and line are looked at in steps.
 const STEPS: f64 = 0.2;
+/// Part of where a plunge is declared that it says of itself at the least: a noisy line is longer in one way of measuring than
+/// in another.
+const NIBBLE_SHARE: f64 = 0.75;
 /// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.
 const NOWHERE: f64 = 1.0;
 
@@ -49,6 +52,19 @@ impl Declared {
     /// Whether a kind is declared there.
     pub(super) fn has(&self, kind: Kind, stretch: Stretch) -> bool {
         self.find(kind, stretch).next().is_some()
+    }
+
+    /// Whether a plunge is declared that has half of itself in common with a stretch, or half of that: those beside it on a
+    /// curve have less. It is as long as where it is declared.
+    pub(super) fn has_nibble(&self, stretch: Stretch) -> bool {
+        let cut = stretch.line.cut;
+        let reach = stretch.stations.map(|station| station + cut.offset);
+        let reach = [reach[0].min(reach[1]), reach[0].max(reach[1])];
+        self.find(Kind::Nibbled, stretch).any(|entry| {
+            let over = [entry.from_mm, entry.to_mm];
+            let least = cut.length_of(over).min(reach[1] - reach[0]) / 2.0;
+            cut.common(reach, over) >= least && entry.magnitude_mm >= NIBBLE_SHARE * cut.length_of(over)
+        })
     }
 
     /// What is declared of a kind there.

@@ -82,7 +82,7 @@ impl Judge<'_> {
         let length = (to - from).abs();
         let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
         let may = match self.tracer.declared {
-            Some(declared) => declared.has(Kind::Nibbled, Stretch { line, stations: trial.reach, end: None }),
+            Some(declared) => declared.has_nibble(Stretch { line, stations: trial.reach, end: None }),
             None => !is_straight,
         };
         if !is_all && !may {
@@ -120,13 +120,12 @@ impl Judge<'_> {
         if trial.laps || line.ring && (to - from).abs() >= line.length() - 2.0 * self.tracer.allowed {
             return;
         }
+        let is_nibbled = declared.has_nibble(Stretch { line, stations: trial.reach, end: None });
         let places = [cut.body, cut.points.len() - 1].into_iter().zip([Which::Start, Which::End]);
         for (station, (place, end)) in trial.reach.into_iter().zip(places) {
             let inside = if line.ring { f64::INFINITY } else { station.min(line.length() - station) };
-            let is_declared = || {
-                let stretch = |end| Stretch { line, stations: [station; 2], end };
-                declared.has(Kind::Lift, stretch(Some(end))) || declared.has(Kind::Nibbled, stretch(None))
-            };
+            let is_declared =
+                || is_nibbled || declared.has(Kind::Lift, Stretch { line, stations: [station; 2], end: Some(end) });
             if inside > 2.0 * self.tracer.allowed && !(is_declared() && self.may_lift(line, station)) {
                 undeclared.see(inside.min(self.knife.width_mm.max(REACH)), || seen(place));
             }

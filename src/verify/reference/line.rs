@@ -28,10 +28,26 @@ impl OfCut {
     /// Whether two stretches of the cut meet; on a closed one each may be counted on over its end.
     pub(in crate::verify) fn meets(&self, [low, high]: [f64; 2], [from, to]: [f64; 2]) -> bool {
         let Some(round) = self.round else { return from.min(to) <= high && from.max(to) >= low };
-        let length = if to >= from { to - from } else { to + round - from };
+        let length = self.length_of([from, to]);
         // From the start of the one to that of the other, once round at the most.
         let ahead = (from - low).rem_euclid(round);
         ahead <= high - low || round - ahead <= length
+    }
+
+    /// Length that two stretches of the cut have in common, mm, the second of which may be counted on over its end.
+    pub(in crate::verify) fn common(&self, [low, high]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
+        let common = |from: f64, to: f64| (high.min(to) - low.max(from)).max(0.0);
+        let Some(round) = self.round else { return common(from.min(to), from.max(to)) };
+        let (length, from) = (self.length_of([from, to]), low + (from - low).rem_euclid(round));
+        common(from, from + length) + common(from - round, from - round + length)
+    }
+
+    /// Length of a stretch of the cut, mm; on a closed one it may be counted on over its end.
+    pub(in crate::verify) fn length_of(&self, [from, to]: [f64; 2]) -> f64 {
+        match self.round {
+            Some(round) if to < from => to + round - from,
+            _ => (to - from).abs(),
+        }
     }
 }
 

@@ -25,6 +25,12 @@ pub(crate) struct Case {
 }
 
 impl Case {
+    /// A marker on a machine, and the program that the compiler makes of it.
+    pub(crate) fn new(name: &'static str, marker: Marker, job: Job) -> Self {
+        let program = setpoints(&marker, &job);
+        Self { name, rows: rows::parse(&program), declared: declared(&marker, &job), marker, job, program }
+    }
+
     /// Permitted deviation of the tip, mm.
     pub(crate) fn tolerance(&self) -> f64 {
         self.job.profile.tolerance(self.marker.unit)
@@ -93,8 +99,7 @@ fn case(name: &'static str, change: Change) -> Case {
     profile.knife.feed_mm_s = Some(400.0);
     change(&mut job);
     let marker = marker(name, &job);
-    let program = setpoints(&marker, &job);
-    Case { name, rows: rows::parse(&program), declared: declared(&marker, &job), marker, job, program }
+    Case::new(name, marker, job)
 }
 
 /// The names of all cases.
