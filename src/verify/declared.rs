@@ -54,17 +54,19 @@ impl Declared {
         self.find(kind, stretch).next().is_some()
     }
 
-    /// Whether a plunge is declared that has half of itself in common with a stretch, or half of that: those beside it on a
-    /// curve have less. It is as long as where it is declared.
-    pub(super) fn has_nibble(&self, stretch: Stretch) -> bool {
+    /// Places of the declarations that a plunge over a stretch may be known by: each has half of itself in common with that, or
+    /// half of that, and is as long as where it is declared.
+    pub(super) fn nibbles(&self, stretch: Stretch) -> Vec<usize> {
         let cut = stretch.line.cut;
         let reach = stretch.stations.map(|station| station + cut.offset);
         let reach = [reach[0].min(reach[1]), reach[0].max(reach[1])];
-        self.find(Kind::Nibbled, stretch).any(|entry| {
+        let is_of_it = |&place: &usize| {
+            let entry = &self.entries[place];
             let over = [entry.from_mm, entry.to_mm];
             let least = cut.length_of(over).min(reach[1] - reach[0]) / 2.0;
             cut.common(reach, over) >= least && entry.magnitude_mm >= NIBBLE_SHARE * cut.length_of(over)
-        })
+        };
+        self.places(Kind::Nibbled, stretch).filter(is_of_it).collect()
     }
 
     /// What is declared of a kind there.

@@ -87,10 +87,10 @@ impl Done<'_> {
         for stroke in &mut traced {
             judge.settle(stroke, self);
         }
-        let known = &self.worsts;
+        let known = self.worsts.known();
         let check = |strokes: &[Traced]| {
             // What is no worse than anything so far need not be known.
-            let mut worsts = known.known();
+            let mut worsts = known.clone();
             for stroke in strokes {
                 judge.check(stroke, &mut worsts);
             }

@@ -16,6 +16,7 @@ pub(super) mod heel;
 mod joints;
 pub(super) mod meetings;
 pub(super) mod naming;
+mod nibbles;
 pub(super) mod overcut;
 mod overlap;
 pub(super) mod passing;

@@ -3,6 +3,7 @@
 use super::body::Cut;
 use super::covered::covered;
 use super::heading::on_lap;
+use super::nibbles::Nibble;
 use super::stroke::Judge;
 use super::trial::{REACH, Trial};
 use super::worsts::Worsts;
@@ -37,7 +38,7 @@ impl Judge<'_> {
         if is_straight {
             self.check_surplus(line, cut, trial, seen, &mut worsts.stray);
         }
-        self.check_nibble(line, trial, is_straight, || seen(cut.body), &mut worsts.declared);
+        self.check_nibble(line, trial, is_straight, || seen(cut.body), worsts);
     }
 
     /// Where there is a blade's width of straight line to lie on, the blade goes beyond that by its overlaps and no more.
@@ -76,17 +77,20 @@ impl Judge<'_> {
         trial: &Trial,
         is_straight: bool,
         seen: impl FnOnce() -> Sighting,
-        undeclared: &mut Worst,
+        worsts: &mut Worsts,
     ) {
         let [from, to] = trial.reach;
         let length = (to - from).abs();
-        let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
-        let may = match self.tracer.declared {
-            Some(declared) => declared.has_nibble(Stretch { line, stations: trial.reach, end: None }),
-            None => !is_straight,
-        };
-        if !is_all && !may {
-            undeclared.see(length, seen);
+        if length >= line.length() - 2.0 * self.tracer.allowed {
+            return;
+        }
+        match self.tracer.declared {
+            Some(declared) => {
+                let entries = declared.nibbles(Stretch { line, stations: trial.reach, end: None });
+                worsts.nibbles.push(Nibble { entries, length, place: seen() });
+            }
+            None if is_straight => worsts.declared.see(length, seen),
+            None => {}
         }
     }
 
@@ -107,28 +111,29 @@ impl Judge<'_> {
 
     /// The knife is lifted amid a line where that has a cause and is declared; where nothing is, anywhere: the line is cut all the
     /// same.
-    pub(super) fn check_lifts(
-        &self,
-        cut: &Cut,
-        trial: &Trial,
-        seen: &impl Fn(usize) -> Sighting,
-        undeclared: &mut Worst,
-    ) {
+    pub(super) fn check_lifts(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         let Some(declared) = self.tracer.declared else { return };
         let line = &self.reference.lines[trial.line];
         let [from, to] = trial.reach;
-        if trial.laps || line.ring && (to - from).abs() >= line.length() - 2.0 * self.tracer.allowed {
+        let length = (to - from).abs();
+        if trial.laps || line.ring && length >= line.length() - 2.0 * self.tracer.allowed {
             return;
         }
-        let is_nibbled = declared.has_nibble(Stretch { line, stations: trial.reach, end: None });
         let places = [cut.body, cut.points.len() - 1].into_iter().zip([Which::Start, Which::End]);
+        let mut is_nibbled = false;
         for (station, (place, end)) in trial.reach.into_iter().zip(places) {
             let inside = if line.ring { f64::INFINITY } else { station.min(line.length() - station) };
-            let is_declared =
-                || is_nibbled || declared.has(Kind::Lift, Stretch { line, stations: [station; 2], end: Some(end) });
-            if inside > 2.0 * self.tracer.allowed && !(is_declared() && self.may_lift(line, station)) {
-                undeclared.see(inside.min(self.knife.width_mm.max(REACH)), || seen(place));
+            if inside <= 2.0 * self.tracer.allowed {
+                continue;
             }
+            if !self.may_lift(line, station) {
+                worsts.declared.see(inside.min(self.knife.width_mm.max(REACH)), || seen(place));
+            }
+            is_nibbled |= !declared.has(Kind::Lift, Stretch { line, stations: [station; 2], end: Some(end) });
+        }
+        if is_nibbled {
+            let entries = declared.nibbles(Stretch { line, stations: trial.reach, end: None });
+            worsts.nibbles.push(Nibble { entries, length, place: seen(cut.body) });
         }
     }
 

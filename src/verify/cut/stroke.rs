@@ -230,7 +230,7 @@ impl<'a> Judge<'a> {
             self.check_plunge_cut(cut, best, &seen, worsts);
         } else {
             self.check_way(cut, best, &seen, &mut worsts.on_path);
-            self.check_lifts(cut, best, &seen, &mut worsts.declared);
+            self.check_lifts(cut, best, &seen, worsts);
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(cut, best, &seen, &mut worsts.stray);

@@ -2,6 +2,7 @@
 
 use super::coverage::Coverage;
 use super::naming::Naming;
+use super::nibbles::{self, Nibble};
 use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
@@ -27,6 +28,8 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) declared: Worst,
     /// Overlaps that some strokes lack and others may have.
     pub(in crate::verify) lacking: Vec<Lacking>,
+    /// Plunges amid lines, of which each needs a declaration.
+    pub(super) nibbles: Vec<Nibble>,
 }
 
 /// An overlap that a plunge cut lacks at an end of its line; another stroke of the line may have it.
@@ -64,29 +67,35 @@ impl Worsts {
             overlap: Worst::new(&rules::OVERLAP, Some(tolerance + place)),
             declared: Worst::new(&rules::DECLARED, Some(0.0)),
             lacking: Vec::new(),
+            nibbles: Vec::new(),
         }
     }
 
     /// Takes what later strokes showed.
     pub(in crate::verify) fn add(&mut self, mut later: Self) {
         self.lacking.append(&mut later.lacking);
+        self.nibbles.append(&mut later.nibbles);
         for (worst, later) in self.all_mut().into_iter().zip(later.all()) {
             worst.add(&later);
         }
     }
 
-    /// A copy without the overlaps that strokes lack.
-    pub(in crate::verify) fn known(&self) -> Self {
-        Self { lacking: Vec::new(), ..self.clone() }
+    /// A copy without what each stroke adds: overlaps that it lacks, and plunges.
+    pub(in crate::verify) fn known(&mut self) -> Self {
+        let lists = (std::mem::take(&mut self.lacking), std::mem::take(&mut self.nibbles));
+        let known = self.clone();
+        (self.lacking, self.nibbles) = lists;
+        known
     }
 
-    /// Reports each overlap that every stroke of its line lacks by more than `allowed` mm.
+    /// Reports each overlap that every stroke of its line lacks by more than `allowed` mm, and plunges without a declaration.
     pub(in crate::verify) fn settle(&mut self, coverage: &Coverage, allowed: f64) {
         for Lacking { line, end, asked, missing, place } in std::mem::take(&mut self.lacking) {
             if asked - coverage.beyond(line, end) > allowed {
                 self.overlap.see(missing, || place);
             }
         }
+        nibbles::settle(&std::mem::take(&mut self.nibbles), &mut self.declared);
     }
 
     /// The finding under each rule.
@@ -114,6 +123,7 @@ impl Worsts {
             overlap,
             declared,
             lacking: _,
+            nibbles: _,
         } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
         [

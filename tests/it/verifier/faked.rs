@@ -28,8 +28,8 @@ type Fake = fn(&Declaration) -> Option<Option<Declaration>>;
 const FAKES: &[(&str, Fake)] = &[
     ("left out", |entry| (entry.kind != Kind::Swing && is_worth(entry)).then_some(None)),
     ("half", |entry| {
-        let can_be = ![Kind::Swing, Kind::Lift].contains(&entry.kind) && entry.magnitude_mm > WORTH;
-        can_be.then(|| Some(Declaration { magnitude_mm: entry.magnitude_mm / 2.0, ..*entry }))
+        let can_be = ![Kind::Swing, Kind::Lift].contains(&entry.kind);
+        (can_be && is_worth(entry)).then(|| Some(Declaration { magnitude_mm: entry.magnitude_mm / 2.0, ..*entry }))
     }),
     ("ten times as much", |entry| {
         (entry.magnitude_mm > WORTH).then_some(Some(Declaration { magnitude_mm: 10.0 * entry.magnitude_mm, ..*entry }))
@@ -53,7 +53,7 @@ const FAKES: &[(&str, Fake)] = &[
 ];
 
 fn is_worth(entry: &Declaration) -> bool {
-    entry.magnitude_mm > WORTH || entry.kind == Kind::Lift
+    entry.magnitude_mm > WORTH || matches!(entry.kind, Kind::Lift | Kind::Nibbled)
 }
 
 fn verdict_of(case: &Case, entries: Vec<Declaration>) -> Vec<&'static str> {
