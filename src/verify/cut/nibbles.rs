@@ -45,13 +45,11 @@ impl Owners<'_> {
                     continue;
                 }
                 asked.insert(entry, next);
-                match self.of.get(&entry) {
-                    Some(&owner) => open.push_back(owner),
-                    None => {
-                        self.give(entry, &asked);
-                        return true;
-                    }
-                }
+                let Some(&owner) = self.of.get(&entry) else {
+                    self.give(entry, &asked);
+                    return true;
+                };
+                open.push_back(owner);
             }
         }
         false
