@@ -192,6 +192,8 @@ codes! {
     DRAWING_OUTSIDE_FRAME = warning(Spares, Shape, "drawing/outside-frame", "Closed lines lie outside the frame of the drawing: there is no cloth, and they are not cut.", "Title blocks, test squares and large letters are drawn beside the frame of a marker, which shows the cloth. If they are parts, name their pen as a knife.\n  cutc compile marker.plt --cut-pens 1");
     /// Closed lines inside parts.
     DRAWING_INNER_LINES = warning(Spares, Shape, "drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).", "A plot draws seam lines, pockets and cut-outs alike. A cut-out that is missing can be cut by hand, a pocket that was cut cannot be mended: so nothing inside a part is cut unless somebody asks for it. Seam lines stay whole with `cut`; `all` cuts them, too.\n  cutc compile marker.plt --inner cut");
+    /// Circles that may be holes.
+    DRAWING_HOLES = warning(Spares, Shape, "drawing/holes", "Small circles stand alone in parts; they may be holes to drill, and are not drilled as long as `hpgl.drill_max_mm` is off.", "A plot draws a hole to drill as a small circle, and a letter or a sign as well. Say up to which size circles and squares are holes.\n  cutc compile marker.plt --set hpgl.drill_max_mm=5");
     /// Too small for parts.
     DRAWING_SMALL_OUTLINES = warning(Spares, Shape, "drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.", "Closed lines of 10 to 25 mm outside all parts are letters, arrows and test squares as a rule. If they are parts, name their pen as a knife.\n  cutc compile marker.plt --cut-pens 1");
     /// Lines that are drawn twice.
@@ -346,6 +348,8 @@ codes! {
     MARKER_EQUAL_POINTS = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped, in files without a grid those within 0.01 mm of it, too; the message gives their count.", "Harmless: a direction cannot be taken from two points at one place, so one of them goes. Many of them hint at an export in too coarse a unit.");
     /// A slit again.
     MARKER_SLIT_TWICE = warning(Spares, Shape, "marker/slit-twice", "The same slit stands twice in a piece; it is cut once.", "Some systems write a notch once for each of the two pieces or sizes. A second cut in the same place would only widen the notch.");
+    /// A slit that leads out of its part.
+    MARKER_SLIT_OUTWARDS = warning(Spoils, Shape, "marker/slit-outwards", "A slit begins on the edge of its part and leads out of it; it is cut as the file says.", "A notch is cut into the seam allowance. A slit that leads outwards marks nothing on its own part and may cut into the one beside it: its two ends may be swapped, or the part mirrored without its notches. Look at it in the picture (-t svg).");
     /// A slit without length.
     MARKER_SLIT_NO_LENGTH = warning(Spares, Shape, "marker/slit-no-length", "A slit ends where it starts: nothing is cut there.", "A notch was drawn there and its depth shrank to nothing, perhaps below the unit of the file. If the sewer needs it, give it a depth in the CAD system.");
     /// A contour that is one place.

@@ -7,8 +7,9 @@ use super::doubts::{self, finding};
 use super::frame;
 use super::line::{Class, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::marks::Lie;
+use super::nest::middle;
 use super::pens::Use;
-use super::sheet::Sheet;
+use super::sheet::{self, Sheet};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
@@ -28,6 +29,8 @@ const SHORTEST_CUT_SHORT: f64 = 25.0;
 const DOUBTFUL: usize = 2;
 /// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
 const LEAST_SINGLE_FILL: f64 = 0.15;
+/// Least share of its box that the edge of a table or of the cloth goes around.
+const LEAST_CLOTH: f64 = 0.85;
 /// Widest allowance of a seam, mm; hems are wider.
 const WIDEST_SEAM: f64 = 15.0;
 /// Farthest that two even margins differ, mm.
@@ -65,6 +68,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         return;
     }
     inner_lines(sheet, job, out);
+    unsaid_holes(sheet, job, out);
     lines_outside(sheet, out);
     outside_frames(sheet, out);
     frames(sheet, job, out);
@@ -116,7 +120,10 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let may_be_frame = |part: usize, held: &[&Line]| {
         let part = &sheet.lines[part];
         let is_filled = held[0].area >= LEAST_SINGLE_FILL * part.area;
-        held.len() >= DOUBTFUL || is_alone && part.is_rectangle(sheet.band()) && is_filled
+        let (width, height) = part.extent.size();
+        // The edge of a table or of the cloth is no circle.
+        let is_like_cloth = part.area >= LEAST_CLOTH * width * height;
+        is_like_cloth && held.len() >= DOUBTFUL || is_alone && part.is_rectangle(sheet.band()) && is_filled
     };
     let (doubtful, others): (Vec<_>, Vec<_>) =
         by_part.iter().map(|(&part, held)| (part, &held[..])).partition(|(part, held)| may_be_frame(*part, held));
@@ -155,6 +162,43 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         };
         out.push(finding(&code::DRAWING_INNER_LINES, message, first, sheet).hint(hint));
     }
+}
+
+/// Small circles that stand alone in parts, where nobody has said up to which size circles are holes.
+fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
+    let is_sign = |line: &Line| line.class == Class::Sign && !line.is_cut && line.usage != Use::Drawn;
+    if job.profile.hpgl.drill_max_mm.is_some() || !sheet.lines.iter().any(is_sign) {
+        return;
+    }
+    // Beside others it may be a letter; a cross with the same middle marks a hole.
+    let boxes = Boxes::new(sheet.lines.iter().map(|line| line.extent).collect());
+    let mut work = Budget::of_a_marker();
+    let mut is_alone = |i: usize| {
+        let around = sheet.lines[i].extent.grown(sheet.lines[i].size());
+        let at = middle(&sheet.lines[i].extent);
+        let is_small = |k: usize| {
+            let other = &sheet.lines[k];
+            let is_apart = (middle(&other.extent) - at).norm() > sheet.band();
+            is_apart && !other.is_set_aside() && other.size() <= Notch::LONGEST
+        };
+        work.spend(boxes.cost_near(&around)) && !boxes.near(around).any(is_small)
+    };
+    // Squares are boxes to fill in as often as holes.
+    let is_circle = |line: &Line| !line.is_rectangle(sheet.unit) && sheet::is_round(line);
+    let is_hole = |&i: &usize| sheet.part_around(i).is_some() && is_circle(&sheet.lines[i]);
+    let mut holes = sheet.indices(is_sign);
+    holes.retain(|i| is_hole(i) && is_alone(*i));
+    let Some(&first) = holes.first() else { return };
+    let size = holes.iter().map(|&i| sheet.lines[i].size()).fold(0.0, f64::max);
+    let circles = match holes.len() {
+        1 => "one small circle".to_owned(),
+        n => format!("{n} small circles"),
+    };
+    let message = format!("not drilled: {circles} of up to {} mm in parts", fixed(size, 1));
+    let found = finding(&code::DRAWING_HOLES, message, &sheet.lines[first], sheet);
+    out.push(
+        found.hint(format!("if they are holes, `--set hpgl.drill_max_mm={}`", fixed((size - sheet.unit).ceil(), 0))),
+    );
 }
 
 /// Whether one part is nearly all there is, beside a test square or a title: it may be the edge of the cloth around one part.

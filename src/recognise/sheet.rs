@@ -54,6 +54,12 @@ pub(super) struct Sheet {
     pub(super) is_cut_short: bool,
 }
 
+/// Whether a closed line is a square or a circle.
+pub(super) fn is_round(line: &Line) -> bool {
+    let (width, height) = line.extent.size();
+    width.max(height) <= HOLE_RATIO * width.min(height) && line.area >= HOLE_FILL * width * height
+}
+
 impl Sheet {
     /// Finds what every line is.
     pub(super) fn sort_out(&mut self, job: &Job) {
@@ -221,9 +227,7 @@ impl Sheet {
     fn find_holes(&mut self, job: &Job) {
         let Some(most) = job.profile.hpgl.drill_max_mm else { return };
         for line in self.lines.iter_mut().filter(|line| line.is_outline() && line.is_open_question()) {
-            let (width, height) = line.extent.size();
-            let (greater, less) = (width.max(height), width.min(height));
-            if greater <= most && greater <= HOLE_RATIO * less && line.area >= HOLE_FILL * width * height {
+            if line.size() <= most && is_round(line) {
                 line.class = Class::Hole;
             }
         }

@@ -38,6 +38,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
     ("polygon.cut", ""),                         // edges shorter than the blade
     ("scallops.cut", COARSE), // a chord that the blade before covers and the one behind does not meet
+    ("slit-askew.cut", NO_OVERLAPS), // slits that lean on their edge, led on by the tolerance alone
     ("slit-coarse.csv", ""),  // slits that end on an edge whose chords stand for a curve
     ("slit-root.plt", "knife.width_mm=3 knife.back_mm=1.5"), // a slit whose edge is cut as far beside it as may be
     ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps

@@ -180,10 +180,11 @@ fn its_sizes(known: &[String]) -> String {
 
 /// Words behind a number that say pieces, in capitals.
 #[rustfmt::skip] // a table: a row a few languages
-const OF_PIECES: [&str; 42] = [
+const OF_PIECES: [&str; 49] = [
     "X", "×", "PC", "PCS", "PIECE", "PIECES", "ST", "STK", "STCK", "STÜCK", "STUECK", "PIÈCE", "PIÈCES",
     "PZ", "PEZZO", "PEZZI", "PIEZA", "PIEZAS", "PEÇA", "PEÇAS", "STUKS", "SZT", "SZTUK", "SZTUKI", "KS", "DB", "BUC",
     "ADET", "ШТ", "ШТУК", "ШТУКИ", "ДЕТ", "片", "件", "枚", "张", "張", "个", "個", "장", "매", "STYCK",
+    "SELF", "MAIN", "SHELL", "LINING", "FABRIC", "CONTRAST", "INTERFACING",
 ];
 
 /// How often a piece is wanted.
@@ -272,7 +273,7 @@ mod tests {
         check("1,1,1", None);
         check("-1", None);
         check("two", None);
-        for text in ["2x", "2 Stück", "2 Stk.", "2 (1 PAIR)", "2 pcs (left and right)", "2片"] {
+        for text in ["2x", "2 Stück", "2 Stk.", "2 (1 PAIR)", "2 pcs (left and right)", "2片", "2 SELF", "2 Lining"] {
             check(text, Some([2, 0]));
         }
         for text in ["2 PAIRS", "1L 1R", "1+1", "1/1", "1 (R), 1 (L)", "2 x SELF", "x", "2 ", "()", "2 ()("] {

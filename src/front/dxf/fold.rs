@@ -24,6 +24,9 @@ const WORDS: [&str; 14] = [
     "EN DOBLEZ", "NA DOBRA", "STOFVOUW", "AAN DE VOUW", "НА СГИБЕ",
 ];
 
+/// Words that say it where they stand alone.
+const ALONE: [&str; 7] = ["FOLD", "BRUCH", "PLI", "PIEGA", "DOBLEZ", "DOBRA", "VOUW"];
+
 /// Counts the blocks whose texts say that they are cut on the fold, and that have nothing on its layer.
 pub(super) fn see_unsaid(blocks: &[(&Block, &Facts)], letters: &Letters, tally: &mut Tally) {
     let is_fold = |entity: &&Entity| entity.layer() == Some(LAYER);
@@ -38,7 +41,7 @@ pub(super) fn see_unsaid(blocks: &[(&Block, &Facts)], letters: &Letters, tally: 
 /// Whether a text says that its piece is cut on the fold.
 fn is_said(text: &str) -> bool {
     let text = text.to_uppercase().split_whitespace().collect::<Vec<_>>().join(" ");
-    WORDS.iter().any(|words| text.contains(words))
+    WORDS.iter().any(|words| text.contains(words)) || ALONE.contains(&text.as_str())
 }
 
 /// A fold line.

@@ -410,12 +410,8 @@ impl Set {
             let finding = Diagnostic::new(&code::DXF_AS_DRAWN, message);
             out.push(finding.hint("see in the picture (-t svg) how they lie on the cloth"));
         }
-        let side = |piece: &Piece| {
-            let (width, height) = Extent::of(&piece.plain.points()).size();
-            width.max(height)
-        };
-        let sides = self.pieces.iter().filter(|piece| !piece.is_at_fault()).map(side);
-        doubt(sides.fold(f64::NEG_INFINITY, f64::max), self.pieces.len() == 1, asked, out);
+        let sizes = self.pieces.iter().filter(|piece| !piece.is_at_fault());
+        doubt(sizes.map(|piece| Extent::of(&piece.plain.points()).size()), self.pieces.len() == 1, asked, out);
     }
 
     /// Says which notches are left out or cut in another way, with the numbers of their pieces.

@@ -30,6 +30,8 @@ const LONGEST_LINE: f64 = 3e4;
 const SMALLEST: f64 = 100.0;
 /// Largest side of a piece, mm, beyond which the unit is doubted: garments, covers and sails in one piece are smaller.
 const LARGEST: f64 = 10_000.0;
+/// Greatest width of cloth, mm: no piece is wider both ways.
+const WIDEST_CLOTH: f64 = 3300.0;
 
 /// Lengths of what is cut in a file, in its own unit: of all, and of the longest line.
 #[derive(Debug, Clone, Copy, Default)]
@@ -109,11 +111,20 @@ fn of_number(
     1.0
 }
 
-/// Doubts the unit where the largest of some pieces, whose largest side is so long, mm, is larger than garments are, or that of
-/// several is smaller: one may be a label.
-pub(super) fn doubt(largest: f64, is_one: bool, Asked { job, .. }: &Asked, out: &mut Diagnostics) {
+/// Doubts the unit where the largest of some pieces of these sizes, mm, is larger than garments are, one is wider than any
+/// cloth, or the largest of several is smaller than parts are: one may be a label.
+pub(super) fn doubt(
+    sizes: impl Iterator<Item = (f64, f64)>,
+    is_one: bool,
+    Asked { job, .. }: &Asked,
+    out: &mut Diagnostics,
+) {
+    let [mut largest, mut widest] = [f64::NEG_INFINITY; 2];
+    for (width, height) in sizes {
+        (largest, widest) = (largest.max(width.max(height)), widest.max(width.min(height)));
+    }
     let is_small = !is_one && (0.0..SMALLEST).contains(&largest);
-    if job.profile.dxf.unit.mm().is_some() || !is_small && largest <= LARGEST {
+    if job.profile.dxf.unit.mm().is_some() || !is_small && largest <= LARGEST && widest <= WIDEST_CLOTH {
         return;
     }
     let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");

@@ -6,6 +6,7 @@
 //! - The outlines of two pieces overlap by more than edges of different parts may lie apart and still be one (`nest.band_mm`).
 //!   Pieces that lie edge to edge, or one in the other, do not.
 //! - A slit comes to another one of its piece, or to an edge on the other side.
+//! - A slit leads out of its part.
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
 //! - The number of a piece comes again.
 
@@ -25,7 +26,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::monotone::{Chain, Crossing, come_near, crossing};
 use crate::geom::{Extent, Point};
-use crate::ir::marker::{Drill, Marker};
+use crate::ir::marker::{Drill, Marker, Notch};
 use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -37,6 +38,8 @@ pub(super) const PASS: MarkerPass =
 const PROBES: usize = 16;
 /// What it takes to say that two pieces overlap, beside the comparison of two boxes.
 const SAYING: usize = 500;
+/// How far the middle of a slit lies off its part where the slit leads out of it, mm.
+const ASIDE: f64 = 0.3;
 /// Decimals of how far pieces overlap, mm.
 const DEPTH_DECIMALS: u32 = 2;
 
@@ -117,6 +120,7 @@ impl Alone {
                 let finding = Diagnostic::new(&code::MARKER_SEVERED, message).at(slit.span).on_cloth(slit.tip);
                 alone.findings.push(finding.hint(hint));
             }
+            alone.findings.extend(slits_outwards(marker, i, &part, &mut work));
             // Its own piece is the likeliest.
             let outside = marker.pieces[i].drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
             alone.loose.extend(outside.map(|drill| (i, *drill)));
@@ -128,6 +132,31 @@ impl Alone {
         }
         alone
     }
+}
+
+/// Says which slits of a piece lead out of it.
+fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Budget) -> Option<Diagnostic> {
+    let mut leads_out = |slit: &&Notch| {
+        let middle = slit.root + (slit.tip - slit.root) / 2.0;
+        work.spend(3 * part.points.len())
+            && !part.holds(middle)
+            && part.distance(middle) > ASIDE
+            && part.distance(slit.root) <= Notch::MISS
+    };
+    part.closed().next()?;
+    let mut outwards = marker.pieces[piece].notches.iter().filter(&mut leads_out);
+    let first = outwards.next()?;
+    let (slits, lead) = match outwards.count() {
+        0 => ("a slit".to_owned(), "leads"),
+        more => (format!("{} slits", more + 1), "lead"),
+    };
+    let message = format!("{slits} of {} {lead} out of the part", name(marker, piece));
+    let finding = Diagnostic::new(&code::MARKER_SLIT_OUTWARDS, message).at(first.span).on_cloth(first.tip);
+    Some(
+        finding.hint(
+            "it is cut as the file says, into waste or another part: see in the CAD whether its ends are swapped",
+        ),
+    )
 }
 
 /// Numbers that start again from one that was there already, or stay.

@@ -380,7 +380,8 @@ fn quantity(text: &str) -> Option<[u32; 2]> {
 
 /// Words for pieces, in small letters, each between blanks.
 const PIECES: &str = " x × pc pcs piece pieces pièce pièces st stk stck styck stück stueck stuks pz pezzo pezzi pieza piezas \
-                      peça peças szt sztuk sztuki ks db buc adet шт штук штуки дет 片 件 枚 张 張 个 個 장 매 ";
+                      peça peças szt sztuk sztuki ks db buc adet шт штук штуки дет 片 件 枚 张 張 个 個 장 매 \
+                      self main shell lining fabric contrast interfacing ";
 
 /// The number of a text that has a word for pieces behind it, something in parentheses, or both.
 fn worded(text: &str) -> Option<u32> {
