@@ -293,6 +293,8 @@ mod tests {
         check(b"AutoCAD Binary DXF\r\n\x1a\0\0\0SECTION", Some("a binary DXF drawing"));
         check(b"H\x001\0*\0M\x001\x005\0*\0", Some("text in UTF-16"));
         check(b"\x01\x02\x7f\x03abc\x04\x05", Some("binary data"));
+        // Some programs fill the last block of a file with NUL.
+        check(&[b"G71*N1*X0Y0*M14*X9Y0*M15*M0*".as_slice(), &[0; 200]].concat(), None);
         check(b"G75*\nG70*\nD10*\nX0Y5D02*\nX0Y9D01*\nM02*\n", Some("a Gerber file for circuit boards"));
         check(b"<?xml version=\"1.0\"?>\n<svg width=\"1\">", Some("an SVG drawing"));
         check(
