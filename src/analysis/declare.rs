@@ -138,15 +138,15 @@ impl OfCut<'_> {
         self.ends([cut.heel, cut.front], cut.ends, cut.turned, ends, Shape::Open);
     }
 
-    /// Whether the blade goes nowhere on a run, but for as little as its tip may be off anyway: a leg of a nibbled curve that is
+    /// Whether the tip of the blade stays at its plunge on a run, within the reach of smoothing: a leg of a nibbled curve that is
     /// hardly longer than the blade.
     fn stands_still(&self, run: &Run) -> bool {
         let width = self.knife.width_mm;
-        let goes_nowhere = || {
-            let path = run.extended();
-            Plunge::at_start(&path, width).stands_still(&path, self.toolpath.tolerance)
-        };
-        width > 0.0 && run.shape == Shape::Open && goes_nowhere()
+        if width == 0.0 || run.shape != Shape::Open {
+            return false;
+        }
+        let path = run.extended();
+        Plunge::at_start(&path, width).stands_still(&path, self.toolpath.tolerance)
     }
 
     /// Declares a blade that stands still over some points as a nibble where the contour goes on from one of its ends.

@@ -9,10 +9,10 @@ use super::finished::failure;
 use super::provenance;
 use crate::{back, sew, track};
 
-/// What is a directory everywhere.
+/// The current directory, a directory on every system.
 const DIRECTORY: &str = ".";
 
-/// Target of some machine, as far as it matters where its program goes.
+/// Target of a machine: the name and the extension that decide the place of its program.
 pub(super) trait Target: Sized + 'static {
     /// Every target of the machine; the first is the default.
     const ALL: &'static [Self];
@@ -20,7 +20,7 @@ pub(super) trait Target: Sized + 'static {
     /// Name, as `-t` takes it.
     fn name(&self) -> &'static str;
 
-    /// What its files end in, without the first dot.
+    /// Extension of its files, without the first dot.
     fn extension(&self) -> &'static str;
 }
 
@@ -43,7 +43,7 @@ macro_rules! targets {
 
 targets!(back, sew, track);
 
-/// What is read, and what the user said of where its programs go.
+/// Arguments that decide where the programs of an input go.
 #[derive(Debug)]
 pub(super) struct Asked<'a, T: Target> {
     /// The place as typed.
@@ -58,10 +58,10 @@ pub(super) struct Asked<'a, T: Target> {
     pub(super) force: bool,
 }
 
-/// Programs, and where they go.
+/// Targets of an input, and the place of their programs.
 #[derive(Debug)]
 pub(super) struct Destination<T: Target> {
-    /// What is written.
+    /// Targets that are written.
     pub(super) targets: Vec<&'static T>,
     /// Where.
     pub(super) place: Place,
@@ -77,7 +77,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// Its files; none of standard output.
+    /// Paths of its files; empty for standard output.
     pub(super) fn files(&self) -> &[PathBuf] {
         match self {
             Self::Stdout => &[],
@@ -117,7 +117,8 @@ impl<T: Target> Asked<'_, T> {
         let file = self.out.filter(|out| !is_dash(out) && !names_directory(out));
         let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy().to_ascii_lowercase());
         let ends = |target: &&T| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension())));
-        let told = T::ALL.iter().find(ends);
+        // The longest ending: `.timing.svg` ends with `.svg`, too.
+        let told = T::ALL.iter().filter(ends).max_by_key(|target| target.extension().len());
         let is_ambiguous = |file: &Path| names_program(file) && T::ALL.iter().any(|target| target.name() == "gcode");
         match (self.targets, told, file) {
             ([one], Some(told), Some(file)) if one.extension() != told.extension() => Err(failure(
@@ -127,7 +128,7 @@ impl<T: Target> Asked<'_, T> {
                     file.display(),
                     told.name()
                 ),
-                format!("leave -t out, or write to `-o {}`", file.with_extension(one.extension()).display()),
+                renamed(file, told, one),
             )),
             ([], Some(told), _) => Ok(vec![told]),
             ([], None, Some(file)) if is_ambiguous(file) => Err(failure(
@@ -194,6 +195,13 @@ impl<T: Target> Asked<'_, T> {
         }
         Ok(path)
     }
+}
+
+/// Hint with the name of a file under the extension of another target.
+fn renamed<T: Target>(file: &Path, told: &T, asked: &T) -> String {
+    let shown = file.display().to_string();
+    let stem = &shown[..shown.len() - told.extension().len()];
+    format!("leave -t out, or write to `-o {stem}{}`", asked.extension())
 }
 
 /// The name of the program that is made from an input, by the extension of its target.

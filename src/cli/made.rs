@@ -1,4 +1,4 @@
-//! Programs of the machines beside the knife, written: whole and judged, with their provenance beside them, or none at all.
+//! Programs of the machines beside the knife: written whole and judged, with their provenance beside them, or not at all.
 
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 
@@ -10,12 +10,11 @@ use super::files;
 use super::finished::failure;
 use super::provenance::{self, Made, Verified};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-
 use crate::ir::verdict::{Sighting, Verdict};
 use crate::machine::Job;
 use crate::source::Source;
 
-/// Bytes that are kept in memory where no file is asked for; more go to a temporary one.
+/// Bytes of a program for standard output that stay in memory, at most; longer programs go to a temporary file.
 const SPOOL_BYTES: usize = 16 << 20;
 /// Bytes that are written and read at a time.
 pub(super) const BLOCK_BYTES: usize = 1 << 17;
@@ -29,10 +28,11 @@ pub(super) type Judge<'a> = dyn Fn(&mut dyn BufRead, &mut Diagnostics) -> io::Re
 pub(super) struct Product<'a> {
     /// Name of the target.
     pub(super) target: &'static str,
+    /// Writer of its bytes.
     pub(super) write: Box<Writer<'a>>,
-    /// What its provenance says of it.
+    /// Verdict that its provenance records.
     pub(super) verified: Verified,
-    /// `None` of what is not judged.
+    /// `None` for a target without a judge.
     pub(super) judge: Option<Box<Judge<'a>>>,
 }
 
@@ -45,7 +45,9 @@ impl Product<'_> {
         drop(writer);
         file.rewind()?;
         if let Some(judge) = &self.judge {
-            judge(&mut BufReader::with_capacity(BLOCK_BYTES, &mut *file), out)?;
+            let mut input = BufReader::with_capacity(BLOCK_BYTES, &mut *file);
+            judge(&mut input, out)
+                .map_err(|error| io::Error::new(error.kind(), format!("the program cannot be read back: {error}")))?;
             file.rewind()?;
         }
         Ok(())
@@ -67,7 +69,7 @@ impl Product<'_> {
 pub(super) struct Origin<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
-    /// What was asked of the file, as it is typed.
+    /// Options as typed.
     pub(super) options: &'a str,
 }
 
@@ -100,7 +102,7 @@ impl Origin<'_> {
     }
 }
 
-/// Says which rules the program of a target breaks, or that it cannot be read back. `place` says where a rule is broken.
+/// Reports the rules that the program of a target breaks, or that it cannot be read back. `place` words the place of a finding.
 pub(super) fn say_broken(
     verdict: &Verdict,
     target: &str,

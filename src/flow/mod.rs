@@ -30,7 +30,7 @@ mod track;
 mod write;
 mod yielding;
 
-/// How programs are judged.
+/// Verifier of programs.
 pub use crate::verify::flow as verify;
 pub use asked::Speed;
 pub use bound::Bounds;

@@ -47,7 +47,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
     }
 }
 
-/// Whether a row is the header, in letters of any case and with blanks between its words.
+/// Whether a row is the header, whatever its case and blanks.
 fn is_header(line: &[u8]) -> bool {
     let letters = line.iter().filter(|byte| !byte.is_ascii_whitespace());
     letters.map(u8::to_ascii_lowercase).eq(HEADER.iter().copied())

@@ -70,7 +70,7 @@ const FORMATS: &[Format] = &[
     known("a Gerber file for circuit boards", "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15", is_circuit_board),
     known("a CAMM-GL I plot (Roland)", OTHER_PLOTTER, is_camm_gl),
     known("a table of points with decimal commas", "write commas between the numbers and points for decimals: `x_mm,y_mm`", is_comma_table),
-    known("text like an ISO cut file, in small letters", "cutters know its codes in capitals alone: X, Y, M14, M15", is_small_iso),
+    known("an ISO cut file in small letters", "write its codes in capitals: X, Y, M14, M15", is_small_iso),
     known("G-code for a machine tool", "its blocks end with the line; cutter files end them with `*`", is_g_code),
 ];
 
@@ -221,7 +221,7 @@ fn is_utf16(bytes: &[u8]) -> bool {
     zeros(0) || zeros(1)
 }
 
-/// More than one byte in ten that no text has, but for NUL bytes behind the last other one.
+/// More than one byte in ten that no text has. NUL bytes at the end of the file do not count.
 fn is_binary(bytes: &[u8]) -> bool {
     let whole = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     let head = head(&bytes[..whole]);
@@ -232,7 +232,7 @@ fn is_binary(bytes: &[u8]) -> bool {
     10 * head.iter().filter(control).count() > head.len() || (zeros > asterisks && 4 * zeros > head.len())
 }
 
-/// Blocks of places and the codes of the knife, in small letters.
+/// Codes of the knife (M14, M15) in small letters.
 fn is_small_iso(bytes: &[u8]) -> bool {
     let head = head(bytes);
     let has = |code: &[u8]| memchr::memmem::find(head, code).is_some();

@@ -45,7 +45,7 @@ pub enum Kind {
     Surplus,
     /// The body of the blade on a curve that is tighter than it, or at a bend without a lift: how far it leaves the line.
     Swing,
-    /// A plunge amid a line whose tip stays where it may be off anyway: how long the stretch is that it cuts.
+    /// A plunge amid a line whose tip then moves no farther than smoothing may move it: the length of its cut.
     Nibbled,
     /// A plunge or a lift where the drawing has no end: nothing.
     Lift,

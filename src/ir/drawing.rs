@@ -75,7 +75,7 @@ pub enum Ending {
     PenDown(Span),
     /// Amid a number that draws, or behind one that may lack digits.
     AmidNumber(Span),
-    /// With one coordinate of two, and nothing behind it.
+    /// Behind the first coordinate of a pair.
     AmidPair(Span),
 }
 

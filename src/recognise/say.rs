@@ -29,9 +29,9 @@ const SHORTEST_CUT_SHORT: f64 = 25.0;
 const DOUBTFUL: usize = 2;
 /// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
 const LEAST_SINGLE_FILL: f64 = 0.15;
-/// Least share of its box that the edge of a table or of the cloth goes around.
-const LEAST_CLOTH: f64 = 0.85;
-/// Widest allowance of a seam, mm; hems are wider.
+/// Least share of its box that the edge of a table or of the cloth encloses.
+const LEAST_EDGE_FILL: f64 = 0.85;
+/// Usual allowance of a seam at the most, mm; hems are wider.
 const WIDEST_SEAM: f64 = 15.0;
 /// Farthest that two even margins differ, mm.
 const EVEN: f64 = 1.0;
@@ -106,12 +106,12 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let mut by_part: BTreeMap<usize, Vec<&Line>> = BTreeMap::new();
     // Closed lines that stand on an outline have a warning of their own.
     let standing = standing(sheet);
-    let is_alone = is_alone(sheet);
+    let has_one_main_part = has_one_main_part(sheet);
     let is_left = |line: &Line| !line.is_cut && line.usage != Use::Drawn;
     let is_inner = |&i: &usize| {
         let line = &sheet.lines[i];
         let is_far_seam =
-            || is_alone && line.class == Class::Seam && (has_wide_margins(sheet, i) || has_notches(sheet, i));
+            || has_one_main_part && line.class == Class::Seam && (has_wide_margins(sheet, i) || has_notches(sheet, i));
         is_left(line) && (line.class == Class::Inner || is_far_seam())
     };
     for i in (0..sheet.lines.len()).filter(is_inner).filter(|i| !standing.contains(i)) {
@@ -121,9 +121,9 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         let part = &sheet.lines[part];
         let is_filled = held[0].area >= LEAST_SINGLE_FILL * part.area;
         let (width, height) = part.extent.size();
-        // The edge of a table or of the cloth is no circle.
-        let is_like_cloth = part.area >= LEAST_CLOTH * width * height;
-        is_like_cloth && held.len() >= DOUBTFUL || is_alone && part.is_rectangle(sheet.band()) && is_filled
+        // The edge of a table or of the cloth fills most of its box; a circle does not.
+        let is_like_cloth = part.area >= LEAST_EDGE_FILL * width * height;
+        is_like_cloth && held.len() >= DOUBTFUL || has_one_main_part && part.is_rectangle(sheet.band()) && is_filled
     };
     let (doubtful, others): (Vec<_>, Vec<_>) =
         by_part.iter().map(|(&part, held)| (part, &held[..])).partition(|(part, held)| may_be_frame(*part, held));
@@ -173,7 +173,7 @@ fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     // Beside others it may be a letter; a cross with the same middle marks a hole.
     let boxes = Boxes::new(sheet.lines.iter().map(|line| line.extent).collect());
     let mut work = Budget::of_a_marker();
-    let mut is_alone = |i: usize| {
+    let mut stands_alone = |i: usize| {
         let around = sheet.lines[i].extent.grown(sheet.lines[i].size());
         let at = middle(&sheet.lines[i].extent);
         let is_small = |k: usize| {
@@ -184,25 +184,26 @@ fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         work.spend(boxes.cost_near(&around)) && !boxes.near(around).any(is_small)
     };
     // Squares are boxes to fill in as often as holes.
-    let is_circle = |line: &Line| !line.is_rectangle(sheet.unit) && sheet::is_round(line);
+    let is_circle = |line: &Line| !line.is_rectangle(sheet.unit) && sheet::is_square_or_circle(line);
     let is_hole = |&i: &usize| sheet.part_around(i).is_some() && is_circle(&sheet.lines[i]);
     let mut holes = sheet.indices(is_sign);
-    holes.retain(|i| is_hole(i) && is_alone(*i));
+    holes.retain(|i| is_hole(i) && stands_alone(*i));
     let Some(&first) = holes.first() else { return };
     let size = holes.iter().map(|&i| sheet.lines[i].size()).fold(0.0, f64::max);
+    let mm = fixed(size, 1);
     let circles = match holes.len() {
-        1 => "one small circle".to_owned(),
-        n => format!("{n} small circles"),
+        1 => format!("one small circle of {mm} mm in a part"),
+        n => format!("{n} small circles of up to {mm} mm in parts"),
     };
-    let message = format!("not drilled: {circles} of up to {} mm in parts", fixed(size, 1));
+    let message = format!("not drilled: {circles}");
     let found = finding(&code::DRAWING_HOLES, message, &sheet.lines[first], sheet);
     out.push(
         found.hint(format!("if they are holes, `--set hpgl.drill_max_mm={}`", fixed((size - sheet.unit).ceil(), 0))),
     );
 }
 
-/// Whether one part is nearly all there is, beside a test square or a title: it may be the edge of the cloth around one part.
-fn is_alone(sheet: &Sheet) -> bool {
+/// Whether one part takes nearly all the area, beside test squares and titles: it may be the edge of the cloth.
+fn has_one_main_part(sheet: &Sheet) -> bool {
     let areas = sheet.lines.iter().filter(|line| line.class == Class::Part).map(|line| line.area);
     let (all, largest) = areas.fold((0.0, 0.0), |(all, largest): (f64, f64), area| (all + area, largest.max(area)));
     all - largest <= frame::MOST_OUTSIDE * largest

@@ -8,9 +8,10 @@ use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
 pub(super) const FARTHEST: f64 = 60.0;
 /// The same for the sides of their boxes: at a sharp point of a part the two are farther apart.
 pub(super) const BOX_MARGIN: f64 = 2.5 * FARTHEST;
-/// Widest allowance of a seam, mm, and the least share of a seam line at which it is no wider: hems are on some edges only.
-/// What lies farther off all around is an opening, as of a facing.
+/// Greatest distance of a seam line from its edge where there is no hem, mm.
 const WIDEST_ALLOWANCE: f64 = 26.0;
+/// Least share of a seam line within [`WIDEST_ALLOWANCE`]: hems are on some edges only, and an opening as of a facing lies
+/// farther off all around.
 const LEAST_AT_SEAM: f64 = 0.25;
 /// Sine of the greatest angle between a seam line and the edge beside it: edges that curve are hemmed along their
 /// chord.

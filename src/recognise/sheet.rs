@@ -55,7 +55,7 @@ pub(super) struct Sheet {
 }
 
 /// Whether a closed line is a square or a circle.
-pub(super) fn is_round(line: &Line) -> bool {
+pub(super) fn is_square_or_circle(line: &Line) -> bool {
     let (width, height) = line.extent.size();
     width.max(height) <= HOLE_RATIO * width.min(height) && line.area >= HOLE_FILL * width * height
 }
@@ -225,9 +225,10 @@ impl Sheet {
 
     /// Finds the closed squares and circles of the size of a hole.
     fn find_holes(&mut self, job: &Job) {
-        let Some(most) = job.profile.hpgl.drill_max_mm else { return };
+        // A unit of rounding: the hint of `drawing/holes` rounds down by as much.
+        let Some(most) = job.profile.hpgl.drill_max_mm.map(|most| most + self.unit) else { return };
         for line in self.lines.iter_mut().filter(|line| line.is_outline() && line.is_open_question()) {
-            if line.size() <= most && is_round(line) {
+            if line.size() <= most && is_square_or_circle(line) {
                 line.class = Class::Hole;
             }
         }
@@ -254,7 +255,7 @@ impl Sheet {
             };
             seams.extend(tried.filter(|i| is_seam(i)).copied().next());
         }
-        // What lies in a seam line is a cut-out: a part has one seam line.
+        // A line inside a seam line is a cut-out: a part has one seam line.
         seams.sort_unstable();
         let is_in_seam = |i: usize| {
             let mut around = std::iter::successors(self.nest.parent(i), |&outer| self.nest.parent(outer));

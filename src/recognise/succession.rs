@@ -1,8 +1,8 @@
 //! Rings that strokes draw in succession, each from the end of the one before it.
 //!
-//! Parts that share an edge may both draw it: at its ends the straightest continuation leads to the other part, and the
-//! order of the strokes tells which belong together. Where an edge is drawn once for two parts it does not: rings that meet
-//! a stroke which is of none are left out.
+//! Parts that share an edge may both draw it. At its ends the straightest continuation leads into the other part; the order
+//! of the strokes tells the parts apart. An edge that is drawn once for two parts leaves one of them without a ring: a ring
+//! that meets a stroke outside all rings is left out, and so is each ring that meets it.
 
 use std::ops::RangeInclusive;
 
@@ -25,7 +25,7 @@ impl Ends<'_> {
         for (k, ring) in rings.iter().enumerate() {
             ring.clone().for_each(|stroke| ring_of[stroke] = Some(k));
         }
-        // What meets a stroke of no ring is none, and what meets that is none, either.
+        // A ring that meets a stroke outside all rings is left out, and then every ring that meets it.
         let mut is_left_out = vec![false; rings.len()];
         let is_bare = |end: &End| ring_of[end / 2].is_none() && !self.is_dead[end / 2];
         let mut queue: Vec<&[End]> =

@@ -13,11 +13,10 @@ use crate::ir::verdict::{Sighting, Worst};
 const ASIDE: f64 = 1.0;
 /// Tolerances by which the measured deviation may fall short of its declaration: smoothing moves the two ends of the blade and
 /// the line at each of them, by one each.
-pub(super) const LESS: f64 = 4.0;
+const LESS: f64 = 4.0;
 /// Further shortfall allowed, mm: blade and line are looked at in steps.
 const STEPS: f64 = 0.2;
-/// Part of where a plunge is declared that it says of itself at the least: a noisy line is longer in one way of measuring than
-/// in another.
+/// Least declared length of a plunge as a share of its declared stretch: two measures of a noisy line differ by as much.
 const NIBBLE_SHARE: f64 = 0.75;
 /// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.
 const NOWHERE: f64 = 1.0;
@@ -54,8 +53,8 @@ impl Declared {
         self.find(kind, stretch).next().is_some()
     }
 
-    /// Places of the declarations that a plunge over a stretch may be known by: each has half of itself in common with that, or
-    /// half of that, and is as long as where it is declared.
+    /// Indices of the nibble declarations that may belong to a plunge over a stretch: the shorter of the declared and the given
+    /// stretch lies in the other by half at least, and the declared length is at least [`NIBBLE_SHARE`] of the declared stretch.
     pub(super) fn nibbles(&self, stretch: Stretch) -> Vec<usize> {
         let cut = stretch.line.cut;
         let reach = stretch.stations.map(|station| station + cut.offset);

@@ -87,10 +87,10 @@ impl Done<'_> {
         for stroke in &mut traced {
             judge.settle(stroke, self);
         }
-        let known = self.worsts.known();
+        let so_far = self.worsts.without_lists();
         let check = |strokes: &[Traced]| {
-            // What is no worse than anything so far need not be known.
-            let mut worsts = known.clone();
+            // What is no worse than anything so far need not be recorded.
+            let mut worsts = so_far.clone();
             for stroke in strokes {
                 judge.check(stroke, &mut worsts);
             }

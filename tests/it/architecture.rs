@@ -275,7 +275,7 @@ fn a_module_imports_only_what_the_architecture_allows() {
     report(&faults);
 }
 
-/// What the verifier in the folder of sewing may name of that: forms, but nothing of who makes them.
+/// Modules of `sew` that its verifier may name: forms, but no stage that makes them.
 const SEWN_FORMS: &[&str] = &["pattern", "stitches", "verify"];
 
 #[test]

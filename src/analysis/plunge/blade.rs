@@ -9,8 +9,8 @@ pub const PASSING_SHARE: f64 = 0.9;
 /// An arc of 0.55 blade widths has this.
 const HEEL_COSINE_MIN: f64 = 0.4;
 
-/// Longest way, in tolerances, on which a tip stands where it is: smoothing moves it as far.
-pub(super) const STILL: f64 = 2.0;
+/// Longest way of a tip that stands still, in tolerances: smoothing moves a tip as far.
+pub(super) const STILL_TOLERANCES: f64 = 2.0;
 
 /// Whether a blade, from its heel to its tip, stands across a path that has a direction at its heel.
 pub fn stands_across(blade: Vector, direction: Vector) -> bool {
@@ -58,9 +58,9 @@ impl Plunge {
         (path[next] - self.tip).norm() + polyline::length(&path[next..])
     }
 
-    /// Whether its tip stays where it stands until it is lifted, but for what smoothing may move it.
+    /// Whether the tip stays at its plunge until the lift, within the reach of smoothing.
     pub fn stands_still(&self, path: &[Point], tolerance: f64) -> bool {
-        self.covers_all || self.way(path) <= STILL * tolerance
+        self.covers_all || self.way(path) <= STILL_TOLERANCES * tolerance
     }
 
     /// From its heel to its tip, mm.

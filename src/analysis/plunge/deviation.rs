@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::blade::{PASSING_SHARE, Plunge, STILL, stands_across};
+use super::blade::{PASSING_SHARE, Plunge, STILL_TOLERANCES, stands_across};
 use super::overlaps::overlaps;
 use crate::analysis::cloth::Surroundings;
 use crate::geom::{Point, polyline};
@@ -180,7 +180,7 @@ impl Under {
         {
             let sharpest = under.iter().map(|turn| turn.abs()).fold(0.0, f64::max);
             // Nor does that where the tip, moved a little by smoothing, may stand before the vertex behind it.
-            let is_told = (self.plunge.tip - self.path[chord]).norm() > STILL * tolerance;
+            let is_told = (self.plunge.tip - self.path[chord]).norm() > STILL_TOLERANCES * tolerance;
             // A curve goes on soon; a bend that is followed by a long straight edge is none.
             let goes_on = (self.path[chord + 1] - self.path[0]).norm() <= REACH * self.plunge.blade().norm();
             *next = if is_told && goes_on { next.clamp(-sharpest, sharpest) } else { 0.0 };

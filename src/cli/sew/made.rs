@@ -1,4 +1,4 @@
-//! Programs that are sewn, as products of their targets.
+//! Products of a sewing program, one for each target.
 
 use std::cell::RefCell;
 use std::io;
@@ -9,7 +9,6 @@ use crate::cli::destination::Place;
 use crate::cli::made::{Judge, Origin, Product, say_broken};
 use crate::cli::provenance::Verified;
 use crate::diagnostic::{Diagnostics, code};
-
 use crate::ir::verdict::{Sighting, Verdict};
 use crate::sew::verify::Bytes;
 use crate::sew::{Made, TARGETS, Target};

@@ -38,7 +38,7 @@ pub(super) struct Programs {
 }
 
 impl Sewing<'_> {
-    /// Sews a file: programs to their paths, or the only one for standard output. What is refused leaves nothing; older
+    /// Sews a file: programs to their place. What is refused leaves nothing; older
     /// programs of these names are moved aside.
     pub(super) fn sew(&self, source: &Source, place: &Place) -> anyhow::Result<Sewn> {
         let Self { arguments, targets, job } = *self;

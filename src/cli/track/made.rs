@@ -1,4 +1,4 @@
-//! What is made of a log, as products of its targets.
+//! Products of a log, one for each target.
 
 use crate::cli::made::{Judge, Product};
 use crate::cli::provenance::Verified;

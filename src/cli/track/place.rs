@@ -1,11 +1,11 @@
-//! What is written of a log, and where.
+//! Targets of a log and the places of their files.
 
 use super::arguments::Arguments;
 use crate::cli::destination::{Asked, Destination, Place};
 use crate::cli::finished::failure;
 use crate::track::{TARGETS, Target};
 
-/// Everything that is written: what is asked for, but of a scenario nothing by itself, and the picture of `--plot`.
+/// Files of a run: the chosen targets, by default one for a log and none for a scenario, and the picture of `--plot`.
 pub(super) fn destinations(arguments: &Arguments) -> anyhow::Result<Vec<Destination<Target>>> {
     let Arguments { file: input, out, targets, plot, simulate, force, machine, .. } = arguments;
     let beside = [machine.profile.as_deref(), None];
@@ -22,7 +22,7 @@ pub(super) fn destinations(arguments: &Arguments) -> anyhow::Result<Vec<Destinat
     let picture = TARGETS.iter().find(|target| target.name == "svg").expect("a picture is a target");
     let picture = Asked { out: Some(plot), targets: &[picture], input, beside, force: *force }.destination()?;
     match &mut found[..] {
-        // They take their places together or not at all.
+        // One list: all files are published together or not at all.
         [Destination { targets, place: Place::Files(paths) }] => {
             targets.extend(picture.targets);
             paths.extend_from_slice(picture.place.files());

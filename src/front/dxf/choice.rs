@@ -178,13 +178,14 @@ fn its_sizes(known: &[String]) -> String {
     format!("its sizes are {}{dots}", known[..known.len().min(SHOWN)].join(", "))
 }
 
-/// Words behind a number that say pieces, in capitals.
+/// Words that may follow the number of a quantity, in capitals: words for pieces, and names of materials.
 #[rustfmt::skip] // a table: a row a few languages
-const OF_PIECES: [&str; 49] = [
+const OF_PIECES: [&str; 51] = [
     "X", "×", "PC", "PCS", "PIECE", "PIECES", "ST", "STK", "STCK", "STÜCK", "STUECK", "PIÈCE", "PIÈCES",
     "PZ", "PEZZO", "PEZZI", "PIEZA", "PIEZAS", "PEÇA", "PEÇAS", "STUKS", "SZT", "SZTUK", "SZTUKI", "KS", "DB", "BUC",
     "ADET", "ШТ", "ШТУК", "ШТУКИ", "ДЕТ", "片", "件", "枚", "张", "張", "个", "個", "장", "매", "STYCK",
-    "SELF", "MAIN", "SHELL", "LINING", "FABRIC", "CONTRAST", "INTERFACING",
+    "SELF", "MAIN", "SHELL", "LINING", "FABRIC", "CONTRAST", "INTERFACING", "ON FOLD",
+    "ON THE FOLD",
 ];
 
 /// How often a piece is wanted.

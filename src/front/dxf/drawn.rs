@@ -9,17 +9,19 @@ use crate::machine::patterns::Dxf;
 
 /// Least depth of a notch in the outline, mm.
 pub(super) const LEAST_DEPTH: f64 = 1.5;
-/// Stretch of an edge that its direction beside a mouth is taken from, mm.
+/// Length of edge from which the direction beside a mouth is taken, mm.
 const BESIDE: f64 = 1.0;
+/// Greatest angle between a mouth and the edge beside it, and greatest turn of the edge across a mouth, rad.
+const MOUTH_ANGLE: f64 = FRAC_PI_6;
+const MOUTH_TURN: f64 = FRAC_PI_3;
 /// Narrowest mouth that has a direction, mm: the feet of a narrower one are one place.
 const NARROW: f64 = 0.5;
-/// Least turn of an outline where a mouth begins, as the cosine: 12 degrees.
-const LEAST_TURN: f64 = 0.978;
-/// Least share of the depth of a notch at which its bottom begins.
+/// Cosine of the least turn of an outline where a mouth begins, 12 degrees.
+const TURN_COSINE: f64 = 0.978;
+/// Share of the depth of a notch from which on its bottom lies.
 const BOTTOM: f64 = 0.7;
 
-/// Whether an outline, whose first point is repeated at its end, makes a notch that a place marks: in its mouth or at its
-/// bottom.
+/// Whether an outline has a notch of its own at a place: in the mouth, or at the bottom. The outline repeats its first point.
 pub(super) fn makes_notch_at(outline: &[Point], at: Point, work: &mut Budget) -> bool {
     let ring = Ring(&outline[..outline.len() - 1]);
     let count = ring.0.len();
@@ -39,7 +41,7 @@ impl Ring<'_> {
         self.0[i % self.0.len()]
     }
 
-    /// Unit vector of the edge before a vertex, or behind it, from or to a place on it that is not nearer than [`BESIDE`].
+    /// Unit vector along the outline before or behind a vertex, taken over [`BESIDE`] at least.
     fn beside(&self, i: usize, is_before: bool) -> Option<Vector> {
         let count = self.0.len();
         let step = |k: usize| self.at(if is_before { i + count - k } else { i + k });
@@ -50,10 +52,10 @@ impl Ring<'_> {
 
     fn turns_at(&self, i: usize) -> bool {
         let [before, behind] = [true, false].map(|is_before| self.beside(i, is_before));
-        before.zip(behind).is_some_and(|(before, behind)| before.dot(&behind) < LEAST_TURN)
+        before.zip(behind).is_some_and(|(before, behind)| before.dot(&behind) < TURN_COSINE)
     }
 
-    /// Whether a notch begins at a vertex that a place marks.
+    /// Whether a notch that a place marks begins at a vertex.
     fn notch_from(&self, first: usize, at: Point, work: &mut Budget) -> bool {
         let mut way = 0.0;
         for last in first + 1..first + self.0.len() {
@@ -68,13 +70,13 @@ impl Ring<'_> {
         false
     }
 
-    /// Whether two vertices are the ends of a mouth: the edge goes on behind it as it came.
+    /// Whether two vertices are the ends of a mouth: the edge continues behind it in the same direction.
     fn is_mouth(&self, [first, last]: [usize; 2]) -> bool {
         let mouth = self.at(last) - self.at(first);
         let Some((before, after)) = self.beside(first, true).zip(self.beside(last, false)) else { return false };
-        let is_along = |way: Vector| way.dot(&mouth) >= FRAC_PI_6.cos() * mouth.norm();
+        let is_along = |way: Vector| way.dot(&mouth) >= MOUTH_ANGLE.cos() * mouth.norm();
         mouth.norm() <= Notch::WIDEST
-            && before.dot(&after) >= FRAC_PI_3.cos()
+            && before.dot(&after) >= MOUTH_TURN.cos()
             && (mouth.norm() <= NARROW || is_along(before) && is_along(after))
     }
 

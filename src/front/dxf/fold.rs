@@ -27,21 +27,23 @@ const WORDS: [&str; 14] = [
 /// Words that say it where they stand alone.
 const ALONE: [&str; 7] = ["FOLD", "BRUCH", "PLI", "PIEGA", "DOBLEZ", "DOBRA", "VOUW"];
 
-/// Counts the blocks whose texts say that they are cut on the fold, and that have nothing on its layer.
-pub(super) fn see_unsaid(blocks: &[(&Block, &Facts)], letters: &Letters, tally: &mut Tally) {
-    let is_fold = |entity: &&Entity| entity.layer() == Some(LAYER);
+/// Counts the blocks that a text marks as cut on the fold and that have nothing on the layer of fold lines.
+pub(super) fn see_missing_lines(blocks: &[(&Block, &Facts)], letters: &Letters, tally: &mut Tally) {
+    let is_fold = |entity: &Entity| entity.layer() == Some(LAYER);
     let says = |entity: &&Entity| is_text(entity) && is_said(&letters.text(entity.bytes(TEXT)));
-    for (block, _) in blocks.iter().filter(|(block, _)| !block.entities.iter().any(|entity| is_fold(&entity))) {
+    for (block, _) in blocks.iter().filter(|(block, _)| !block.entities.iter().any(is_fold)) {
         if let Some(text) = block.entities.iter().find(says) {
-            tally.add(Thing::FoldUnsaid, text.span());
+            tally.add(Thing::NoFoldLine, text.span());
         }
     }
 }
 
 /// Whether a text says that its piece is cut on the fold.
 fn is_said(text: &str) -> bool {
-    let text = text.to_uppercase().split_whitespace().collect::<Vec<_>>().join(" ");
-    WORDS.iter().any(|words| text.contains(words)) || ALONE.contains(&text.as_str())
+    let words = text.to_uppercase();
+    let words = words.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+    let text = words.collect::<Vec<_>>().join(" ");
+    ALONE.contains(&text.as_str()) || WORDS.iter().any(|words| format!(" {text} ").contains(&format!(" {words} ")))
 }
 
 /// A fold line.

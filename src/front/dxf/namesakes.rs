@@ -12,24 +12,29 @@ use crate::source::{Source, Span};
 /// Characters before the last part of a name.
 const BEFORE_LAST: [char; 5] = ['-', '_', '.', ' ', '/'];
 /// Last parts of two names that are sides and no sizes.
-const SIDES: [[&str; 2]; 3] = [["L", "R"], ["LEFT", "RIGHT"], ["1", "2"]];
+const SIDES: [[&str; 2]; 2] = [["L", "R"], ["LEFT", "RIGHT"]];
 
 /// Blocks of one name.
 struct Namesakes {
     first: Span,
     count: usize,
-    /// Last parts of their names, in capitals; empty where they say the name of their piece.
+    /// Last parts of their names, in capitals; empty where a text gives the name of the piece.
     ends: BTreeSet<String>,
 }
 
 impl Namesakes {
     fn may_be_sizes(&self) -> bool {
         let are_sides = SIDES.iter().any(|sides| self.ends.iter().eq(sides.iter()));
-        self.count > 1 && !are_sides
+        self.count > 1 && !are_sides && !self.are_numbered()
+    }
+
+    /// Whether the last parts count from 1.
+    fn are_numbered(&self) -> bool {
+        self.ends.len() == self.count && (1..=self.count).all(|number| self.ends.contains(&number.to_string()))
     }
 }
 
-/// Tells the blocks that are cut and may be of several sizes, where none of them says one.
+/// Reports cut blocks that may be one piece in several sizes, where no block gives a size.
 pub(super) fn say(blocks: &[(&Block, &Facts)], source: &Source, letters: &Letters, out: &mut Diagnostics) {
     if blocks.iter().any(|(_, facts)| facts.size.first.is_some()) {
         return;
@@ -38,7 +43,7 @@ pub(super) fn say(blocks: &[(&Block, &Facts)], source: &Source, letters: &Letter
     for (block, facts) in blocks {
         let of_block = letters.name(block.head.bytes(NAME)).to_uppercase();
         let (name, end) = match facts.name.first {
-            Some(span) => (letters.name(source.slice(span)), String::new()),
+            Some(span) => (letters.name(source.slice(span)).to_uppercase(), String::new()),
             None => match of_block.rsplit_once(BEFORE_LAST) {
                 Some((stem, end)) if !stem.is_empty() && !end.is_empty() => (stem.to_owned(), end.to_owned()),
                 _ => continue,
@@ -53,10 +58,10 @@ pub(super) fn say(blocks: &[(&Block, &Facts)], source: &Source, letters: &Letter
     let Some((name, Namesakes { first, count, .. })) = names.first_key_value() else { return };
     let others = match names.len() {
         1 => String::new(),
-        2 => ", and those of another name".to_owned(),
-        n => format!(", and those of {} other names", n - 1),
+        2 => ", as do those of another name".to_owned(),
+        n => format!(", as do those of {} other names", n - 1),
     };
-    let message = format!("{count} pieces are named `{name}`{others}, and none says a size: all are cut");
+    let message = format!("{count} pieces share the name `{name}`{others}, and none gives its size: all are cut");
     let hint = "if they are sizes, leave the others out with `--skip`; `cutc manual inputs` lists the keys of sizes";
     out.push(Diagnostic::new(&code::DXF_NO_SIZES, message).at(*first).hint(hint));
 }
@@ -66,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sides_are_no_sizes() {
+    fn sides_and_numbers_are_no_sizes() {
         let ends = |ends: &[&str]| Namesakes {
             first: Span::default(),
             count: ends.len(),
@@ -75,6 +80,7 @@ mod tests {
         assert!(ends(&["S", "M", "L"]).may_be_sizes());
         assert!(ends(&["36", "38"]).may_be_sizes());
         assert!(!ends(&["L", "R"]).may_be_sizes());
+        assert!(!ends(&["1", "2", "3"]).may_be_sizes());
         assert!(!ends(&["M"]).may_be_sizes());
     }
 }

@@ -87,10 +87,7 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
                 continue;
             }
             match edge.place(mark, work) {
-                Ok(found) => {
-                    notched.doubts.extend(found.is_turned.then(|| mark.doubt(Reason::Turned)));
-                    placed.push(found);
-                }
+                Ok(found) => placed.push(found),
                 Err((reason, mm)) => notched.doubts.push(Doubt { reason, mm, span: mark.span }),
             }
         }
@@ -116,9 +113,12 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         let is_bar = mark.form == Form::T && edge.has_room_for_bar(notch, work);
         match taken.peek().filter(|mouth| mouth.from <= notch.station) {
             // Its own mouth, or that of another in which it would be cut a second time: its mirrored half is another, too.
-            Some(mouth) if mouth.notch.mark.span == mark.span && mouth.notch.station == notch.station => {}
+            Some(mouth) if mouth.notch.mark.span == mark.span && mouth.notch.station == notch.station => {
+                notched.doubts.extend(notch.turned());
+            }
             Some(_) => notched.doubts.push(mark.doubt(Reason::InAnother)),
             None => {
+                notched.doubts.extend(notch.turned());
                 notched.slits.push(notch.slit(is_bar));
                 let is_otherwise = notch.is_wide() || mark.form == Form::T && !is_bar;
                 notched.doubts.extend(is_otherwise.then(|| mark.doubt(Reason::AsSlit)));
@@ -275,6 +275,11 @@ impl<'a> Edge<'a> {
 }
 
 impl Site {
+    /// Doubt about an angle that leads out of the part.
+    fn turned(&self) -> Option<Doubt> {
+        self.is_turned.then(|| self.mark.doubt(Reason::Turned))
+    }
+
     fn tip(&self) -> Point {
         self.root + self.inwards * self.mark.depth
     }

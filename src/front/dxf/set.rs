@@ -344,10 +344,10 @@ impl Set {
         }
     }
 
-    /// Says which of the blocks that are cut may be of several sizes or half a piece, and which of their keys may be quantities,
-    /// where these matter.
+    /// Reports cut blocks that may be half a piece; where no INSERT places them, also possible sizes and quantities under unknown
+    /// keys.
     fn say_texts(&self, pieces: &[(&Block, &Facts)], asked: &Asked, making: &mut Making) {
-        fold::see_unsaid(pieces, &asked.letters, &mut making.tally);
+        fold::see_missing_lines(pieces, &asked.letters, &mut making.tally);
         if self.placed.is_some() {
             return;
         }

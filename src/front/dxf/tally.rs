@@ -44,7 +44,7 @@ pub(super) enum Thing {
     /// A piece is drawn on both sides of its fold line.
     FoldAcross,
     /// A text says that a piece lies on the fold, and no line shows where.
-    FoldUnsaid,
+    NoFoldLine,
 }
 
 /// Counts of what is not done.
@@ -96,7 +96,7 @@ fn row(thing: Thing) -> Row {
         Thing::LargeCutOut => Row { code: &code::DXF_LARGE_CUT_OUT, one: "an outline lies in another one and takes more than half of it; it is cut as a cut-out", many: "outlines lie in others and take more than half of them; they are cut as cut-outs", hint: "see in the picture (-t svg) whether the same outline is drawn twice, or its seam line with it" },
         Thing::SeamOutside => Row { code: &code::DXF_SEAM_OUTSIDE, one: "a seam line (layer 14) goes round its outline (layer 1)", many: "seam lines (layer 14) go round their outlines (layer 1)", hint: "the layers may be exchanged: compare the extent with the piece with its seam allowance" },
         Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },
-        Thing::FoldUnsaid => Row { code: &code::DXF_FOLD_UNSAID, one: "a piece says that it lies on the fold and has no fold line (layer 6); it is cut as it is drawn", many: "pieces say that they lie on the fold and have no fold line (layer 6); they are cut as they are drawn", hint: "if half a piece is drawn, let the CAD unfold it or draw its fold line on layer 6" },
+        Thing::NoFoldLine => Row { code: &code::DXF_NO_FOLD_LINE, one: "a piece is marked as cut on the fold but has no fold line (layer 6); it is cut as drawn", many: "pieces to cut on the fold have no fold line (layer 6); they are cut as drawn", hint: "if half a piece is drawn, let the CAD unfold it or draw its fold line on layer 6" },
     }
 }
 

@@ -30,7 +30,7 @@ const LONGEST_LINE: f64 = 3e4;
 const SMALLEST: f64 = 100.0;
 /// Largest side of a piece, mm, beyond which the unit is doubted: garments, covers and sails in one piece are smaller.
 const LARGEST: f64 = 10_000.0;
-/// Greatest width of cloth, mm: no piece is wider both ways.
+/// Greatest width of cloth, mm, that of wide decoration fabric: no piece is wider both ways.
 const WIDEST_CLOTH: f64 = 3300.0;
 
 /// Lengths of what is cut in a file, in its own unit: of all, and of the longest line.
@@ -111,8 +111,8 @@ fn of_number(
     1.0
 }
 
-/// Doubts the unit where the largest of some pieces of these sizes, mm, is larger than garments are, one is wider than any
-/// cloth, or the largest of several is smaller than parts are: one may be a label.
+/// Doubts the unit by the sizes of pieces, mm: the largest is longer than [`LARGEST`], one is wider than [`WIDEST_CLOTH`] both
+/// ways, or the largest of several is below [`SMALLEST`]; a single small one may be a label.
 pub(super) fn doubt(
     sizes: impl Iterator<Item = (f64, f64)>,
     is_one: bool,
@@ -127,7 +127,11 @@ pub(super) fn doubt(
     if job.profile.dxf.unit.mm().is_some() || !is_small && largest <= LARGEST && widest <= WIDEST_CLOTH {
         return;
     }
-    let message = format!("the largest piece is {largest:.0} mm long; is the unit right?");
+    let message = if !is_small && largest <= LARGEST {
+        format!("a piece is {widest:.0} mm wide and longer, wider than cloth; is the unit right?")
+    } else {
+        format!("the largest piece is {largest:.0} mm long; is the unit right?")
+    };
     let hint = if is_small {
         "METRIC may stand over cm or inches: `--set dxf.unit=cm`; `--set dxf.unit=mm` if it is mm"
     } else {

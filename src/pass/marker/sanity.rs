@@ -38,8 +38,8 @@ pub(super) const PASS: MarkerPass =
 const PROBES: usize = 16;
 /// What it takes to say that two pieces overlap, beside the comparison of two boxes.
 const SAYING: usize = 500;
-/// How far the middle of a slit lies off its part where the slit leads out of it, mm.
-const ASIDE: f64 = 0.3;
+/// Least distance from the part to the middle of a slit that leads out of it, mm.
+const OUTSIDE: f64 = 0.3;
 /// Decimals of how far pieces overlap, mm.
 const DEPTH_DECIMALS: u32 = 2;
 
@@ -136,15 +136,16 @@ impl Alone {
 
 /// Says which slits of a piece lead out of it.
 fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Budget) -> Option<Diagnostic> {
-    let mut leads_out = |slit: &&Notch| {
+    // Where nothing is closed there is no part to leave.
+    part.closed().next()?;
+    let leads_out = |slit: &&Notch| {
         let middle = slit.root + (slit.tip - slit.root) / 2.0;
         work.spend(3 * part.points.len())
             && !part.holds(middle)
-            && part.distance(middle) > ASIDE
+            && part.distance(middle) > OUTSIDE
             && part.distance(slit.root) <= Notch::MISS
     };
-    part.closed().next()?;
-    let mut outwards = marker.pieces[piece].notches.iter().filter(&mut leads_out);
+    let mut outwards = marker.pieces[piece].notches.iter().filter(leads_out);
     let first = outwards.next()?;
     let (slits, lead) = match outwards.count() {
         0 => ("a slit".to_owned(), "leads"),
@@ -152,11 +153,7 @@ fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Bud
     };
     let message = format!("{slits} of {} {lead} out of the part", name(marker, piece));
     let finding = Diagnostic::new(&code::MARKER_SLIT_OUTWARDS, message).at(first.span).on_cloth(first.tip);
-    Some(
-        finding.hint(
-            "it is cut as the file says, into waste or another part: see in the CAD whether its ends are swapped",
-        ),
-    )
+    Some(finding.hint("slits are cut as the file says, into waste or another part: check in the CAD for swapped ends"))
 }
 
 /// Numbers that start again from one that was there already, or stay.

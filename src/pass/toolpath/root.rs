@@ -12,9 +12,8 @@ use crate::machine::Fit;
 /// Least sine of the angle between a slit and its edge: flatter ones would need a reach without bound.
 const LEAST_SINE: f64 = 0.4;
 
-/// Length by which a slit of a part goes past its root along a unit vector, mm: no farther than overlap and tolerance allow at
-/// any end. A root on no edge that is cut with its own part lies on
-/// a neighbour's, of which the greatest sagitta is assumed.
+/// Length by which a slit of a part goes past its root along a unit vector, mm: at most the longest overlap plus the
+/// tolerance. A root on no edge of its own part lies on a neighbour's edge, for which the greatest sagitta is assumed.
 pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene: &Scene) -> f64 {
     let profile = &scene.job.profile;
     let edges = scene.marker.cuts_of(part).iter().filter(|cut| cut.kind != CutKind::Slit);
@@ -25,8 +24,8 @@ pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene
         chords.map(|i| (away(i) + sagitta(points, i, scene) + tolerance) / sine(i).max(LEAST_SINE)).reduce(f64::max)
     };
     let reaches = edges.filter_map(|cut| beside(&scene.marker.list.points(cut.range)));
-    let most_of_all = profile.knife.most_overlaps().into_iter().fold(0.0, f64::max) + tolerance;
-    reaches.reduce(f64::max).unwrap_or(tolerance + most(scene)).min(most_of_all)
+    let longest = profile.knife.most_overlaps().into_iter().fold(0.0, f64::max) + tolerance;
+    reaches.reduce(f64::max).unwrap_or(tolerance + most(scene)).min(longest)
 }
 
 /// Sagitta of a chord, mm; the greatest one at the ends of what is not closed, whose turn there is another cut's.

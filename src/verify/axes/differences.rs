@@ -3,34 +3,40 @@
 //! A difference of order k over the period h is a weighted mean of the k-th derivative; rounding of the printed numbers
 //! can add 2^k q / h^k, q half of the last decimal, which is allowed for exactly.
 //!
-//! The way from one row to the next belongs to work when the tool is on at the first of them, and else to a travel, which
-//! may have limits of its own. A difference over ways of both kinds may reach the wider of the two.
+//! A step between two rows counts as work if the tool is on at its first row, else as travel, which may have limits of its
+//! own. A difference over steps of both kinds may reach the wider limit.
 
 use crate::machine::{Limits, MachineProfile};
 use crate::units::deg;
 
-/// Orders of differences, and axes.
+/// Orders of differences.
 pub(in crate::verify) const ORDERS: usize = 3;
+/// Axes: x, y and C.
 const AXES: usize = 3;
+/// Kinds of steps that a difference is made of.
+const WORK: usize = 0;
+const TRAVEL: usize = 1;
+const MIXED: usize = 2;
 /// Relative excess over a limit that is rounding of the computation.
 const LIMIT_EPSILON: f64 = 1e-6;
 
-/// A derivative, and what it may reach, mm or degrees per s to the power of its order.
+/// Size of a derivative and its limit, mm or degrees per s to the power of its order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::verify) struct Rate {
     pub(in crate::verify) value: f64,
     pub(in crate::verify) limit: f64,
 }
 
-/// Follows the places of x, y, c, mm and degrees, from row to row.
+/// Finite differences of x, y, mm, and C, degrees, from row to row.
 #[derive(Debug)]
 pub(in crate::verify) struct Differences {
+    /// Time between rows, s.
     period: f64,
     /// Place and its differences of order 1 and 2, axis by axis.
     last: Option<[[f64; AXES]; ORDERS]>,
-    /// Limits by order and axis: at work, in a travel, and where both take part.
+    /// Limits by kind of steps, order and axis.
     allowed: [[[f64; AXES]; ORDERS]; 3],
-    /// Whether the tool is on at the last rows, a bit for each, the last one lowest.
+    /// Tool state of the last rows, one bit each (1 = on), the last row lowest.
     is_on: u8,
 }
 
@@ -41,31 +47,31 @@ fn allowed([x, y, c]: [Limits; AXES], period: f64, rounding: [f64; AXES]) -> [[f
         [x.acceleration, y.acceleration, deg(c.acceleration)],
         [x.jerk, y.jerk, deg(c.jerk)],
     ];
+    let growth = [1, 2, 3].map(|order| (2.0 / period).powi(order));
     std::array::from_fn(|order| {
-        let grown = [1, 2, 3].map(|k| (2.0 / period).powi(k))[order];
-        std::array::from_fn(|axis| limits[order][axis] * (1.0 + LIMIT_EPSILON) + rounding[axis] * grown)
+        std::array::from_fn(|axis| limits[order][axis] * (1.0 + LIMIT_EPSILON) + rounding[axis] * growth[order])
     })
 }
 
 impl Differences {
-    /// For rows whose places are rounded by so much, mm and degrees.
+    /// Differences of rows whose places are rounded by `rounding`, mm and degrees.
     pub(in crate::verify) fn new(profile: &MachineProfile, rounding: [f64; AXES]) -> Self {
         let period = profile.time.period();
         let work = allowed(profile.axes.limits(), period, rounding);
-        let air = allowed(profile.axes.travel_limits(), period, rounding);
-        let wider = std::array::from_fn(|order| std::array::from_fn(|axis| work[order][axis].max(air[order][axis])));
-        Self { period, last: None, allowed: [work, air, wider], is_on: 0 }
+        let travel = allowed(profile.axes.travel_limits(), period, rounding);
+        let mixed = std::array::from_fn(|order| std::array::from_fn(|axis| work[order][axis].max(travel[order][axis])));
+        Self { period, last: None, allowed: [work, travel, mixed], is_on: 0 }
     }
 
     /// Allows travels what is allowed at work, too: a head may gather speed for an edge before its jet opens.
     pub(in crate::verify) fn with_run_ups(mut self) -> Self {
-        self.allowed[1] = self.allowed[2];
+        self.allowed[TRAVEL] = self.allowed[MIXED];
         self
     }
 
     /// Limits at work, by order and axis.
     pub(in crate::verify) fn at_work(&self) -> [[f64; AXES]; ORDERS] {
-        self.allowed[0]
+        self.allowed[WORK]
     }
 
     /// Sees the next row: the derivatives there, by order and axis. The axes rest before the first one, which has none.
@@ -78,9 +84,9 @@ impl Differences {
         };
         // A difference of order k is made of the ways that begin at the last k rows.
         let kinds = [0b1, 0b11, 0b111].map(|ways: u8| match ways_on & ways {
-            0 => 1,
-            all if all == ways => 0,
-            _ => 2,
+            0 => TRAVEL,
+            all if all == ways => WORK,
+            _ => MIXED,
         });
         let h = self.period;
         let mut rates = [[Rate { value: 0.0, limit: 0.0 }; AXES]; ORDERS];

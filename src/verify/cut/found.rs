@@ -10,8 +10,10 @@ use super::trial::Trial;
 use crate::geom::{Point, polyline};
 use crate::ir::declaration::{Kind, Which};
 use crate::machine::Follow;
-use crate::verify::declared::{Account, LESS, Stretch};
+use crate::verify::declared::{Account, Stretch};
 
+/// Greatest travel of a tip that stands still, in tolerances: smoothing moves both the plunge and the lift, and the line at each.
+const STILL_TOLERANCES: f64 = 4.0;
 /// Distance of two places at which the drawn line is looked at, mm.
 const SWING_STEP: f64 = 0.25;
 /// Length of the line behind the tip that is looked at, in widths of the blade.
@@ -36,8 +38,8 @@ impl Judge<'_> {
         if account.lacks(Kind::Plunge, plunged) {
             account.see(Kind::Plunge, plunged, self.beside(cut, trial));
         }
-        // Smoothing may move the tip of a blade that is declared to stand still.
-        if account.lacks(Kind::Nibbled, whole) && cut.tip_travel() <= LESS * self.reference.tolerance {
+        // A blade that is declared to stand still: its tip may travel as far as smoothing moves it.
+        if account.lacks(Kind::Nibbled, whole) && cut.tip_travel() <= STILL_TOLERANCES * self.reference.tolerance {
             account.see(Kind::Nibbled, whole, (trial.reach[1] - trial.reach[0]).abs());
         }
         if cut.is_plunge_cut() {

@@ -1,4 +1,4 @@
-//! Plunges amid lines and the declarations that they may be known by: each plunge needs one of its own.
+//! Plunges amid lines, matched with their declarations: each plunge needs one of its own.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -7,14 +7,14 @@ use crate::ir::verdict::{Sighting, Worst};
 /// A plunge amid a line.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Nibble {
-    /// The declarations that may be its own, by their places.
+    /// Indices of the declarations that may belong to it.
     pub(super) entries: Vec<usize>,
-    /// Length of what it cuts, mm.
+    /// Length of its cut, mm.
     pub(super) length: f64,
     pub(super) place: Sighting,
 }
 
-/// Sees the plunges that are left over when as many as can be have a declaration of their own.
+/// Reports the plunges that a maximum matching leaves without a declaration.
 pub(super) fn settle(nibbles: &[Nibble], undeclared: &mut Worst) {
     let mut owners = Owners { nibbles, of: BTreeMap::new(), own: vec![None; nibbles.len()] };
     for (i, nibble) in nibbles.iter().enumerate() {
@@ -34,19 +34,18 @@ struct Owners<'a> {
 }
 
 impl Owners<'_> {
-    /// Whether a further plunge gets a declaration: a free one, or one whose plunge takes another. The shortest augmenting
-    /// path of a bipartite matching.
+    /// Adds a plunge to the matching along a shortest augmenting path (bipartite matching). Returns false if there is none.
     fn add(&mut self, plunge: usize) -> bool {
-        let mut asked: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut reached_from: BTreeMap<usize, usize> = BTreeMap::new();
         let mut open = VecDeque::from([plunge]);
         while let Some(next) = open.pop_front() {
             for &entry in &self.nibbles[next].entries {
-                if asked.contains_key(&entry) {
+                if reached_from.contains_key(&entry) {
                     continue;
                 }
-                asked.insert(entry, next);
+                reached_from.insert(entry, next);
                 let Some(&owner) = self.of.get(&entry) else {
-                    self.give(entry, &asked);
+                    self.give(entry, &reached_from);
                     return true;
                 };
                 open.push_back(owner);
@@ -55,11 +54,11 @@ impl Owners<'_> {
         false
     }
 
-    /// Gives a declaration to the plunge that asked for it, what that had to the one that asked for this, and so on.
-    fn give(&mut self, entry: usize, asked: &BTreeMap<usize, usize>) {
+    /// Augments the matching along the path that ends at a free declaration.
+    fn give(&mut self, entry: usize, reached_from: &BTreeMap<usize, usize>) {
         let mut given = Some(entry);
         while let Some(entry) = given {
-            let plunge = asked[&entry];
+            let plunge = reached_from[&entry];
             self.of.insert(entry, plunge);
             given = self.own[plunge].replace(entry);
         }

@@ -69,8 +69,7 @@ impl Judge<'_> {
         }
     }
 
-    /// A line is cut in one go; a part of it by a plunge where that is declared, and where nothing is where the line is no
-    /// straight.
+    /// A plunge that cuts part of a line needs a declaration; in a program without declarations the line must bend there.
     fn check_nibble(
         &self,
         line: &Line,

@@ -80,8 +80,8 @@ impl Worsts {
         }
     }
 
-    /// A copy without what each stroke adds: overlaps that it lacks, and plunges.
-    pub(in crate::verify) fn known(&mut self) -> Self {
+    /// A copy without the lists of overlaps and plunges, which are set aside meanwhile, not copied.
+    pub(in crate::verify) fn without_lists(&mut self) -> Self {
         let lists = (std::mem::take(&mut self.lacking), std::mem::take(&mut self.nibbles));
         let known = self.clone();
         (self.lacking, self.nibbles) = lists;

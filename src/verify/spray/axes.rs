@@ -49,8 +49,8 @@ fn differences(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let mut differences = Differences::new(&job.profile, [POSITION_ROUNDING; 3]).with_run_ups();
     let last = &rows[rows.len() - 1];
     for row in rows.iter().chain([last; ORDERS]) {
-        let rates = differences.see([row.head.x, row.head.y, row.c_deg], row.jet);
-        for (rules, rates) in OF_AXES.into_iter().zip(rates.into_iter().flatten()) {
+        let Some(rates) = differences.see([row.head.x, row.head.y, row.c_deg], row.jet) else { continue };
+        for (rules, rates) in OF_AXES.into_iter().zip(rates) {
             for (rule, rate) in rules.into_iter().zip(rates) {
                 worst.see_under(rule, rate.value, rate.limit, row.sighting());
             }

@@ -378,7 +378,7 @@ fn quantity(text: &str) -> Option<[u32; 2]> {
     }
 }
 
-/// Words for pieces, in small letters, each between blanks.
+/// Words for pieces and names of materials, in small letters, each between blanks.
 const PIECES: &str = " x × pc pcs piece pieces pièce pièces st stk stck styck stück stueck stuks pz pezzo pezzi pieza piezas \
                       peça peças szt sztuk sztuki ks db buc adet шт штук штуки дет 片 件 枚 张 張 个 個 장 매 \
                       self main shell lining fabric contrast interfacing ";
@@ -390,7 +390,8 @@ fn worded(text: &str) -> Option<u32> {
     let (word, aside) = rest.split_at(rest.find('(').unwrap_or(rest.len()));
     let is_aside = aside.ends_with(')') && aside.matches(['(', ')']).count() == 2;
     let word = word.trim().trim_end_matches('.');
-    let is_word = word.is_empty() || !word.contains(' ') && PIECES.contains(&format!(" {word} "));
+    let is_piece = |word: &str| !word.contains(' ') && PIECES.contains(&format!(" {word} "));
+    let is_word = word.is_empty() || is_piece(word) || ["on fold", "on the fold"].contains(&word);
     let is_clear = is_word && (is_aside || aside.is_empty() && !word.is_empty());
     number.parse().ok().filter(|number| is_clear && *number > 0)
 }
