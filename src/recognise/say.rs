@@ -166,14 +166,21 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
 
 /// Small circles that stand alone in parts, where nobody has said up to which size circles are holes.
 fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
-    let is_sign = |line: &Line| line.class == Class::Sign && !line.is_cut && line.usage != Use::Drawn;
-    if job.profile.hpgl.drill_max_mm.is_some() || !sheet.lines.iter().any(is_sign) {
+    if job.profile.hpgl.drill_max_mm.is_some() {
         return;
+    }
+    let is_sign = |line: &Line| line.class == Class::Sign && !line.is_cut && line.usage != Use::Drawn;
+    // Squares are boxes to fill in as often as holes.
+    let is_circle = |line: &Line| sheet::is_square_or_circle(line) && !line.is_rectangle(sheet.unit);
+    let mut holes = sheet.indices(|line| is_sign(line) && is_circle(line));
+    holes.retain(|&i| sheet.part_around(i).is_some());
+    if holes.is_empty() {
+        return; // as in most plots
     }
     // Beside others it may be a letter; a cross with the same middle marks a hole.
     let boxes = Boxes::new(sheet.lines.iter().map(|line| line.extent).collect());
     let mut work = Budget::of_a_marker();
-    let mut stands_alone = |i: usize| {
+    holes.retain(|&i| {
         let around = sheet.lines[i].extent.grown(sheet.lines[i].size());
         let at = middle(&sheet.lines[i].extent);
         let is_small = |k: usize| {
@@ -182,12 +189,7 @@ fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
             is_apart && !other.is_set_aside() && other.size() <= Notch::LONGEST
         };
         work.spend(boxes.cost_near(&around)) && !boxes.near(around).any(is_small)
-    };
-    // Squares are boxes to fill in as often as holes.
-    let is_circle = |line: &Line| !line.is_rectangle(sheet.unit) && sheet::is_square_or_circle(line);
-    let is_hole = |&i: &usize| sheet.part_around(i).is_some() && is_circle(&sheet.lines[i]);
-    let mut holes = sheet.indices(is_sign);
-    holes.retain(|i| is_hole(i) && stands_alone(*i));
+    });
     let Some(&first) = holes.first() else { return };
     let size = holes.iter().map(|&i| sheet.lines[i].size()).fold(0.0, f64::max);
     let mm = fixed(size, 1);
