@@ -89,7 +89,7 @@ impl Done<'_> {
         }
         let so_far = self.worsts.without_lists();
         let check = |strokes: &[Traced]| {
-            // What is no worse than anything so far need not be recorded.
+            // The worst so far is where each chunk starts: smaller values are not recorded again.
             let mut worsts = so_far.clone();
             for stroke in strokes {
                 judge.check(stroke, &mut worsts);

@@ -288,7 +288,7 @@ fn the_verifier_of_sewing_knows_its_forms_and_nothing_of_who_makes_them() {
                 faults.push(format!("{}: names `sew::{named}`", file.path.display()));
             }
         }
-        // What reads for the cutter reads for this machine, too.
+        // Stages of the cutter, which sewing reads with: its verifier must read for itself.
         for stage in ["analysis", "front", "recognise", "pass", "plan", "back", "pipeline"] {
             if imports(&file.code).contains(stage) {
                 faults.push(format!("{}: must not import `{stage}`", file.path.display()));

@@ -134,7 +134,7 @@ impl<'a> Blocks<'a> {
         Some((code, self.step_to(after)))
     }
 
-    /// Fills a run with the next blocks as long as they are X and Y alone, as most of a file is; `false` when there is none.
+    /// Next blocks of X and Y alone, which most of a file is, put into a run; `false` when the next block is another.
     /// It takes far fewer steps than [`Self::next_point`], which reads the very last ones.
     #[inline(never)] // apart, all that it works with stays in registers
     pub(super) fn next_run(&mut self, run: &mut Run) -> bool {

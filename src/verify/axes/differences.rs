@@ -40,7 +40,7 @@ pub(in crate::verify) struct Differences {
     is_on: u8,
 }
 
-/// What differences may reach, by order and axis.
+/// Limits of differences, by order and axis.
 fn allowed([x, y, c]: [Limits; AXES], period: f64, rounding: [f64; AXES]) -> [[f64; AXES]; ORDERS] {
     let limits = [
         [x.speed, y.speed, deg(c.speed)],

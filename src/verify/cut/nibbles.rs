@@ -34,7 +34,7 @@ struct Owners<'a> {
 }
 
 impl Owners<'_> {
-    /// Adds a plunge to the matching along a shortest augmenting path (bipartite matching). Returns false if there is none.
+    /// Shortest augmenting path of the bipartite matching, which adds a plunge; `false` if there is none.
     fn add(&mut self, plunge: usize) -> bool {
         let mut reached_from: BTreeMap<usize, usize> = BTreeMap::new();
         let mut open = VecDeque::from([plunge]);
