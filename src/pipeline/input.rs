@@ -12,10 +12,7 @@ use crate::machine::{Job, ToolKind, plot};
 use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
-use crate::verify::{Census, CutPlaces, Drawn, PlotCuts, Works};
-
-/// The name of the dialect of plots.
-const PLOT: &str = "hpgl";
+use crate::verify::{Census, CutPlaces, DrawingCuts, Drawn, Works};
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -44,8 +41,8 @@ pub struct Reading {
     pub census: Census,
     /// Where the patterns of a set are cut, likewise; `None` of any other file.
     pub patterns: Option<CutPlaces>,
-    /// What is cut of a plot, likewise.
-    pub plot: Option<PlotCuts>,
+    /// What is cut of a drawing, likewise.
+    pub drawing: Option<DrawingCuts>,
     /// Whether all of it is still cut behind them.
     pub kept: Finding,
     /// Whether that lies where the sheet of the profile has it; `None` where it lies as the file has it.
@@ -76,9 +73,10 @@ pub fn read_to_judge(
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
     let is_of_patterns = matches!(input.dialect.read, Reader::Patterns { .. });
     let patterns = is_of_patterns.then(|| CutPlaces::of(&input.marker));
-    let plot = (input.dialect.name == PLOT).then(|| PlotCuts::of(&input.marker));
-    let (drawing, laying) = marker_passes().0.split_at(DRAWN_PASSES);
-    run_passes(drawing, &mut input.marker, source, job, diagnostics);
+    let is_drawing = matches!(input.dialect.read, Reader::Drawing(_));
+    let drawing = is_drawing.then(|| DrawingCuts::of(&input.marker));
+    let (finding, laying) = marker_passes().0.split_at(DRAWN_PASSES);
+    run_passes(finding, &mut input.marker, source, job, diagnostics);
     // What a sheet or the cloth moves cannot be compared with the file, but only with what was drawn.
     let is_moved = !job.profile.sheet.is_plain() || job.centre.is_some();
     let drawn = is_moved.then(|| (works.kept(&input.marker, &job.profile), Drawn::of(&input.marker)));
@@ -87,7 +85,7 @@ pub fn read_to_judge(
         Some((kept, drawn)) => (kept, Some(drawn.laid(&input.marker, job))),
         None => (works.kept(&input.marker, &job.profile), None),
     };
-    Some(Judged { input, reading: Reading { census, patterns, plot, kept, laid } })
+    Some(Judged { input, reading: Reading { census, patterns, drawing, kept, laid } })
 }
 
 /// The marker as the source says it, before any pass.

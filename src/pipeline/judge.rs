@@ -118,13 +118,13 @@ pub(super) fn judge(
 
 /// What was read of the source against its bytes, and what the passes kept of that.
 pub fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
-    let Reading { census, patterns, plot, kept, laid } = reading;
+    let Reading { census, patterns, drawing, kept, laid } = reading;
     let audit = match patterns {
         Some(places) => Some(verify::pattern_audit(source.bytes(), &places, job)),
         None => verify::source_audit(dialect.name, source.bytes(), &census, &job.profile),
     };
-    let plot = plot.map(|cuts| verify::plot_audit(source.bytes(), &cuts, job));
-    audit.into_iter().flatten().chain(plot.into_iter().flatten()).chain([kept]).chain(laid).collect()
+    let drawing = drawing.map(|cuts| verify::drawing_audit(dialect.name, source.bytes(), &cuts, job));
+    audit.into_iter().flatten().chain(drawing.into_iter().flatten()).chain([kept]).chain(laid).collect()
 }
 
 /// What is left of a marker where the knife stays up: the events of a dry run, and nothing of a frame.

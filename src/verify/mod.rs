@@ -27,8 +27,8 @@ pub use reference::required::{Capped, Required, RequiredCut, required};
 pub use rules::RULES;
 pub use source::audit::source_audit;
 pub use source::census::Census;
+pub use source::drawing::{DrawingCuts, drawing_audit};
 pub use source::dxf::{CutPlaces, pattern_audit};
-pub use source::hpgl::{PlotCuts, plot_audit};
 pub use source::kept::Works;
 pub use source::sheet::Drawn;
 

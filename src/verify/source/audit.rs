@@ -2,7 +2,7 @@
 //! that a fault of the reader is seen, too.
 
 use super::census::Census;
-use super::hpgl;
+use super::drawing;
 use super::scan::scan_iso;
 use crate::geom::Point;
 use crate::geom::moments::{Allowance, Difference};
@@ -19,8 +19,7 @@ const MOMENT_EPSILON: f64 = 1e-10;
 pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
     let (scanned, slack) = match dialect {
         "iso" => scan_iso(bytes, read.unit, profile),
-        "hpgl" => hpgl::scan(bytes, profile),
-        _ => return None,
+        _ => (drawing::second(dialect)?.census)(bytes, profile),
     };
     let corner = |a: Point, b: Point| (a - b).amax();
     let bounds = match (read.bounds.is_empty(), scanned.bounds.is_empty()) {
@@ -43,7 +42,7 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
         finding(&rules::SOURCE_BOUNDS, bounds, LENGTH_EPSILON + slack.bounds),
     ];
     if dialect == "iso" {
-        // What is a hole in a plot is deduced from its shapes: the bytes do not say it.
+        // What is a hole in a drawing is deduced from its shapes: the bytes do not say it.
         findings.insert(1, finding(&rules::SOURCE_DRILLS, read.drills.abs_diff(scanned.drills) as f64, 0.0));
     } else {
         let corners = [read.bounds.min, read.bounds.max, scanned.bounds.min, scanned.bounds.max];

@@ -7,6 +7,7 @@
 pub(super) mod audit;
 pub(super) mod census;
 mod cloth;
+pub(super) mod drawing;
 pub(super) mod dxf;
 pub(super) mod hpgl;
 pub(super) mod kept;

@@ -10,7 +10,7 @@ use cutc::ir::marker::OutlineNotch;
 use cutc::machine::plot::{Inner, Lines, PenUse};
 use cutc::machine::{Job, Numbers};
 use cutc::pipeline;
-use cutc::verify::{PlotCuts, plot_audit};
+use cutc::verify::{DrawingCuts, drawing_audit};
 
 use super::audit::audit;
 use super::{as_read, read, rectangle, source};
@@ -27,7 +27,7 @@ pub(super) fn found(text: &str, job: &Job) -> (Marker, Vec<&'static str>) {
 
 /// The rules that what is cut of a plot breaks.
 fn judged(source: &cutc::source::Source, marker: &Marker, job: &Job) -> Vec<&'static str> {
-    let findings = plot_audit(source.bytes(), &PlotCuts::of(marker), job);
+    let findings = drawing_audit("hpgl", source.bytes(), &DrawingCuts::of(marker), job);
     findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect()
 }
 

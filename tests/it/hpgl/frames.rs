@@ -6,7 +6,7 @@ use cutc::ir::Marker;
 use cutc::machine::plot::{Frame, Inner, Lines};
 use cutc::machine::{Job, Numbers};
 use cutc::pipeline;
-use cutc::verify::{PlotCuts, plot_audit};
+use cutc::verify::{DrawingCuts, drawing_audit};
 
 use super::{as_read, key, outlines, rectangle, source};
 
@@ -30,7 +30,7 @@ fn cut(lines: &[[i64; 4]], job: &Job) -> (Vec<[i64; 2]>, Vec<&'static str>) {
     let corners = outlines(&marker).iter().map(|outline| key(outline[0])).collect();
     let codes: Vec<&str> = found.iter().map(|finding| finding.code.name).collect();
     if !found.has_errors() {
-        let findings = plot_audit(source.bytes(), &PlotCuts::of(&marker), job);
+        let findings = drawing_audit("hpgl", source.bytes(), &DrawingCuts::of(&marker), job);
         assert!(findings.iter().all(cutc::ir::Finding::holds), "{lines:?} {findings:?}");
     }
     (corners, codes)
@@ -105,7 +105,7 @@ fn a_frame_that_is_cut_and_a_title_block_that_is_cut_are_refused() {
     let title = [0, -1600, 8000, 1600];
     let source = source(drawn(&[&[FRAME, title][..], &parts(0)].concat()));
     let is_refused = |marker: &Marker| {
-        let findings = plot_audit(source.bytes(), &PlotCuts::of(marker), &Job::default());
+        let findings = drawing_audit("hpgl", source.bytes(), &DrawingCuts::of(marker), &Job::default());
         findings.iter().any(|finding| finding.rule.name == "source/outermost" && !finding.holds())
     };
     let mut asked = Job::default();

@@ -2,7 +2,7 @@
 
 use cutc::ir::Marker;
 use cutc::machine::Job;
-use cutc::verify::{PlotCuts, plot_audit};
+use cutc::verify::{DrawingCuts, drawing_audit};
 
 use super::{as_read, key, read, source};
 
@@ -10,7 +10,7 @@ use super::{as_read, key, read, source};
 const PART: &str = "IN;SP1;PU0,0;PD12000,0,12000,16000,0,16000,0,0;";
 
 fn refused(text: &str, marker: &Marker) -> Vec<&'static str> {
-    let findings = plot_audit(text.as_bytes(), &PlotCuts::of(marker), &Job::default());
+    let findings = drawing_audit("hpgl", text.as_bytes(), &DrawingCuts::of(marker), &Job::default());
     findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect()
 }
 

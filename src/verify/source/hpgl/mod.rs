@@ -1,24 +1,15 @@
 //! A second, small reading of a plot: where the pen goes while it is down, by other means than the reader's.
 //!
-//! The census knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together
-//! must be what the pen draws. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges
-//! by the same strokes whether the right lines are cut: `around` whether others go around these, `cloth` whether the edge of
-//! the cloth is cut, whose rectangles `rectangle` finds, `slits` whether slits are lost.
+//! `instruction` obeys what moves the pen of [`Scan`], `curve` and `figure` draw, `encoded` reads PE, `frame` SC and RO.
 
-mod around;
-mod cloth;
 mod curve;
 mod encoded;
 mod figure;
 mod frame;
 mod instruction;
-mod outermost;
-mod rectangle;
 mod scan;
-mod slits;
 
 use self::instruction::ETX;
-pub use self::outermost::{PlotCuts, plot_audit};
 use self::scan::{Pen, Scan};
 use crate::geom::Point;
 use crate::geom::moments::Moments;
@@ -26,6 +17,7 @@ use crate::machine::MachineProfile;
 use crate::verify::source::census::ARC_SAGITTA;
 use crate::verify::source::census::Census;
 use crate::verify::source::census::Slack;
+use crate::verify::source::drawing::Drawn;
 
 /// Scans a plot.
 pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
@@ -33,9 +25,10 @@ pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
     (scan.census, scan.slack)
 }
 
-/// The strokes of a plot: the places between two lifts, mm.
-fn strokes(bytes: &[u8], profile: &MachineProfile) -> Vec<Vec<Point>> {
-    scanned(bytes, profile, Some(Vec::new())).strokes.unwrap_or_default()
+/// The strokes of a plot.
+pub(super) fn drawn(bytes: &[u8], profile: &MachineProfile) -> Drawn {
+    let strokes = scanned(bytes, profile, Some(Vec::new())).strokes.unwrap_or_default();
+    Drawn { strokes, unit: profile.hpgl.unit.mm() }
 }
 
 fn scanned<'a>(bytes: &'a [u8], profile: &MachineProfile, strokes: Option<Vec<Vec<Point>>>) -> Scan<'a> {

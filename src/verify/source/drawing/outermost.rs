@@ -1,4 +1,4 @@
-//! Whether the right lines of a plot are cut, judged by its strokes alone: no line is cut in the place of the outline
+//! Whether the right lines of a drawing are cut, judged by its strokes alone: no line is cut in the place of the outline
 //! around it, and no stroke from edge to edge of a part is left out.
 //!
 //! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are judged by whether they
@@ -6,7 +6,7 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use super::{around, cloth, rectangle, slits};
+use super::{Drawn, around, cloth, rectangle, slits};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -55,16 +55,16 @@ const DENT: f64 = 0.6;
 /// How near to the ends of a cut those of its stroke lie, mm.
 const SAME_END: f64 = 0.05;
 
-/// What is cut of a plot, as it was read: the places of each contour and of each leg of a notch.
+/// Cuts of a drawing, as it was read: the places of each contour and of each leg of a notch.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct PlotCuts {
+pub struct DrawingCuts {
     contours: Vec<Vec<Point>>,
     legs: Vec<[Point; 2]>,
     /// Lines that close an outline and that nobody drew.
     closed: Vec<Vec<Point>>,
 }
 
-impl PlotCuts {
+impl DrawingCuts {
     /// Those of a marker, before any pass.
     pub fn of(marker: &Marker) -> Self {
         let contours = marker.contours().map(|(_, contour)| marker.points(contour)).collect();
@@ -75,12 +75,14 @@ impl PlotCuts {
     }
 }
 
-/// Compares what is cut of a plot with its strokes.
-pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
+/// Findings on which lines of a drawing are cut, by its strokes as they are read a second time; none of a dialect that says
+/// itself what is cut.
+pub fn drawing_audit(dialect: &str, bytes: &[u8], read: &DrawingCuts, job: &Job) -> Vec<Finding> {
+    let Some(second) = super::second(dialect) else { return Vec::new() };
     let mut outermost = Worst::new(&rules::SOURCE_OUTERMOST, Some(0.0));
     let mut strokes = Worst::new(&rules::SOURCE_STROKES, Some(0.0));
-    let drawn = super::strokes(bytes, &job.profile);
-    let judging = Judging::new(&drawn, read, job);
+    let Drawn { strokes: drawn, unit } = (second.strokes)(bytes, &job.profile);
+    let judging = Judging::new(&drawn, unit, read, job);
     let mut wrong = judging.made_up();
     let mut lost = Vec::new();
     if job.lines.pens.is_none() && job.profile.hpgl.pens.is_empty() {
@@ -101,7 +103,9 @@ pub fn plot_audit(bytes: &[u8], read: &PlotCuts, job: &Job) -> Vec<Finding> {
 
 struct Judging<'a> {
     drawn: &'a [Vec<Point>],
-    cuts: &'a PlotCuts,
+    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    unit: f64,
+    cuts: &'a DrawingCuts,
     job: &'a Job,
     /// The boxes of the contours that are cut.
     boxes: Boxes,
@@ -111,10 +115,11 @@ struct Judging<'a> {
 }
 
 impl<'a> Judging<'a> {
-    fn new(drawn: &'a [Vec<Point>], cuts: &'a PlotCuts, job: &'a Job) -> Self {
+    fn new(drawn: &'a [Vec<Point>], unit: f64, cuts: &'a DrawingCuts, job: &'a Job) -> Self {
         let boxes = Boxes::new(cuts.contours.iter().map(|points| Extent::of(points)).collect());
         Self {
             drawn,
+            unit,
             cuts,
             job,
             boxes,
@@ -204,7 +209,7 @@ impl<'a> Judging<'a> {
 
     /// How near to a cut lies what it stands for, mm: curves are drawn in chords.
     fn reach(&self) -> f64 {
-        self.job.profile.tolerance(self.job.profile.hpgl.unit.mm()).max(LEAST_OFF)
+        self.job.profile.tolerance(self.unit).max(LEAST_OFF)
     }
 
     /// Whether some cut has the box of a stroke, or goes along all of it and on.

@@ -1,0 +1,43 @@
+//! Second readings of drawings, a row a dialect, and whether the right lines of one are cut.
+//!
+//! The census knows nothing of what is cut: a marker of a drawing keeps account of what it leaves aside, and both together
+//! must be what is drawn. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges by the same
+//! strokes whether the right lines are cut: `around` whether others go around these, `cloth` whether the edge of the cloth is
+//! cut, whose rectangles `rectangle` finds, `slits` whether slits are lost.
+
+mod around;
+mod cloth;
+mod outermost;
+mod rectangle;
+mod slits;
+
+pub use self::outermost::{DrawingCuts, drawing_audit};
+use super::census::{Census, Slack};
+use super::hpgl;
+use crate::geom::Point;
+use crate::machine::MachineProfile;
+
+/// Second reading of a dialect that says what is drawn, by other means than the reader's.
+pub(super) struct Second {
+    /// Name of the dialect.
+    dialect: &'static str,
+    /// Counts what is drawn.
+    pub(super) census: fn(&[u8], &MachineProfile) -> (Census, Slack),
+    /// Gathers what is drawn.
+    pub(super) strokes: fn(&[u8], &MachineProfile) -> Drawn,
+}
+
+/// Strokes of a drawing.
+pub(super) struct Drawn {
+    /// Places between two lifts, mm.
+    pub(super) strokes: Vec<Vec<Point>>,
+    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    pub(super) unit: f64,
+}
+
+const SECONDS: &[Second] = &[Second { dialect: "hpgl", census: hpgl::scan, strokes: hpgl::drawn }];
+
+/// The second reading of the dialect of that name; `None` of one that says what is cut.
+pub(super) fn second(dialect: &str) -> Option<&'static Second> {
+    SECONDS.iter().find(|second| second.dialect == dialect)
+}
