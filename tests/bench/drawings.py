@@ -96,7 +96,7 @@ def plain(flags):
 
 def drawn_m(found):
     """Metres of what is cut, with the common edges that are spared: the order of the pieces decides which those are."""
-    return found["cut_m"] + (found["common"] or {"spared_m": 0.0})["spared_m"]
+    return found["cut_m"] + (found.get("common") or {"spared_m": 0.0})["spared_m"]
 
 
 def faults_of(options, folder, case):
