@@ -319,6 +319,18 @@ codes! {
     /// Kinds that are not read.
     DXF_UNREAD = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
 
+    // Plain DXF drawings.
+    /// Kinds that draw no lines.
+    DXF_NO_LINES = warning(Spares, Text, "dxf/no-lines", "Entities of a plain DXF drawing are of kinds that are no lines, as HATCH, DIMENSION and POINT, and are not cut.", "Dimensions, hatchings and leaders are drawn about parts and are no parts. If a line is missing in the picture (-t svg), this is where to look: explode the entity into lines in the CAD system.\n  cutc compile drawing.dxf -t svg");
+    /// Layers that are off or frozen.
+    DXF_NOT_SHOWN = warning(Spares, Shape, "dxf/not-shown", "Lines of a plain DXF drawing are not shown in the CAD system (group 60 is 1, or their layer is off or frozen), and are not cut.", "A layer that somebody has switched off is mostly one that is not meant. Show it and export the drawing again if it is to be cut.");
+    /// A spline whose numbers make none.
+    DXF_SPLINE = error(Text, "dxf/spline", "The numbers of a SPLINE of a plain DXF drawing make no curve: its knots, weights or control points do not fit together.", "A curve that nobody can draw would be missing in the part. Let the CAD system export it as a polyline, or export the file again.");
+    /// A block that holds itself.
+    DXF_RECURSION = error(Shape, "dxf/recursive-block", "Blocks of a plain DXF drawing insert each other more than 32 deep: one of them may hold itself.", "A block that holds itself has no end. Explode its insertions in the CAD system.");
+    /// More than can be drawn.
+    DXF_TOO_LARGE = error(Shape, "dxf/too-large", "A plain DXF drawing draws more than four million places, or has more than a million insertions.", "No marker has so many: a damaged number, or blocks that insert each other many times, make them. Look at radii and at counts of columns and rows.");
+
     // CSV polylines.
     /// The header is missing.
     CSV_HEADER = error(Text, "csv/header", "The first row must be `x_mm,y_mm`.", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0");

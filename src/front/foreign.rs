@@ -10,8 +10,8 @@ pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> b
     if refuse_unread(source, out) {
         return true;
     }
-    let other = OURS.iter().find(|ours| ours.name != dialect && (ours.is)(source.bytes()));
-    if let Some(Ours { name, what, .. }) = other {
+    let other = OURS.iter().find(|ours| !ours.names.contains(&dialect) && (ours.is)(source.bytes()));
+    if let Some(Ours { names: [name, ..], what, .. }) = other {
         let message = format!("this is {what}, not a cutter file");
         let hint = format!("leave out `--from`, or give `--from {name}`");
         out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint(hint));
@@ -21,15 +21,16 @@ pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> b
 
 /// A dialect of ours that is known for certain.
 struct Ours {
-    name: &'static str,
+    /// Names of the dialects that read it, the likeliest first.
+    names: &'static [&'static str],
     /// What its files are.
     what: &'static str,
     is: fn(&[u8]) -> bool,
 }
 
 const OURS: &[Ours] = &[
-    Ours { name: "dxf", what: "a DXF drawing", is: is_dxf },
-    Ours { name: "hpgl", what: "an HPGL plot", is: is_hpgl },
+    Ours { names: &["dxf", "pattern"], what: "a DXF drawing", is: is_dxf },
+    Ours { names: &["hpgl"], what: "an HPGL plot", is: is_hpgl },
 ];
 
 /// Reports an empty file, or one of a format that no dialect reads; `true` when it is one.

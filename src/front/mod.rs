@@ -12,6 +12,7 @@ mod foreign;
 mod formats;
 mod hpgl;
 mod iso;
+mod pattern;
 pub mod sewn;
 
 pub use dialect::{Dialect, Likeness, Read, Word};
@@ -20,7 +21,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
 /// Every dialect, the likelier ones first.
-pub const DIALECTS: &[Dialect] = &[iso::DIALECT, hpgl::DIALECT, dxf::DIALECT, csv::DIALECT];
+pub const DIALECTS: &[Dialect] = &[iso::DIALECT, hpgl::DIALECT, pattern::DIALECT, dxf::DIALECT, csv::DIALECT];
 
 /// The dialect of that name.
 pub fn by_name(name: &str) -> Option<&'static Dialect> {

@@ -3,6 +3,7 @@
 //! Receives plain numbers, promises exact conventions (which angle is wrapped, which end of a segment is included),
 //! never knows what the geometry is for.
 
+pub mod affine;
 pub mod again;
 pub mod along;
 pub mod angle;

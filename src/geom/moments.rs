@@ -69,6 +69,16 @@ impl Moments {
         sum
     }
 
+    /// Most that moments may change where a line of that length, mm, no place of which is farther than `reach` along an axis, is
+    /// led up to `off` beside itself and becomes up to `lack` shorter: of degree `d` by `length d reach^(d-1) off + reach^d lack`.
+    pub fn beside(length: f64, reach: f64, [off, lack]: [f64; 2]) -> Self {
+        let of = |degree: i32| {
+            let turned = if degree > 0 { length * f64::from(degree) * reach.powi(degree - 1) * off } else { 0.0 };
+            turned + reach.powi(degree) * lack
+        };
+        Self(DEGREES.map(of))
+    }
+
     /// Length of the lines, mm.
     pub fn length(&self) -> f64 {
         self.0[0]

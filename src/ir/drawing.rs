@@ -63,6 +63,8 @@ pub struct Pen {
     pub name: String,
     /// Whether it leaves a line at all: plotters move without drawing while no pen is taken.
     pub draws: bool,
+    /// Whether it is a layer: then its name may say what its lines are.
+    pub is_layer: bool,
 }
 
 /// How a file ends.
@@ -94,9 +96,18 @@ impl Drawing {
 
     /// The pen of that name, which draws from here on; it is new unless it has drawn before.
     pub fn pen(&mut self, name: &str, draws: bool) -> u16 {
+        self.pen_or_layer(name, draws, false)
+    }
+
+    /// The layer of that name, likewise.
+    pub fn layer(&mut self, name: &str) -> u16 {
+        self.pen_or_layer(name, true, true)
+    }
+
+    fn pen_or_layer(&mut self, name: &str, draws: bool, is_layer: bool) -> u16 {
         let known = self.pens.iter().position(|pen| pen.name == name);
         let place = known.unwrap_or_else(|| {
-            self.pens.push(Pen { name: name.to_owned(), draws });
+            self.pens.push(Pen { name: name.to_owned(), draws, is_layer });
             self.pens.len() - 1
         });
         u16::try_from(place).unwrap_or(u16::MAX)

@@ -53,7 +53,7 @@ JOBS = {
         lambda source, folder: ["check", source],
     ),
     "check a pattern": (
-        "fixtures/dxf/curve-points-of-richpeace.dxf",
+        "fixtures/pattern/curve-points-of-richpeace.dxf",
         lambda source, folder: ["check", source],
     ),
     "sew a pattern to stitches and pulses": (

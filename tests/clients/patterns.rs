@@ -121,7 +121,7 @@ fn ezdxf_counts_the_same_in_patterns_of_its_own_and_in_the_fixtures() {
     let folder = tempfile::tempdir().expect("a directory");
     let ran = python(WRITE, folder.path());
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/dxf");
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/pattern");
     for file in std::fs::read_dir(fixtures).expect("a folder") {
         let file = file.expect("readable");
         std::fs::copy(file.path(), folder.path().join(file.file_name())).expect("a copy");

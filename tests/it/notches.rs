@@ -37,7 +37,7 @@ fn v_notches_that_lean_are_counted_in_every_dialect_and_cut_in_every_style() {
     let cases = [
         ("v-notches-that-lean.cut", include_str!("../../fixtures/iso/v-notches-that-lean.cut"), [1, 1]),
         ("v-notches-that-lean.plt", include_str!("../../fixtures/hpgl/v-notches-that-lean.plt"), [1, 1]),
-        ("v-notches-at-an-angle.dxf", include_str!("../../fixtures/dxf/v-notches-at-an-angle.dxf"), [3, 0]),
+        ("v-notches-at-an-angle.dxf", include_str!("../../fixtures/pattern/v-notches-at-an-angle.dxf"), [3, 0]),
     ];
     for (name, text, expected) in cases {
         let source = Source::new(name, text.as_bytes().to_vec()).expect("small");

@@ -6,19 +6,19 @@ use crate::geom::{Point, Vector, left};
 
 /// An arc.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Arc {
-    pub(super) centre: Point,
+pub(in crate::front) struct Arc {
+    pub(in crate::front) centre: Point,
     /// mm.
-    pub(super) radius: f64,
+    pub(in crate::front) radius: f64,
     /// Where it starts, rad from +X.
-    pub(super) start: f64,
+    pub(in crate::front) start: f64,
     /// How far it turns, rad, counter-clockwise positive.
-    pub(super) sweep: f64,
+    pub(in crate::front) sweep: f64,
 }
 
 impl Arc {
     /// How many chords keep within `sagitta` mm of it: a chord over an angle `a` is `r (1 - cos(a/2))` off.
-    pub(super) fn chords(&self, sagitta: f64) -> usize {
+    pub(in crate::front) fn chords(&self, sagitta: f64) -> usize {
         // The same by the half angle, which keeps its digits where the radius is large: 1 - cos(a/2) = 2 sin^2(a/4).
         let step = if sagitta < self.radius { 4.0 * (sagitta / (2.0 * self.radius)).sqrt().asin() } else { TAU / 4.0 };
         // A curve that closes has an inside.
@@ -26,7 +26,7 @@ impl Arc {
     }
 
     /// Its place after so much of its sweep.
-    pub(super) fn place(&self, share: f64) -> Point {
+    pub(in crate::front) fn place(&self, share: f64) -> Point {
         let (sin, cos) = (self.start + share * self.sweep).sin_cos();
         self.centre + self.radius * Vector::new(cos, sin)
     }
@@ -34,7 +34,7 @@ impl Arc {
 
 /// The arc from one place to another that bulges so much: the tangent of a quarter of its sweep (DXF reference, group 42).
 /// `None` for what its chord keeps to within `sagitta` mm: it is straight, and its centre may be beyond all numbers.
-pub(super) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64) -> Option<Arc> {
+pub(in crate::front) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64) -> Option<Arc> {
     let chord = to - from;
     if height(chord, bulge) <= sagitta {
         return None;
@@ -47,7 +47,7 @@ pub(super) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64) -> Option
 }
 
 /// How far an arc that bulges so much lies off its chord, mm: half the chord times the bulge.
-pub(super) fn height(chord: Vector, bulge: f64) -> f64 {
+pub(in crate::front) fn height(chord: Vector, bulge: f64) -> f64 {
     bulge.abs() * chord.norm() / 2.0
 }
 

@@ -10,11 +10,11 @@ use crate::source::{Source, Span};
 
 /// Code of the group that begins an entity, and those of its name or text, its layer and its flags.
 const BEGINS: i32 = 0;
-pub(super) const TEXT: i32 = 1;
-pub(super) const NAME: i32 = 2;
+pub(in crate::front) const TEXT: i32 = 1;
+pub(in crate::front) const NAME: i32 = 2;
 const LAYER: i32 = 8;
 /// Flags of polylines and vertices; of an insertion, how many columns of copies it puts.
-pub(super) const FLAGS: i32 = 70;
+pub(in crate::front) const FLAGS: i32 = 70;
 
 /// Code of the name of a variable of the header, and the names of the unit and of the code page of texts.
 const VARIABLE: i32 = 9;
@@ -28,87 +28,87 @@ const INVISIBLE: i32 = 60;
 
 /// An entity: the group that begins it, and those behind it up to the next one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Entity<'a> {
+pub(in crate::front) struct Entity<'a> {
     groups: &'a [Group],
     source: &'a Source,
 }
 
 /// A block: a piece of the pattern set, in one size.
 #[derive(Debug, Clone)]
-pub(super) struct Block<'a> {
+pub(in crate::front) struct Block<'a> {
     /// What begins it: its name and its base point.
-    pub(super) head: Entity<'a>,
-    pub(super) entities: Vec<Entity<'a>>,
+    pub(in crate::front) head: Entity<'a>,
+    pub(in crate::front) entities: Vec<Entity<'a>>,
 }
 
 /// What of a file matters.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Sections<'a> {
+pub(in crate::front) struct Sections<'a> {
     /// The number of the unit that the header names.
-    pub(super) unit: Option<Span>,
+    pub(in crate::front) unit: Option<Span>,
     /// The name of the code page that the header has.
-    pub(super) page: Option<Span>,
+    pub(in crate::front) page: Option<Span>,
     /// Names of layers that are not shown.
-    pub(super) hidden: BTreeSet<&'a [u8]>,
-    pub(super) blocks: Vec<Block<'a>>,
+    pub(in crate::front) hidden: BTreeSet<&'a [u8]>,
+    pub(in crate::front) blocks: Vec<Block<'a>>,
     /// What stands in no block.
-    pub(super) entities: Vec<Entity<'a>>,
+    pub(in crate::front) entities: Vec<Entity<'a>>,
 }
 
 impl<'a> Entity<'a> {
     /// The word that begins it, as it is written.
-    pub(super) fn kind(&self) -> &'a [u8] {
+    pub(in crate::front) fn kind(&self) -> &'a [u8] {
         self.source.slice(self.groups[0].value)
     }
 
-    pub(super) fn is(&self, kind: &str) -> bool {
+    pub(in crate::front) fn is(&self, kind: &str) -> bool {
         self.kind().eq_ignore_ascii_case(kind.as_bytes())
     }
 
     /// Where it begins.
-    pub(super) fn span(&self) -> Span {
+    pub(in crate::front) fn span(&self) -> Span {
         self.groups[0].value
     }
 
     /// Its groups behind the one that begins it.
-    pub(super) fn groups(&self) -> &'a [Group] {
+    pub(in crate::front) fn groups(&self) -> &'a [Group] {
         &self.groups[1..]
     }
 
     /// The first value of a code.
-    pub(super) fn value(&self, code: i32) -> Option<Span> {
+    pub(in crate::front) fn value(&self, code: i32) -> Option<Span> {
         self.groups().iter().find(|group| group.code == code).map(|group| group.value)
     }
 
     /// The bytes of the first value of a code; none when there is none.
-    pub(super) fn bytes(&self, code: i32) -> &'a [u8] {
+    pub(in crate::front) fn bytes(&self, code: i32) -> &'a [u8] {
         self.value(code).map_or(b"", |span| self.source.slice(span))
     }
 
     /// The number of its layer; `None` when the name of the layer is none.
-    pub(super) fn layer(&self) -> Option<u16> {
+    pub(in crate::front) fn layer(&self) -> Option<u16> {
         let name = self.bytes(LAYER);
         let is_number = !name.is_empty() && name.iter().all(u8::is_ascii_digit);
         std::str::from_utf8(name).ok().filter(|_| is_number).and_then(|name| name.parse().ok())
     }
 
     /// The name of its layer, as it is written.
-    pub(super) fn layer_bytes(&self) -> &'a [u8] {
+    pub(in crate::front) fn layer_bytes(&self) -> &'a [u8] {
         self.bytes(LAYER)
     }
 
     /// The name of its layer, as it is shown.
-    pub(super) fn layer_name(&self, letters: &Letters) -> String {
+    pub(in crate::front) fn layer_name(&self, letters: &Letters) -> String {
         letters.name(self.bytes(LAYER))
     }
 
     /// The number of a code; `None` when there is none.
-    pub(super) fn number(&self, code: i32) -> Result<Option<f64>, Diagnostic> {
+    pub(in crate::front) fn number(&self, code: i32) -> Result<Option<f64>, Diagnostic> {
         self.value(code).map(|span| number_at(self.source, span)).transpose()
     }
 
     /// The number of a code that must be there.
-    pub(super) fn coordinate(&self, code: i32) -> Result<f64, Diagnostic> {
+    pub(in crate::front) fn coordinate(&self, code: i32) -> Result<f64, Diagnostic> {
         self.number(code)?.ok_or_else(|| {
             let message =
                 format!("the {} has no group {code}, which is a coordinate of it", self.kind().escape_ascii());
@@ -118,7 +118,7 @@ impl<'a> Entity<'a> {
     }
 
     /// The whole number of a code, as flags and counts are; `None` when there is none.
-    pub(super) fn whole(&self, code: i32) -> Result<Option<i64>, Diagnostic> {
+    pub(in crate::front) fn whole(&self, code: i32) -> Result<Option<i64>, Diagnostic> {
         let read = |span: Span| {
             let bytes = self.source.slice(span);
             whole(bytes).ok_or_else(|| no_number("a whole number", bytes, span))
@@ -127,13 +127,13 @@ impl<'a> Entity<'a> {
     }
 
     /// The bits of its flags; none when they are missing.
-    pub(super) fn flags(&self) -> Result<i64, Diagnostic> {
+    pub(in crate::front) fn flags(&self) -> Result<i64, Diagnostic> {
         Ok(self.whole(FLAGS)?.unwrap_or(0))
     }
 }
 
 /// The number at a place.
-pub(super) fn number_at(source: &Source, span: Span) -> Result<f64, Diagnostic> {
+pub(in crate::front) fn number_at(source: &Source, span: Span) -> Result<f64, Diagnostic> {
     let bytes = source.slice(span);
     number(bytes).ok_or_else(|| no_number("a decimal number", bytes, span))
 }
@@ -185,13 +185,13 @@ impl Entity<'_> {
     }
 
     /// Whether it is not shown, on whatever layer.
-    pub(super) fn is_invisible(&self) -> bool {
+    pub(in crate::front) fn is_invisible(&self) -> bool {
         self.whole(INVISIBLE).is_ok_and(|flag| flag == Some(1))
     }
 }
 
 /// Sorts the entities of a file into its sections and blocks.
-pub(super) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Diagnostics) -> Sections<'a> {
+pub(in crate::front) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Diagnostics) -> Sections<'a> {
     let mut sections = Sections::default();
     let mut within = Within::Others;
     let mut open: Option<Block> = None;

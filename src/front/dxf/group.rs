@@ -6,10 +6,10 @@ use crate::source::{Source, Span};
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Group {
-    pub(super) code: i32,
+pub(in crate::front) struct Group {
+    pub(in crate::front) code: i32,
     /// The bytes of the value, without blanks around it; its block is the number of the group in the file, from 1.
-    pub(super) value: Span,
+    pub(in crate::front) value: Span,
 }
 
 /// The value of the group that ends a file.
@@ -44,7 +44,7 @@ fn trimmed(start: usize, line: &[u8], block: u32) -> Span {
 
 /// Reads the groups of a file up to its end, behind which nothing may stand. Lines that are no code are reported, and passed over up to the next group
 /// that begins an entity.
-pub(super) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Group> {
+pub(in crate::front) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Group> {
     let bytes = source.bytes();
     let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
     let mut lines = Lines { bytes, at };

@@ -1,64 +1,41 @@
-//! Pattern DXF: sets of patterns as garment CAD exchanges them (AAMA DXF, ASTM D6673).
+//! DXF: groups, entities and blocks of any such file, and plain drawings of CAD systems.
 //!
-//! Receives bytes: pairs of lines in sections, a block a piece and size, with layers by convention and drawings of other
-//! CAD systems that keep to it. Promises a marker in mm of the pieces of one size or several: half pieces unfolded, outlines
-//! closed, notches on them in the forms that passes know, laid in a row unless the file places them; and an account of
-//! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
+//! Receives bytes: pairs of lines in sections, in which entities stand on named layers and insertions put blocks anywhere.
+//! Promises a drawing in mm: strokes with their layers as pens, curves as chords, and texts. Layers are names and no
+//! convention: [`pattern`](super::pattern) reads files of those, with [`group`], [`syntax`], [`entity`] and [`arc`] of here.
+//! Never decides what is cut, and draws nothing that is not shown: frozen layers, the sheet around the drawing, blocks that
+//! nobody inserts.
 //!
-//! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
-//! mm with [`arc`] and the [`mod@unit`]; [`text`] reads what texts say in their [`letters`](mod@letters) by their [`key`]s with [`markup`] and [`choice`] which blocks that
-//! lets be cut; [`unknown`] names keys that may be quantities, [`namesakes`] pieces that may be sizes. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
-//! [`mod@notch`] by the table of [`layer`]s that is not [`drawn`] already. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
-//! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
-//! not done as the file says.
+//! [`lower`] follows the entities, [`insert`] puts blocks where they are inserted, [`conic`] and [`nurbs`] make chords of
+//! curves, `fit` lays a curve through points, [`unit`] has the table of units, [`told`] says what is not drawn.
 
-mod arc;
-mod chain;
-mod choice;
-mod curves;
-mod doubts;
-mod drawn;
-mod entity;
-mod fold;
-mod group;
-mod key;
-mod lay;
-mod layer;
-mod letters;
-mod marker;
-mod markup;
-mod namesakes;
-mod notch;
-mod outline;
-mod over;
-mod piece;
-mod placing;
-mod retrace;
-mod set;
-mod shape;
-mod spur;
-mod syntax;
-mod tally;
-mod text;
+pub(in crate::front) mod arc;
+mod conic;
+pub(in crate::front) mod entity;
+mod fit;
+pub(in crate::front) mod group;
+mod insert;
+mod lower;
+mod nurbs;
+pub(in crate::front) mod page;
+pub(in crate::front) mod syntax;
 mod told;
-mod tree;
-mod unit;
-mod unknown;
+pub(in crate::front) mod unit;
 mod words;
 
 use super::{Dialect, Likeness, Read, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::ir::{Drawing, Marker};
+use crate::ir::Drawing;
 use crate::machine::Job;
 use crate::source::Source;
 
 pub(super) const DIALECT: Dialect = Dialect {
     name: "dxf",
-    about: "pattern DXF of garment CAD (AAMA, ASTM D6673): a block a piece, outlines on layer 1",
+    about: "plain DXF drawing: lines, arcs and curves on named layers, at their true size",
     extensions: &["dxf"],
     sniff,
     syntax: check_syntax,
-    read: Read::Patterns { cut: read, drawn: read_lines, seams: layer::SEAMS },
+    read: Read::Drawing(read),
     words: words::WORDS,
 };
 
@@ -67,7 +44,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
 }
 
 /// Whether the bytes are groups whose values are what their codes say.
-fn check_syntax(source: &Source, out: &mut Diagnostics) {
+pub(super) fn check_syntax(source: &Source, out: &mut Diagnostics) {
     for group in group::groups(source, out) {
         if !syntax::fits(group.code, source.slice(group.value)) {
             let message = format!("the value of a group {} must be a number", group.code);
@@ -76,19 +53,9 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
     }
 }
 
-fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Marker::default();
-    }
-    let set = set::read(source, job, out);
-    set.see_cuts(out);
-    if out.has_errors() { Marker::default() } else { marker::marker(&set) }
-}
-
-fn read_lines(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
+fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     if foreign::refuse(source, DIALECT.name, out) {
         return Drawing::default();
     }
-    let set = set::read(source, job, out);
-    if out.has_errors() { Drawing::default() } else { marker::drawing(&set) }
+    lower::lower(source, job, out)
 }

@@ -7,7 +7,7 @@ use nom::error::Error;
 use nom::{IResult, Parser};
 
 /// What a rule gives.
-pub(super) type Out<'a, T> = IResult<&'a [u8], T, Error<&'a [u8]>>;
+pub(in crate::front) type Out<'a, T> = IResult<&'a [u8], T, Error<&'a [u8]>>;
 
 /// Most digits of a code: 1071 is the greatest that is in use.
 const CODE_DIGITS: usize = 4;
@@ -16,13 +16,13 @@ const NUMBER_CODES: std::ops::RangeInclusive<i32> = 10..=59;
 const WHOLE_CODES: std::ops::RangeInclusive<i32> = 60..=79;
 
 /// `<code>`: a whole number alone in its line.
-pub(super) fn code(line: &[u8]) -> Option<i32> {
+pub(in crate::front) fn code(line: &[u8]) -> Option<i32> {
     let mut rule = all_consuming(recognize((opt(one_of("-+")), take_while_m_n(1, CODE_DIGITS, digit))));
     parsed(rule.parse(line.trim_ascii()))
 }
 
 /// Whether `<value>` may stand behind a code.
-pub(super) fn fits(code: i32, value: &[u8]) -> bool {
+pub(in crate::front) fn fits(code: i32, value: &[u8]) -> bool {
     match code {
         code if NUMBER_CODES.contains(&code) => number(value).is_some(),
         code if WHOLE_CODES.contains(&code) => whole(value).is_some(),
@@ -31,7 +31,7 @@ pub(super) fn fits(code: i32, value: &[u8]) -> bool {
 }
 
 /// `<number>`: a decimal number, with an exponent or without; always finite.
-pub(super) fn number(value: &[u8]) -> Option<f64> {
+pub(in crate::front) fn number(value: &[u8]) -> Option<f64> {
     let fraction = (one_of("."), take_while(digit));
     let exponent = (one_of("eE"), opt(one_of("-+")), take_while_m_n(1, CODE_DIGITS, digit));
     let unsigned = recognize((take_while(digit), opt(fraction)));
@@ -42,7 +42,7 @@ pub(super) fn number(value: &[u8]) -> Option<f64> {
 }
 
 /// `<whole>`: a whole number. Some programs write decimals behind it.
-pub(super) fn whole(value: &[u8]) -> Option<i64> {
+pub(in crate::front) fn whole(value: &[u8]) -> Option<i64> {
     number(value)
         .filter(|number| number.fract() == 0.0 && number.abs() < f64::from(i32::MAX))
         .map(|number| number as i64)

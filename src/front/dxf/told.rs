@@ -1,157 +1,82 @@
-//! What is said of entities that are not read, not in the drawing, or not shown.
+//! Entities that are not drawn: what is said of them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::choice::Asked;
-use super::curves::{CurveCount, CurveCounts, Drafting};
-use super::layer::Names;
-use super::piece::Piece;
-use super::shape::Unread;
-use crate::diagnostic::{Diagnostic, Diagnostics, PieceName, code};
+use super::entity::Entity;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// Letters of names in a message.
-const SHOWN: usize = 50;
+/// Kinds that a message names.
+const SHOWN: usize = 8;
 
-/// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
-pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Diagnostics) {
-    if drafting.is_overfull() {
-        let message = "the curves through the curve points (layer 3) have more places than a set of patterns can need";
-        let finding = Diagnostic::new(&code::DXF_CURVES, message);
-        out.push(finding.hint("look for a damaged coordinate; `dxf.curves=points` lays no curves"));
-        return;
+/// Count of entities, and where the first begins.
+type Count = (usize, Span);
+
+/// Entities of a drawing that are not drawn, counted.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    /// Those of kinds that draw no line, or are drawn about lines.
+    kinds: BTreeMap<String, Count>,
+    /// Those in paper space, those that are not shown, and insertions of blocks that are not there.
+    on_paper: Option<Count>,
+    hidden: Option<Count>,
+    unnamed: Option<Count>,
+}
+
+impl Told {
+    /// Counts an entity of a kind that is not read.
+    pub(super) fn kind(&mut self, entity: &Entity) {
+        let kind = entity.kind().escape_ascii().to_string().to_ascii_uppercase();
+        self.kinds.entry(kind).or_insert((0, entity.span())).0 += 1;
     }
-    let pieces =
-        |from: &CurveCount| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
-    let off = |from: &CurveCount| format!("up to {:.1} mm off the chords", from.off);
-    let CurveCounts { fine, laid, missed } = curved;
-    if missed.pieces > 0 {
-        let message = format!("layer 84 misses vertices of the outline and is not used: {}", pieces(missed));
-        let finding = Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(missed.first);
-        out.push(finding.hint("compare a neck and an armhole in the picture (`-t svg`) with the CAD system"));
+
+    /// Counts an entity that stands on the sheet around the drawing.
+    pub(super) fn on_paper(&mut self, entity: &Entity) {
+        self.on_paper.get_or_insert((0, entity.span())).0 += 1;
     }
-    if fine.pieces > 0 {
-        let message = format!("cut along the curves of layer 84: {}, {}", pieces(fine), off(fine));
-        let finding = Diagnostic::new(&code::DXF_CURVED, message).at(fine.first);
-        out.push(finding.hint("the file draws them so; `dxf.curves=points` cuts along the chords"));
+
+    /// Counts an entity that is not shown.
+    pub(super) fn hidden(&mut self, entity: &Entity) {
+        self.hidden.get_or_insert((0, entity.span())).0 += 1;
     }
-    if laid.pieces > 0 {
-        let (pieces, off) = (pieces(laid), off(laid));
-        let (code, message, hint) = match drafting.system {
-            Some(system) => (
-                &code::DXF_CURVED,
-                format!("cut along curves as {system} lays them: {pieces}, {off}"),
-                "its curve points (layer 3) tell them; `dxf.curves=points` cuts along the chords",
-            ),
-            None => (
-                &code::DXF_CURVE_GUESSED,
-                format!("cut along guessed curves: {pieces}, {off}"),
-                "no AUTHOR is known: compare a neck and an armhole, or export ASTM DXF with layer 84",
-            ),
+
+    /// Counts an insertion of a block that the file does not have.
+    pub(super) fn unnamed(&mut self, entity: &Entity) {
+        self.unnamed.get_or_insert((0, entity.span())).0 += 1;
+    }
+
+    /// Says what is not drawn.
+    pub(super) fn say(&self, out: &mut Diagnostics) {
+        let are = |count: usize, one: &str, many: &str| {
+            if count == 1 { format!("1 {one} is") } else { format!("{count} {many} are") }
         };
-        out.push(Diagnostic::new(code, message).at(laid.first).hint(hint));
-    }
-}
-
-/// Why a piece of this number cannot be cut, and what may be done without it.
-pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked: &Asked, out: &mut Diagnostics) {
-    let text = |span: Span| asked.letters.text(asked.source.slice(span));
-    let label = piece.labels.first().map(|label| text(label.span));
-    let name = PieceName { number, copy: 0, label };
-    for fault in &piece.faults {
-        let finding = Diagnostic { piece: Some(Box::new(name.clone())), ..fault.clone() };
-        out.push(hint.iter().fold(finding, |finding, hint| finding.hint(*hint)));
-    }
-}
-
-/// Names one behind the other, as many as a message has room for.
-fn listed(names: impl Iterator<Item = String>) -> String {
-    let mut shown = String::new();
-    for name in names {
-        let comma = if shown.is_empty() { "" } else { ", " };
-        if shown.len() + name.len() > SHOWN {
-            shown.push_str(comma);
-            shown.push_str("...");
-            break;
+        if let Some(&(_, first)) = self.kinds.values().min_by_key(|(_, span)| span.start) {
+            let all: usize = self.kinds.values().map(|(count, _)| count).sum();
+            let each = self.kinds.iter().take(SHOWN).map(|(kind, (count, _))| format!("{count} {kind}"));
+            let dots = if self.kinds.len() > SHOWN { ", ..." } else { "" };
+            let each = each.collect::<Vec<_>>().join(", ");
+            let are = are(all, "entity", "entities");
+            let message = format!("{are} of kinds that are no lines and not cut: {each}{dots}");
+            let finding = Diagnostic::new(&code::DXF_NO_LINES, message).at(first);
+            out.push(finding.hint("explode them into lines in the CAD system if any of them is to be cut"));
         }
-        shown.push_str(comma);
-        shown.push_str(&name);
-    }
-    shown
-}
-
-/// The finding that a file is a plain drawing on these layers.
-pub(super) fn plain(names: &Names) -> Diagnostic {
-    let names: Vec<&String> = names.all().iter().filter(|name| !name.is_empty()).collect();
-    let word = if names.len() == 1 { "layer" } else { "layers" };
-    let shown = listed(names.into_iter().cloned());
-    let message = "the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM)";
-    let finding = Diagnostic::new(&code::DXF_PLAIN, message).hint(format!("its lines are on {word} {shown}"));
-    finding.hint("let the CAD system export AAMA or ASTM DXF, a cut file (ISO) or an HPGL plot")
-}
-
-/// Blocks of pieces of which nothing is cut, by the texts that name them.
-pub(super) fn say_uncut(names: &[Span], asked: &Asked, out: &mut Diagnostics) {
-    let Some(first) = names.first() else { return };
-    let text = |span: &Span| asked.letters.name(asked.source.slice(*span));
-    let message = match names.len() {
-        1 => "a piece has no outline on layer 1; nothing of it is cut".to_owned(),
-        count => format!("{count} pieces have no outline on layer 1; nothing of them is cut"),
-    };
-    let finding = Diagnostic::new(&code::DXF_NO_OUTLINE, message).at(*first);
-    let named = if names.len() == 1 { "its name is" } else { "their names are" };
-    let finding = finding.hint(format!("{named} {}", listed(names.iter().map(text))));
-    out.push(finding.hint("let the CAD system export each outline on layer 1"));
-}
-
-/// What kinds of entities are not read, and on which layers.
-pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
-    let mut kinds: BTreeMap<&str, (Vec<&Unread>, BTreeSet<&str>)> = BTreeMap::new();
-    for entity in unread {
-        let (of_kind, layers) = kinds.entry(&entity.kind).or_default();
-        of_kind.push(entity);
-        layers.insert(&entity.pen);
-    }
-    for (kind, (of_kind, layers)) in kinds {
-        let word = if layers.len() == 1 { "layer" } else { "layers" };
-        let layers = format!("{word} {}", layers.into_iter().collect::<Vec<_>>().join(", "));
-        let (count, are) = (of_kind.len(), if of_kind.len() == 1 { "is" } else { "are" });
-        let message = format!("{count} of the kind {kind} {are} not read, on {layers}");
-        let finding = Diagnostic::new(&code::DXF_UNREAD, message).at(of_kind[0].span);
-        out.push(finding.hint("nothing there is cut"));
-    }
-}
-
-/// Warns of entities on the sheet around the drawing, and of cuts that nobody sees.
-pub(super) fn say_unseen(on_paper: Option<(usize, Span)>, hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
-    say_on_paper(on_paper, out);
-    say_hidden(hidden, out);
-}
-
-/// Warns of entities on the sheet around the drawing.
-fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
-    if let Some((count, span)) = on_paper {
-        let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
-        let finding = Diagnostic::new(&code::DXF_ON_PAPER, format!("{message} in paper space and not cut")).at(span);
-        out.push(finding.hint("what is cut must be drawn in model space"));
-    }
-}
-
-/// How much is cut that nobody sees in the drawing.
-fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
-    if let Some((count, span)) = hidden {
-        let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
-        let message = format!("{message} hidden in the drawing, on layers that are cut; they are cut all the same");
-        out.push(
-            Diagnostic::new(&code::DXF_HIDDEN, message).at(span).hint("show all layers in the CAD system and look"),
-        );
-    }
-}
-
-/// A text that says what must be known, and is not read.
-pub(super) fn say_text(unread: Option<Span>, out: &mut Diagnostics) {
-    if let Some(span) = unread {
-        let message = "a text that may say a size, a quantity or the unit is long, or has codes amid it";
-        out.push(Diagnostic::new(&code::DXF_TEXT, message).at(span).hint("write it as a TEXT of its own"));
+        if let Some((count, span)) = self.on_paper {
+            let message = format!("{} in paper space and not cut", are(count, "entity", "entities"));
+            let finding = Diagnostic::new(&code::DXF_ON_PAPER, message).at(span);
+            out.push(finding.hint("what is cut must be drawn in model space"));
+        }
+        if let Some((count, span)) = self.hidden {
+            let message = format!("{} on layers that are off or frozen, and not cut", are(count, "line", "lines"));
+            let finding = Diagnostic::new(&code::DXF_NOT_SHOWN, message).at(span);
+            out.push(finding.hint("show the layer in the CAD system if they are to be cut"));
+        }
+        if let Some((count, span)) = self.unnamed {
+            let message = match count {
+                1 => "an INSERT names a block that the file does not have".to_owned(),
+                count => format!("{count} INSERTs name blocks that the file does not have, the first here"),
+            };
+            let finding = Diagnostic::new(&code::DXF_NO_BLOCK, message).at(span);
+            out.push(finding.hint("what it would draw is missing: bind external references and export the file again"));
+        }
     }
 }

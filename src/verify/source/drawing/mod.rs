@@ -13,6 +13,7 @@ mod slits;
 
 pub use self::outermost::{DrawingCuts, drawing_audit};
 use super::census::{Census, Slack};
+use super::dxf::plain;
 use super::hpgl;
 use crate::geom::Point;
 use crate::machine::MachineProfile;
@@ -35,7 +36,10 @@ pub(super) struct Drawn {
     pub(super) unit: f64,
 }
 
-const SECONDS: &[Second] = &[Second { dialect: "hpgl", census: hpgl::scan, strokes: hpgl::drawn }];
+const SECONDS: &[Second] = &[
+    Second { dialect: "hpgl", census: hpgl::scan, strokes: hpgl::drawn },
+    Second { dialect: "dxf", census: plain::scan, strokes: plain::drawn },
+];
 
 /// The second reading of the dialect of that name; `None` of one that says what is cut.
 pub(super) fn second(dialect: &str) -> Option<&'static Second> {

@@ -105,7 +105,7 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
 
 impl<'a> Sheets<'a> {
     fn of(bytes: &'a [u8], job: &'a Job) -> Self {
-        let File { blocks, loose, unit: of_header, letters } = sheets(bytes, &job.profile.labels);
+        let File { blocks, loose, unit: of_header, letters, .. } = sheets(bytes, &job.profile.labels);
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
             names.entry(block.name.clone()).or_insert(k);

@@ -1,9 +1,12 @@
-//! A second, small reading of pattern DXF: where its layers ask for cuts, notches and holes, by other means than the
-//! reader's. It joins no lines and makes no notches: it holds every place of the marker against the places of the file.
+//! A second, small reading of DXF by other means than the readers'.
+//!
+//! Of patterns: where layers ask for cuts, notches and holes. It joins no lines and makes no notches: it holds every place of
+//! the marker against the places of the file. Of plain drawings: [`plain`] follows all that is drawn, along `curve`s.
 
 mod again;
 mod cloth;
 mod compare;
+mod curve;
 mod curves;
 mod cuts;
 mod left_out;
@@ -11,6 +14,7 @@ mod letters;
 mod lines;
 mod lookup;
 mod places;
+pub(super) mod plain;
 mod tags;
 
 pub use compare::pattern_audit;

@@ -8,9 +8,9 @@ use super::nodes::{Node, Nodes};
 use super::run::{Run, is_curve};
 use super::spikes;
 use super::split::lay;
-use crate::front::dxf::chain::Chain;
-use crate::front::dxf::fold::Fold;
-use crate::front::dxf::layer::{Layer, Named};
+use crate::front::pattern::chain::Chain;
+use crate::front::pattern::fold::Fold;
+use crate::front::pattern::layer::{Layer, Named};
 use crate::geom::budget::Budget;
 use crate::geom::polyline;
 
@@ -21,14 +21,14 @@ const HIGH: f64 = 0.2;
 
 /// Curves of a block: its fine lines and its nodes.
 #[derive(Debug, Default)]
-pub(in crate::front::dxf) struct Curves {
+pub(in crate::front::pattern) struct Curves {
     fine: Vec<FineLine>,
     nodes: Nodes,
 }
 
 impl Curves {
     /// Curves of a block with these nodes and joined lines, on both sides of its fold.
-    pub(in crate::front::dxf) fn of(nodes: Nodes, joined: &[(Named, Chain)], fold: Option<&Fold>) -> Self {
+    pub(in crate::front::pattern) fn of(nodes: Nodes, joined: &[(Named, Chain)], fold: Option<&Fold>) -> Self {
         let fine = joined.iter().filter(|(layer, _)| layer.is_fine());
         let both = |(layer, line): &(Named, Chain)| {
             let lines = fold.map_or_else(|| vec![line.clone()], |fold| fold.unfold(line));
@@ -42,7 +42,7 @@ impl Curves {
     }
 
     /// Curve of a line on a layer.
-    pub(in crate::front::dxf) fn curved(
+    pub(in crate::front::pattern) fn curved(
         &self,
         line: &Chain,
         layer: &Layer,

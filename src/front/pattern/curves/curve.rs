@@ -3,7 +3,7 @@
 use super::leg::Leg;
 use super::nodes::ON;
 use super::spikes::Base;
-use crate::front::dxf::chain::Chain;
+use crate::front::pattern::chain::Chain;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, polyline};
 use crate::machine::patterns::Dxf;
@@ -11,7 +11,7 @@ use crate::source::Span;
 
 /// Origin of the curve of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::front::dxf) enum Origin {
+pub(in crate::front::pattern) enum Origin {
     /// The line as it is drawn.
     Drawn,
     /// A line on layers 84 to 87.
@@ -22,13 +22,13 @@ pub(in crate::front::dxf) enum Origin {
 
 /// Curve of a line.
 #[derive(Debug)]
-pub(in crate::front::dxf) struct Curve {
-    pub(in crate::front::dxf) line: Chain,
-    pub(in crate::front::dxf) origin: Origin,
+pub(in crate::front::pattern) struct Curve {
+    pub(in crate::front::pattern) line: Chain,
+    pub(in crate::front::pattern) origin: Origin,
     /// Largest distance of the curve from the chords of the coarse line, mm.
-    pub(in crate::front::dxf) off: f64,
+    pub(in crate::front::pattern) off: f64,
     /// Start of a fine line near the line that misses some of its vertices.
-    pub(in crate::front::dxf) missed: Option<Span>,
+    pub(in crate::front::pattern) missed: Option<Span>,
     /// The coarse line, and the curve over each of its edges; empty for a line as it is drawn.
     coarse: Vec<Point>,
     legs: Vec<Vec<Point>>,
@@ -62,7 +62,7 @@ impl Curve {
 
     /// Place on the curve straight above a place beside a chord of the coarse line. Other places stay where they are, and so
     /// do those beside the curve.
-    pub(in crate::front::dxf) fn lifted(&self, at: Point, work: &mut Budget) -> Point {
+    pub(in crate::front::pattern) fn lifted(&self, at: Point, work: &mut Budget) -> Point {
         let vertices: usize = self.legs.iter().map(Vec::len).sum();
         let near = |way: &Vec<Point>| polyline::distance(at, way) <= Dxf::NOTCH_OFF;
         if !work.spend(vertices) || self.legs.iter().any(near) {

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::choice::{Asked, quantity};
-use super::entity::Block;
 use super::key::key;
 use super::text::{Facts, is_text, pairs};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::dxf::entity::Block;
 use crate::source::Span;
 
 /// The greatest number that is taken for a quantity: sizes and numbers of styles are greater.

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::front::dxf::chain::Chain;
-use crate::front::dxf::fold::Fold;
-use crate::front::dxf::layer::Does;
-use crate::front::dxf::retrace::retraces;
-use crate::front::dxf::shape::{Dot, Line};
+use crate::front::pattern::chain::Chain;
+use crate::front::pattern::fold::Fold;
+use crate::front::pattern::layer::Does;
+use crate::front::pattern::retrace::retraces;
+use crate::front::pattern::shape::{Dot, Line};
 use crate::geom::{Point, bits};
 
 /// Largest distance from a vertex to the point that tells its kind, mm: rounding, and less than between any two vertices.
@@ -65,7 +65,7 @@ impl Signs {
 
 /// The signs of a block, by where they are.
 #[derive(Debug, Clone, Default)]
-pub(in crate::front::dxf) struct Nodes {
+pub(in crate::front::pattern) struct Nodes {
     cells: BTreeMap<[i64; 2], Vec<(Point, Signs)>>,
     /// Whether a curve point is among them.
     pub(super) has_curves: bool,
@@ -77,7 +77,7 @@ fn cell(at: Point) -> [i64; 2] {
 
 impl Nodes {
     /// Signs of the lines of a block as the file draws them, and of its points.
-    pub(in crate::front::dxf) fn of(lines: &[Line], dots: &[Dot]) -> Self {
+    pub(in crate::front::pattern) fn of(lines: &[Line], dots: &[Dot]) -> Self {
         let mut nodes = Self::default();
         for dot in dots {
             let sign = match dot.layer.does {

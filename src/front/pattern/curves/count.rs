@@ -5,20 +5,20 @@ use crate::source::Span;
 
 /// Counts of pieces that are cut along curves instead of the chords of their outlines.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::front::dxf) struct CurveCounts {
-    pub(in crate::front::dxf) fine: CurveCount,
-    pub(in crate::front::dxf) laid: CurveCount,
+pub(in crate::front::pattern) struct CurveCounts {
+    pub(in crate::front::pattern) fine: CurveCount,
+    pub(in crate::front::pattern) laid: CurveCount,
     /// Pieces with fine lines that miss vertices of the outline: those lines are not used.
-    pub(in crate::front::dxf) missed: CurveCount,
+    pub(in crate::front::pattern) missed: CurveCount,
 }
 
 /// Count of pieces with curves from one origin.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::front::dxf) struct CurveCount {
-    pub(in crate::front::dxf) pieces: usize,
+pub(in crate::front::pattern) struct CurveCount {
+    pub(in crate::front::pattern) pieces: usize,
     /// Largest distance of the curves from the chords, mm.
-    pub(in crate::front::dxf) off: f64,
-    pub(in crate::front::dxf) first: Span,
+    pub(in crate::front::pattern) off: f64,
+    pub(in crate::front::pattern) first: Span,
 }
 
 impl CurveCount {
@@ -34,7 +34,7 @@ impl CurveCount {
 
 impl CurveCounts {
     /// Counts a line of a piece.
-    pub(in crate::front::dxf) fn see(&mut self, curved: &Curve) {
+    pub(in crate::front::pattern) fn see(&mut self, curved: &Curve) {
         let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
         let line = CurveCount { pieces: 1, off: curved.off, first };
         if let Some(first) = curved.missed {
@@ -48,7 +48,7 @@ impl CurveCounts {
     }
 
     /// Counts the lines of a piece as one.
-    pub(in crate::front::dxf) fn add(&mut self, those: Self) {
+    pub(in crate::front::pattern) fn add(&mut self, those: Self) {
         self.fine.add(those.fine);
         self.laid.add(those.laid);
         self.missed.add(those.missed);

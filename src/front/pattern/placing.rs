@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::entity::{Block, NAME};
 use super::lay::{AXIS_EPSILON, Drawn, Motion};
 use super::layer::Names;
 use super::piece::Making;
 use super::shape::{Inserted, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
+use crate::front::dxf::entity::{Block, NAME};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point};
 use crate::source::{Source, Span};

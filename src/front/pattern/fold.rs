@@ -1,9 +1,9 @@
 //! Half pieces: what is drawn on one side of a fold line is on the other, too, and the fold itself is no line.
 
 use super::chain::{Chain, REACH};
-use super::entity::{Block, Entity, TEXT};
 use super::tally::{Tally, Thing};
 use super::text::{Facts, is_text};
+use crate::front::dxf::entity::{Block, Entity, TEXT};
 use crate::geom::{Point, Vector, cross, left};
 use crate::ir::drawing::Vertex;
 use crate::machine::letters::Letters;

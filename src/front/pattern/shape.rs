@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use super::arc::{Arc, bulged, height};
-use super::entity::{Block, Entity, FLAGS, NAME, TEXT, number_at};
 use super::layer::{Does, Layer, Named, Names, layer};
 use super::text::{Facts, is_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::dxf::arc::{Arc, bulged, height};
+use crate::front::dxf::entity::{Block, Entity, FLAGS, NAME, TEXT, number_at};
 use crate::geom::{Heading, Point};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Label;

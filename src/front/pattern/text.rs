@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::entity::{Entity, NAME, TEXT};
 use super::key::{Key, key};
 use super::markup;
+use crate::front::dxf::entity::{Entity, NAME, TEXT};
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 

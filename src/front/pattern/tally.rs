@@ -103,9 +103,9 @@ fn row(thing: Thing) -> Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front::dxf::drawn::LEAST_DEPTH;
-    use crate::front::dxf::notch::MOUTHS;
-    use crate::front::dxf::words::WORDS;
+    use crate::front::pattern::drawn::LEAST_DEPTH;
+    use crate::front::pattern::notch::MOUTHS;
+    use crate::front::pattern::words::WORDS;
     use crate::ir::marker::Notch;
     use crate::machine::patterns::Dxf;
 

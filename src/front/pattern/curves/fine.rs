@@ -3,7 +3,7 @@
 
 use super::leg::Leg;
 use super::nodes::ON;
-use crate::front::dxf::chain::Chain;
+use crate::front::pattern::chain::Chain;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};

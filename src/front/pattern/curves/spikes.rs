@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::leg::Leg;
-use crate::front::dxf::chain::Chain;
+use crate::front::pattern::chain::Chain;
 use crate::geom::bits;
 use crate::ir::drawing::Vertex;
 

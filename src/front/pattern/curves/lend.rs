@@ -3,21 +3,21 @@
 use std::collections::BTreeMap;
 
 use super::nodes::ON;
-use crate::front::dxf::layer::{Does, Layer};
-use crate::front::dxf::shape::{Dot, Line, Shapes};
+use crate::front::pattern::layer::{Does, Layer};
+use crate::front::pattern::shape::{Dot, Line, Shapes};
 use crate::geom::Point;
 use crate::source::Span;
 
 /// Name of a block, and whether it is of the size that the set was drawn in.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::front::dxf) struct Size<'a> {
-    pub(in crate::front::dxf) piece: Option<&'a [u8]>,
-    pub(in crate::front::dxf) is_sample: bool,
+pub(in crate::front::pattern) struct Size<'a> {
+    pub(in crate::front::pattern) piece: Option<&'a [u8]>,
+    pub(in crate::front::pattern) is_sample: bool,
 }
 
 /// Gives blocks without turn and curve points those of another size of the same piece, whose lines have as many vertices: the
 /// sample size if that has some, else the first. Returns the lender of each block.
-pub(in crate::front::dxf) fn lend(blocks: &mut [Shapes], sizes: &[Size]) -> Vec<Option<usize>> {
+pub(in crate::front::pattern) fn lend(blocks: &mut [Shapes], sizes: &[Size]) -> Vec<Option<usize>> {
     let mut lenders: BTreeMap<&[u8], usize> = BTreeMap::new();
     for (k, size) in sizes.iter().enumerate().filter(|(k, _)| has_dots(&blocks[*k])) {
         let Some(piece) = size.piece else { continue };

@@ -3,9 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::entity::{Block, NAME};
 use super::text::Facts;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::dxf::entity::{Block, NAME};
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 

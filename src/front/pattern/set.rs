@@ -6,9 +6,7 @@ use super::chain::Chain;
 use super::choice::{Asked, Chosen};
 use super::curves::{CurveCounts, Drafting, Size, lend};
 use super::doubts;
-use super::entity::{Block, Entity, NAME, Sections, sections};
 use super::fold;
-use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Does, Named, Names};
 use super::letters::letters;
@@ -24,6 +22,8 @@ use super::told::{plain, say_at_fault, say_curves, say_text, say_uncut, say_unre
 use super::unit::{Lengths, doubt, unit};
 use super::unknown;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
+use crate::front::dxf::entity::{Block, Entity, NAME, Sections, sections};
+use crate::front::dxf::group::groups;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;

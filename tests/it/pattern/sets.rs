@@ -99,7 +99,7 @@ fn commands_take_sizes_and_sew_by_layers() {
 
 /// The words of a row of the list of what is read.
 fn listed(row: &str) -> Vec<&'static str> {
-    let words = cutc::front::by_name("dxf").expect("a dialect").words;
+    let words = cutc::front::by_name("pattern").expect("a dialect").words;
     let row = words.iter().find(|word| word.words == row).expect("a row of keys");
     row.about.split(", ").map(|key| key.trim_matches('`')).collect()
 }

@@ -16,12 +16,12 @@ const MOST_PLACES: usize = 4_000_000;
 
 /// Rule, fineness and limit of the curves of a file, and the number of their places so far.
 #[derive(Debug)]
-pub(in crate::front::dxf) struct Drafting {
+pub(in crate::front::pattern) struct Drafting {
     /// Whether curves are asked for.
     pub(super) is_on: bool,
     pub(super) rule: Rule,
     /// Name of the CAD system with this rule, if the file tells it.
-    pub(in crate::front::dxf) system: Option<&'static str>,
+    pub(in crate::front::pattern) system: Option<&'static str>,
     /// Largest distance of chords from their curve, mm.
     sagitta: f64,
     places: usize,
@@ -29,13 +29,13 @@ pub(in crate::front::dxf) struct Drafting {
 
 impl Drafting {
     /// Drafting for a file by an author, with the largest distance of chords from their curves, mm.
-    pub(in crate::front::dxf) fn of(author: &str, asked: Curves, sagitta: f64) -> Self {
+    pub(in crate::front::pattern) fn of(author: &str, asked: Curves, sagitta: f64) -> Self {
         let (rule, system) = rule_of(author);
         Self { is_on: asked == Curves::Auto, rule, system, sagitta: sagitta.min(CHORDS_OFF), places: 0 }
     }
 
     /// Whether the limit of places is exceeded: some lines have no curves then.
-    pub(in crate::front::dxf) fn is_overfull(&self) -> bool {
+    pub(in crate::front::pattern) fn is_overfull(&self) -> bool {
         self.places > MOST_PLACES
     }
 

@@ -1,7 +1,7 @@
 //! Runs: the vertices through which one curve goes.
 
 use super::nodes::Node;
-use crate::front::dxf::chain::Chain;
+use crate::front::pattern::chain::Chain;
 use crate::geom::Point;
 
 /// Whether a vertex is a curve point.

@@ -1,0 +1,464 @@
+//! Lowering: the entities of a plain drawing become strokes of named layers.
+//!
+//! Lines, ellipses and splines have their coordinates in space whichever side they are seen from; polylines, arcs, circles
+//! and insertions have them on their own plane (DXF reference, "Object Coordinate Systems (OCS)"), which is the cloth or its
+//! back: anything else is refused.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+use super::arc::{bulged, height};
+use super::conic::Conic;
+use super::entity::{Block, Entity, NAME, Sections, TEXT, number_at, sections};
+use super::fit;
+use super::group::groups;
+use super::nurbs::Nurbs;
+use super::page::page;
+use super::told::Told;
+use super::unit::unit;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::affine::Affine;
+use crate::geom::{Heading, Point, Vector};
+use crate::ir::Drawing;
+use crate::ir::label::Label;
+use crate::machine::Job;
+use crate::machine::letters::Letters;
+use crate::machine::patterns::Dxf;
+use crate::source::{Source, Span};
+use crate::units::rad;
+
+/// Codes of places, of radius and angles, and of what splines have.
+pub(super) const X: i32 = 10;
+pub(super) const Y: i32 = 20;
+const X2: i32 = 11;
+const Y2: i32 = 21;
+const RADIUS: i32 = 40;
+const BULGE: i32 = 42;
+const ANGLE: i32 = 50;
+const END_ANGLE: i32 = 51;
+const RATIO: i32 = 40;
+const START: i32 = 41;
+const END: i32 = 42;
+const KNOT: i32 = 40;
+const WEIGHT: i32 = 41;
+const DEGREE: i32 = 71;
+/// Codes of the number of vertices, and of the direction from which something is seen.
+const COUNT: i32 = 90;
+const EXTRUSION: [i32; 3] = [210, 220, 230];
+/// How far rounding may move that.
+const EXTRUSION_EPSILON: f64 = 1e-6;
+/// Code that is 1 for what stands on the sheet around the drawing.
+const ON_PAPER: i32 = 67;
+
+/// Flags of polylines and splines: closed, places in space, and kinds that are no lines; of vertices: a control point.
+const CLOSED: i64 = 1;
+const IN_SPACE: i64 = 8;
+const MESHES: i64 = 16 | 64;
+const CONTROL_POINT: i64 = 16;
+
+/// Kinds that only end others, stand for texts of insertions that follow, or draw nothing at all.
+const SILENT: [&str; 3] = ["SEQEND", "ATTDEF", "VERTEX"];
+/// Largest coordinate, mm: a kilometre, far beyond any table.
+const FARTHEST: f64 = 1e6;
+/// An arc that turns less is a whole circle, deg.
+const TURN_EPSILON_DEG: f64 = 1e-6;
+/// Most places that a file draws: more come from damaged numbers, or from blocks in blocks in blocks.
+const MOST_PLACES: usize = 4_000_000;
+
+/// Follows a file, or what of it can be read: with an error among the diagnostics the drawing is worth nothing.
+pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
+    let groups = groups(source, out);
+    let sections = sections(source, &groups, out);
+    let extent = || Lowering::of(source, &sections, job, &mut Diagnostics::default()).drawn(1.0).extent();
+    let unit = unit(&job.profile.dxf, sections.unit, source, extent, out);
+    let drawing = Lowering::of(source, &sections, job, out).drawn(unit.mm);
+    unit.doubt(&drawing.extent(), out);
+    drawing
+}
+
+/// Where entities are drawn, and as what.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Within<'a> {
+    pub(super) map: Affine,
+    /// The layer of the insertion, which entities on layer 0 of a block are on.
+    pub(super) layer: Option<&'a [u8]>,
+    /// The insertions around it.
+    pub(super) depth: usize,
+}
+
+/// Name of the layer whose entities are on that of the insertion, where a block has them.
+const LAYER_OF_INSERT: &[u8] = b"0";
+
+/// A drawing in the making.
+pub(super) struct Lowering<'a, 'o> {
+    pub(super) source: &'a Source,
+    entities: &'a [Entity<'a>],
+    pub(super) blocks: BTreeMap<Vec<u8>, &'a Block<'a>>,
+    hidden: &'a BTreeSet<&'a [u8]>,
+    letters: Letters,
+    /// Farthest that chords lie off their curve, mm.
+    sagitta: f64,
+    drawing: Drawing,
+    pub(super) told: Told,
+    pub(super) out: &'o mut Diagnostics,
+    /// Whether more is drawn than any drawing needs: then nothing is read any more.
+    pub(super) is_full: bool,
+    /// Insertions that may still be followed.
+    pub(super) inserts_left: usize,
+}
+
+impl<'a, 'o> Lowering<'a, 'o> {
+    fn of(source: &'a Source, sections: &'a Sections<'a>, job: &Job, out: &'o mut Diagnostics) -> Self {
+        let mut blocks = BTreeMap::new();
+        for block in &sections.blocks {
+            blocks.entry(block.head.bytes(NAME).to_ascii_uppercase()).or_insert(block);
+        }
+        let of_header = || sections.page.and_then(|span| page(source.slice(span)));
+        Self {
+            source,
+            entities: &sections.entities,
+            blocks,
+            hidden: &sections.hidden,
+            letters: job.profile.labels.set().or_else(of_header).unwrap_or(Letters::utf_8()).with_codes(),
+            sagitta: job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
+            drawing: Drawing::default(),
+            told: Told::default(),
+            out,
+            is_full: false,
+            inserts_left: super::insert::MOST_INSERTS,
+        }
+    }
+
+    /// What the file draws in a unit of so many mm.
+    fn drawn(mut self, unit: f64) -> Drawing {
+        let within = Within { map: Affine::scale(unit, unit), layer: None, depth: 0 };
+        self.entities(self.entities, &within);
+        self.told.say(self.out);
+        self.drawing
+    }
+
+    /// Draws entities. Those that are at fault are reported.
+    pub(super) fn entities(&mut self, entities: &'a [Entity<'a>], within: &Within<'a>) {
+        let mut rest = entities;
+        while let [entity, behind @ ..] = rest {
+            let is_vertex = |entity: &&Entity| entity.is("VERTEX");
+            let count = if entity.is("POLYLINE") { behind.iter().take_while(is_vertex).count() } else { 0 };
+            rest = &behind[count..];
+            if self.is_full {
+                return;
+            }
+            if entity.number(ON_PAPER).is_ok_and(|flag| flag == Some(1.0)) {
+                self.told.on_paper(entity);
+                continue;
+            }
+            if entity.is_invisible() || self.hidden.contains(self.layer_of(entity, within)) {
+                if !is_text(entity) {
+                    self.told.hidden(entity);
+                }
+                continue;
+            }
+            if entity.is("POLYLINE") && !rest.first().is_some_and(|behind| behind.is("SEQEND")) {
+                let finding = Diagnostic::new(&code::DXF_OPEN_POLYLINE, "the polyline that begins here has no SEQEND");
+                let finding = finding.at(entity.span());
+                self.out.push(finding.hint("vertices of it may be missing: export the file again"));
+            }
+            let drawn = if entity.is("POLYLINE") {
+                self.polyline(entity, &behind[..count], within)
+            } else if entity.is("INSERT") {
+                self.insert(entity, within)
+            } else {
+                self.entity(entity, within)
+            };
+            if let Err(fault) = drawn {
+                self.out.push(fault);
+            }
+        }
+    }
+
+    /// The layer that an entity is on.
+    pub(super) fn layer_of(&self, entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
+        let own = entity.layer_bytes();
+        within.layer.filter(|_| own == LAYER_OF_INSERT || own.is_empty()).unwrap_or(own)
+    }
+
+    fn entity(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
+        if entity.is("LINE") {
+            let span = |code| entity.value(code).unwrap_or(entity.span());
+            let [from, to] = [place(entity, [X, Y])?, place(entity, [X2, Y2])?].map(|at| within.map.point(at));
+            self.draw(entity, within, &[(from, span(X)), (to, span(X2))])
+        } else if entity.is("LWPOLYLINE") {
+            let vertices = self.light_vertices(entity)?;
+            let map = on_plane(entity, within)?;
+            let is_closed = entity.flags()? & CLOSED != 0;
+            self.chain(entity, &Within { map, ..*within }, &vertices, is_closed)
+        } else if entity.is("ARC") || entity.is("CIRCLE") {
+            let conic = round(entity)?.mapped(&on_plane(entity, within)?);
+            self.conic(entity, within, &conic)
+        } else if entity.is("ELLIPSE") {
+            let conic = ellipse(entity)?.mapped(&within.map);
+            self.conic(entity, within, &conic)
+        } else if entity.is("SPLINE") {
+            self.spline(entity, within)
+        } else if is_text(entity) {
+            self.text(entity, within);
+            Ok(())
+        } else {
+            if !SILENT.iter().any(|kind| entity.is(kind)) {
+                self.told.kind(entity);
+            }
+            Ok(())
+        }
+    }
+
+    /// Keeps a text. One without a place is a text all the same.
+    fn text(&mut self, entity: &Entity<'a>, within: &Within<'a>) {
+        let at = place(entity, [X, Y]).ok().map(|at| within.map.point(at));
+        let turn = entity.number(ANGLE).ok().flatten().map(|degrees| Affine::turn(rad(degrees)).vector(Vector::x()));
+        let heading = turn.map(|way| Heading::of(within.map.vector(way)));
+        let text = entity.value(TEXT).filter(|span| span.start < span.end);
+        self.drawing.texts.extend(text.map(|span| Label { at, heading, span, mirrored: None }));
+    }
+
+    /// Draws a polyline with its vertices.
+    fn polyline(
+        &mut self,
+        entity: &Entity<'a>,
+        vertices: &[Entity<'a>],
+        within: &Within<'a>,
+    ) -> Result<(), Diagnostic> {
+        let flags = entity.flags()?;
+        if flags & MESHES != 0 {
+            self.told.kind(entity);
+            return Ok(());
+        }
+        let map = if flags & IN_SPACE == 0 { on_plane(entity, within)? } else { within.map };
+        let mut places = Vec::with_capacity(vertices.len());
+        for vertex in vertices {
+            if vertex.flags()? & CONTROL_POINT == 0 {
+                places.push((place(vertex, [X, Y])?, vertex.number(BULGE)?.unwrap_or(0.0), vertex.span()));
+            }
+        }
+        self.chain(entity, &Within { map, ..*within }, &places, flags & CLOSED != 0)
+    }
+
+    /// The vertices of a light polyline, which follow each other in one entity.
+    fn light_vertices(&self, entity: &Entity) -> Result<Vec<Bulged>, Diagnostic> {
+        let mut vertices: Vec<Bulged> = Vec::new();
+        let mut x = None;
+        let lost = |span: Span| {
+            let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
+            Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
+        };
+        for group in entity.groups() {
+            let number = || number_at(self.source, group.value);
+            match (group.code, x) {
+                (X, None) => x = Some((number()?, group.value)),
+                (Y, Some((first, span))) => {
+                    vertices.push((Point::new(first, number()?), 0.0, span));
+                    x = None;
+                }
+                (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
+                (BULGE, None) => {
+                    let bulge = number()?;
+                    vertices.last_mut().into_iter().for_each(|vertex| vertex.1 = bulge);
+                }
+                _ => {}
+            }
+        }
+        let told = entity.number(COUNT)?;
+        match x {
+            Some((_, span)) => Err(lost(span)),
+            None if told.is_some_and(|count| count != vertices.len() as f64) => {
+                let message = format!("the LWPOLYLINE has {} vertices, and its count another", vertices.len());
+                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(entity.span()).hint("export the file again"))
+            }
+            None => Ok(vertices),
+        }
+    }
+
+    /// Draws from vertex to vertex; where one bulges, an arc leads to the next.
+    fn chain(
+        &mut self,
+        entity: &Entity<'a>,
+        within: &Within<'a>,
+        vertices: &[Bulged],
+        is_closed: bool,
+    ) -> Result<(), Diagnostic> {
+        let own_sagitta = self.sagitta / within.map.stretch().max(f64::MIN_POSITIVE);
+        let mut places: Vec<(Point, Span)> = Vec::with_capacity(vertices.len() + 1);
+        for (i, &(at, bulge, span)) in vertices.iter().enumerate() {
+            places.push((within.map.point(at), span));
+            let next = vertices.get(i + 1).or(if is_closed { vertices.first() } else { None });
+            let Some(&(end, _, behind)) = next else { continue };
+            let Some(arc) = bulged([at, end], bulge, own_sagitta) else { continue };
+            if within.map.stretch() * height(end - at, bulge) > FARTHEST {
+                return Err(too_far(span));
+            }
+            let [across, up] = [Vector::new(arc.radius, 0.0), Vector::new(0.0, arc.radius)];
+            let conic = Conic { centre: arc.centre, across, up, start: arc.start, sweep: arc.sweep };
+            let conic = conic.mapped(&within.map);
+            let count = self.room(conic.chords(self.sagitta), span)?;
+            places.extend((1..count).map(|k| (conic.place(k as f64 / count as f64), behind)));
+        }
+        if let Some(&first) = places.first().filter(|_| is_closed) {
+            places.push(first);
+        }
+        self.draw(entity, within, &places)
+    }
+
+    fn conic(&mut self, entity: &Entity<'a>, within: &Within<'a>, conic: &Conic) -> Result<(), Diagnostic> {
+        let span = entity.span();
+        if conic.reach() > FARTHEST || !conic.reach().is_finite() {
+            return Err(too_far(span));
+        }
+        let count = self.room(conic.chords(self.sagitta), span)?;
+        let mut places: Vec<(Point, Span)> =
+            (0..=count).map(|k| (conic.place(k as f64 / count as f64), span)).collect();
+        if conic.is_closed() {
+            places[count] = places[0];
+        }
+        self.draw(entity, within, &places)
+    }
+
+    /// Draws a spline: along its control points, or where it has none, through the points that it was fitted to.
+    fn spline(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
+        let is_closed = entity.flags()? & CLOSED != 0;
+        let [control, fitted] = [[X, Y], [X2, Y2]].map(|codes| self.points(entity, codes));
+        let (control, fitted) = (control?, fitted?);
+        let refuse = |flaw: &str| {
+            let message = format!("the SPLINE cannot be drawn: it has {flaw}");
+            Diagnostic::new(&code::DXF_SPLINE, message).at(entity.span()).hint("export it as a polyline, or again")
+        };
+        let spline = if control.is_empty() {
+            fit::through(&fitted, is_closed).ok_or_else(|| refuse("fewer than two points"))?
+        } else {
+            let degree = entity.whole(DEGREE)?.and_then(|degree| usize::try_from(degree).ok()).unwrap_or(0);
+            let (knots, weights) = (self.numbers(entity, KNOT)?, self.numbers(entity, WEIGHT)?);
+            Nurbs::of(degree, knots, &control, &weights).map_err(refuse)?
+        };
+        let most = MOST_PLACES - self.drawing.vertices.len().min(MOST_PLACES);
+        let Some(points) = spline.mapped(&within.map).flatten(self.sagitta, most) else {
+            return Err(self.full(entity.span()));
+        };
+        let mut places: Vec<(Point, Span)> = points.into_iter().map(|at| (at, entity.span())).collect();
+        let last = places.len() - 1;
+        if (places[last].0 - places[0].0).norm() <= self.sagitta && is_closed {
+            places[last] = places[0];
+        }
+        self.draw(entity, within, &places)
+    }
+
+    /// The places of two codes, in the units of the file.
+    fn points(&self, entity: &Entity, [x_code, y_code]: [i32; 2]) -> Result<Vec<Point>, Diagnostic> {
+        let (xs, ys) = (self.numbers(entity, x_code)?, self.numbers(entity, y_code)?);
+        if xs.len() != ys.len() {
+            let message = format!("the SPLINE has {} groups {x_code}, and {} groups {y_code}", xs.len(), ys.len());
+            let finding = Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(entity.span());
+            return Err(finding.hint("its groups were lost on the way: export the file again"));
+        }
+        Ok(xs.into_iter().zip(ys).map(|(x, y)| Point::new(x, y)).collect())
+    }
+
+    /// All numbers of a code.
+    fn numbers(&self, entity: &Entity, code: i32) -> Result<Vec<f64>, Diagnostic> {
+        let groups = entity.groups().iter().filter(|group| group.code == code);
+        groups.map(|group| number_at(self.source, group.value)).collect()
+    }
+
+    /// Room for so many places more.
+    fn room(&mut self, count: usize, span: Span) -> Result<usize, Diagnostic> {
+        if self.drawing.vertices.len().saturating_add(count) > MOST_PLACES {
+            return Err(self.full(span));
+        }
+        Ok(count)
+    }
+
+    /// The error that more is drawn than any drawing needs; nothing is read behind it.
+    pub(super) fn full(&mut self, span: Span) -> Diagnostic {
+        self.is_full = true;
+        let message =
+            format!("the file draws more than {MOST_PLACES} places, or has more insertions than can be followed");
+        let finding = Diagnostic::new(&code::DXF_TOO_LARGE, message).at(span);
+        finding.hint("look for a damaged radius or count, and for blocks that insert each other many times")
+    }
+
+    /// Draws a stroke, in mm.
+    fn draw(&mut self, entity: &Entity<'a>, within: &Within<'a>, places: &[(Point, Span)]) -> Result<(), Diagnostic> {
+        let is_far = |at: &Point| !(at.x.abs() <= FARTHEST && at.y.abs() <= FARTHEST);
+        if let Some(&(_, span)) = places.iter().find(|(at, _)| is_far(at)) {
+            return Err(too_far(span));
+        }
+        self.room(places.len(), entity.span())?;
+        let name = self.letters.name(self.layer_of(entity, within));
+        let pen = self.drawing.layer(&name);
+        let Some((&(first, span), behind)) = places.split_first() else { return Ok(()) };
+        self.drawing.begin(first, span, pen);
+        behind.iter().for_each(|&(at, span)| self.drawing.line(at, span));
+        self.drawing.lift();
+        Ok(())
+    }
+}
+
+/// A vertex, the bulge of the arc that leads to the next, and where it stands.
+type Bulged = (Point, f64, Span);
+
+/// The place of two codes, in the units of the file.
+pub(super) fn place(entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
+    Ok(Point::new(entity.coordinate(x)?, entity.coordinate(y)?))
+}
+
+fn is_text(entity: &Entity) -> bool {
+    ["TEXT", "MTEXT", "ATTRIB"].iter().any(|kind| entity.is(kind))
+}
+
+/// A circle or an arc, in the units of the file. An arc that ends where it starts is a circle.
+fn round(entity: &Entity) -> Result<Conic, Diagnostic> {
+    let (centre, radius) = (place(entity, [X, Y])?, entity.coordinate(RADIUS)?.abs());
+    let [start, end] =
+        if entity.is("CIRCLE") { [0.0, 360.0] } else { [entity.coordinate(ANGLE)?, entity.coordinate(END_ANGLE)?] };
+    let sweep = (end - start).rem_euclid(360.0);
+    let sweep = if sweep <= TURN_EPSILON_DEG { TAU } else { rad(sweep) };
+    Ok(Conic { centre, across: Vector::new(radius, 0.0), up: Vector::new(0.0, radius), start: rad(start), sweep })
+}
+
+/// An ellipse or an arc of one, in the units of the file: its second axis is the first turned left as it is seen from its
+/// own side, times a ratio.
+fn ellipse(entity: &Entity) -> Result<Conic, Diagnostic> {
+    let (centre, major) = (place(entity, [X, Y])?, place(entity, [X2, Y2])?.coords);
+    let ratio = entity.coordinate(RATIO)?.abs();
+    let minor = crate::geom::left(major) * if is_from_below(entity)? { -ratio } else { ratio };
+    let start = entity.number(START)?.unwrap_or(0.0);
+    let sweep = (entity.number(END)?.unwrap_or(TAU) - start).rem_euclid(TAU);
+    let sweep = if sweep <= rad(TURN_EPSILON_DEG) || TAU - sweep <= rad(TURN_EPSILON_DEG) { TAU } else { sweep };
+    Ok(Conic { centre, across: major, up: minor, start, sweep })
+}
+
+/// Where an entity is drawn whose coordinates are on its own plane: as it is, or from the back, with X to the left.
+pub(super) fn on_plane(entity: &Entity, within: &Within) -> Result<Affine, Diagnostic> {
+    Ok(if is_from_below(entity)? { Affine::scale(-1.0, 1.0).then(&within.map) } else { within.map })
+}
+
+/// Whether an entity is seen from the back of the cloth; an error where it stands on another plane.
+fn is_from_below(entity: &Entity) -> Result<bool, Diagnostic> {
+    let mut normal = [0.0, 0.0, 1.0];
+    for (value, code) in normal.iter_mut().zip(EXTRUSION) {
+        *value = entity.number(code)?.unwrap_or(*value);
+    }
+    let is = |wanted: f64| {
+        let off = normal.iter().zip([0.0, 0.0, wanted]).map(|(value, wanted)| (value - wanted).abs());
+        off.fold(0.0, f64::max) <= EXTRUSION_EPSILON
+    };
+    if is(1.0) || is(-1.0) {
+        return Ok(is(-1.0));
+    }
+    let kind = entity.kind().escape_ascii();
+    let [x, y, z] = normal;
+    let message = format!("the {kind} is drawn on another plane than the cloth: seen from {x}, {y}, {z}");
+    let finding = Diagnostic::new(&code::DXF_EXTRUSION, message).at(entity.span());
+    Err(finding.hint("flatten the drawing in the CAD system"))
+}
+
+fn too_far(span: Span) -> Diagnostic {
+    let finding = Diagnostic::new(&code::DXF_FAR_PLACE, "a place lies more than a kilometre from the origin").at(span);
+    finding.hint("look for a doubled digit, and at the unit (`dxf.unit`)")
+}

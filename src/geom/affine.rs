@@ -1,0 +1,107 @@
+//! Affine maps of the plane: what insertions and transforms of drawings do to what they hold.
+
+use nalgebra::Matrix2;
+
+use super::{Point, Vector};
+
+/// A map of points: a linear part and a shift, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Affine {
+    linear: Matrix2<f64>,
+    shift: Vector,
+}
+
+impl Affine {
+    /// The map that moves nothing.
+    pub const IDENTITY: Self = Self { linear: Matrix2::new(1.0, 0.0, 0.0, 1.0), shift: Vector::new(0.0, 0.0) };
+
+    /// The linear map that takes the unit vectors along X and Y to these.
+    pub fn of([x, y]: [Vector; 2]) -> Self {
+        Self { linear: Matrix2::from_columns(&[x, y]), ..Self::IDENTITY }
+    }
+
+    /// A shift.
+    pub fn shift(by: Vector) -> Self {
+        Self { shift: by, ..Self::IDENTITY }
+    }
+
+    /// A scale along each axis; negative factors mirror.
+    pub fn scale(x: f64, y: f64) -> Self {
+        Self { linear: Matrix2::new(x, 0.0, 0.0, y), ..Self::IDENTITY }
+    }
+
+    /// A turn about the origin, rad, counter-clockwise positive. Quarter turns are exact.
+    pub fn turn(angle: f64) -> Self {
+        let (sin, cos) = exact_sin_cos(angle);
+        Self { linear: Matrix2::new(cos, -sin, sin, cos), ..Self::IDENTITY }
+    }
+
+    /// The map that does this one first and then another.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        Self { linear: next.linear * self.linear, shift: next.linear * self.shift + next.shift }
+    }
+
+    /// Where a point comes to.
+    pub fn point(&self, at: Point) -> Point {
+        Point::from(self.linear * at.coords + self.shift)
+    }
+
+    /// What becomes of a displacement.
+    pub fn vector(&self, way: Vector) -> Vector {
+        self.linear * way
+    }
+
+    /// The greatest factor by which it makes a length longer: the larger singular value of its linear part.
+    pub fn stretch(&self) -> f64 {
+        let [a, c, b, d] = [self.linear.m11, self.linear.m21, self.linear.m12, self.linear.m22];
+        f64::midpoint((a + d).hypot(c - b), (a - d).hypot(c + b))
+    }
+
+    /// Whether it turns left into right.
+    pub fn mirrors(&self) -> bool {
+        self.linear.determinant() < 0.0
+    }
+
+    /// Whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.linear.iter().chain(self.shift.iter()).all(|number| number.is_finite())
+    }
+}
+
+/// Sine and cosine; those of quarter turns without the rounding of pi.
+fn exact_sin_cos(angle: f64) -> (f64, f64) {
+    let quarters = angle / std::f64::consts::FRAC_PI_2;
+    if (quarters - quarters.round()).abs() > f64::EPSILON * quarters.abs().max(1.0) {
+        return angle.sin_cos();
+    }
+    match quarters.round().rem_euclid(4.0) as u8 {
+        0 => (0.0, 1.0),
+        1 => (1.0, 0.0),
+        2 => (0.0, -1.0),
+        _ => (-1.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn maps_follow_each_other_in_their_order() {
+        let map = Affine::scale(2.0, -1.0).then(&Affine::turn(FRAC_PI_2)).then(&Affine::shift(Vector::new(10.0, 0.0)));
+        assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(11.0, 6.0));
+        assert_eq!(map.vector(Vector::new(3.0, 1.0)), Vector::new(1.0, 6.0));
+        assert!(map.mirrors() && !Affine::turn(1.0).mirrors());
+        assert!((map.stretch() - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_stretch_of_a_slant_is_that_of_its_longest_way() {
+        let map = Affine::turn(0.3).then(&Affine::scale(3.0, 0.5)).then(&Affine::turn(-1.1));
+        let longest =
+            (0..3600).map(|k| map.vector(Affine::turn(f64::from(k) / 1800.0 * 3.14159).vector(Vector::x())).norm());
+        assert!((longest.fold(0.0, f64::max) - map.stretch()).abs() < 1e-5);
+    }
+}
