@@ -18,5 +18,12 @@ pub(super) fn text(report: &Report) -> String {
     if drawn.texts_outside > 0 {
         let _ = writeln!(out, "  {:14} {:>8}", "texts beside", drawn.texts_outside);
     }
+    if !drawn.layers.is_empty() {
+        out += "\n  layer             count      length mm\n";
+    }
+    for layer in &drawn.layers {
+        let (name, count, length) = (&layer.name, layer.count, fixed(layer.length_mm, 3));
+        let _ = writeln!(out, "  {name:14} {count:>8} {length:>14}  {}", layer.used);
+    }
     out
 }

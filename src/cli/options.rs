@@ -10,6 +10,7 @@ use super::finished::{FAULTY, Finished, USAGE, failure, say};
 use super::{choices, files};
 use crate::diagnostic::{Detail, Diagnostics, Severity, render_with};
 use crate::front::Dialect;
+use crate::machine::layers::{LayerUses, NotLayers};
 use crate::machine::patterns::{Patterns, Quantity, Sizes};
 use crate::machine::plot::{Inner, Lines};
 use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
@@ -81,9 +82,9 @@ pub(super) struct Reading {
     patterns: Patterned,
 }
 
-/// Which lines of a plot are cut.
+/// Lines of a plot or a drawing that are cut.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Plots (HPGL)")]
+#[command(next_help_heading = "Plots and drawings (HPGL, DXF, SVG)")]
 struct Plotted {
     /// The pens that are knives, as in `--cut-pens 4`; what others draw is not cut, but for notches on cut edges
     ///
@@ -92,6 +93,13 @@ struct Plotted {
     /// for.
     #[arg(long, value_name = "NUMBERS", value_parser = pens)]
     cut_pens: Option<Numbers>,
+
+    /// The layers of a DXF or SVG drawing that are knives, as in `--layers CUT,FOLD=pen,TEXT*=ignore`
+    ///
+    /// A layer without a use is a knife. What others draw is not cut, but for notches on cut edges. Overrides
+    /// `drawing.layers` of the profile and what names of layers say. `cutc info` lists the layers.
+    #[arg(long, value_name = "LAYERS", value_parser = layers, conflicts_with = "cut_pens")]
+    layers: Option<LayerUses>,
 
     /// Which closed lines inside parts are cut
     ///
@@ -139,8 +147,9 @@ impl Reading {
 
     /// The same, with more `key=value` behind those that are typed.
     pub(super) fn job_with(&self, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
-        let Plotted { cut_pens, inner, cut_all } = &self.lines;
-        let lines = Lines { pens: cut_pens.clone(), inner: inner.map(Into::into), all: *cut_all };
+        let Plotted { cut_pens, layers, inner, cut_all } = &self.lines;
+        let lines =
+            Lines { pens: cut_pens.clone(), layers: layers.clone(), inner: inner.map(Into::into), all: *cut_all };
         Ok(self.machine.job_with(more)?.map(|job| self.patterns.of(Job { lines, ..job })))
     }
 }
@@ -206,6 +215,11 @@ fn start(text: &str) -> Result<Start, NotStart> {
     Start::parse(text)
 }
 
+/// Reads uses of layers.
+fn layers(text: &str) -> Result<LayerUses, NotLayers> {
+    LayerUses::parse(text)
+}
+
 /// Numbers of pens: any but 0, which stands for none.
 fn pens(text: &str) -> anyhow::Result<Numbers> {
     let numbers = numbers(text)?;
@@ -267,6 +281,7 @@ pub(super) fn typed(job: &Job) -> String {
     let Selection { pieces, skip, resume_from } = &job.selection;
     let mut words = Vec::new();
     words.extend(job.lines.pens.iter().map(|numbers| format!("--cut-pens {numbers}")));
+    words.extend(job.lines.layers.iter().map(|layers| format!("--layers {layers}")));
     words.extend(job.lines.inner.iter().map(|inner| {
         let name = match inner {
             Inner::Ignore => "ignore",

@@ -200,6 +200,10 @@ codes! {
     DRAWING_AGAIN = warning(Spares, Shape, "drawing/drawn-again", "Lines of a drawing are drawn again, in the same places or nearly so; each is taken once.", "Some programs draw a notch or an outline twice, or a whole plot once more with another pen. A second cut in the same place frays the cloth: copies are left out, and an edge that two parts share is none. If the file holds a marker twice, export it again.");
     /// The searches for notches, letters and seam lines.
     DRAWING_SEARCH_ENDED = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.", "A mark that is not recognised as a notch is not cut, and a seam line may count as a cut-out. Leave texts and clutter out of the export, or split the plot.");
+    /// Layers whose names say what they are.
+    DRAWING_LAYERS = warning(Spares, Shape, "drawing/layers", "Names of layers say which lines of a drawing are cut, as CUT, FOLD and TEXT do; where one is cut by its name, layers of which nothing is said are not.", "Layers are tools: one is the knife, others are folded, drawn or only noted. Words of six languages are known. Say it for the file, or once for all files in the profile, where a name may be a pattern.\n  cutc compile drawing.dxf --layers CUT,FOLD=pen,TEXT=ignore\n  cutc info drawing.dxf");
+    /// Options for layers that are not there.
+    DRAWING_NO_LAYER = error(Shape, "drawing/no-layer", "`--layers` names a layer that the drawing does not have, or is given for a plot, which has pens; or `--cut-pens` is given for a drawing with layers.", "An option that does nothing hides a slip: the layer that was meant would be cut or left out all the same. The hint names the layers that there are.\n  cutc info drawing.dxf");
 
     // Pattern DXF.
     /// A line that is no code.

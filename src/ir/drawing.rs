@@ -170,6 +170,8 @@ impl Drawing {
 pub struct Account {
     /// Lines by what they were taken for, in a fixed order; none without lines.
     pub classes: Vec<LineClass>,
+    /// Layers in the order in which they first draw; none of what pens draw.
+    pub layers: Vec<LayerLines>,
     /// Way of the pen while it is down, mm; texts that a plotter letters are not in it.
     pub pen_down: f64,
     /// Texts that stand in no part: they belong to no piece.
@@ -191,6 +193,19 @@ pub struct LineClass {
     pub about: &'static str,
     /// Whether these are cut or drilled.
     pub cut: bool,
+    /// How many there are.
+    pub count: usize,
+    /// Length as drawn, mm.
+    pub length: f64,
+}
+
+/// Lines of a layer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerLines {
+    /// Name of the layer.
+    pub name: String,
+    /// What is said of its lines, in a word or two.
+    pub used: &'static str,
     /// How many there are.
     pub count: usize,
     /// Length as drawn, mm.

@@ -1,8 +1,12 @@
 //! Drawings, whatever their dialect: the keys `drawing.*`.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::key::{Key, Takes, from};
+use super::pen::PenUse;
+use super::word::words;
 
 /// Widest gap that `drawing.close_mm` may close, mm: outlines stop before their start by less, other lines by more.
 pub const CLOSE_MOST_MM: f64 = 10.0;
@@ -11,18 +15,21 @@ pub const CLOSE_MOST_MM: f64 = 10.0;
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "drawing.close_mm", takes: Takes::Number(from(0.0, CLOSE_MOST_MM)), about: "Outlines of a plot whose ends are this far apart at the most are closed, and so are those\nwhose ends lie this near to the edge of the frame. 0 = only rounding is closed." },
+    Key { name: "drawing.layers.<layer>", takes: Takes::Word(words::<PenUse>), about: "What a layer of a drawing (DXF, SVG) stands for, by its name or a pattern: its lines are cut\n(\"knife\"), drawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Where\none is a knife, layers without a key are pens; words of their names may say otherwise." },
 ];
 
 /// How drawings are read.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Drawings {
     /// Widest gap of an outline that is closed, mm.
     pub close_mm: f64,
+    /// Layers by their names, or by patterns of them.
+    pub layers: BTreeMap<String, PenUse>,
 }
 
 impl Default for Drawings {
     fn default() -> Self {
-        Self { close_mm: 1.5 }
+        Self { close_mm: 1.5, layers: BTreeMap::new() }
     }
 }

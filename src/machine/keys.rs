@@ -10,8 +10,8 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drawings, drill, flow, gcode, knife, labels, nest, notches, order, path, patterns, sewing,
-    sheet, table, time, tool, tracking, verify,
+    axes, common, counts, drawings, drill, flow, gcode, knife, labels, layers, nest, notches, order, path, patterns,
+    sewing, sheet, table, time, tool, tracking, verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.
@@ -69,7 +69,7 @@ pub const KEYS: &[Key] = &{
 };
 
 /// Keys of which a profile has as many as it likes.
-const FAMILIES: [Family; 2] = [codes::FAMILY, plot::PENS];
+const FAMILIES: [Family; 3] = [codes::FAMILY, plot::PENS, layers::LAYERS];
 
 /// The family whose names begin with that.
 pub(super) fn family(start: &str) -> Option<&'static Family> {

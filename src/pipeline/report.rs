@@ -11,7 +11,7 @@ use super::spent::Spent;
 use crate::back::Estimate;
 use crate::geom::polyline;
 use crate::ir::declaration::Total;
-use crate::ir::drawing::{Account, LineClass};
+use crate::ir::drawing::{Account, LayerLines, LineClass};
 use crate::ir::marker::{NotchForm, NotchKind};
 use crate::ir::{self, Marker};
 use crate::machine::{Follow, NotchStyle};
@@ -157,6 +157,23 @@ pub struct Drawn {
     pub texts_outside: usize,
     /// What the lines were taken for; classes without any are left out.
     pub lines: Vec<Lines>,
+    /// The layers of a drawing that has such.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<Layer>,
+}
+
+/// Lines of a layer of a drawing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Layer {
+    /// Name of the layer.
+    pub name: String,
+    /// What is said of its lines.
+    pub used: &'static str,
+    /// How many there are.
+    pub count: usize,
+    /// Length as drawn, mm.
+    #[serde(serialize_with = "micro")]
+    pub length_mm: f64,
 }
 
 /// Lines of a plot that were taken for the same thing.
@@ -185,7 +202,14 @@ impl Drawn {
             length_mm: class.length,
         };
         let lines = account.classes.iter().map(lines).collect();
-        Self { pen_down_mm: account.pen_down, texts_outside: account.texts_outside, lines }
+        let layer = |layer: &LayerLines| Layer {
+            name: layer.name.clone(),
+            used: layer.used,
+            count: layer.count,
+            length_mm: layer.length,
+        };
+        let layers = account.layers.iter().map(layer).collect();
+        Self { pen_down_mm: account.pen_down, texts_outside: account.texts_outside, lines, layers }
     }
 }
 

@@ -55,7 +55,7 @@ pub(super) fn reach(unit: f64) -> f64 {
 
 /// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
 pub(super) fn join(drawing: &mut Drawing, job: &Job, work: &mut Budget) -> (Vec<Line>, Moved) {
-    let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
+    let uses = pens::uses(&drawing.pens, job);
     let reach = reach(drawing.unit);
     let close = job.profile.drawing.close_mm;
     let again = again::take(drawing, &uses, close.max(reach));

@@ -11,7 +11,7 @@
 //! those aside that lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what
 //! lies in what, `remains` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses
 //! among them, `letters` and `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens`
-//! what pens stand for. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
+//! what pens stand for, `layers` says it of layers. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
 mod again;
 mod bridge;
@@ -20,6 +20,7 @@ mod close;
 mod doubts;
 mod frame;
 mod join;
+mod layers;
 mod letters;
 mod line;
 mod marks;
@@ -46,6 +47,11 @@ use crate::machine::Job;
 
 /// Decides what of a drawing is cut, and makes the marker of it.
 pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
+    layers::say(&drawing.pens, job, diagnostics);
+    if diagnostics.has_errors() {
+        return Marker::default();
+    }
+    let of_layers = layers::drawn(&drawing, job);
     let mut work = Budget::of_a_marker();
     let (mut lines, moved) = join::join(&mut drawing, job, &mut work);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
@@ -71,5 +77,5 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     sheet.decide(job);
     sheet.set_open_outlines(doubts::doubtful_outlines(&sheet));
     say::all(&sheet, job, diagnostics);
-    piece::marker(sheet, diagnostics)
+    piece::marker(sheet, of_layers, diagnostics)
 }

@@ -1,10 +1,11 @@
-//! What a user or a profile says of pens and layers.
+//! Pens and layers: what a user, a profile or a name says that their lines are.
 
 use crate::ir::drawing::Pen;
 use crate::machine::Job;
+use crate::machine::layers::{self, Known};
 use crate::machine::plot::PenUse;
 
-/// What the lines of a pen stand for.
+/// Use of the lines of a pen or a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Use {
     /// Nobody says: their shapes do.
@@ -17,8 +18,38 @@ pub(super) enum Use {
     Ignore,
 }
 
-/// What a pen stands for in a job.
-pub(super) fn usage(pen: &Pen, job: &Job) -> Use {
+impl From<PenUse> for Use {
+    fn from(used: PenUse) -> Self {
+        match used {
+            PenUse::Knife => Self::Knife,
+            PenUse::Pen => Self::Drawn,
+            PenUse::Ignore => Self::Ignore,
+        }
+    }
+}
+
+/// Uses of the pens of a drawing in a job, in their order.
+pub(super) fn uses(pens: &[Pen], job: &Job) -> Vec<Use> {
+    let mut of_layers = of_layers(pens, job).into_iter();
+    pens.iter()
+        .map(|pen| {
+            if pen.is_layer {
+                of_layers.next().flatten().map_or(Use::Unsaid, |(used, _)| used.into())
+            } else {
+                of_pen(pen, job)
+            }
+        })
+        .collect()
+}
+
+/// Uses of the layers among the pens of a drawing, in their order, and how each is known.
+pub(super) fn of_layers(pens: &[Pen], job: &Job) -> Vec<Option<(PenUse, Known)>> {
+    let names: Vec<&str> = pens.iter().filter(|pen| pen.is_layer).map(|pen| pen.name.as_str()).collect();
+    layers::uses(&names, job.lines.layers.as_ref(), &job.profile.drawing.layers)
+}
+
+/// Use of a pen of a plotter.
+fn of_pen(pen: &Pen, job: &Job) -> Use {
     let number = pen.name.parse::<u32>().ok();
     match (&job.lines.pens, job.profile.hpgl.pen(&pen.name)) {
         // While no pen is taken nothing is drawn.
@@ -31,8 +62,7 @@ pub(super) fn usage(pen: &Pen, job: &Job) -> Use {
                 Use::Drawn
             }
         }
-        (None, Some(PenUse::Knife)) => Use::Knife,
-        (None, Some(PenUse::Pen)) => Use::Drawn,
+        (None, Some(used)) => used.into(),
         (None, None) => Use::Unsaid,
     }
 }

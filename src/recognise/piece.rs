@@ -8,7 +8,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, Vector, cross, polyline, ring};
 use crate::ir::Marker;
-use crate::ir::drawing::{Account, Aside, LineClass, Redrawn, Vertex};
+use crate::ir::drawing::{Account, Aside, LayerLines, LineClass, Redrawn, Vertex};
 use crate::ir::list::{FULL_SPEED, SegmentList};
 use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Piece};
 
@@ -16,7 +16,7 @@ use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Pi
 const DRILL: u8 = 1;
 
 /// Makes the marker.
-pub(super) fn marker(mut sheet: Sheet, diagnostics: &mut Diagnostics) -> Marker {
+pub(super) fn marker(mut sheet: Sheet, layers: Vec<LayerLines>, diagnostics: &mut Diagnostics) -> Marker {
     let texts = std::mem::take(&mut sheet.texts);
     let mut making = Making::new(&sheet);
     making.add_notches();
@@ -32,6 +32,7 @@ pub(super) fn marker(mut sheet: Sheet, diagnostics: &mut Diagnostics) -> Marker 
     let aside = aside(&sheet);
     let account = Account {
         classes: classes(&sheet.lines),
+        layers,
         pen_down: pen_down(&sheet),
         texts_outside,
         aside,

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub use self::unit::PlotUnit;
 use self::unit::{GREATEST_UNIT_MM, LEAST_UNIT_MM};
 use super::key::{Family, Key, Takes, from};
+use super::layers::LayerUses;
+pub use super::pen::PenUse;
 use super::selection::Numbers;
 use super::word::{Off, OrWord, Word as _, words};
 
@@ -59,18 +61,6 @@ impl Hpgl {
     }
 }
 
-/// What a pen stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum PenUse {
-    /// The knife: its lines are cut.
-    Knife,
-    /// A pen: its lines are drawn, not cut.
-    Pen,
-    /// Its lines do not matter.
-    Ignore,
-}
-
 /// Which closed lines inside the parts of a plot are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -102,6 +92,8 @@ pub enum Frame {
 pub struct Lines {
     /// Only those of these pens; `None` = as the profile and the shapes say.
     pub pens: Option<Numbers>,
+    /// Layers; `None` = as the profile and their names say.
+    pub layers: Option<LayerUses>,
     /// Which closed lines inside parts; `None` = as the profile says.
     pub inner: Option<Inner>,
     /// Every line, whatever it is taken for.

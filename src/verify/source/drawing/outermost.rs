@@ -81,11 +81,13 @@ pub fn drawing_audit(dialect: &str, bytes: &[u8], read: &DrawingCuts, job: &Job)
     let Some(second) = super::second(dialect) else { return Vec::new() };
     let mut outermost = Worst::new(&rules::SOURCE_OUTERMOST, Some(0.0));
     let mut strokes = Worst::new(&rules::SOURCE_STROKES, Some(0.0));
-    let Drawn { strokes: drawn, unit } = (second.strokes)(bytes, &job.profile);
+    let drawn = (second.strokes)(bytes, &job.profile);
+    let is_said = drawn.is_said(job);
+    let Drawn { strokes: drawn, unit, .. } = drawn;
     let judging = Judging::new(&drawn, unit, read, job);
     let mut wrong = judging.made_up();
     let mut lost = Vec::new();
-    if job.lines.pens.is_none() && job.profile.hpgl.pens.is_empty() {
+    if !is_said {
         wrong.extend(judging.in_uncut_outlines());
         wrong.extend(judging.surrounded());
         wrong.extend(judging.about_the_cloth());

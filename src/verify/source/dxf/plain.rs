@@ -59,6 +59,8 @@ struct Scan<'a> {
     census: Census,
     slack: Slack,
     strokes: Vec<Vec<Point>>,
+    /// Names of the layers that draw them.
+    layers: BTreeSet<&'a [u8]>,
     /// Insertions that may still be followed.
     left: usize,
 }
@@ -71,16 +73,17 @@ pub(in crate::verify::source) fn scan(bytes: &[u8], profile: &MachineProfile) ->
 
 /// The strokes of a drawing.
 pub(in crate::verify::source) fn drawn(bytes: &[u8], profile: &MachineProfile) -> Drawn {
-    Drawn { strokes: scanned(bytes, profile).0, unit: 0.0 }
+    scanned(bytes, profile).0
 }
 
-fn scanned(bytes: &[u8], profile: &MachineProfile) -> (Vec<Vec<Point>>, Census, Slack) {
+fn scanned(bytes: &[u8], profile: &MachineProfile) -> (Drawn, Census, Slack) {
     let file = sheets(bytes, &profile.labels);
     let in_unit = |unit: f64| {
         let mut scan = Scan::of(&file, profile);
         let map = Map([[unit, 0.0], [0.0, unit], [0.0; 2]]);
         scan.items(&file.loose.items, &map, None, 0);
-        (scan.strokes, scan.census, scan.slack)
+        let layers = scan.layers.iter().map(|name| file.letters.read(name)).collect();
+        (Drawn { strokes: scan.strokes, unit: 0.0, layers }, scan.census, scan.slack)
     };
     let of_header = file.unit.and_then(|number| UNITS.iter().find(|unit| unit.0 == number)).map_or(1.0, |unit| unit.1);
     match profile.dxf.unit.mm() {
@@ -108,6 +111,7 @@ impl<'a> Scan<'a> {
             census: Census::empty(0.0),
             slack: Slack { sagitta, length: 0.0, bounds: 0.0, moments: Moments::default() },
             strokes: Vec::new(),
+            layers: BTreeSet::new(),
             left: MOST_INSERTS,
         }
     }
@@ -127,7 +131,9 @@ impl<'a> Scan<'a> {
             if item.kind == b"INSERT" {
                 self.insert(item, map, on, depth);
             } else {
+                let before = self.strokes.len();
                 self.item(item, &behind[..vertices], map);
+                self.layers.extend((self.strokes.len() > before).then_some(on));
             }
         }
     }

@@ -9,6 +9,8 @@ mod frame;
 mod instruction;
 mod scan;
 
+use std::collections::BTreeSet;
+
 use self::instruction::ETX;
 use self::scan::{Pen, Scan};
 use crate::geom::Point;
@@ -28,7 +30,7 @@ pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
 /// The strokes of a plot.
 pub(super) fn drawn(bytes: &[u8], profile: &MachineProfile) -> Drawn {
     let strokes = scanned(bytes, profile, Some(Vec::new())).strokes.unwrap_or_default();
-    Drawn { strokes, unit: profile.hpgl.unit.mm() }
+    Drawn { strokes, unit: profile.hpgl.unit.mm(), layers: BTreeSet::new() }
 }
 
 fn scanned<'a>(bytes: &'a [u8], profile: &MachineProfile, strokes: Option<Vec<Vec<Point>>>) -> Scan<'a> {

@@ -1,0 +1,165 @@
+//! Layers of drawings: what a user, a profile or the name of a layer says that its lines are.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use fast_glob::glob_match;
+use thiserror::Error;
+
+use super::key::Family;
+use super::pen::PenUse;
+
+/// Words of names of layers in English, German, Dutch, French, Italian and Spanish, in capitals, and what they say. Of two words
+/// in a name that of the earlier row holds.
+#[rustfmt::skip] // a table: a row a use
+const WORDS: [(PenUse, &[&str]); 3] = [
+    (PenUse::Ignore, &["TEXT", "TEXTS", "TEXTE", "TEKST", "TESTO", "TEXTO", "LABEL", "LABELS", "NOTE", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "BEMASSUNG", "BEMAßUNG", "MAATVOERING", "COTE", "COTES", "COTATION", "QUOTE", "COTAS", "ANNOTATION", "ANNOTATIONS", "DEFPOINTS", "VIEWPORT", "FRAME", "BORDER", "RAHMEN", "KADER", "CADRE", "CORNICE", "MARCO", "TITLE", "SHEET", "HATCH"]),
+    (PenUse::Pen, &["PEN", "STIFT", "ZEICHNEN", "TEKENEN", "STYLO", "PENNA", "LAPIZ", "FOLD", "FALZ", "BRUCH", "VOUW", "PLI", "PIEGA", "DOBLEZ", "CREASE", "SCORE", "SEAM", "SEW", "STITCH", "NAHT", "NAAD", "COUTURE", "CUCITURA", "COSTURA", "GRAIN", "GRAINLINE", "FADENLAUF", "DRAADRICHTING", "NOTCH", "NOTCHES", "KNIP", "KNIPS", "CRAN", "CRANS", "TACCA", "TACCHE", "PIQUETE", "PIQUETES", "DRILL", "BOHRUNG", "ENGRAVE"]),
+    (PenUse::Knife, &["CUT", "CUTS", "CUTTING", "KNIFE", "SCHNITT", "SCHNEIDEN", "MESSER", "SNIJ", "SNIJDEN", "SNIJLIJN", "MES", "COUPE", "DECOUPE", "DÉCOUPE", "TAGLIO", "LAMA", "CORTE", "CUCHILLA", "THROUGHCUT"]),
+];
+
+/// A key a layer.
+pub(super) const LAYERS: Family =
+    Family { start: "drawing.layers", has: is_layer, pattern: || "[^.]+".to_owned(), example: "\"CUT*\" = \"knife\"" };
+
+/// Whether a word may be the name of a layer, or a pattern of such: anything without a dot.
+fn is_layer(word: &str) -> bool {
+    !word.is_empty() && !word.contains('.')
+}
+
+/// Uses of layers as they are typed: `CUT,NOTCH=pen,TEXT*=ignore`.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LayerUses(Vec<(String, PenUse)>);
+
+/// A list that names no layers.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error("expected layers, as in `CUT,FOLD=pen,TEXT*=ignore`; `{0}` is none: a layer is a knife, a pen or ignored")]
+pub struct NotLayers(String);
+
+impl LayerUses {
+    /// Reads names or patterns with commas between them, each with a use behind `=`; without one it is a knife.
+    pub fn parse(text: &str) -> Result<Self, NotLayers> {
+        let one = |part: &str| {
+            let (name, said) = part.split_once('=').unwrap_or((part, "knife"));
+            let used = match said.trim() {
+                "knife" => PenUse::Knife,
+                "pen" => PenUse::Pen,
+                "ignore" => PenUse::Ignore,
+                _ => return Err(NotLayers(part.to_owned())),
+            };
+            let name = name.trim();
+            if name.is_empty() { Err(NotLayers(part.to_owned())) } else { Ok((name.to_owned(), used)) }
+        };
+        text.split(',').map(one).collect::<Result<Vec<_>, _>>().map(Self)
+    }
+
+    /// What they say of a layer: the first that names it.
+    fn of(&self, name: &str) -> Option<PenUse> {
+        self.0.iter().find(|(pattern, _)| names(pattern, name)).map(|(_, used)| *used)
+    }
+
+    /// The names and patterns among them that name none of some layers.
+    pub fn unused<'a>(&'a self, layers: &[&str]) -> Vec<&'a str> {
+        let is_unused = |pattern: &&str| !layers.iter().any(|layer| names(pattern, layer));
+        self.0.iter().map(|(pattern, _)| pattern.as_str()).filter(is_unused).collect()
+    }
+}
+
+/// As it is typed.
+impl fmt::Display for LayerUses {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = |used: PenUse| match used {
+            PenUse::Knife => "",
+            PenUse::Pen => "=pen",
+            PenUse::Ignore => "=ignore",
+        };
+        let parts = self.0.iter().map(|(name, used)| format!("{name}{}", word(*used)));
+        out.write_str(&parts.collect::<Vec<_>>().join(","))
+    }
+}
+
+/// Whether a name or a pattern names a layer, in whatever letters.
+fn names(pattern: &str, layer: &str) -> bool {
+    let [pattern, layer] = [pattern, layer].map(|text| text.trim().to_lowercase());
+    pattern == layer || glob_match(&pattern, &layer)
+}
+
+/// How the use of a layer is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Known {
+    /// Somebody said so, in the profile or for this job.
+    Said,
+    /// A word of its name says so.
+    Named,
+    /// Other layers are knives, and nobody says anything of this one: it is a pen.
+    Beside,
+}
+
+/// Uses of the layers of a drawing, in their order; `None` of those of which nobody says anything: their shapes do.
+pub fn uses(
+    layers: &[&str],
+    typed: Option<&LayerUses>,
+    of_profile: &BTreeMap<String, PenUse>,
+) -> Vec<Option<(PenUse, Known)>> {
+    let said = |name: &str| {
+        let of_profile = || of_profile.iter().find(|(pattern, _)| names(pattern, name)).map(|(_, used)| *used);
+        typed.and_then(|typed| typed.of(name)).or_else(of_profile)
+    };
+    let found = |name: &&str| {
+        let said = said(name).map(|used| (used, Known::Said));
+        said.or_else(|| by_name(name).map(|used| (used, Known::Named)))
+    };
+    let mut uses: Vec<Option<(PenUse, Known)>> = layers.iter().map(found).collect();
+    if uses.iter().flatten().any(|(used, _)| *used == PenUse::Knife) {
+        uses.iter_mut().for_each(|used| _ = used.get_or_insert((PenUse::Pen, Known::Beside)));
+    }
+    uses
+}
+
+/// What the words of a name say.
+fn by_name(name: &str) -> Option<PenUse> {
+    let name = name.to_uppercase();
+    let words: Vec<&str> = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+    WORDS.iter().find(|(_, known)| words.iter().any(|word| known.contains(word))).map(|(used, _)| *used)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_typed_is_read_and_shown_alike() {
+        for text in ["CUT", "CUT,FOLD=pen,TEXT*=ignore", "Layer 1"] {
+            assert_eq!(LayerUses::parse(text).expect("layers").to_string(), text);
+        }
+        for text in ["", "CUT,", "CUT=laser", "=pen"] {
+            assert!(LayerUses::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_typed_holds_before_the_profile_and_that_before_names() {
+        let typed = LayerUses::parse("a*,CUT=ignore").expect("layers");
+        let of_profile = BTreeMap::from([("abc".to_owned(), PenUse::Pen), ("fold".to_owned(), PenUse::Knife)]);
+        let found = uses(&["ABC", "Cut", "FOLD", "TEXT 1", "other"], Some(&typed), &of_profile);
+        use Known::{Beside, Named, Said};
+        let expected = [
+            Some((PenUse::Knife, Said)),
+            Some((PenUse::Ignore, Said)),
+            Some((PenUse::Knife, Said)),
+            Some((PenUse::Ignore, Named)),
+            Some((PenUse::Pen, Beside)),
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(typed.unused(&["ABC"]), ["CUT"]);
+    }
+
+    #[test]
+    fn names_say_nothing_where_no_word_does() {
+        let none = BTreeMap::new();
+        assert_eq!(uses(&["0", "deel 1", "Layer1", "cutter"], None, &none), [None; 4]);
+        let cut = uses(&["CUT_OUTER", "SCHNITT-2", "dim.cut"], None, &none);
+        assert_eq!(cut[0], Some((PenUse::Knife, Known::Named)));
+        assert_eq!([cut[1], cut[2]].map(|used| used.map(|used| used.0)), [Some(PenUse::Knife), Some(PenUse::Ignore)]);
+    }
+}
