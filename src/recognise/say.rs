@@ -439,11 +439,19 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     let Some(&first) = held.first() else {
         return finding.hint("every line is drawn while no pen is taken (SP0); let the CAD take pen 1 for outlines");
     };
+    let has_layers = sheet.pens.iter().any(|pen| pen.is_layer);
     let listed = held[..held.len().min(SHOWN_PENS)].join(",");
+    let noun = if has_layers { "on layer" } else { "with pen" };
     let drawn = match held.len() {
-        1 => format!("the file draws with pen {first}"),
-        n => format!("the file draws with pens {listed}{}", if n > SHOWN_PENS { " and others" } else { "" }),
+        1 => format!("the file draws {noun} {first}"),
+        n => format!("the file draws {noun}s {listed}{}", if n > SHOWN_PENS { " and others" } else { "" }),
     };
+    let (option, unit) = if has_layers { ("layers", "") } else { ("cut-pens", " (`--set hpgl.unit=1`)") };
+    let is_out = |line: &Line| matches!(line.usage, Use::Drawn | Use::Ignore);
+    if has_layers && sheet.lines.iter().all(is_out) {
+        let hint = format!("names of layers, `--layers` or `drawing.layers` leave all lines out: {drawn}");
+        return finding.hint(hint).hint("`--layers NAME` makes a layer the knife");
+    }
     let is_wanted =
         |name: &&str| name.parse().is_ok_and(|number| job.lines.pens.as_ref().is_none_or(|p| p.has(number)));
     if let Some(only) = job.lines.pens.as_ref().filter(|_| !held.iter().any(is_wanted)) {
@@ -461,18 +469,28 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     if is_small || width.max(height) <= SMALL_OUTLINE {
         let large = format!("all of it is {} x {} mm", fixed(width, 1), fixed(height, 1));
         return finding.hint(if is_small {
-            format!("{large}: a wrong unit (`--set hpgl.unit=1`)? `--cut-pens {listed}` cuts small parts")
+            format!("{large}: a wrong unit{unit}? `--{option} {listed}` cuts small parts")
         } else {
-            format!("{large}: a wrong unit (`--set hpgl.unit=1`), or decimal commas?")
+            format!("{large}: a wrong unit{unit}, or decimal commas?")
         });
     }
+    let (why, place) = unclosed(sheet);
+    let finding = finding.hint(format!("{drawn}, {why}")).hint("`--cut-all` cuts every line but a frame");
+    match place {
+        Some(line) => finding.at(line.span(&sheet.vertices)),
+        None => finding,
+    }
+}
+
+/// Why no line of a sheet is a part, and the line that says so.
+fn unclosed(sheet: &Sheet) -> (String, Option<&Line>) {
     let ends = |line: &Line| {
         let places = line.as_drawn(&sheet.vertices);
         (places[places.len() - 1].at - places[0].at).norm()
     };
     let open = sheet.lines.iter().filter(|line| !line.is_closed && !line.is_set_aside());
     let longest = open.max_by(|a, b| a.length.total_cmp(&b.length));
-    let (why, place) = match longest {
+    match longest {
         _ if !sheet.remains.is_empty() => ("its closed lines lie in outlines that are open".to_owned(), None),
         _ if sheet.lines.iter().any(|line| line.is_closed) => ("no closed line is a part".to_owned(), None),
         None => ("no line closes".to_owned(), None),
@@ -480,10 +498,5 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
             0.0 => ("its lines come back but enclose nothing".to_owned(), Some(line)),
             gap => (format!("no line closes: the longest ends {} mm from its start", fixed(gap, 1)), Some(line)),
         },
-    };
-    let finding = finding.hint(format!("{drawn}, {why}")).hint("`--cut-all` cuts every line but a frame");
-    match place {
-        Some(line) => finding.at(line.span(&sheet.vertices)),
-        None => finding,
     }
 }

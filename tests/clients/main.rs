@@ -4,6 +4,8 @@
 #[cfg(unix)] // it kills processes by their group
 mod dask;
 
+mod drawings;
+
 mod linuxcnc;
 
 mod patterns;

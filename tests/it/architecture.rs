@@ -107,7 +107,7 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
 ];
 
 /// Dialects without a grammar, and why.
-const NO_GRAMMAR: &[(&str, &str)] = &[];
+const NO_GRAMMAR: &[(&str, &str)] = &[("pattern", "its groups are those of dxf")];
 
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[

@@ -15,6 +15,7 @@ mod coarse;
 mod codes;
 mod common;
 mod damaged;
+mod drawing;
 mod drives;
 mod edits;
 mod entries;

@@ -100,6 +100,8 @@ fn every_command_of_the_manual_runs() {
     let room = room_of_many(false);
     fs::copy(root().join("fixtures/pictures/marker.cut"), room.at("marker.cut")).expect("a copy");
     fs::copy(root().join("fixtures/pictures/pattern.dxf"), room.at("pattern.dxf")).expect("a copy");
+    let drawing = root().join("fixtures/dxf/layers-that-say-what-they-are.dxf");
+    fs::copy(drawing, room.at("drawing.dxf")).expect("a copy");
     room.write("machine.toml", b"knife.width_mm = 7.2\n");
     for name in ["pocket.csv", "seat.dst"] {
         fs::copy(root().join("fixtures/sew").join(name), room.at(name)).expect("a copy");

@@ -55,6 +55,8 @@ fn every_command_of_the_readme_runs() {
     fs::copy(root().join("fixtures/sew/pocket.csv"), folder.path().join("pocket.csv")).expect("a copy");
     fs::copy(root().join("fixtures/track/step.toml"), folder.path().join("step.toml")).expect("a copy");
     fs::copy(root().join("fixtures/pictures/pattern.dxf"), folder.path().join("pattern.dxf")).expect("a copy");
+    let drawing = root().join("fixtures/dxf/layers-that-say-what-they-are.dxf");
+    fs::copy(drawing, folder.path().join("drawing.dxf")).expect("a copy");
     fs::copy(root().join("fixtures/spray/panel.csv"), folder.path().join("panel.csv")).expect("a copy");
     fs::copy(root().join("fixtures/machines/spray.toml"), folder.path().join("spray.toml")).expect("a copy");
     let commands = commands("cutc ");

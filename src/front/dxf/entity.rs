@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::group::Group;
 use super::syntax::{number, whole};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
@@ -15,6 +16,10 @@ pub(in crate::front) const NAME: i32 = 2;
 const LAYER: i32 = 8;
 /// Flags of polylines and vertices; of an insertion, how many columns of copies it puts.
 pub(in crate::front) const FLAGS: i32 = 70;
+
+/// Codes of the first place of an entity.
+pub(super) const X: i32 = 10;
+pub(super) const Y: i32 = 20;
 
 /// Code of the name of a variable of the header, and the names of the unit and of the code page of texts.
 const VARIABLE: i32 = 9;
@@ -130,6 +135,11 @@ impl<'a> Entity<'a> {
     pub(in crate::front) fn flags(&self) -> Result<i64, Diagnostic> {
         Ok(self.whole(FLAGS)?.unwrap_or(0))
     }
+}
+
+/// The place of two codes, in the units of the file.
+pub(super) fn place(entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
+    Ok(Point::new(entity.coordinate(x)?, entity.coordinate(y)?))
 }
 
 /// The number at a place.

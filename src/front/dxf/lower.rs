@@ -9,9 +9,10 @@ use std::f64::consts::TAU;
 
 use super::arc::{bulged, height};
 use super::conic::Conic;
-use super::entity::{Block, Entity, NAME, Sections, TEXT, number_at, sections};
+use super::entity::{Block, Entity, NAME, Sections, TEXT, X, Y, number_at, place, sections};
 use super::fit;
 use super::group::groups;
+use super::insert::{Placing, base};
 use super::nurbs::Nurbs;
 use super::page::page;
 use super::told::Told;
@@ -27,9 +28,7 @@ use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
-/// Codes of places, of radius and angles, and of what splines have.
-pub(super) const X: i32 = 10;
-pub(super) const Y: i32 = 20;
+/// Codes of second places, of radius and angles, and of what splines have.
 const X2: i32 = 11;
 const Y2: i32 = 21;
 const RADIUS: i32 = 40;
@@ -65,6 +64,11 @@ const TURN_EPSILON_DEG: f64 = 1e-6;
 /// Most places that a file draws: more come from damaged numbers, or from blocks in blocks in blocks.
 const MOST_PLACES: usize = 4_000_000;
 
+/// Insertions around an insertion: CAD systems nest a few, and one that holds itself has no end.
+const DEEPEST: usize = 32;
+/// Insertions that are followed, those of rows and columns each.
+const MOST_INSERTS: usize = 1_000_000;
+
 /// Follows a file, or what of it can be read: with an error among the diagnostics the drawing is worth nothing.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     let groups = groups(source, out);
@@ -78,33 +82,33 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawin
 
 /// Where entities are drawn, and as what.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Within<'a> {
-    pub(super) map: Affine,
+struct Within<'a> {
+    map: Affine,
     /// The layer of the insertion, which entities on layer 0 of a block are on.
-    pub(super) layer: Option<&'a [u8]>,
+    layer: Option<&'a [u8]>,
     /// The insertions around it.
-    pub(super) depth: usize,
+    depth: usize,
 }
 
 /// Name of the layer whose entities are on that of the insertion, where a block has them.
 const LAYER_OF_INSERT: &[u8] = b"0";
 
 /// A drawing in the making.
-pub(super) struct Lowering<'a, 'o> {
-    pub(super) source: &'a Source,
+struct Lowering<'a, 'o> {
+    source: &'a Source,
     entities: &'a [Entity<'a>],
-    pub(super) blocks: BTreeMap<Vec<u8>, &'a Block<'a>>,
+    blocks: BTreeMap<Vec<u8>, &'a Block<'a>>,
     hidden: &'a BTreeSet<&'a [u8]>,
     letters: Letters,
     /// Farthest that chords lie off their curve, mm.
     sagitta: f64,
     drawing: Drawing,
-    pub(super) told: Told,
-    pub(super) out: &'o mut Diagnostics,
+    told: Told,
+    out: &'o mut Diagnostics,
     /// Whether more is drawn than any drawing needs: then nothing is read any more.
-    pub(super) is_full: bool,
+    is_full: bool,
     /// Insertions that may still be followed.
-    pub(super) inserts_left: usize,
+    inserts_left: usize,
 }
 
 impl<'a, 'o> Lowering<'a, 'o> {
@@ -125,7 +129,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
             told: Told::default(),
             out,
             is_full: false,
-            inserts_left: super::insert::MOST_INSERTS,
+            inserts_left: MOST_INSERTS,
         }
     }
 
@@ -138,7 +142,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
     }
 
     /// Draws entities. Those that are at fault are reported.
-    pub(super) fn entities(&mut self, entities: &'a [Entity<'a>], within: &Within<'a>) {
+    fn entities(&mut self, entities: &'a [Entity<'a>], within: &Within<'a>) {
         let mut rest = entities;
         while let [entity, behind @ ..] = rest {
             let is_vertex = |entity: &&Entity| entity.is("VERTEX");
@@ -176,9 +180,43 @@ impl<'a, 'o> Lowering<'a, 'o> {
     }
 
     /// The layer that an entity is on.
-    pub(super) fn layer_of(&self, entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
+    fn layer_of(&self, entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
         let own = entity.layer_bytes();
         within.layer.filter(|_| own == LAYER_OF_INSERT || own.is_empty()).unwrap_or(own)
+    }
+
+    /// Draws the block that an insertion names, once for each of its columns and rows.
+    fn insert(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
+        let name = entity.bytes(NAME).to_ascii_uppercase();
+        let Some(&block) = self.blocks.get(&name) else {
+            self.told.unnamed(entity);
+            return Ok(());
+        };
+        if within.depth == DEEPEST {
+            self.is_full = true;
+            let shown = name.escape_ascii();
+            let message = format!("the block `{shown}` is inserted {DEEPEST} blocks deep: it may hold itself");
+            let finding = Diagnostic::new(&code::DXF_RECURSION, message).at(entity.span());
+            return Err(finding.hint("explode its insertions in the CAD system"));
+        }
+        let placing = Placing::of(entity)?;
+        let plane = on_plane(entity, within)?;
+        let base = base(block)?;
+        let layer = Some(self.layer_of(entity, within));
+        for row in 0..placing.counts[1] {
+            for column in 0..placing.counts[0] {
+                let Some(left) = self.inserts_left.checked_sub(1) else {
+                    return Err(self.full(entity.span()));
+                };
+                self.inserts_left = left;
+                let map = placing.map(base, [column as f64, row as f64]).then(&plane);
+                self.entities(&block.entities, &Within { map, layer, depth: within.depth + 1 });
+                if self.is_full {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
     }
 
     fn entity(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
@@ -374,10 +412,9 @@ impl<'a, 'o> Lowering<'a, 'o> {
     }
 
     /// The error that more is drawn than any drawing needs; nothing is read behind it.
-    pub(super) fn full(&mut self, span: Span) -> Diagnostic {
+    fn full(&mut self, span: Span) -> Diagnostic {
         self.is_full = true;
-        let message =
-            format!("the file draws more than {MOST_PLACES} places, or has more insertions than can be followed");
+        let message = "the file draws more places, or has more insertions, than any drawing needs";
         let finding = Diagnostic::new(&code::DXF_TOO_LARGE, message).at(span);
         finding.hint("look for a damaged radius or count, and for blocks that insert each other many times")
     }
@@ -401,11 +438,6 @@ impl<'a, 'o> Lowering<'a, 'o> {
 
 /// A vertex, the bulge of the arc that leads to the next, and where it stands.
 type Bulged = (Point, f64, Span);
-
-/// The place of two codes, in the units of the file.
-pub(super) fn place(entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
-    Ok(Point::new(entity.coordinate(x)?, entity.coordinate(y)?))
-}
 
 fn is_text(entity: &Entity) -> bool {
     ["TEXT", "MTEXT", "ATTRIB"].iter().any(|kind| entity.is(kind))
@@ -434,7 +466,7 @@ fn ellipse(entity: &Entity) -> Result<Conic, Diagnostic> {
 }
 
 /// Where an entity is drawn whose coordinates are on its own plane: as it is, or from the back, with X to the left.
-pub(super) fn on_plane(entity: &Entity, within: &Within) -> Result<Affine, Diagnostic> {
+fn on_plane(entity: &Entity, within: &Within) -> Result<Affine, Diagnostic> {
     Ok(if is_from_below(entity)? { Affine::scale(-1.0, 1.0).then(&within.map) } else { within.map })
 }
 

@@ -1,7 +1,7 @@
 //! Likeness: what tells a set of patterns from a plain drawing.
 //!
 //! Patterns have texts with keys of the convention and a line on one of its layers, or blocks with lines on layer 1, or outlines
-//! outside all blocks on layer 1 where all lines are on layers of the convention. Anything else is a drawing, whose layers are
+//! or seam lines outside all blocks where all lines are on layers of the convention. Anything else is a drawing, whose layers are
 //! names.
 
 use super::key::key;
@@ -33,7 +33,7 @@ struct Signs {
     has_line: bool,
     /// Whether a block has a line on the layer of outlines.
     has_block: bool,
-    /// Whether a chain of lines stands there in no block.
+    /// Whether a chain of lines stands there in no block, or on that of seam lines.
     has_outline: bool,
     /// Whether a line in no block is on a layer that the convention does not have, or has for points.
     has_other: bool,
@@ -75,7 +75,7 @@ impl Signs {
         self.has_line |= is_known;
         self.has_block |= is_in_block && is_outline;
         if !is_in_block {
-            self.has_outline |= is_outline && is_chain;
+            self.has_outline |= is_chain && matches!(row.does, Does::Outline | Does::Seam);
             self.has_other |= !is_known || matches!(row.does, Does::Turn | Does::Curve);
         }
     }

@@ -87,7 +87,7 @@ pub(super) fn plain(names: &Names) -> Diagnostic {
     let shown = listed(names.into_iter().cloned());
     let message = "the file is a plain DXF drawing, not pattern DXF (AAMA, ASTM)";
     let finding = Diagnostic::new(&code::DXF_PLAIN, message).hint(format!("its lines are on {word} {shown}"));
-    finding.hint("let the CAD system export AAMA or ASTM DXF, a cut file (ISO) or an HPGL plot")
+    finding.hint("leave `--from pattern` out: then it is cut as a drawing, whose layers are tools")
 }
 
 /// Blocks of pieces of which nothing is cut, by the texts that name them.

@@ -246,7 +246,7 @@ fn pens_and_options_decide_what_is_cut() {
     check(&pen("1", PenUse::Ignore), [1, 1, 0, 0]);
     check(&only("4"), [1, 1, 0, 0]);
     check(&only("1-4"), [1, 3, 0, 0]);
-    check(&|job| job.lines = Lines { pens: Numbers::parse("1").ok(), all: true, inner: None }, [1, 3, 0, 0]);
+    check(&|job| job.lines = Lines { pens: Numbers::parse("1").ok(), all: true, ..Lines::default() }, [1, 3, 0, 0]);
     // What a pen that only draws adds to the edge of a part that is cut is a notch; what an ignored one adds is
     // nothing.
     let text = format!("IN;SP4;{}SP1;PU4000,0;PD4000,200;PU;SP0;", rectangle(0, 0, 8000, 8000));

@@ -57,7 +57,9 @@ fn notches_are_not_sewn_and_seams_run_straight_past_them() {
             })
             .count()
     };
-    for name in ["dxf/notches-of-all-kinds.dxf", "iso/slit-in-the-contour.cut", "iso/slits-behind-their-outline.cut"] {
+    for name in
+        ["pattern/notches-of-all-kinds.dxf", "iso/slit-in-the-contour.cut", "iso/slits-behind-their-outline.cut"]
+    {
         let (program, said, _) = plan_as(&asked, name, fixture(name), &Job::default());
         let seams = program.unwrap_or_else(|| panic!("{said}")).pattern.expect("lines").seams;
         assert!(seams.iter().all(|seam| corners(&seam.points) == 4), "{name}: {seams:?}");

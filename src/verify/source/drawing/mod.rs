@@ -7,18 +7,17 @@
 
 mod around;
 mod cloth;
+pub(super) mod drawn;
 mod outermost;
 mod rectangle;
 mod slits;
 
-use std::collections::BTreeSet;
-
+use self::drawn::Drawn;
 pub use self::outermost::{DrawingCuts, drawing_audit};
 use super::census::{Census, Slack};
 use super::dxf::plain;
 use super::hpgl;
-use crate::geom::Point;
-use crate::machine::{Job, MachineProfile, layers};
+use crate::machine::MachineProfile;
 
 /// Second reading of a dialect that says what is drawn, by other means than the reader's.
 pub(super) struct Second {
@@ -28,25 +27,6 @@ pub(super) struct Second {
     pub(super) census: fn(&[u8], &MachineProfile) -> (Census, Slack),
     /// Gathers what is drawn.
     pub(super) strokes: fn(&[u8], &MachineProfile) -> Drawn,
-}
-
-/// Strokes of a drawing.
-pub(super) struct Drawn {
-    /// Places between two lifts, mm.
-    pub(super) strokes: Vec<Vec<Point>>,
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
-    pub(super) unit: f64,
-    /// Names of the layers that draw; none of a plot, which has pens.
-    pub(super) layers: BTreeSet<String>,
-}
-
-impl Drawn {
-    /// Whether anybody says of pens or layers what their lines are: then shapes do not tell what is cut.
-    pub(super) fn is_said(&self, job: &Job) -> bool {
-        let layers: Vec<&str> = self.layers.iter().map(String::as_str).collect();
-        let uses = layers::uses(&layers, job.lines.layers.as_ref(), &job.profile.drawing.layers);
-        job.lines.pens.is_some() || !job.profile.hpgl.pens.is_empty() || uses.iter().any(Option::is_some)
-    }
 }
 
 const SECONDS: &[Second] = &[

@@ -6,7 +6,8 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use super::{Drawn, around, cloth, rectangle, slits};
+use super::drawn::Drawn;
+use super::{around, cloth, rectangle, slits};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};

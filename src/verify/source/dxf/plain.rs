@@ -9,7 +9,7 @@ use crate::geom::{Extent, Point};
 use crate::machine::MachineProfile;
 use crate::units::MM_PER_INCH;
 use crate::verify::source::census::{ARC_SAGITTA, Census, Slack};
-use crate::verify::source::drawing::Drawn;
+use crate::verify::source::drawing::drawn::Drawn;
 
 /// Lengths of units by their numbers in the header, mm.
 const UNITS: [(f64, f64); 7] =

@@ -19,7 +19,7 @@ use crate::machine::MachineProfile;
 use crate::verify::source::census::ARC_SAGITTA;
 use crate::verify::source::census::Census;
 use crate::verify::source::census::Slack;
-use crate::verify::source::drawing::Drawn;
+use crate::verify::source::drawing::drawn::Drawn;
 
 /// Scans a plot.
 pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
