@@ -86,7 +86,7 @@ fn exact_sin_cos(angle: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::FRAC_PI_2;
+    use std::f64::consts::{FRAC_PI_2, PI};
 
     #[test]
     fn maps_follow_each_other_in_their_order() {
@@ -101,7 +101,7 @@ mod tests {
     fn the_stretch_of_a_slant_is_that_of_its_longest_way() {
         let map = Affine::turn(0.3).then(&Affine::scale(3.0, 0.5)).then(&Affine::turn(-1.1));
         let longest =
-            (0..3600).map(|k| map.vector(Affine::turn(f64::from(k) / 1800.0 * 3.14159).vector(Vector::x())).norm());
+            (0..3600).map(|k| map.vector(Affine::turn(f64::from(k) / 3600.0 * PI).vector(Vector::x())).norm());
         assert!((longest.fold(0.0, f64::max) - map.stretch()).abs() < 1e-5);
     }
 }

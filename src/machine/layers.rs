@@ -111,7 +111,9 @@ pub fn uses(
     };
     let mut uses: Vec<Option<(PenUse, Known)>> = layers.iter().map(found).collect();
     if uses.iter().flatten().any(|(used, _)| *used == PenUse::Knife) {
-        uses.iter_mut().for_each(|used| _ = used.get_or_insert((PenUse::Pen, Known::Beside)));
+        for used in &mut uses {
+            _ = used.get_or_insert((PenUse::Pen, Known::Beside));
+        }
     }
     uses
 }
@@ -125,6 +127,7 @@ fn by_name(name: &str) -> Option<PenUse> {
 
 #[cfg(test)]
 mod tests {
+    use super::Known::{Beside, Named, Said};
     use super::*;
 
     #[test]
@@ -142,7 +145,6 @@ mod tests {
         let typed = LayerUses::parse("a*,CUT=ignore").expect("layers");
         let of_profile = BTreeMap::from([("abc".to_owned(), PenUse::Pen), ("fold".to_owned(), PenUse::Knife)]);
         let found = uses(&["ABC", "Cut", "FOLD", "TEXT 1", "other"], Some(&typed), &of_profile);
-        use Known::{Beside, Named, Said};
         let expected = [
             Some((PenUse::Knife, Said)),
             Some((PenUse::Ignore, Said)),
@@ -159,7 +161,7 @@ mod tests {
         let none = BTreeMap::new();
         assert_eq!(uses(&["0", "deel 1", "Layer1", "cutter"], None, &none), [None; 4]);
         let cut = uses(&["CUT_OUTER", "SCHNITT-2", "dim.cut"], None, &none);
-        assert_eq!(cut[0], Some((PenUse::Knife, Known::Named)));
+        assert_eq!(cut[0], Some((PenUse::Knife, Named)));
         assert_eq!([cut[1], cut[2]].map(|used| used.map(|used| used.0)), [Some(PenUse::Knife), Some(PenUse::Ignore)]);
     }
 }

@@ -155,7 +155,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
                 self.told.on_paper(entity);
                 continue;
             }
-            if entity.is_invisible() || self.hidden.contains(self.layer_of(entity, within)) {
+            if entity.is_invisible() || self.hidden.contains(layer_of(entity, within)) {
                 if !is_text(entity) {
                     self.told.hidden(entity);
                 }
@@ -179,12 +179,6 @@ impl<'a, 'o> Lowering<'a, 'o> {
         }
     }
 
-    /// The layer that an entity is on.
-    fn layer_of(&self, entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
-        let own = entity.layer_bytes();
-        within.layer.filter(|_| own == LAYER_OF_INSERT || own.is_empty()).unwrap_or(own)
-    }
-
     /// Draws the block that an insertion names, once for each of its columns and rows.
     fn insert(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
         let name = entity.bytes(NAME).to_ascii_uppercase();
@@ -202,7 +196,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         let placing = Placing::of(entity)?;
         let plane = on_plane(entity, within)?;
         let base = base(block)?;
-        let layer = Some(self.layer_of(entity, within));
+        let layer = Some(layer_of(entity, within));
         for row in 0..placing.counts[1] {
             for column in 0..placing.counts[0] {
                 let Some(left) = self.inserts_left.checked_sub(1) else {
@@ -426,14 +420,22 @@ impl<'a, 'o> Lowering<'a, 'o> {
             return Err(too_far(span));
         }
         self.room(places.len(), entity.span())?;
-        let name = self.letters.name(self.layer_of(entity, within));
+        let name = self.letters.name(layer_of(entity, within));
         let pen = self.drawing.layer(&name);
         let Some((&(first, span), behind)) = places.split_first() else { return Ok(()) };
         self.drawing.begin(first, span, pen);
-        behind.iter().for_each(|&(at, span)| self.drawing.line(at, span));
+        for &(at, span) in behind {
+            self.drawing.line(at, span);
+        }
         self.drawing.lift();
         Ok(())
     }
+}
+
+/// The layer that an entity is on.
+fn layer_of<'a>(entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
+    let own = entity.layer_bytes();
+    within.layer.filter(|_| own == LAYER_OF_INSERT || own.is_empty()).unwrap_or(own)
 }
 
 /// A vertex, the bulge of the arc that leads to the next, and where it stands.

@@ -4,6 +4,8 @@
 //! or seam lines outside all blocks where all lines are on layers of the convention. Anything else is a drawing, whose layers are
 //! names.
 
+use std::collections::BTreeSet;
+
 use super::key::key;
 use super::layer::{Does, OUTLINE, layer};
 use crate::front::{Likeness, foreign};
@@ -24,20 +26,24 @@ pub(super) fn sniff(bytes: &[u8]) -> Likeness {
     if foreign::is_dxf(bytes) && Signs::of(bytes).are_of_patterns() { Likeness::Sure } else { Likeness::No }
 }
 
-/// Signs of the convention in a file.
-#[derive(Debug, Default)]
-struct Signs {
-    /// Whether a text has a key of it.
-    has_key: bool,
-    /// Whether a line is on a layer of it.
-    has_line: bool,
-    /// Whether a block has a line on the layer of outlines.
-    has_block: bool,
-    /// Whether a chain of lines stands there in no block, or on that of seam lines.
-    has_outline: bool,
-    /// Whether a line in no block is on a layer that the convention does not have, or has for points.
-    has_other: bool,
+/// A sign of the convention in a file, or against it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Sign {
+    /// A text has a key of it.
+    Key,
+    /// A line is on a layer of it.
+    Line,
+    /// A block has a line on the layer of outlines.
+    Block,
+    /// A chain of lines stands there in no block, or on that of seam lines.
+    Outline,
+    /// A line in no block is on a layer that the convention does not have, or has for points.
+    Other,
 }
+
+/// Signs that a file has.
+#[derive(Debug, Default)]
+struct Signs(BTreeSet<Sign>);
 
 impl Signs {
     fn of(bytes: &[u8]) -> Self {
@@ -55,32 +61,41 @@ impl Signs {
                 LAYER if LINES.contains(&kind) => signs.see_line(value, is_in_block, false),
                 _ => {}
             }
-            if signs.has_block || signs.has_key && signs.has_line {
+            if signs.are_sure() {
                 break;
             }
         }
         signs
     }
 
+    fn has(&self, sign: Sign) -> bool {
+        self.0.contains(&sign)
+    }
+
     fn see_text(&mut self, text: &[u8]) {
         let end = text.iter().position(|&byte| byte == b':').unwrap_or(text.len());
-        self.has_key |= key(&Letters::utf_8().with_codes().text(&text[..end])).is_some();
+        let is_key = key(&Letters::utf_8().with_codes().text(&text[..end])).is_some();
+        self.0.extend(is_key.then_some(Sign::Key));
     }
 
     fn see_line(&mut self, name: &[u8], is_in_block: bool, is_chain: bool) {
         let number = std::str::from_utf8(name).ok().and_then(|name| name.parse().ok());
         let row = layer(number);
-        let is_outline = row.number == OUTLINE.number;
         let is_known = number == Some(row.number);
-        self.has_line |= is_known;
-        self.has_block |= is_in_block && is_outline;
-        if !is_in_block {
-            self.has_outline |= is_chain && matches!(row.does, Does::Outline | Does::Seam);
-            self.has_other |= !is_known || matches!(row.does, Does::Turn | Does::Curve);
-        }
+        let is_outline = is_chain && matches!(row.does, Does::Outline | Does::Seam);
+        let is_of_points = matches!(row.does, Does::Turn | Does::Curve);
+        self.0.extend(is_known.then_some(Sign::Line));
+        self.0.extend((is_in_block && row.number == OUTLINE.number).then_some(Sign::Block));
+        self.0.extend((!is_in_block && is_outline).then_some(Sign::Outline));
+        self.0.extend((!is_in_block && (!is_known || is_of_points)).then_some(Sign::Other));
+    }
+
+    /// Whether nothing else in the file could say otherwise.
+    fn are_sure(&self) -> bool {
+        self.has(Sign::Block) || self.has(Sign::Key) && self.has(Sign::Line)
     }
 
     fn are_of_patterns(&self) -> bool {
-        self.has_block || self.has_key && self.has_line || self.has_outline && !self.has_other
+        self.are_sure() || self.has(Sign::Outline) && !self.has(Sign::Other)
     }
 }
