@@ -62,7 +62,7 @@ const FORMATS: &[Format] = &[
     known("an SVG drawing", EXPORT_PLOT, is_svg),
     known("text in UTF-16", "save it as plain text: one byte a character", is_utf16),
     known("a binary DXF drawing", "save it as text (ASCII DXF)", |b| b.starts_with(b"AutoCAD Binary DXF")),
-    known("a DWG drawing of AutoCAD", "save it as ASCII DXF; cutc reads DXF of patterns (AAMA, ASTM)", |b| b.starts_with(b"AC10")),
+    known("a DWG drawing of AutoCAD", "save it as ASCII DXF", |b| b.starts_with(b"AC10")),
     known("a table of grading rules (RUL)", "give cutc the pattern DXF that lies beside it", is_rule_table),
     known("a GP-GL plot (Graphtec)", OTHER_PLOTTER, is_gp_gl),
     known("a DMPL plot (Houston Instruments)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),

@@ -8,6 +8,7 @@ use cutc::front::by_name;
 use cutc::geom::{Point, ring};
 use cutc::ir::drawing::Aside;
 use cutc::ir::list::SegmentList;
+use cutc::ir::marker::Notch;
 use cutc::ir::{Finding, Marker};
 use cutc::machine::Job;
 use cutc::machine::layers::LayerUses;
@@ -17,6 +18,7 @@ use cutc::source::Source;
 use cutc::verify::{Census, DrawingCuts, drawing_audit, source_audit};
 use fastrand::Rng;
 
+use crate::garment::{self, Dialect, Order};
 use crate::support::fixtures::{files, source};
 
 /// Drawings that are made by seeds.
@@ -229,6 +231,47 @@ fn layers_are_cut_as_somebody_says() {
     let mut job = Job::default();
     job.profile.drawing.layers.insert("o*".to_owned(), cutc::machine::plot::PenUse::Knife);
     assert_eq!(as_read(&source, &job).0.contours().count(), 3);
+}
+
+/// A cut file's marker drawn as plain DXF: outlines as polylines on one layer, slits as lines on it.
+fn drawn(marker: &Marker) -> String {
+    let mut entities = String::new();
+    for (_, contour) in marker.contours() {
+        let points = marker.points(contour);
+        let places = &points[..points.len() - usize::from(contour.closed)];
+        let groups = places.iter().flat_map(|at| [(10, at.x), (20, at.y)]);
+        let flags = [(90, places.len() as f64), (70, f64::from(u8::from(contour.closed)))];
+        entities += &entity("LWPOLYLINE", "Layer 1", &flags.into_iter().chain(groups).collect::<Vec<_>>());
+    }
+    for stroke in marker.pieces.iter().flat_map(|piece| &piece.notches).flat_map(Notch::strokes) {
+        let groups = [(10, stroke.from.x), (20, stroke.from.y), (11, stroke.to.x), (21, stroke.to.y)];
+        entities += &entity("LINE", "Layer 1", &groups);
+    }
+    file(&entities, "")
+}
+
+#[test]
+fn a_marker_that_is_drawn_is_cut_as_its_cut_file() {
+    for (seed, dialect) in (1..=8).flat_map(|seed| [(seed, Dialect::G71), (seed, Dialect::Inch)]) {
+        let mut bytes = Vec::new();
+        garment::write(&Order { dialect, seed, ..Order::default() }, &mut bytes).expect("memory takes it");
+        let job = Job::default();
+        let as_file = Source::new("a.cut", bytes).expect("small");
+        let mut found = Diagnostics::default();
+        let as_read = pipeline::marker_of(by_name("iso").expect("a dialect"), &as_file, &job, &mut found);
+        let drawn = named(&drawn(&as_read));
+        let read = |source: &Source| {
+            let marker = pipeline::read(source, None, &job, &mut Diagnostics::default()).expect("a marker").marker;
+            let notches: usize = marker.pieces.iter().map(|piece| piece.notches.len()).sum();
+            (marker.pieces.len(), marker.contours().count(), notches, marker.drawn_length())
+        };
+        let (expected, read) = (read(&as_file), read(&drawn));
+        assert_eq!((read.0, read.1, read.2), (expected.0, expected.1, expected.2), "{seed}, {dialect:?}");
+        assert!((read.3 - expected.3).abs() <= 0.05, "{seed}, {dialect:?}: {} of {}", read.3, expected.3);
+        let (marker, _) = self::as_read(&drawn, &job);
+        let broken = broken(&drawn, &marker, &job);
+        assert!(broken.is_empty(), "{seed}, {dialect:?}: {broken:#?}");
+    }
 }
 
 #[test]
