@@ -2,26 +2,11 @@
 //!
 //! The first word is the stage. Names never change once released: scripts filter by them.
 
+pub use super::kind::Code;
+use super::kind::{error, warning};
 pub use super::telling::{Fault, Harm, Severity, Telling};
 use Fault::{Shape, Text};
 use Harm::{Spares, Spoils};
-
-/// One kind of finding.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Code {
-    /// Stable name, `stage/kebab-case`.
-    pub name: &'static str,
-    /// Its severity, the same wherever it is found.
-    pub severity: Severity,
-    /// Whether it may spoil parts. Of an error nothing is cut.
-    pub harm: Harm,
-    /// The thing at fault.
-    pub fault: Fault,
-    /// What it means, in a sentence or two.
-    pub about: &'static str,
-    /// Why it matters in a cutting room, and what to do: a line a paragraph, an indented line an example.
-    pub more: &'static str,
-}
 
 impl Code {
     /// Its place among all codes, the worst first: errors, then what may spoil parts, then the rest, each by stages.
@@ -29,23 +14,6 @@ impl Code {
         let row = ALL.iter().position(|code| code.name == self.name).unwrap_or(ALL.len());
         (self.severity, self.harm, row)
     }
-
-    /// How findings of it are told.
-    pub fn telling(&self) -> Telling {
-        match (self.severity, self.fault) {
-            (Severity::Error, Fault::Text | Fault::Shape) => Telling::Each,
-            (Severity::Warning, Fault::Text) => Telling::Few,
-            (Severity::Warning, Fault::Shape) => Telling::Worst,
-        }
-    }
-}
-
-const fn error(fault: Fault, name: &'static str, about: &'static str, more: &'static str) -> Code {
-    Code { name, severity: Severity::Error, harm: Harm::Spares, fault, about, more }
-}
-
-const fn warning(harm: Harm, fault: Fault, name: &'static str, about: &'static str, more: &'static str) -> Code {
-    Code { name, severity: Severity::Warning, harm, fault, about, more }
 }
 
 /// Declares each code, and the table of all of them in the order of the manual.
@@ -160,6 +128,40 @@ codes! {
     HPGL_UNIT_DOUBTFUL = warning(Spoils, Shape, "hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254");
     /// A polygon that does not end.
     HPGL_ENDS_IN_POLYGON = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.", "What PM gathers is drawn by EP, and the file ends before. Transfer it again and compare the sizes.");
+
+    // What SVG drawings want read.
+    /// No XML, or another kind of it.
+    SVG_NOT_XML = error(Text, "svg/not-xml", "The file is no whole XML, or XML of another kind than SVG.", "A drawing that was cut short on its way, or edited by hand, lacks the ends of its elements, and nobody knows what is lost. Save it again from the program that drew it, and compare the sizes of the copies.");
+    /// Entities that blow up.
+    SVG_ENTITIES = error(Text, "svg/entities", "Entities of an SVG file stand for each other so often that it would fill the memory.", "Illustrator writes a few entities for names, which are read. No program for drawings nests them: the file was made to stop whoever reads it.");
+    /// Letters that are none.
+    SVG_ENCODING = error(Text, "svg/encoding", "The letters of an SVG file cannot be told: its encoding is not read, or its bytes are not in it.", "UTF-8, UTF-16 and encodings with one byte a letter are read, such as ISO-8859-1. Names of layers and parts hang on their letters. Save the drawing in UTF-8.");
+    /// Path data with a fault.
+    SVG_PATH = error(Text, "svg/path-data", "The data of a path or the places of a polyline have a fault.", "Browsers draw such a path up to its fault and leave out the rest: a part would lack its edge. Save the drawing again, or mend the number at the byte that the message names.");
+    /// An attribute that cannot be read.
+    SVG_VALUE = error(Text, "svg/bad-value", "A length, a transform or a view box cannot be read, or is no size.", "What has it would lie elsewhere or have another size. Lengths have mm, cm, in, pt, pc, q, px, % or no unit; the size of letters (em) is none that can be cut.");
+    /// A style that transforms.
+    SVG_STYLE_MOVES = error(Text, "svg/style-moves", "A style sheet or a `style` transforms a shape or gives the data of a path.", "Programs for drawings write both as attributes, which are read. As styles they are not, so the shape would be cut elsewhere than it is seen.");
+    /// A copy of nothing or of itself.
+    SVG_USE = error(Text, "svg/use-broken", "A `use` copies an element that is not in the file, or one that holds it.", "Whatever it should draw would be missing from the cloth. It may stand in another file, or have been deleted: turn copies into shapes of their own before saving.");
+    /// Too much of everything.
+    SVG_TOO_MUCH = error(Shape, "svg/too-much", "The elements, copies or curves of an SVG file are more, or stand deeper in each other, than a drawing can need.", "Copies of copies multiply, and a damaged radius has chords without end. Turn copies into shapes, ungroup, and look for a number with too many digits.");
+    /// A place beyond any table.
+    SVG_FAR = error(Text, "svg/far-place", "A place of an SVG file lies more than a kilometre from the page.", "A digit is doubled, a decimal point lost, or a transform wrong. No table is a kilometre long.");
+    /// A picture of ours.
+    SVG_OWN_PICTURE = error(Shape, "svg/own-picture", "The file is a picture that cutc made of a marker.", "It shows runs, plunges, overlaps and findings beside the lines of the parts: all of them would be cut. Compile the marker that it was made of.\n  cutc compile marker.cut -o marker.svg");
+    /// A size in pixels.
+    SVG_NO_UNIT = warning(Spoils, Shape, "svg/size-in-pixels", "The size of an SVG drawing is in pixels, and programs do not agree how large those are.", "96 go to an inch, 90 in old Inkscape and 72 in Illustrator: a wrong guess makes every part a third too large or too small. Compare the width that the message names with the drawing. A page with width and height in mm leaves no doubt.");
+    /// A size that no garment has.
+    SVG_SIZE = warning(Spoils, Shape, "svg/size-doubtful", "An SVG drawing is smaller than any part, or wider than any table both ways.", "Its unit was most likely taken for another one. Set the size of the page in mm in the program that drew it, and save it again.");
+    /// Hidden layers.
+    SVG_HIDDEN = warning(Spares, Text, "svg/hidden", "Elements of an SVG file are not displayed, and not cut; the message gives their count and first place.", "A hidden layer is not seen in the drawing, so it is not cut either. Show the layer if it must be cut.");
+    /// Shapes that nobody sees.
+    SVG_NO_LINE = warning(Spares, Text, "svg/no-line", "Shapes of an SVG file have neither stroke nor fill, and are not cut; the message gives their count and first place.", "Nobody sees them: guides and boxes around texts are often so. Give them a stroke if they must be cut.");
+    /// Kinds that are left out.
+    SVG_LEFT_OUT = warning(Spares, Text, "svg/left-out", "An SVG file draws something that is not read: pictures, flowing texts, markers, clips; the message gives the count and first place of a kind.", "What it draws is not cut, and lines that a clip or a mask would hide are. If outlines are missing from the picture (-t svg), turn them into paths in the program that drew them.");
+    /// Rules that are not obeyed.
+    SVG_STYLE = warning(Spares, Text, "svg/style-not-read", "A style sheet of an SVG file has rules whose selectors are not read.", "Selectors of elements, classes, ids and `*` are obeyed. Another one may hide lines, which are cut then: look at the picture (-t svg).");
 
     // What drawings want cut.
     /// The file is not whole.

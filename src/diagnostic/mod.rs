@@ -4,6 +4,7 @@
 
 pub mod code;
 mod json;
+mod kind;
 pub mod pieces;
 mod telling;
 mod text;

@@ -4,6 +4,9 @@ use super::formats::{self, Format, head};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
+/// Bytes in which the first element of XML is looked for.
+const SNIFFED_XML: usize = 65_536;
+
 /// Reports an empty file, or one of another format, be it another dialect of ours than that of the name; `true` when it is
 /// one.
 pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> bool {
@@ -31,6 +34,7 @@ struct Ours {
 const OURS: &[Ours] = &[
     Ours { names: &["dxf", "pattern"], what: "a DXF drawing", is: is_dxf },
     Ours { names: &["hpgl"], what: "an HPGL plot", is: is_hpgl },
+    Ours { names: &["svg"], what: "an SVG drawing", is: is_svg },
 ];
 
 /// Reports an empty file, or one of a format that no dialect reads; `true` when it is one.
@@ -47,7 +51,7 @@ pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
         out.push(finding.hint("export it again, and check that the copy finished"));
         return true;
     }
-    match formats::of_content(bytes) {
+    match formats::of_content(bytes).filter(|_| !is_svg(bytes)) {
         None => false,
         Some(format) => {
             say(formats::of_name(source.name()).filter(|_| format.is_vague).unwrap_or(format), out);
@@ -80,6 +84,26 @@ pub(super) fn is_dxf(bytes: &[u8]) -> bool {
         (Some(b"999"), Some(_)) => lines.any(is_section),
         _ => false,
     }
+}
+
+/// XML with an element of that name, behind whatever stands before it, and no page that holds drawings.
+pub(super) fn is_svg(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(SNIFFED_XML)];
+    let marked = [b"\xef\xbb\xbf".as_slice(), b"\xff\xfe", b"\xfe\xff"];
+    let head = marked.iter().find_map(|mark| head.strip_prefix(*mark)).unwrap_or(head);
+    if !matches!(head.trim_ascii_start(), [b'<', ..] | [0, b'<', ..]) {
+        return false;
+    }
+    // Every other byte of UTF-16 is zero there.
+    let text: Vec<u8> = head.iter().copied().filter(|&byte| byte != 0).collect();
+    let begins = |with: &[u8]| text.trim_ascii_start().get(..with.len()).is_some_and(|s| s.eq_ignore_ascii_case(with));
+    let is_end = |byte: Option<&u8>| byte.is_none_or(|byte| byte.is_ascii_whitespace() || b">/".contains(byte));
+    let is_element = |at: usize| {
+        let name = text[..at].rsplit(|byte| !byte.is_ascii_alphanumeric() && *byte != b':').next().unwrap_or_default();
+        text[..at - name.len()].ends_with(b"<") && (name.is_empty() || name.ends_with(b":"))
+    };
+    let mut places = memchr::memmem::find_iter(&text, b"svg").filter(|&at| is_end(text.get(at + 3)));
+    places.any(is_element) && !begins(b"<!DOCTYPE html") && !begins(b"<html")
 }
 
 /// Two letters and numbers, between semicolons.

@@ -47,7 +47,7 @@ const FORMATS: &[Format] = &[
     vague("a zip archive", UNPACK, |b| b.starts_with(b"PK")),
     known("a 7z archive", UNPACK, |b| b.starts_with(b"7z\xbc\xaf\x27\x1c")),
     known("a RAR archive", UNPACK, |b| b.starts_with(b"Rar!")),
-    known("a gzip archive", UNPACK, |b| b.starts_with(b"\x1f\x8b")),
+    vague("a gzip archive", UNPACK, |b| b.starts_with(b"\x1f\x8b")),
     known("a drawing of Adobe Illustrator (AI)", EXPORT_PLOT, is_illustrator),
     known("a PDF document", EXPORT_CUT, |b| b.starts_with(b"%PDF")),
     known("a PostScript file (EPS)", EXPORT_PLOT, |b| b.starts_with(b"%!PS") || b.starts_with(b"\xc5\xd0\xd3\xc6")),
@@ -59,7 +59,6 @@ const FORMATS: &[Format] = &[
     known("a BMP picture", PICTURE, |b| b.starts_with(b"BM") && b.get(6..10) == Some(&[0; 4])),
     known("a web page (HTML)", "the download gave a page in its stead: sign in and fetch the file itself", is_web_page),
     known("a pointer of Git LFS", "the file itself is stored elsewhere: fetch it with `git lfs pull`", |b| b.starts_with(b"version https://git-lfs")),
-    known("an SVG drawing", EXPORT_PLOT, is_svg),
     known("text in UTF-16", "save it as plain text: one byte a character", is_utf16),
     known("a binary DXF drawing", "save it as text (ASCII DXF)", |b| b.starts_with(b"AutoCAD Binary DXF")),
     known("a DWG drawing of AutoCAD", "save it as ASCII DXF", |b| b.starts_with(b"AC10")),
@@ -94,6 +93,7 @@ const NAMED: &[Named] = &[
     named(&["pds", "pdml"], "a pattern set of Optitex", EXPORT_PATTERN),
     named(&["zprj", "zpac", "zpat"], "a project of CLO", EXPORT_PATTERN),
     named(&["val", "sm2d"], "a pattern of Valentina or Seamly2D", EXPORT_PATTERN),
+    named(&["svgz"], "a compressed SVG drawing (SVGZ)", "save it as plain SVG, or unpack it with `gzip -d`"),
     named(&["cdr"], "a drawing of CorelDRAW", EXPORT_PLOT),
     named(&["studio", "studio3"], "a drawing of Silhouette Studio", EXPORT_PLOT),
 ];
@@ -129,12 +129,6 @@ fn is_web_page(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     let begins = |with: &[u8]| bytes.get(..with.len()).is_some_and(|start| start.eq_ignore_ascii_case(with));
     begins(b"<!DOCTYPE html") || begins(b"<html") || begins(b"<head") || begins(b"<body")
-}
-
-/// An element of that name, behind whatever XML begins with.
-fn is_svg(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    bytes.trim_ascii_start().starts_with(b"<") && (has(bytes, b"<svg") || has(bytes, b":svg"))
 }
 
 /// Keys of ASTM D6673 that DXF files do not have as lines of their own.
@@ -296,7 +290,6 @@ mod tests {
         // Some programs fill the last block of a file with NUL.
         check(&[b"G71*N1*X0Y0*M14*X9Y0*M15*M0*".as_slice(), &[0; 200]].concat(), None);
         check(b"G75*\nG70*\nD10*\nX0Y5D02*\nX0Y9D01*\nM02*\n", Some("a Gerber file for circuit boards"));
-        check(b"<?xml version=\"1.0\"?>\n<svg width=\"1\">", Some("an SVG drawing"));
         check(
             b"%!PS-Adobe-3.0 EPSF-3.0\n%%Creator: Adobe Illustrator(R) 9",
             Some("a drawing of Adobe Illustrator (AI)"),

@@ -14,6 +14,7 @@ mod hpgl;
 mod iso;
 mod pattern;
 pub mod sewn;
+mod svg;
 
 pub use dialect::{Dialect, Likeness, Read, Word};
 
@@ -21,7 +22,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
 /// Every dialect, the likelier ones first.
-pub const DIALECTS: &[Dialect] = &[iso::DIALECT, hpgl::DIALECT, pattern::DIALECT, dxf::DIALECT, csv::DIALECT];
+pub const DIALECTS: &[Dialect] =
+    &[iso::DIALECT, hpgl::DIALECT, pattern::DIALECT, dxf::DIALECT, svg::DIALECT, csv::DIALECT];
 
 /// The dialect of that name.
 pub fn by_name(name: &str) -> Option<&'static Dialect> {

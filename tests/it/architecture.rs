@@ -107,7 +107,10 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
 ];
 
 /// Dialects without a grammar, and why.
-const NO_GRAMMAR: &[(&str, &str)] = &[("pattern", "its groups are those of dxf")];
+const NO_GRAMMAR: &[(&str, &str)] = &[
+    ("pattern", "its groups are those of dxf"),
+    ("svg", "XML and its paths are read by libraries, and a scan of numbers"),
+];
 
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[

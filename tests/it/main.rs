@@ -51,6 +51,7 @@ mod sew;
 mod sheet;
 mod sound;
 mod spray;
+mod svg;
 mod targets;
 mod threads;
 mod told;

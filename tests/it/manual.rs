@@ -102,6 +102,7 @@ fn every_command_of_the_manual_runs() {
     fs::copy(root().join("fixtures/pictures/pattern.dxf"), room.at("pattern.dxf")).expect("a copy");
     let drawing = root().join("fixtures/dxf/layers-that-say-what-they-are.dxf");
     fs::copy(drawing, room.at("drawing.dxf")).expect("a copy");
+    fs::copy(root().join("fixtures/svg/inkscape-layers-in-mm.svg"), room.at("pattern.svg")).expect("a copy");
     room.write("machine.toml", b"knife.width_mm = 7.2\n");
     for name in ["pocket.csv", "seat.dst"] {
         fs::copy(root().join("fixtures/sew").join(name), room.at(name)).expect("a copy");

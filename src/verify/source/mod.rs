@@ -13,4 +13,5 @@ pub(super) mod hpgl;
 pub(super) mod kept;
 pub(super) mod scan;
 pub(super) mod sheet;
+pub(super) mod svg;
 pub(super) mod words;

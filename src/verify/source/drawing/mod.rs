@@ -16,7 +16,7 @@ use self::drawn::Drawn;
 pub use self::outermost::{DrawingCuts, drawing_audit};
 use super::census::{Census, Slack};
 use super::dxf::plain;
-use super::hpgl;
+use super::{hpgl, svg};
 use crate::machine::MachineProfile;
 
 /// Second reading of a dialect that says what is drawn, by other means than the reader's.
@@ -32,6 +32,7 @@ pub(super) struct Second {
 const SECONDS: &[Second] = &[
     Second { dialect: "hpgl", census: hpgl::scan, strokes: hpgl::drawn },
     Second { dialect: "dxf", census: plain::scan, strokes: plain::drawn },
+    Second { dialect: "svg", census: svg::scan, strokes: svg::drawn },
 ];
 
 /// The second reading of the dialect of that name; `None` of one that says what is cut.

@@ -1,0 +1,126 @@
+//! The pencil: draws lines and curves of subpaths into a drawing.
+
+use super::affine::{Affine, Pair};
+use super::curve::{self, Curve};
+use super::path::Step;
+use crate::diagnostic::{Diagnostic, code};
+use crate::geom::Point;
+use crate::ir::Drawing;
+use crate::source::Span;
+
+/// The most chords of a file: a damaged radius must not fill the memory.
+const MOST_CHORDS: usize = 4_000_000;
+/// Farthest coordinate, mm: a kilometre, far beyond any table.
+const FARTHEST: f64 = 1e6;
+/// Shortest line, mm: sums of relative places come back to their start within a thousandth of that.
+const SHORTEST: f64 = 1e-6;
+
+/// What draws.
+pub(super) struct Pencil {
+    pub(super) drawing: Drawing,
+    /// Farthest that a chord may lie off its curve, mm.
+    sagitta: f64,
+    /// Chords that were drawn.
+    chords: usize,
+    /// Start of the subpath, in units of the file and mm, and what led there.
+    start: (Pair, Span),
+    /// Where the pencil is, in units of the file.
+    at: Pair,
+}
+
+impl Pencil {
+    /// A pencil whose chords keep within `sagitta` mm of curves.
+    pub(super) fn new(sagitta: f64) -> Self {
+        let start = ([0.0; 2], Span::default());
+        Self { drawing: Drawing::default(), sagitta, chords: 0, start, at: [0.0; 2] }
+    }
+
+    /// Draws a step of a path that a map takes to mm.
+    pub(super) fn draw(&mut self, step: Step, map: Affine, span: Span) -> Result<(), Diagnostic> {
+        let from = self.at;
+        let place = |at: Pair| map.place(at);
+        match step {
+            Step::Move(to) => {
+                self.lift();
+                (self.start, self.at) = ((to, span), to);
+                return check(place(to), span);
+            }
+            Step::Line(to) => {
+                self.at = to;
+                self.line(map, place(to), span)?;
+            }
+            Step::Cubic(places) => {
+                self.at = places[2];
+                let [a, b, c] = places.map(place);
+                [a, b].iter().try_for_each(|control| check(*control, span))?;
+                self.curve(&Curve::Cubic([place(from), a, b, c]), map, span)?;
+            }
+            Step::Arc(arc) => {
+                self.at = arc.to;
+                match curve::arc(from, arc, map) {
+                    Some(curve) => self.curve(&curve, map, span)?,
+                    None => self.line(map, place(arc.to), span)?,
+                }
+            }
+            Step::Close => {
+                self.at = self.start.0;
+                if !self.drawing.is_lifted() {
+                    self.line(map, place(self.at), span)?;
+                }
+                self.lift();
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws a curve from where the pencil is.
+    pub(super) fn curve(&mut self, curve: &Curve, map: Affine, span: Span) -> Result<(), Diagnostic> {
+        let chords = curve.chords(self.sagitta);
+        self.chords += chords;
+        if self.chords > MOST_CHORDS {
+            let message = format!("the curves of the file have more than {MOST_CHORDS} chords");
+            let finding = Diagnostic::new(&code::SVG_TOO_MUCH, message).at(span);
+            return Err(finding.hint("look for a damaged number, or for copies of copies (`use`)"));
+        }
+        (1..=chords).try_for_each(|chord| self.line(map, curve.place(chord, chords), span))
+    }
+
+    /// Draws a line to a place, mm. Whoever draws gives the strokes to their layers.
+    fn line(&mut self, map: Affine, to: Pair, span: Span) -> Result<(), Diagnostic> {
+        check(to, span)?;
+        if self.drawing.is_lifted() {
+            let (start, led) = self.start;
+            let [x, y] = map.place(start);
+            self.drawing.begin(Point::new(x, y), led, 0);
+        }
+        let to = Point::new(to[0], to[1]);
+        if self.drawing.vertices.last().is_none_or(|last| (last.at - to).norm() > SHORTEST) {
+            self.drawing.line(to, span);
+        }
+        Ok(())
+    }
+
+    /// Ends a subpath. One that comes back to its start ends there to the bit.
+    pub(super) fn lift(&mut self) {
+        if !self.drawing.is_lifted()
+            && let Some(stroke) = self.drawing.strokes.last()
+        {
+            let first = self.drawing.vertices[stroke.first as usize].at;
+            if let Some(last) = self.drawing.vertices.last_mut()
+                && (last.at - first).norm() <= SHORTEST
+            {
+                last.at = first;
+            }
+        }
+        self.drawing.lift();
+    }
+}
+
+/// Refuses a place that is none, or that no table has.
+fn check(at: Pair, span: Span) -> Result<(), Diagnostic> {
+    if at.iter().all(|number| number.abs() <= FARTHEST) {
+        return Ok(());
+    }
+    let finding = Diagnostic::new(&code::SVG_FAR, "a place here is more than a kilometre from the page").at(span);
+    Err(finding.hint("a digit may be doubled or a decimal point lost: save the drawing again"))
+}

@@ -1,0 +1,87 @@
+//! Counts of what is not cut, told once a kind.
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::source::Span;
+
+/// Names of selectors that a message lists.
+const MOST_NAMED: usize = 3;
+
+/// Counts, each with the first place.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    hidden: Option<(usize, Span)>,
+    without_line: Option<(usize, Span)>,
+    /// Kinds that are left out, in the order in which they first appear.
+    kinds: Vec<(String, usize, Span)>,
+}
+
+fn count(counted: &mut Option<(usize, Span)>, span: Span) {
+    counted.get_or_insert((0, span)).0 += 1;
+}
+
+/// A word for so many things.
+fn many(count: usize, one: &str, several: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {several}") }
+}
+
+impl Tally {
+    /// An element is not displayed.
+    pub(super) fn hide(&mut self, span: Span) {
+        count(&mut self.hidden, span);
+    }
+
+    /// A shape has neither stroke nor fill.
+    pub(super) fn lack_line(&mut self, span: Span) {
+        count(&mut self.without_line, span);
+    }
+
+    /// Something of a kind is drawn and not read.
+    pub(super) fn leave_out(&mut self, kind: &str, span: Span) {
+        match self.kinds.iter_mut().find(|(known, _, _)| known == kind) {
+            Some((_, count, _)) => *count += 1,
+            None => self.kinds.push((kind.to_owned(), 1, span)),
+        }
+    }
+
+    /// Tells all of it.
+    pub(super) fn tell(self, strange: &[&str], out: &mut Diagnostics) {
+        let mut say = |code: &'static Code, span: Option<Span>, message: String, hint: &str| {
+            let finding = Diagnostic::new(code, message).hint(hint);
+            out.push(match span {
+                Some(span) => finding.at(span),
+                None => finding,
+            });
+        };
+        if let Some((count, span)) = self.hidden {
+            let what = many(count, "element is", "elements are");
+            let message = format!("{what} not displayed, and so not cut");
+            say(&code::SVG_HIDDEN, Some(span), message, "if it must be cut, show its layer and save the drawing again");
+        }
+        if let Some((count, span)) = self.without_line {
+            let what = many(count, "shape without stroke and fill is", "shapes without stroke and fill are");
+            let message = format!("{what} not seen, and so not cut");
+            say(&code::SVG_NO_LINE, Some(span), message, "if it must be cut, give it a stroke");
+        }
+        for (kind, count, span) in self.kinds {
+            let message = format!("`{kind}` is not read, and what it draws is not cut: {count} of them");
+            let hint = if kind == "text" {
+                "if letters must be cut, turn them into paths"
+            } else {
+                "if it must be cut, turn it into paths in the program that drew it"
+            };
+            say(&code::SVG_LEFT_OUT, Some(span), message, hint);
+        }
+        if !strange.is_empty() {
+            let listed: Vec<String> =
+                strange.iter().take(MOST_NAMED).map(|name| format!("`{}`", shown(name))).collect();
+            let more = if strange.len() > MOST_NAMED { " and others" } else { "" };
+            let message = format!("rules of a style sheet are not obeyed: {}{more}", listed.join(", "));
+            say(&code::SVG_STYLE, None, message, "look in the picture (`-t svg`) whether hidden lines are cut");
+        }
+    }
+}
+
+/// A selector, shortened to a few letters.
+fn shown(text: &str) -> String {
+    text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

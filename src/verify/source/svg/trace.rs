@@ -1,0 +1,78 @@
+//! The pen in the units of an element: lines and curves of its subpaths.
+
+use super::map::Map;
+use super::pen::{Bow, Pen};
+
+/// A pen in the units of an element.
+pub(super) struct Trace<'p> {
+    pub(super) pen: &'p mut Pen,
+    /// To mm.
+    pub(super) map: Map,
+    /// Where the pen is, and where the subpath began.
+    pub(super) at: [f64; 2],
+    first: [f64; 2],
+    /// Whether a line has been drawn since it began.
+    is_down: bool,
+    /// Number of the step that is drawn, and whether each step has its own.
+    step: usize,
+    is_stepping: bool,
+}
+
+impl<'p> Trace<'p> {
+    pub(super) fn new(pen: &'p mut Pen, map: Map, is_stepping: bool) -> Self {
+        Self { pen, map, at: [0.0; 2], first: [0.0; 2], is_down: false, step: 1, is_stepping }
+    }
+
+    /// Starts a subpath.
+    pub(super) fn start(&mut self, at: [f64; 2]) {
+        self.pen.lift();
+        (self.at, self.first, self.is_down) = (at, at, false);
+    }
+
+    /// Puts the pen down, and counts the step.
+    fn lower(&mut self) {
+        if !std::mem::replace(&mut self.is_down, true) {
+            self.pen.start(self.map.at(self.first[0], self.first[1]));
+        }
+        self.step += usize::from(self.is_stepping);
+    }
+
+    /// A straight line.
+    pub(super) fn line(&mut self, to: [f64; 2]) {
+        self.lower();
+        self.pen.line(self.map.at(to[0], to[1]), self.step);
+        self.at = to;
+    }
+
+    /// A curve.
+    pub(super) fn bow(&mut self, bow: &Bow, to: [f64; 2]) {
+        self.lower();
+        self.pen.curve(bow, self.map.at(to[0], to[1]), self.step);
+        self.at = to;
+    }
+
+    /// Back to the start of the subpath; the next line begins another one there.
+    pub(super) fn close(&mut self) {
+        if self.is_down {
+            self.line(self.first);
+        }
+        self.start(self.first);
+    }
+
+    /// A Bezier curve by what stands behind its start; gives its last control point but one.
+    pub(super) fn bezier(&mut self, controls: &[[f64; 2]]) -> Option<[f64; 2]> {
+        let map: Map = self.map;
+        let places = std::iter::once(&self.at).chain(controls).map(|[x, y]| map.at(*x, *y)).collect();
+        let (&to, before) = controls.split_last()?;
+        self.bow(&Bow::Bezier(places), to);
+        before.last().copied()
+    }
+
+    /// An arc of an ellipse.
+    pub(super) fn arc(&mut self, numbers: [f64; 3], flags: [bool; 2], to: [f64; 2]) {
+        match Bow::arc([self.at, to], numbers, flags, self.map) {
+            Some(bow) => self.bow(&bow, to),
+            None => self.line(to),
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! The elements that are drawn.
+
+use std::collections::HashMap;
+use std::str::FromStr;
+
+use roxmltree::{Document, Node};
+use svgtypes::Color;
+
+use super::map::Map;
+use super::numbers::list;
+use super::outline::{self, Ruler};
+use super::page::{INKSCAPE, window};
+use super::pen::Pen;
+use super::rules::Rules;
+
+/// Elements around each other, copies included, and elements in all, beyond which nothing is followed.
+const MOST_DEPTH: usize = 210;
+const MOST_ELEMENTS: usize = 9_000_000;
+
+/// Elements that are gone into, and those that draw a line.
+const GROUPS: [&str; 4] = ["g", "a", "svg", "switch"];
+const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
+
+/// What walks.
+pub(super) struct Walk<'d, 'i, 'p> {
+    document: &'d Document<'i>,
+    rules: Rules,
+    ids: HashMap<&'d str, Node<'d, 'i>>,
+    pen: &'p mut Pen,
+    elements: usize,
+}
+
+/// What holds for an element.
+#[derive(Debug, Clone)]
+struct State {
+    map: Map,
+    ruler: Ruler,
+    stroke: String,
+    fill: String,
+    is_seen: bool,
+    /// Label of the layer of Inkscape, and id of the outermost group that has one.
+    label: Option<String>,
+    group: Option<String>,
+    is_copy: bool,
+    depth: usize,
+}
+
+impl State {
+    /// Name of the layer that lines are in, or their colour.
+    fn layer(&self) -> String {
+        if let Some(name) = self.label.as_ref().or(self.group.as_ref()) {
+            return name.clone();
+        }
+        let paint = if is_paint(&self.stroke) { &self.stroke } else { &self.fill };
+        Color::from_str(paint).map_or_else(
+            |_| paint.clone(),
+            |colour| format!("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue),
+        )
+    }
+
+    /// Takes the name of a group.
+    fn enter(&mut self, group: Node) {
+        let named = |name: Option<&str>| name.filter(|name| !name.trim().is_empty()).map(str::to_owned);
+        let label = named(group.attribute((INKSCAPE, "label")))
+            .filter(|_| group.attribute((INKSCAPE, "groupmode")) == Some("layer"));
+        if label.is_some() {
+            self.label = label;
+        } else if !self.is_copy && self.group.is_none() {
+            self.group = named(group.attribute("id"));
+        }
+    }
+}
+
+fn is_paint(value: &str) -> bool {
+    !["none", "transparent"].contains(&value.to_lowercase().as_str())
+}
+
+impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
+    pub(super) fn new(document: &'d Document<'i>, pen: &'p mut Pen) -> Self {
+        let (mut rules, mut ids) = (Rules::default(), HashMap::new());
+        for node in document.descendants().filter(Node::is_element) {
+            if node.tag_name().name() == "style" {
+                node.children().filter_map(|child| child.text()).for_each(|sheet| rules.add(sheet));
+            }
+            if let Some(id) = node.attribute("id") {
+                ids.entry(id).or_insert(node);
+            }
+        }
+        Self { document, rules, ids, pen, elements: 0 }
+    }
+
+    /// Follows all that is drawn on a page.
+    pub(super) fn run(&mut self, (map, ruler): (Map, Ruler)) {
+        let root = self.document.root_element();
+        let state = State {
+            map,
+            ruler,
+            stroke: "none".to_owned(),
+            fill: "black".to_owned(),
+            is_seen: true,
+            label: None,
+            group: None,
+            is_copy: false,
+            depth: 0,
+        };
+        if let Some(state) = self.styled(root, &state) {
+            self.inside(root, &state);
+        }
+    }
+
+    fn inside(&mut self, node: Node<'d, 'i>, state: &State) {
+        for child in node.children().filter(Node::is_element) {
+            self.element(child, state);
+        }
+    }
+
+    /// The state of an element; `None` of one that is not displayed.
+    fn styled(&self, node: Node, state: &State) -> Option<State> {
+        if self.rules.value(node, "display").as_deref() == Some("none") {
+            return None;
+        }
+        let value = |name: &str| self.rules.value(node, name).filter(|value| value != "inherit");
+        Some(State {
+            stroke: value("stroke").unwrap_or_else(|| state.stroke.clone()),
+            fill: value("fill").unwrap_or_else(|| state.fill.clone()),
+            is_seen: value("visibility").map_or(state.is_seen, |value| value == "visible"),
+            depth: state.depth + 1,
+            ..state.clone()
+        })
+    }
+
+    fn element(&mut self, node: Node<'d, 'i>, state: &State) {
+        let name = node.tag_name().name();
+        let is_ours = node.tag_name().namespace() == self.document.root_element().tag_name().namespace();
+        let is_drawn = GROUPS.contains(&name) || SHAPES.contains(&name) || name == "use";
+        self.elements += 1;
+        if !is_ours || !is_drawn || state.depth > MOST_DEPTH || self.elements > MOST_ELEMENTS {
+            return;
+        }
+        let Some(mut state) = self.styled(node, state) else { return };
+        if !transform(node, &mut state) {
+            return;
+        }
+        match name {
+            "use" => self.copy(node, &state),
+            "svg" => self.window(node, &state, [None; 2]),
+            "switch" => {
+                let is_for_us = |child: &Node| {
+                    let languages = child.attribute("systemLanguage").unwrap_or("en");
+                    child.is_element()
+                        && child.attribute("requiredExtensions").is_none()
+                        && languages.split(',').any(|language| language.trim_start().starts_with("en"))
+                };
+                if let Some(child) = node.children().find(is_for_us) {
+                    self.element(child, &state);
+                }
+            }
+            "g" => {
+                state.enter(node);
+                self.inside(node, &state);
+            }
+            "a" => self.inside(node, &state),
+            _ => self.shape(node, &state),
+        }
+    }
+
+    /// A shape, where it is seen: a line has no area.
+    fn shape(&mut self, node: Node, state: &State) {
+        let has_area = is_paint(&state.fill) && node.tag_name().name() != "line";
+        if !state.is_seen || !is_paint(&state.stroke) && !has_area {
+            return;
+        }
+        let before = self.pen.drawn;
+        outline::draw(node, state.map, state.ruler, self.pen);
+        if self.pen.drawn > before {
+            self.pen.layers.insert(state.layer());
+        }
+    }
+
+    /// A copy: the element lies where the copy says.
+    fn copy(&mut self, node: Node<'d, 'i>, state: &State) {
+        let link = node.attribute("href").or_else(|| node.attribute(("http://www.w3.org/1999/xlink", "href")));
+        let id = link.and_then(|link| link.trim().strip_prefix('#'));
+        let Some(&target) = id.and_then(|id| self.ids.get(id)) else { return };
+        let [x, y] = ["x", "y"].map(|name| state.ruler.of(node, name).unwrap_or(0.0));
+        let state = State { map: state.map.times(Map::shift(x, y)), is_copy: true, ..state.clone() };
+        if !["symbol", "svg"].contains(&target.tag_name().name()) {
+            self.element(target, &state);
+            return;
+        }
+        if state.depth > MOST_DEPTH {
+            return;
+        }
+        // A symbol is displayed by its copies, whatever it says.
+        let size = ["width", "height"].map(|name| state.ruler.of(node, name));
+        let Some(mut inner) = self.styled(target, &state).or_else(|| Some(state.clone())) else { return };
+        if transform(target, &mut inner) {
+            self.window(target, &inner, size);
+        }
+    }
+
+    /// The inside of an element with a view box, as large as a copy or the element says.
+    fn window(&mut self, node: Node<'d, 'i>, state: &State, copied: [Option<f64>; 2]) {
+        let mut inner = state.clone();
+        let own = ["width", "height"].map(|name| state.ruler.of(node, name));
+        let size: [f64; 2] = std::array::from_fn(|k| copied[k].or(own[k]).unwrap_or(state.ruler.whole[k]));
+        if node.tag_name().name() == "svg" {
+            let [x, y] = ["x", "y"].map(|name| state.ruler.of(node, name).unwrap_or(0.0));
+            inner.map = inner.map.times(Map::shift(x, y));
+        }
+        inner.ruler.whole = size;
+        if let Some(view) = node.attribute("viewBox").map(list).and_then(|list| <[f64; 4]>::try_from(list).ok()) {
+            let Some(map) = window(view, size, node.attribute("preserveAspectRatio")) else { return };
+            inner.map = inner.map.times(map);
+            inner.ruler.whole = [view[2], view[3]];
+        }
+        if size[0] > 0.0 && size[1] > 0.0 {
+            self.inside(node, &inner);
+        }
+    }
+}
+
+/// Applies the transform of an element; `false` where it cannot be read.
+fn transform(node: Node, state: &mut State) -> bool {
+    let Some(map) = node.attribute("transform").map_or(Some(Map::shift(0.0, 0.0)), Map::read) else { return false };
+    state.map = state.map.times(map);
+    true
+}
