@@ -5,6 +5,9 @@ use std::fmt::Write as _;
 use crate::pipeline::Report;
 use crate::units::number::fixed;
 
+/// Layers that are listed for people.
+const SHOWN_LAYERS: usize = 40;
+
 /// A line a class, and the way of the pen; empty for files that say themselves what is cut.
 pub(super) fn text(report: &Report) -> String {
     let Some(drawn) = &report.drawn else { return String::new() };
@@ -21,9 +24,12 @@ pub(super) fn text(report: &Report) -> String {
     if !drawn.layers.is_empty() {
         out += "\n  layer             count      length mm\n";
     }
-    for layer in &drawn.layers {
+    for layer in drawn.layers.iter().take(SHOWN_LAYERS) {
         let (name, count, length) = (&layer.name, layer.count, fixed(layer.length_mm, 3));
         let _ = writeln!(out, "  {name:14} {count:>8} {length:>14}  {}", layer.used);
+    }
+    if drawn.layers.len() > SHOWN_LAYERS {
+        let _ = writeln!(out, "  and {} more: `--format json` has all", drawn.layers.len() - SHOWN_LAYERS);
     }
     out
 }

@@ -20,6 +20,11 @@ impl Affine {
         Self { linear: Matrix2::from_columns(&[x, y]), ..Self::IDENTITY }
     }
 
+    /// The map `x' = a x + c y + e`, `y' = b x + d y + f` of these six numbers.
+    pub fn matrix([a, b, c, d, e, f]: [f64; 6]) -> Self {
+        Self { linear: Matrix2::new(a, c, b, d), shift: Vector::new(e, f) }
+    }
+
     /// A shift.
     pub fn shift(by: Vector) -> Self {
         Self { shift: by, ..Self::IDENTITY }
@@ -34,6 +39,11 @@ impl Affine {
     pub fn turn(angle: f64) -> Self {
         let (sin, cos) = exact_sin_cos(angle);
         Self { linear: Matrix2::new(cos, -sin, sin, cos), ..Self::IDENTITY }
+    }
+
+    /// A slant: X moves by the tangent of the first angle for each Y, and Y by that of the second for each X, rad.
+    pub fn slant(x: f64, y: f64) -> Self {
+        Self { linear: Matrix2::new(1.0, x.tan(), y.tan(), 1.0), ..Self::IDENTITY }
     }
 
     /// The map that does this one first and then another.

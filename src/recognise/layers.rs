@@ -34,8 +34,8 @@ pub(super) fn say(pens: &[Pen], job: &Job, out: &mut Diagnostics) {
     }
     let mut said = Vec::new();
     said.extend((!cut.is_empty()).then(|| format!("{} cut", listed(&cut))));
-    said.extend((!uncut.is_empty()).then(|| format!("{} not", listed(&uncut))));
-    said.extend((!beside.is_empty()).then(|| format!("{} not, since nothing is said of it", listed(&beside))));
+    said.extend((!uncut.is_empty()).then(|| format!("{} not cut", listed(&uncut))));
+    said.extend((!beside.is_empty()).then(|| format!("of {} nothing is said: not cut", quoted(&beside))));
     let message = format!("layers by their names: {}", said.join("; "));
     let finding = Diagnostic::new(&code::DRAWING_LAYERS, message);
     out.push(finding.hint("say otherwise with `--layers CUT,FOLD=pen,TEXT=ignore`; `cutc info` lists the layers"));

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::affine::{Affine, Pair};
 use super::path::Arc;
+use super::transform::{Pair, led, placed};
+use crate::geom::affine::Affine;
 
 /// The most chords of one curve: a damaged number must not fill the memory.
 const MOST_CHORDS: f64 = 100_000.0;
@@ -104,8 +105,8 @@ pub(super) fn arc(from: Pair, arc: Arc, map: Affine) -> Option<Curve> {
     let centre = [0, 1].map(|axis| {
         f64::midpoint(from[axis], to[axis]) + (middle[0] * axes[0][axis] + middle[1] * axes[1][axis]) / grown
     });
-    let [centre, to] = [centre, to].map(|place| map.place(place));
-    Some(Curve::Elliptic(Elliptic { centre, axes: axes.map(|axis| map.way(axis)), start, sweep, to }))
+    let [centre, to] = [centre, to].map(|at| placed(&map, at));
+    Some(Curve::Elliptic(Elliptic { centre, axes: axes.map(|axis| led(&map, axis)), start, sweep, to }))
 }
 
 #[cfg(test)]
@@ -136,14 +137,14 @@ mod tests {
             let mut pair = || [number(300.0), number(300.0)];
             check(&Curve::Cubic([pair(), pair(), pair(), pair()]));
             let (from, radii, to) = (pair(), pair(), pair());
-            let map = Affine([1.0, 0.3, -0.8, 0.5, 3.0, 4.0]);
+            let map = Affine::matrix([1.0, 0.3, -0.8, 0.5, 3.0, 4.0]);
             let flags = [number(1.0) > 0.0, number(1.0) > 0.0];
             let [is_large, is_growing] = flags;
             let asked = Arc { radii, turn: number(180.0), is_large, is_growing, to };
             let found = arc(from, asked, map).expect("an arc");
             check(&found);
             let off = |a: Pair, b: Pair| (a[0] - b[0]).hypot(a[1] - b[1]);
-            assert!(off(found.place(0, 7), map.place(from)) < 1e-9);
+            assert!(off(found.place(0, 7), placed(&map, from)) < 1e-9);
             let Curve::Elliptic(elliptic) = found else { panic!("an arc is elliptic") };
             let (sin, cos) = (elliptic.start + elliptic.sweep).sin_cos();
             let end = [0, 1].map(|i| elliptic.centre[i] + cos * elliptic.axes[0][i] + sin * elliptic.axes[1][i]);
@@ -157,7 +158,7 @@ mod tests {
     #[test]
     fn an_arc_without_a_radius_or_a_way_is_none() {
         let asked = |radii, to| Arc { radii, turn: 0.0, is_large: true, is_growing: true, to };
-        assert_eq!(arc([0.0; 2], asked([0.0, 5.0], [1.0, 1.0]), Affine::NONE), None);
-        assert_eq!(arc([0.0; 2], asked([5.0, 5.0], [0.0, 0.0]), Affine::NONE), None);
+        assert_eq!(arc([0.0; 2], asked([0.0, 5.0], [1.0, 1.0]), Affine::IDENTITY), None);
+        assert_eq!(arc([0.0; 2], asked([5.0, 5.0], [0.0, 0.0]), Affine::IDENTITY), None);
     }
 }

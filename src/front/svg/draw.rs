@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use roxmltree::{Attribute, Node};
 
-use super::affine::Pair;
 use super::curve::{Curve, Elliptic};
 use super::path::{self, Fault, Step};
 use super::scan::Scan;
 use super::scene::Scene;
 use super::shape::{self, BadValue};
+use super::transform::{Pair, led, placed};
 use super::walk::Walk;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::Point;
@@ -104,9 +104,9 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
     /// Draws an ellipse.
     fn ellipse(&mut self, centre: Pair, [rx, ry]: Pair, scene: Scene, span: Span) {
         let (start, map) = ([centre[0] + rx, centre[1]], scene.map);
-        let to = map.place(start);
-        let axes = [map.way([rx, 0.0]), map.way([0.0, ry])];
-        let curve = Curve::Elliptic(Elliptic { centre: map.place(centre), axes, start: 0.0, sweep: TAU, to });
+        let to = placed(&map, start);
+        let axes = [led(&map, [rx, 0.0]), led(&map, [0.0, ry])];
+        let curve = Curve::Elliptic(Elliptic { centre: placed(&map, centre), axes, start: 0.0, sweep: TAU, to });
         let drawn = self.pencil.draw(Step::Move(start), map, span);
         if let Err(fault) = drawn.and_then(|()| self.pencil.curve(&curve, map, span)) {
             self.refuse(fault);

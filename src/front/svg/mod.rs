@@ -8,7 +8,6 @@
 //! [`scene`] around each, whose [`style`] sheets and attributes say; [`draw`] makes steps of [`mod@path`] and [`mod@shape`],
 //! which the [`pencil`] follows, and makes chords of each [`curve`]; [`scan`] finds numbers; [`tally`] counts what is not cut.
 
-mod affine;
 mod curve;
 mod draw;
 mod length;
@@ -21,6 +20,7 @@ mod scene;
 mod shape;
 mod style;
 mod tally;
+mod transform;
 mod viewport;
 mod walk;
 mod words;

@@ -5,11 +5,12 @@
 
 use roxmltree::{Document, Node};
 
-use super::affine::{Affine, Pair};
 use super::length::Length;
+use super::transform::Pair;
 use super::viewport::{ViewBox, fit};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
+use crate::geom::affine::Affine;
 use crate::units::MM_PER_INCH;
 use crate::units::number::{fixed, short};
 
@@ -103,9 +104,9 @@ impl Page {
         let inner = match view {
             Some(view) => fit(view, mm, root.attribute("preserveAspectRatio"))
                 .ok_or(("preserveAspectRatio", "this is no rule for the shape of the view box"))?,
-            None => Affine::stretched([pixel; 2]),
+            None => Affine::scale(pixel, pixel),
         };
-        let map = Affine([1.0, 0.0, 0.0, -1.0, 0.0, mm[1]]).after(inner);
+        let map = inner.then(&Affine::matrix([1.0, 0.0, 0.0, -1.0, 0.0, mm[1]]));
         if !map.is_finite() {
             return Err(("viewBox", "the page has no size"));
         }
@@ -155,13 +156,14 @@ fn size(root: Node, name: &'static str) -> Result<Option<Length>, Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::front::svg::transform::placed;
 
     fn page(text: &str) -> Result<Page, Fault> {
         Page::of(&Document::parse(text).expect("XML"))
     }
 
     fn check(root: &str, from: Pair, to: Pair) {
-        let found = page(&format!("<svg {root}/>")).expect("a page").map.place(from);
+        let found = page(&format!("<svg {root}/>")).expect("a page").placed(&map, from);
         assert!((found[0] - to[0]).hypot(found[1] - to[1]) < 1e-9, "{root}: {found:?}");
     }
 

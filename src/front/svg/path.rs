@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::affine::Pair;
 use super::scan::Scan;
+use super::transform::Pair;
 
 /// A step of a path, in units of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,11 @@
 //! The pencil: draws lines and curves of subpaths into a drawing.
 
-use super::affine::{Affine, Pair};
 use super::curve::{self, Curve};
 use super::path::Step;
+use super::transform::{Pair, placed};
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::Point;
+use crate::geom::affine::Affine;
 use crate::ir::Drawing;
 use crate::source::Span;
 
@@ -38,7 +39,7 @@ impl Pencil {
     /// Draws a step of a path that a map takes to mm.
     pub(super) fn draw(&mut self, step: Step, map: Affine, span: Span) -> Result<(), Diagnostic> {
         let from = self.at;
-        let place = |at: Pair| map.place(at);
+        let place = |at: Pair| placed(&map, at);
         match step {
             Step::Move(to) => {
                 self.lift();
@@ -90,7 +91,7 @@ impl Pencil {
         check(to, span)?;
         if self.drawing.is_lifted() {
             let (start, led) = self.start;
-            let [x, y] = map.place(start);
+            let [x, y] = placed(&map, start);
             self.drawing.begin(Point::new(x, y), led, 0);
         }
         let to = Point::new(to[0], to[1]);

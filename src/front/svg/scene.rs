@@ -3,9 +3,10 @@
 use roxmltree::Node;
 use svgtypes::Color;
 
-use super::affine::{Affine, Pair};
 use super::page::INKSCAPE;
 use super::style::{self, Style};
+use super::transform::Pair;
+use crate::geom::affine::Affine;
 
 /// What an element has from those around it.
 #[derive(Debug, Clone, Copy)]

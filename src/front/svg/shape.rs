@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use roxmltree::Node;
 
-use super::affine::Pair;
 use super::length::Length;
 use super::path::{Arc, Fault, Step};
 use super::scan::Scan;
+use super::transform::Pair;
 
 /// A fault of an attribute: its name, and words for it.
 pub(super) type BadValue = (&'static str, &'static str);

@@ -2,8 +2,10 @@
 
 use svgtypes::{Align, AspectRatio};
 
-use super::affine::{Affine, Pair};
 use super::scan::Scan;
+use super::transform::Pair;
+use crate::geom::Vector;
+use crate::geom::affine::Affine;
 
 /// A view box: its corner and its size, in units of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,18 +49,20 @@ pub(super) fn fit(view: ViewBox, size: Pair, rule: Option<&str>) -> Option<Affin
         Align::XMaxYMax => [1.0, 1.0],
     };
     let moved = [0, 1].map(|axis| free[axis] * shares[axis] - view.at[axis] * scale[axis]);
-    Some(Affine::moved(moved).after(Affine::stretched(scale)))
+    Some(Affine::scale(scale[0], scale[1]).then(&Affine::shift(Vector::from(moved))))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::front::svg::transform::placed;
 
     #[test]
     fn a_view_box_keeps_its_shape_unless_it_is_told_otherwise() {
         let view = ViewBox::read("10 20,100 50").expect("a view box");
         let check = |rule: Option<&str>, from: Pair, to: Pair| {
-            let found = fit(view, [200.0, 200.0], rule).expect("a rule").place(from);
+            let found = fit(view, [200.0, 200.0], rule).expect("a rule");
+            let found = placed(&found, from);
             assert_eq!(found, to, "{rule:?}");
         };
         check(None, [10.0, 20.0], [0.0, 50.0]);

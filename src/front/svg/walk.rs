@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use roxmltree::{Document, Node, NodeId};
 
-use super::affine::{Affine, Pair};
 use super::letters::Letters;
 use super::page::Page;
 use super::pencil::Pencil;
@@ -12,8 +11,11 @@ use super::scene::Scene;
 use super::shape::{BadValue, Measure, Of};
 use super::style::{self, Sheets, Style};
 use super::tally::Tally;
+use super::transform::{Pair, placed, transform};
 use super::viewport::{ViewBox, fit};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Vector;
+use crate::geom::affine::Affine;
 use crate::ir::Drawing;
 use crate::ir::drawing::Unread;
 use crate::source::Span;
@@ -163,11 +165,11 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         self.tell_style(&style, span);
         let mut scene = scene.styled(&style);
         if let Some(text) = node.attribute("transform") {
-            let Some(map) = Affine::read(text) else {
+            let Some(map) = transform(text) else {
                 self.blame(node, ("transform", "this is no list of transforms that can be read"));
                 return;
             };
-            scene.map = scene.map.after(map);
+            scene.map = map.then(&scene.map);
         }
         if let Err(fault) = self.follow(node, scene) {
             self.blame(node, fault);
@@ -224,12 +226,12 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         let own = [by.size(node, "width", Of::Width)?, by.size(node, "height", Of::Height)?];
         let size = [0, 1].map(|axis| copied[axis].or(own[axis]).unwrap_or(scene.whole[axis]));
         let mut inner = scene;
-        (inner.map, inner.whole) = (scene.map.after(Affine::moved(at)), size);
+        (inner.map, inner.whole) = (Affine::shift(Vector::from(at)).then(&scene.map), size);
         if let Some(text) = node.attribute("viewBox") {
             let view = ViewBox::read(text).ok_or(("viewBox", "this is no view box: four numbers, the size above 0"))?;
             let map = fit(view, size, node.attribute("preserveAspectRatio"));
             let map = map.ok_or(("preserveAspectRatio", "this is no rule for the shape of the view box"))?;
-            inner.map = inner.map.after(map);
+            inner.map = map.then(&inner.map);
             inner.whole = view.size;
         }
         if size.iter().all(|&size| size > 0.0) {
@@ -257,7 +259,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
             return Ok(());
         }
         let mut inner = scene;
-        (inner.map, inner.is_copy) = (scene.map.after(Affine::moved(at)), true);
+        (inner.map, inner.is_copy) = (Affine::shift(Vector::from(at)).then(&scene.map), true);
         self.uses.push(node.id());
         let drawn = match target.tag_name().name() {
             "symbol" | "svg" => self.copied_viewport(target, &mut inner, size),
@@ -285,8 +287,8 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         self.tell_style(&style, self.span(target));
         let mut inner = scene.styled(&style);
         if let Some(text) = target.attribute("transform") {
-            let map = Affine::read(text).ok_or(("transform", "a symbol has no list of transforms that can be read"))?;
-            inner.map = inner.map.after(map);
+            let map = transform(text).ok_or(("transform", "a symbol has no list of transforms that can be read"))?;
+            inner.map = map.then(&inner.map);
         }
         self.viewport(target, inner, size)
     }
@@ -357,7 +359,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
 
     /// The place where a scene puts one of its places, mm.
     pub(super) fn placed(scene: &Scene, at: Pair) -> Pair {
-        scene.map.place(at)
+        placed(&scene.map, at)
     }
 }
 
