@@ -13,9 +13,9 @@ use super::pen::PenUse;
 /// in a name that of the earlier row holds.
 #[rustfmt::skip] // a table: a row a use
 const WORDS: [(PenUse, &[&str]); 3] = [
-    (PenUse::Ignore, &["TEXT", "TEXTS", "TEXTE", "TEKST", "TESTO", "TEXTO", "LABEL", "LABELS", "NOTE", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "BEMASSUNG", "BEMAßUNG", "MAATVOERING", "COTE", "COTES", "COTATION", "QUOTE", "COTAS", "ANNOTATION", "ANNOTATIONS", "DEFPOINTS", "VIEWPORT", "FRAME", "BORDER", "RAHMEN", "KADER", "CADRE", "CORNICE", "MARCO", "TITLE", "SHEET", "HATCH"]),
-    (PenUse::Pen, &["PEN", "STIFT", "ZEICHNEN", "TEKENEN", "STYLO", "PENNA", "LAPIZ", "FOLD", "FALZ", "BRUCH", "VOUW", "PLI", "PIEGA", "DOBLEZ", "CREASE", "SCORE", "SEAM", "SEW", "STITCH", "STITCHING", "NAHT", "NAAD", "COUTURE", "CUCITURA", "COSTURA", "GRAIN", "GRAINLINE", "FADENLAUF", "DRAADRICHTING", "NOTCH", "NOTCHES", "KNIP", "KNIPS", "CRAN", "CRANS", "TACCA", "TACCHE", "PIQUETE", "PIQUETES", "DRILL", "BOHRUNG", "ENGRAVE"]),
-    (PenUse::Knife, &["CUT", "CUTS", "CUTTING", "KNIFE", "SCHNITT", "SCHNEIDEN", "MESSER", "SNIJ", "SNIJDEN", "SNIJLIJN", "MES", "COUPE", "DECOUPE", "DÉCOUPE", "TAGLIO", "LAMA", "CORTE", "CUCHILLA", "THROUGHCUT"]),
+    (PenUse::Ignore, &["TEXT", "TEXTS", "TEXTE", "TEKST", "TESTO", "TEXTO", "LABEL", "LABELS", "NOTE", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "BEMASSUNG", "BEMAßUNG", "MAATVOERING", "COTE", "COTES", "COTATION", "QUOTE", "COTAS", "ANNOTATION", "ANNOTATIONS", "DEFPOINTS", "VIEWPORT", "NUMBER", "NUMBERS", "LIST", "AREA", "FRAME", "BORDER", "RAHMEN", "KADER", "CADRE", "CORNICE", "MARCO", "TITLE", "SHEET", "HATCH"]),
+    (PenUse::Pen, &["NO", "NOT", "NON", "NICHT", "KEIN", "KEINE", "NIET", "GEEN", "NE", "PAS", "SANS", "SIN", "SENZA", "NOCUT", "KISS", "HALF", "GUIDE", "PEN", "STIFT", "ZEICHNEN", "TEKENEN", "STYLO", "PENNA", "LAPIZ", "FOLD", "FALZ", "BRUCH", "VOUW", "PLI", "PIEGA", "DOBLEZ", "CREASE", "SCORE", "SEAM", "SEW", "STITCH", "STITCHING", "NAHT", "NAAD", "COUTURE", "CUCITURA", "COSTURA", "GRAIN", "GRAINLINE", "FADENLAUF", "DRAADRICHTING", "NOTCH", "NOTCHES", "KNIP", "KNIPS", "CRAN", "CRANS", "TACCA", "TACCHE", "PIQUETE", "PIQUETES", "DRILL", "BOHRUNG", "ENGRAVE"]),
+    (PenUse::Knife, &["CUT", "CUTS", "CUTTING", "CUTLINE", "CUTLINES", "CUTOUT", "CUTOUTS", "BLADE", "OUTLINE", "OUTLINES", "CONTOUR", "CONTOURS", "KNIFE", "SCHNITT", "SCHNITTE", "SCHNITTLINIE", "SCHNITTLINIEN", "AUSSCHNITT", "AUSSCHNITTE", "SCHNEIDEN", "MESSER", "KONTUR", "KONTUREN", "AUSSENKONTUR", "INNENKONTUR", "UMRISS", "SNIJ", "SNIJDEN", "SNIJLIJN", "MES", "COUPE", "COUPES", "DECOUPE", "DECOUPES", "DÉCOUPE", "DÉCOUPES", "CONTORNO", "CONTORNI", "OMTREK", "TAGLIO", "LAMA", "CORTE", "CUCHILLA", "THROUGHCUT"]),
 ];
 
 /// A key a layer.
@@ -105,9 +105,12 @@ pub fn uses(
         let of_profile = || of_profile.iter().find(|(pattern, _)| names(pattern, name)).map(|(_, used)| *used);
         typed.and_then(|typed| typed.of(name)).or_else(of_profile)
     };
+    // Where somebody names a knife, words of names make no others.
+    let has_knife = layers.iter().any(|name| said(name) == Some(PenUse::Knife));
     let found = |name: &&str| {
         let said = said(name).map(|used| (used, Known::Said));
-        said.or_else(|| by_name(name).map(|used| (used, Known::Named)))
+        let named = || by_name(name).filter(|used| !(has_knife && *used == PenUse::Knife));
+        said.or_else(|| named().map(|used| (used, Known::Named)))
     };
     let mut uses: Vec<Option<(PenUse, Known)>> = layers.iter().map(found).collect();
     if uses.iter().flatten().any(|(used, _)| *used == PenUse::Knife) {
@@ -159,6 +162,11 @@ mod tests {
     #[test]
     fn names_say_nothing_where_no_word_does() {
         let none = BTreeMap::new();
+        let typed = LayerUses::parse("TEIL").expect("layers");
+        let beside = uses(&["TEIL", "CUT", "FOLD"], Some(&typed), &none);
+        assert_eq!(beside[1..], [Some((PenUse::Pen, Beside)), Some((PenUse::Pen, Named))]);
+        let no = uses(&["DO NOT CUT", "nicht schneiden", "Kiss cut", "cut number"], None, &none);
+        assert!(no.iter().all(|used| used.is_some_and(|(used, _)| used != PenUse::Knife)), "{no:?}");
         assert_eq!(uses(&["0", "deel 1", "Layer1", "cutter"], None, &none), [None; 4]);
         let cut = uses(&["CUT_OUTER", "SCHNITT-2", "dim.cut"], None, &none);
         assert_eq!(cut[0], Some((PenUse::Knife, Named)));

@@ -11,7 +11,7 @@
 //! those aside that lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what
 //! lies in what, `remains` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses
 //! among them, `letters` and `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens`
-//! what pens stand for, `layers` says it of layers. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
+//! what pens stand for, `layers` says it of layers, `shared` refuses parts that are lost. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
 
 mod again;
 mod bridge;
@@ -30,6 +30,7 @@ mod piece;
 mod remains;
 mod say;
 mod seam;
+mod shared;
 mod sheet;
 mod signs;
 mod slits;
@@ -52,6 +53,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
         return Marker::default();
     }
     let of_layers = layers::drawn(&drawing, job);
+    let shared = shared::edges(&drawing, &pens::uses(&drawing.pens, job));
     let mut work = Budget::of_a_marker();
     let (mut lines, moved) = join::join(&mut drawing, job, &mut work);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
@@ -75,6 +77,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     };
     sheet.sort_out(job);
     sheet.decide(job);
+    shared::refuse(&shared, &sheet.lines, &sheet.vertices, diagnostics);
     sheet.set_open_outlines(doubts::doubtful_outlines(&sheet));
     say::all(&sheet, job, diagnostics);
     piece::marker(sheet, of_layers, diagnostics)

@@ -10,12 +10,21 @@ use crate::machine::plot::PenUse;
 pub(super) enum Use {
     /// Nobody says: their shapes do.
     Unsaid,
-    /// Cuts.
+    /// Cuts of parts.
     Knife,
+    /// Cuts: a layer is a tool, and all of its lines are cut.
+    Tool,
     /// Edges of parts and marks that are drawn only.
     Drawn,
     /// Nothing.
     Ignore,
+}
+
+impl Use {
+    /// Whether it says that lines are cut.
+    pub(super) fn is_knife(self) -> bool {
+        matches!(self, Self::Knife | Self::Tool)
+    }
 }
 
 impl From<PenUse> for Use {
@@ -34,7 +43,11 @@ pub(super) fn uses(pens: &[Pen], job: &Job) -> Vec<Use> {
     pens.iter()
         .map(|pen| {
             if pen.is_layer {
-                of_layers.next().flatten().map_or(Use::Unsaid, |(used, _)| used.into())
+                match of_layers.next().flatten() {
+                    Some((PenUse::Knife, _)) => Use::Tool,
+                    Some((used, _)) => used.into(),
+                    None => Use::Unsaid,
+                }
             } else {
                 of_pen(pen, job)
             }

@@ -3,7 +3,6 @@
 //! notches.
 
 use super::line::{Class, Line, SMALL_OUTLINE, is_straight};
-use super::pens::Use;
 use super::seam;
 use crate::analysis::nesting::Nesting;
 use crate::geom::boxes::Boxes;
@@ -112,7 +111,7 @@ impl Drawn<'_> {
 
     /// Whether the pen of a closed line is named as a knife, and that of an open one is not.
     fn is_named_knife(&self, part: usize, open: usize) -> bool {
-        self.lines[part].usage == Use::Knife && self.lines[open].usage != Use::Knife
+        self.lines[part].usage.is_knife() && !self.lines[open].usage.is_knife()
     }
 
     /// Single open lines that go around much of a part.

@@ -110,7 +110,7 @@ impl Sheet {
         let band = self.band();
         let frames = frame::cloths(&self.lines, band);
         let is_on_cloth =
-            |line: &Line| frames.is_empty() || line.usage == Use::Knife || frame::is_in_frame(line, &frames, band);
+            |line: &Line| frames.is_empty() || line.usage.is_knife() || frame::is_in_frame(line, &frames, band);
         for i in 0..self.lines.len() {
             let outermost = self.nest.outermost(i).unwrap_or(i);
             let is_part = outermost == i && self.lines[i].size() > SMALL_OUTLINE;
@@ -207,8 +207,7 @@ impl Sheet {
     /// table.
     fn find_parts_of_knives(&mut self, work: &mut Budget) {
         let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage == Use::Drawn);
-        let is_knife =
-            |line: &Line| line.class == Class::Inner && line.usage == Use::Knife && line.size() > SMALL_OUTLINE;
+        let is_knife = |line: &Line| line.class == Class::Inner && line.usage.is_knife() && line.size() > SMALL_OUTLINE;
         let mut parts = self.indices(is_knife);
         parts.retain(|&i| is_drawn(i));
         for &part in &parts {
@@ -271,7 +270,7 @@ impl Sheet {
         let inner = job.lines.inner.unwrap_or(job.profile.hpgl.inner);
         for i in 0..self.lines.len() {
             let line = &self.lines[i];
-            let is_knife = line.usage == Use::Knife;
+            let is_knife = line.usage.is_knife();
             let by_rule = match line.class.rule().cut {
                 Cut::Always => true,
                 Cut::Knife => is_knife,
@@ -280,12 +279,12 @@ impl Sheet {
                 Cut::Every | Cut::Never => false,
             };
             let may_be = match line.usage {
-                Use::Unsaid | Use::Knife => true,
+                Use::Unsaid | Use::Knife | Use::Tool => true,
                 Use::Drawn => line.class == Class::Notch,
                 Use::Ignore => false,
             };
             // A frame that is cut would make cut-outs of all parts, and one cut is enough for a line.
-            let by_option = job.lines.all && line.class.rule().cut != Cut::Never;
+            let by_option = (job.lines.all || line.usage == Use::Tool) && line.class.rule().cut != Cut::Never;
             self.lines[i].is_cut = may_be && (by_rule || by_option);
         }
         // A notch is cut with its outline.

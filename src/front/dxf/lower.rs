@@ -157,7 +157,8 @@ impl<'a, 'o> Lowering<'a, 'o> {
             }
             if entity.is_invisible() || self.hidden.contains(layer_of(entity, within)) {
                 if !is_text(entity) {
-                    self.told.hidden(entity);
+                    let name = self.letters.name(layer_of(entity, within));
+                    self.told.hidden(entity, name);
                 }
                 continue;
             }

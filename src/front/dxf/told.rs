@@ -1,6 +1,6 @@
 //! Entities that are not drawn: what is said of them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::entity::Entity;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -20,6 +20,8 @@ pub(super) struct Told {
     /// Those in paper space, those that are not shown, and insertions of blocks that are not there.
     on_paper: Option<Count>,
     hidden: Option<Count>,
+    /// Names of the layers that are not shown, as they are written.
+    hidden_layers: BTreeSet<String>,
     unnamed: Option<Count>,
 }
 
@@ -36,7 +38,8 @@ impl Told {
     }
 
     /// Counts an entity that is not shown.
-    pub(super) fn hidden(&mut self, entity: &Entity) {
+    pub(super) fn hidden(&mut self, entity: &Entity, layer: String) {
+        self.hidden_layers.insert(layer);
         self.hidden.get_or_insert((0, entity.span())).0 += 1;
     }
 
@@ -66,7 +69,9 @@ impl Told {
             out.push(finding.hint("what is cut must be drawn in model space"));
         }
         if let Some((count, span)) = self.hidden {
-            let message = format!("{} on layers that are off or frozen, and not cut", are(count, "line", "lines"));
+            let names: Vec<&str> = self.hidden_layers.iter().take(SHOWN).map(String::as_str).collect();
+            let (are, names) = (are(count, "line", "lines"), names.join("`, `"));
+            let message = format!("{are} invisible or on a layer that is off or frozen, and not cut: on `{names}`");
             let finding = Diagnostic::new(&code::DXF_NOT_SHOWN, message).at(span);
             out.push(finding.hint("show the layer in the CAD system if they are to be cut"));
         }

@@ -163,7 +163,8 @@ mod tests {
     }
 
     fn check(root: &str, from: Pair, to: Pair) {
-        let found = page(&format!("<svg {root}/>")).expect("a page").placed(&map, from);
+        let found = page(&format!("<svg {root}/>")).expect("a page").map;
+        let found = placed(&found, from);
         assert!((found[0] - to[0]).hypot(found[1] - to[1]) < 1e-9, "{root}: {found:?}");
     }
 
