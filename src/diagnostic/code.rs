@@ -186,6 +186,8 @@ codes! {
     DRAWING_DIVIDED_PART = warning(Spares, Shape, "drawing/divided-part", "An open line goes from the outline of a part to the same outline, longer than any notch, and is not cut: the part stays in one piece.", "A line from edge to edge divides a part in two, or it is a fold, a pleat or a stripe. Two parts that share an edge are two outlines in most plots. Look at it in the picture (-t svg); if it must be cut, let the CAD draw both parts, or cut every line.\n  cutc compile marker.plt --cut-all");
     /// Lines between the strokes of an outline.
     DRAWING_SHARED_EDGE = error(Shape, "drawing/shared-edge", "An open line leads through a part between two places where strokes of its outline meet: it may be the edge that two parts share.", "Two parts in strokes that share an edge draw it once: the lines around both are one outline, and cut so they would be one part. A fold or a hem in a part that is drawn line by line looks the same. If two parts share it, let the CAD draw each part as one closed line, or cut every line. If it is a line in one part, say that such lines stay.\n  cutc compile marker.plt --cut-all\n  cutc compile marker.plt --inner ignore");
+    /// An edge of two parts of which one is lost.
+    DRAWING_PART_LOST = error(Shape, "drawing/part-lost", "Loose lines of a drawing with layers draw an edge twice, for two parts, and it lies on fewer than two of the outlines that are found.", "Lines that are drawn part after part tell parts apart that touch. In another order four lines or more meet at the ends of the edge, and the outlines that are found go around both parts together. Let the CAD draw each part as one closed polyline, or its lines one after the other.");
     /// A rectangle around a few parts.
     DRAWING_FRAME = warning(Spoils, Shape, "drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.", "Frames are drawn around markers, to show the cloth. A rectangular part with cut-outs that fill half of it looks the same: then say that there is no frame.\n  cutc compile marker.plt --set hpgl.frame=none");
     /// A rectangle that may be a frame or a part.
@@ -329,13 +331,13 @@ codes! {
     /// Kinds that draw no lines.
     DXF_NO_LINES = warning(Spares, Text, "dxf/no-lines", "Entities of a plain DXF drawing are of kinds that are no lines, as HATCH, DIMENSION and POINT, and are not cut.", "Dimensions, hatchings and leaders are drawn about parts and are no parts. If a line is missing in the picture (-t svg), this is where to look: explode the entity into lines in the CAD system.\n  cutc compile drawing.dxf -t svg");
     /// Layers that are off or frozen.
-    DXF_NOT_SHOWN = warning(Spares, Shape, "dxf/not-shown", "Lines of a plain DXF drawing are not shown in the CAD system (group 60 is 1, or their layer is off or frozen), and are not cut.", "A layer that somebody has switched off is mostly one that is not meant. Show it and export the drawing again if it is to be cut.");
+    DXF_NOT_SHOWN = warning(Spares, Shape, "dxf/not-shown", "Entities of a plain DXF drawing are hidden in the CAD system (group 60 is 1, or their layer is off or frozen), and are not cut.", "A layer that somebody has switched off is mostly one that is not meant. Show it and export the drawing again if it is to be cut.");
     /// A spline whose numbers make none.
     DXF_SPLINE = error(Text, "dxf/spline", "The numbers of a SPLINE of a plain DXF drawing make no curve: its knots, weights or control points do not fit together.", "A curve that nobody can draw would be missing in the part. Let the CAD system export it as a polyline, or export the file again.");
     /// A block that holds itself.
     DXF_RECURSION = error(Shape, "dxf/recursive-block", "Blocks of a plain DXF drawing insert each other more than 32 deep: one of them may hold itself.", "A block that holds itself has no end. Explode its insertions in the CAD system.");
     /// More than can be drawn.
-    DXF_TOO_LARGE = error(Shape, "dxf/too-large", "A plain DXF drawing draws more than four million places, or has more than a million insertions.", "No marker has so many: a damaged number, or blocks that insert each other many times, make them. Look at radii and at counts of columns and rows.");
+    DXF_TOO_LARGE = error(Shape, "dxf/too-large", "A plain DXF drawing draws more than four million places, or has more than a hundred thousand insertions.", "No marker has so many: a damaged number, or blocks that insert each other many times, make them. Look at radii and at counts of columns and rows.");
 
     // CSV polylines.
     /// The header is missing.

@@ -52,12 +52,12 @@ impl Affine {
         Self { linear: next.linear * self.linear, shift: next.linear * self.shift + next.shift }
     }
 
-    /// Where a point comes to.
+    /// Image of a point.
     pub fn point(&self, at: Point) -> Point {
         Point::from(self.linear * at.coords + self.shift)
     }
 
-    /// What becomes of a displacement.
+    /// Image of a displacement.
     pub fn vector(&self, way: Vector) -> Vector {
         self.linear * way
     }

@@ -13,9 +13,16 @@ use super::pen::PenUse;
 /// in a name that of the earlier row holds.
 #[rustfmt::skip] // a table: a row a use
 const WORDS: [(PenUse, &[&str]); 3] = [
-    (PenUse::Ignore, &["TEXT", "TEXTS", "TEXTE", "TEKST", "TESTO", "TEXTO", "LABEL", "LABELS", "NOTE", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "BEMASSUNG", "BEMAßUNG", "MAATVOERING", "COTE", "COTES", "COTATION", "QUOTE", "COTAS", "ANNOTATION", "ANNOTATIONS", "DEFPOINTS", "VIEWPORT", "NUMBER", "NUMBERS", "LIST", "AREA", "FRAME", "BORDER", "RAHMEN", "KADER", "CADRE", "CORNICE", "MARCO", "TITLE", "SHEET", "HATCH"]),
-    (PenUse::Pen, &["NO", "NOT", "NON", "NICHT", "KEIN", "KEINE", "NIET", "GEEN", "NE", "PAS", "SANS", "SIN", "SENZA", "NOCUT", "KISS", "HALF", "GUIDE", "PEN", "STIFT", "ZEICHNEN", "TEKENEN", "STYLO", "PENNA", "LAPIZ", "FOLD", "FALZ", "BRUCH", "VOUW", "PLI", "PIEGA", "DOBLEZ", "CREASE", "SCORE", "SEAM", "SEW", "STITCH", "STITCHING", "NAHT", "NAAD", "COUTURE", "CUCITURA", "COSTURA", "GRAIN", "GRAINLINE", "FADENLAUF", "DRAADRICHTING", "NOTCH", "NOTCHES", "KNIP", "KNIPS", "CRAN", "CRANS", "TACCA", "TACCHE", "PIQUETE", "PIQUETES", "DRILL", "BOHRUNG", "ENGRAVE"]),
+    (PenUse::Ignore, &["TEXT", "TEXTS", "TEXTE", "TEKST", "TESTO", "TEXTO", "LABEL", "LABELS", "NOTE", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "BEMASSUNG", "MAATVOERING", "COTE", "COTES", "COTATION", "QUOTE", "COTAS", "ANNOTATION", "ANNOTATIONS", "DEFPOINTS", "VIEWPORT", "FRAME", "RAHMEN", "KADER", "CADRE", "CORNICE", "MARCO", "TITLE", "SHEET", "HATCH"]),
+    (PenUse::Pen, &["NOCUT", "PEN", "STIFT", "ZEICHNEN", "TEKENEN", "STYLO", "PENNA", "LAPIZ", "FOLD", "FALZ", "BRUCH", "VOUW", "PLI", "PIEGA", "DOBLEZ", "CREASE", "SCORE", "SEAM", "SEW", "STITCH", "STITCHING", "NAHT", "NAAD", "COUTURE", "CUCITURA", "COSTURA", "GRAIN", "GRAINLINE", "FADENLAUF", "DRAADRICHTING", "NOTCH", "NOTCHES", "KNIP", "KNIPS", "CRAN", "CRANS", "TACCA", "TACCHE", "PIQUETE", "PIQUETES", "DRILL", "BOHRUNG", "ENGRAVE"]),
     (PenUse::Knife, &["CUT", "CUTS", "CUTTING", "CUTLINE", "CUTLINES", "CUTOUT", "CUTOUTS", "BLADE", "OUTLINE", "OUTLINES", "CONTOUR", "CONTOURS", "KNIFE", "SCHNITT", "SCHNITTE", "SCHNITTLINIE", "SCHNITTLINIEN", "AUSSCHNITT", "AUSSCHNITTE", "SCHNEIDEN", "MESSER", "KONTUR", "KONTUREN", "AUSSENKONTUR", "INNENKONTUR", "UMRISS", "SNIJ", "SNIJDEN", "SNIJLIJN", "MES", "COUPE", "COUPES", "DECOUPE", "DECOUPES", "DÉCOUPE", "DÉCOUPES", "CONTORNO", "CONTORNI", "OMTREK", "TAGLIO", "LAMA", "CORTE", "CUCHILLA", "THROUGHCUT"]),
+];
+
+/// Words beside which one for a knife is none: what is not cut, or not through, or tells of cuts.
+#[rustfmt::skip] // a table
+const VOIDING: [&str; 19] = [
+    "NO", "NOT", "NON", "NICHT", "KEIN", "KEINE", "NIET", "GEEN", "PAS", "SANS", "SIN", "SENZA", "KISS", "HALF", "GUIDE",
+    "NUMBER", "NUMBERS", "LIST", "AREA",
 ];
 
 /// A key a layer.
@@ -33,7 +40,7 @@ pub struct LayerUses(Vec<(String, PenUse)>);
 
 /// A list that names no layers.
 #[derive(Debug, Error, PartialEq, Eq)]
-#[error("expected layers, as in `CUT,FOLD=pen,TEXT*=ignore`; `{0}` is none: a layer is a knife, a pen or ignored")]
+#[error("expected layers, as in `CUT,FOLD=pen`; `{0}` must be NAME, NAME=knife, NAME=pen or NAME=ignore")]
 pub struct NotLayers(String);
 
 impl LayerUses {
@@ -53,7 +60,7 @@ impl LayerUses {
         text.split(',').map(one).collect::<Result<Vec<_>, _>>().map(Self)
     }
 
-    /// What they say of a layer: the first that names it.
+    /// Use of a layer by the first that names it.
     fn of(&self, name: &str) -> Option<PenUse> {
         self.0.iter().find(|(pattern, _)| names(pattern, name)).map(|(_, used)| *used)
     }
@@ -80,11 +87,12 @@ impl fmt::Display for LayerUses {
 
 /// Whether a name or a pattern names a layer, in whatever letters.
 fn names(pattern: &str, layer: &str) -> bool {
-    let [pattern, layer] = [pattern, layer].map(|text| text.trim().to_lowercase());
+    // A slash parts folders in patterns of files, and is a sign like others here.
+    let [pattern, layer] = [pattern, layer].map(|text| text.trim().to_lowercase().replace('/', "\u{1}"));
     pattern == layer || glob_match(&pattern, &layer)
 }
 
-/// How the use of a layer is known.
+/// Source of the use of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Known {
     /// Somebody said so, in the profile or for this job.
@@ -102,7 +110,10 @@ pub fn uses(
     of_profile: &BTreeMap<String, PenUse>,
 ) -> Vec<Option<(PenUse, Known)>> {
     let said = |name: &str| {
-        let of_profile = || of_profile.iter().find(|(pattern, _)| names(pattern, name)).map(|(_, used)| *used);
+        // An exact name holds before a pattern, and a longer pattern before a shorter one.
+        let rank = |(pattern, _): &(&String, &PenUse)| (!pattern.contains(['*', '?', '[', '{']), pattern.len());
+        let naming = || of_profile.iter().filter(|(pattern, _)| names(pattern, name));
+        let of_profile = || naming().max_by_key(rank).map(|(_, used)| *used);
         typed.and_then(|typed| typed.of(name)).or_else(of_profile)
     };
     // Where somebody names a knife, words of names make no others.
@@ -121,11 +132,13 @@ pub fn uses(
     uses
 }
 
-/// What the words of a name say.
+/// Use by the words of a name.
 fn by_name(name: &str) -> Option<PenUse> {
     let name = name.to_uppercase();
     let words: Vec<&str> = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
-    WORDS.iter().find(|(_, known)| words.iter().any(|word| known.contains(word))).map(|(used, _)| *used)
+    let used = WORDS.iter().find(|(_, known)| words.iter().any(|word| known.contains(word))).map(|(used, _)| *used);
+    let is_void = words.iter().any(|word| VOIDING.contains(word));
+    used.map(|used| if is_void && used == PenUse::Knife { PenUse::Pen } else { used })
 }
 
 #[cfg(test)]

@@ -7,8 +7,7 @@ use crate::machine::Job;
 use crate::machine::layers::Known;
 use crate::machine::plot::PenUse;
 
-/// Words for the use of a layer, and for that of one of which nobody says anything.
-const USES: [(PenUse, &str); 3] = [(PenUse::Knife, "knife"), (PenUse::Pen, "pen"), (PenUse::Ignore, "ignored")];
+/// Word for the use of a layer of which nobody says anything.
 const BY_SHAPE: &str = "by shape";
 
 /// Layers that a message names.
@@ -33,10 +32,10 @@ pub(super) fn say(pens: &[Pen], job: &Job, out: &mut Diagnostics) {
         return;
     }
     let mut said = Vec::new();
-    said.extend((!cut.is_empty()).then(|| format!("{} cut", listed(&cut))));
-    said.extend((!uncut.is_empty()).then(|| format!("{} not cut", listed(&uncut))));
-    said.extend((!beside.is_empty()).then(|| format!("of {} nothing is said: not cut", quoted(&beside))));
-    let message = format!("layers by their names: {}", said.join("; "));
+    said.extend((!cut.is_empty()).then(|| format!("{} cut by name", listed(&cut))));
+    said.extend((!uncut.is_empty()).then(|| format!("{} not cut by name", listed(&uncut))));
+    said.extend((!beside.is_empty()).then(|| format!("{} not cut, since others are the knife", listed(&beside))));
+    let message = format!("layers: {}", said.join("; "));
     let finding = Diagnostic::new(&code::DRAWING_LAYERS, message);
     out.push(finding.hint("say otherwise with `--layers CUT,FOLD=pen,TEXT=ignore`; `cutc info` lists the layers"));
 }
@@ -44,7 +43,11 @@ pub(super) fn say(pens: &[Pen], job: &Job, out: &mut Diagnostics) {
 /// The layers of a drawing, with what they draw.
 pub(super) fn drawn(drawing: &Drawing, job: &Job) -> Vec<LayerLines> {
     let mut uses = pens::of_layers(&drawing.pens, job).into_iter();
-    let word = |used: PenUse| USES.iter().find(|row| row.0 == used).map_or(BY_SHAPE, |row| row.1);
+    let word = |used: PenUse| match used {
+        PenUse::Knife => "knife",
+        PenUse::Pen => "pen",
+        PenUse::Ignore => "ignored",
+    };
     let mut layers: Vec<Option<LayerLines>> = Vec::new();
     for pen in &drawing.pens {
         layers.push(pen.is_layer.then(|| LayerLines {
@@ -74,7 +77,7 @@ fn misplaced(names: &[&str], job: &Job) -> Option<Diagnostic> {
         }
         let unused = typed.unused(names);
         if !unused.is_empty() {
-            let message = format!("`--layers` names {}, which no layer of the drawing is", quoted(&unused));
+            let message = format!("`--layers` names {}, and no layer of the drawing is called so", quoted(&unused));
             return error(message, format!("its layers are {}", quoted(names)));
         }
     }

@@ -20,11 +20,13 @@ const SHORTEST: f64 = 25.0;
 const REACH: f64 = 0.2;
 /// Lines that meet where two parts do, the edge that they share counted once.
 const MEETING: usize = 3;
+/// Ends at one X that are compared with another: more are a hatching.
+const MOST_BESIDE: usize = 4096;
 /// Digits of the length that a message tells.
 const DECIMALS: u32 = 1;
 
-/// A place of a grid, and the pen that draws there.
-type Node = (u16, [i64; 2]);
+/// Number of a place where ends meet.
+type Node = usize;
 
 /// An edge that two strokes draw where others go on from both its ends.
 #[derive(Debug, Clone, Copy)]
@@ -41,33 +43,54 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
         drawing.pens.get(pen).is_some_and(|pen| pen.is_layer)
             && !matches!(uses.get(pen), Some(Use::Ignore | Use::Drawn))
     };
-    let mut edges: BTreeMap<([Node; 2], i64), (usize, SharedEdge)> = BTreeMap::new();
+    let mut strokes: Vec<(u16, [Point; 2], SharedEdge)> = Vec::new();
     for stroke in drawing.strokes.iter().filter(|stroke| is_asked(stroke.pen)) {
         let vertices = &drawing.vertices[stroke.range()];
         let points: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
-        let (from, to) = (points[0], points[points.len() - 1]);
+        let ends = [points[0], points[points.len() - 1]];
         let length = polyline::length(&points);
-        if length < SHORTEST || (to - from).amax() <= REACH {
+        if length < SHORTEST || (ends[1] - ends[0]).amax() <= REACH {
             continue;
         }
-        let node = |at: Point| (stroke.pen, [at.x, at.y].map(|mm| (mm / REACH).round() as i64));
-        let mut ends = [node(from), node(to)];
-        ends.sort_unstable();
         let middle = points[(points.len() - 1) / 2];
         let middle = middle + (points[points.len() / 2] - middle) / 2.0;
-        let edge = SharedEdge { middle, length, span: vertices[vertices.len() - 1].span };
-        edges.entry((ends, (length / REACH).round() as i64)).or_insert((0, edge)).0 += 1;
+        let span = vertices[vertices.len() - 1].span;
+        strokes.push((stroke.pen, ends, SharedEdge { middle, length, span }));
     }
-    if edges.values().all(|(count, _)| *count < 2) {
-        return Vec::new();
+    let nodes = nodes(&strokes);
+    let mut edges: BTreeMap<[Node; 2], Vec<(usize, SharedEdge)>> = BTreeMap::new();
+    for (k, (_, _, edge)) in strokes.iter().enumerate() {
+        let mut ends = [nodes[2 * k], nodes[2 * k + 1]];
+        ends.sort_unstable();
+        let between = edges.entry(ends).or_default();
+        match between.iter_mut().find(|(_, other)| (other.length - edge.length).abs() <= REACH) {
+            Some((count, _)) => *count += 1,
+            None => between.push((1, *edge)),
+        }
     }
     let mut meeting: BTreeMap<Node, usize> = BTreeMap::new();
-    for node in edges.keys().flat_map(|(ends, _)| ends) {
-        *meeting.entry(*node).or_default() += 1;
+    for (ends, between) in &edges {
+        ends.iter().for_each(|node| *meeting.entry(*node).or_default() += between.len());
     }
     let is_shared = |ends: &[Node; 2]| ends.iter().all(|node| meeting[node] >= MEETING);
-    let shared = edges.iter().filter(|((ends, _), (count, _))| *count > 1 && is_shared(ends));
-    shared.map(|(_, (_, edge))| *edge).collect()
+    let twice = edges.iter().filter(|(ends, _)| is_shared(ends)).flat_map(|(_, between)| between);
+    twice.filter(|(count, _)| *count > 1).map(|(_, edge)| *edge).collect()
+}
+
+/// The node of both ends of each stroke: ends of one pen that lie within reach of each other, in the order of X, are in one.
+fn nodes(strokes: &[(u16, [Point; 2], SharedEdge)]) -> Vec<Node> {
+    let at = |end: usize| strokes[end / 2].1[end % 2];
+    let mut ends: Vec<usize> = (0..2 * strokes.len()).collect();
+    ends.sort_by(|&a, &b| strokes[a / 2].0.cmp(&strokes[b / 2].0).then(at(a).x.total_cmp(&at(b).x)).then(a.cmp(&b)));
+    let mut nodes = vec![0; ends.len()];
+    for (k, &end) in ends.iter().enumerate() {
+        let is_beside =
+            |other: &&usize| strokes[**other / 2].0 == strokes[end / 2].0 && at(end).x - at(**other).x <= REACH;
+        let before = ends[..k].iter().rev().take_while(is_beside).take(MOST_BESIDE);
+        let near = before.copied().find(|&other| (at(other) - at(end)).amax() <= REACH);
+        nodes[end] = near.map_or(end, |other| nodes[other]);
+    }
+    nodes
 }
 
 /// Refuses a drawing of whose shared edges not each is on the outlines of two parts.
@@ -85,7 +108,8 @@ pub(super) fn refuse(edges: &[SharedEdge], lines: &[Line], vertices: &[Vertex], 
     let Some(longest) = lost.iter().max_by(|a, b| a.length.total_cmp(&b.length)) else { return };
     let (edges, are) = if lost.len() == 1 { ("edge", "is") } else { ("edges", "are") };
     let (count, length) = (lost.len(), fixed(longest.length, DECIMALS));
-    let message = format!("{count} {edges} of loose lines {are} drawn for two parts, up to {length} mm long");
-    let finding = Diagnostic::new(&code::DRAWING_SHARED_EDGE, message).at(longest.span);
+    let message =
+        format!("{count} {edges} drawn twice {are} on fewer than two outlines, up to {length} mm: a part is lost");
+    let finding = Diagnostic::new(&code::DRAWING_PART_LOST, message).at(longest.span);
     out.push(finding.hint("let the CAD draw each part as one closed polyline, or its lines one after the other"));
 }

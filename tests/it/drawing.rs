@@ -223,14 +223,43 @@ fn layers_are_cut_as_somebody_says() {
     };
     // By its name CUT is the knife, and cuts what lies inside, too.
     assert_eq!(cut(None), (2, vec!["drawing/layers"]));
-    assert_eq!(cut(Some("other")).0, 3);
+    assert_eq!(cut(Some("other")).0, 1);
     assert_eq!(cut(Some("cut=ignore,OTHER,fold")).0, 2);
     assert_eq!(cut(Some("*")).0, 4);
     assert_eq!(cut(Some("*=ignore")), (0, vec!["drawing/nothing-to-cut"]));
     assert_eq!(cut(Some("CUTS")), (0, vec!["drawing/no-layer"]));
     let mut job = Job::default();
     job.profile.drawing.layers.insert("o*".to_owned(), cutc::machine::plot::PenUse::Knife);
-    assert_eq!(as_read(&source, &job).0.contours().count(), 3);
+    assert_eq!(as_read(&source, &job).0.contours().count(), 1);
+}
+
+#[test]
+fn parts_of_loose_lines_that_touch_are_cut_in_order_and_refused_in_another() {
+    // Two squares with a whole edge in common, each side a line of its own.
+    let sides = |x: f64| {
+        let corners = [[x, 0.0], [x + 200.0, 0.0], [x + 200.0, 200.0], [x, 200.0]];
+        (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect::<Vec<_>>()
+    };
+    let in_order = [sides(0.1), sides(200.1)].concat();
+    let read = |lines: &[[[f64; 2]; 2]]| {
+        let line =
+            |[from, to]: &[[f64; 2]; 2]| entity("LINE", "0", &[(10, from[0]), (20, from[1]), (11, to[0]), (21, to[1])]);
+        let (marker, found) = as_read(&named(&file(&lines.iter().map(line).collect::<String>(), "")), &Job::default());
+        (marker.pieces.len(), codes(&found))
+    };
+    assert_eq!(read(&in_order), (2, Vec::new()));
+    let mut rng = Rng::with_seed(7);
+    for _ in 0..DRAWINGS {
+        let mut lines = in_order.clone();
+        rng.shuffle(&mut lines);
+        lines.iter_mut().for_each(|line| {
+            if rng.bool() {
+                line.reverse()
+            }
+        });
+        let (pieces, codes) = read(&lines);
+        assert!(codes.contains(&"drawing/part-lost") || pieces == 2, "{lines:?}: {pieces}, {codes:?}");
+    }
 }
 
 /// A cut file's marker drawn as plain DXF: outlines as polylines on one layer, slits as lines on it.

@@ -10,14 +10,14 @@ pub(in crate::front) struct Arc {
     pub(in crate::front) centre: Point,
     /// mm.
     pub(in crate::front) radius: f64,
-    /// Where it starts, rad from +X.
+    /// Start angle, rad from +X.
     pub(in crate::front) start: f64,
-    /// How far it turns, rad, counter-clockwise positive.
+    /// Sweep, rad, counter-clockwise positive.
     pub(in crate::front) sweep: f64,
 }
 
 impl Arc {
-    /// How many chords keep within `sagitta` mm of it: a chord over an angle `a` is `r (1 - cos(a/2))` off.
+    /// Number of chords that keep within `sagitta` mm of it: a chord over an angle `a` is `r (1 - cos(a/2))` off.
     pub(in crate::front) fn chords(&self, sagitta: f64) -> usize {
         // The same by the half angle, which keeps its digits where the radius is large: 1 - cos(a/2) = 2 sin^2(a/4).
         let step = if sagitta < self.radius { 4.0 * (sagitta / (2.0 * self.radius)).sqrt().asin() } else { TAU / 4.0 };
@@ -46,7 +46,7 @@ pub(in crate::front) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64)
     Some(Arc { centre, radius: spoke.norm(), start: spoke.y.atan2(spoke.x), sweep })
 }
 
-/// How far an arc that bulges so much lies off its chord, mm: half the chord times the bulge.
+/// Height of an arc of that bulge over its chord, mm: half the chord times the bulge.
 pub(in crate::front) fn height(chord: Vector, bulge: f64) -> f64 {
     bulge.abs() * chord.norm() / 2.0
 }

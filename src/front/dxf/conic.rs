@@ -12,17 +12,17 @@ const FEWEST: f64 = 8.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Conic {
     pub(super) centre: Point,
-    /// Half axes of the ellipse, mm; any two ways that a map makes of those.
+    /// Conjugate half axes of the ellipse, mm.
     pub(super) across: Vector,
     pub(super) up: Vector,
-    /// rad.
+    /// Start, rad.
     pub(super) start: f64,
-    /// How far it goes on, rad; `TAU` = once around.
+    /// Sweep, rad; `TAU` = once around.
     pub(super) sweep: f64,
 }
 
 impl Conic {
-    /// The same where a map puts it.
+    /// This conic under a map.
     pub(super) fn mapped(&self, map: &Affine) -> Self {
         let [across, up] = [self.across, self.up].map(|way| map.vector(way));
         Self { centre: map.point(self.centre), across, up, ..*self }
@@ -33,7 +33,7 @@ impl Conic {
         self.sweep.abs() >= TAU
     }
 
-    /// How many chords keep within `sagitta` mm of it: of a circle of radius `r` a chord over an angle `a` is
+    /// Number of chords that keep within `sagitta` mm of it: of a circle of radius `r` a chord over an angle `a` is
     /// `r (1 - cos(a/2))` off, and an ellipse is nowhere farther off than the circle around it.
     pub(super) fn chords(&self, sagitta: f64) -> usize {
         let radius = self.reach();

@@ -28,7 +28,7 @@ const PAGE: &[u8] = b"$DWGCODEPAGE";
 /// Code of the colour of a layer, which is negative when that is off, and the flag of one that is frozen.
 const COLOUR: i32 = 62;
 const FROZEN: i64 = 1;
-/// Code that is 1 for what is not shown.
+/// Code of visibility; 1 = invisible.
 const INVISIBLE: i32 = 60;
 
 /// An entity: the group that begins it, and those behind it up to the next one.
@@ -41,12 +41,12 @@ pub(in crate::front) struct Entity<'a> {
 /// A block: a piece of the pattern set, in one size.
 #[derive(Debug, Clone)]
 pub(in crate::front) struct Block<'a> {
-    /// What begins it: its name and its base point.
+    /// Entity that begins the block: its name and its base point.
     pub(in crate::front) head: Entity<'a>,
     pub(in crate::front) entities: Vec<Entity<'a>>,
 }
 
-/// What of a file matters.
+/// Sections of a file that are read.
 #[derive(Debug, Clone, Default)]
 pub(in crate::front) struct Sections<'a> {
     /// The number of the unit that the header names.
@@ -56,7 +56,7 @@ pub(in crate::front) struct Sections<'a> {
     /// Names of layers that are not shown.
     pub(in crate::front) hidden: BTreeSet<&'a [u8]>,
     pub(in crate::front) blocks: Vec<Block<'a>>,
-    /// What stands in no block.
+    /// Entities outside all blocks.
     pub(in crate::front) entities: Vec<Entity<'a>>,
 }
 
@@ -168,7 +168,7 @@ fn entities<'a>(source: &'a Source, groups: &'a [Group]) -> impl Iterator<Item =
     chunks.map(move |groups| Entity { groups, source })
 }
 
-/// Which section is read.
+/// Section that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Within {
     Blocks,

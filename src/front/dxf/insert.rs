@@ -18,7 +18,7 @@ pub(super) fn base(block: &Block) -> Result<Point, Diagnostic> {
     if is_named { place(&block.head, [X, Y]) } else { Ok(Point::origin()) }
 }
 
-/// Where an insertion puts its block.
+/// Placement of the block of an insertion.
 #[derive(Debug)]
 pub(super) struct Placing {
     at: Point,

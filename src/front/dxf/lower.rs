@@ -41,10 +41,11 @@ const END: i32 = 42;
 const KNOT: i32 = 40;
 const WEIGHT: i32 = 41;
 const DEGREE: i32 = 71;
+const TANGENTS: [i32; 4] = [12, 22, 13, 23];
 /// Codes of the number of vertices, and of the direction from which something is seen.
 const COUNT: i32 = 90;
 const EXTRUSION: [i32; 3] = [210, 220, 230];
-/// How far rounding may move that.
+/// Rounding that is allowed in it.
 const EXTRUSION_EPSILON: f64 = 1e-6;
 /// Code that is 1 for what stands on the sheet around the drawing.
 const ON_PAPER: i32 = 67;
@@ -59,7 +60,7 @@ const CONTROL_POINT: i64 = 16;
 const SILENT: [&str; 3] = ["SEQEND", "ATTDEF", "VERTEX"];
 /// Largest coordinate, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
-/// An arc that turns less is a whole circle, deg.
+/// Sweep below which an arc is a whole circle, deg.
 const TURN_EPSILON_DEG: f64 = 1e-6;
 /// Most places that a file draws: more come from damaged numbers, or from blocks in blocks in blocks.
 const MOST_PLACES: usize = 4_000_000;
@@ -67,7 +68,9 @@ const MOST_PLACES: usize = 4_000_000;
 /// Insertions around an insertion: CAD systems nest a few, and one that holds itself has no end.
 const DEEPEST: usize = 32;
 /// Insertions that are followed, those of rows and columns each.
-const MOST_INSERTS: usize = 1_000_000;
+const MOST_INSERTS: usize = 100_000;
+/// Entities that are looked at, those of a block each time that it is drawn.
+const MOST_ENTITIES: usize = 8_000_000;
 
 /// Follows a file, or what of it can be read: with an error among the diagnostics the drawing is worth nothing.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
@@ -80,7 +83,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawin
     drawing
 }
 
-/// Where entities are drawn, and as what.
+/// Placement and layer of entities.
 #[derive(Debug, Clone, Copy)]
 struct Within<'a> {
     map: Affine,
@@ -109,6 +112,10 @@ struct Lowering<'a, 'o> {
     is_full: bool,
     /// Insertions that may still be followed.
     inserts_left: usize,
+    /// Entities that may still be looked at, each as often as it is drawn.
+    entities_left: usize,
+    /// Pens of the layers that have drawn, by their names as written.
+    pens: BTreeMap<&'a [u8], u16>,
 }
 
 impl<'a, 'o> Lowering<'a, 'o> {
@@ -130,10 +137,12 @@ impl<'a, 'o> Lowering<'a, 'o> {
             out,
             is_full: false,
             inserts_left: MOST_INSERTS,
+            entities_left: MOST_ENTITIES,
+            pens: BTreeMap::new(),
         }
     }
 
-    /// What the file draws in a unit of so many mm.
+    /// Drawing of the file in a unit of so many mm.
     fn drawn(mut self, unit: f64) -> Drawing {
         let within = Within { map: Affine::scale(unit, unit), layer: None, depth: 0 };
         self.entities(self.entities, &within);
@@ -151,6 +160,12 @@ impl<'a, 'o> Lowering<'a, 'o> {
             if self.is_full {
                 return;
             }
+            let Some(left) = self.entities_left.checked_sub(1) else {
+                let fault = self.full(entity.span());
+                self.out.push(fault);
+                return;
+            };
+            self.entities_left = left;
             if entity.number(ON_PAPER).is_ok_and(|flag| flag == Some(1.0)) {
                 self.told.on_paper(entity);
                 continue;
@@ -362,6 +377,9 @@ impl<'a, 'o> Lowering<'a, 'o> {
             let message = format!("the SPLINE cannot be drawn: it has {flaw}");
             Diagnostic::new(&code::DXF_SPLINE, message).at(entity.span()).hint("export it as a polyline, or again")
         };
+        if control.is_empty() && TANGENTS.iter().any(|&code| entity.value(code).is_some()) {
+            return Err(refuse("end tangents and no control points"));
+        }
         let spline = if control.is_empty() {
             fit::through(&fitted, is_closed).ok_or_else(|| refuse("fewer than two points"))?
         } else {
@@ -421,8 +439,9 @@ impl<'a, 'o> Lowering<'a, 'o> {
             return Err(too_far(span));
         }
         self.room(places.len(), entity.span())?;
-        let name = self.letters.name(layer_of(entity, within));
-        let pen = self.drawing.layer(&name);
+        let layer = layer_of(entity, within);
+        let (letters, drawing) = (&self.letters, &mut self.drawing);
+        let pen = *self.pens.entry(layer).or_insert_with(|| drawing.layer(&letters.name(layer)));
         let Some((&(first, span), behind)) = places.split_first() else { return Ok(()) };
         self.drawing.begin(first, span, pen);
         for &(at, span) in behind {
@@ -452,7 +471,8 @@ fn round(entity: &Entity) -> Result<Conic, Diagnostic> {
     let [start, end] =
         if entity.is("CIRCLE") { [0.0, 360.0] } else { [entity.coordinate(ANGLE)?, entity.coordinate(END_ANGLE)?] };
     let sweep = (end - start).rem_euclid(360.0);
-    let sweep = if sweep <= TURN_EPSILON_DEG { TAU } else { rad(sweep) };
+    let is_round = sweep <= TURN_EPSILON_DEG || 360.0 - sweep <= TURN_EPSILON_DEG;
+    let sweep = if is_round { TAU } else { rad(sweep) };
     Ok(Conic { centre, across: Vector::new(radius, 0.0), up: Vector::new(0.0, radius), start: rad(start), sweep })
 }
 
@@ -468,7 +488,7 @@ fn ellipse(entity: &Entity) -> Result<Conic, Diagnostic> {
     Ok(Conic { centre, across: major, up: minor, start, sweep })
 }
 
-/// Where an entity is drawn whose coordinates are on its own plane: as it is, or from the back, with X to the left.
+/// Map of an entity whose coordinates are on its own plane: seen from the back, X goes to the left.
 fn on_plane(entity: &Entity, within: &Within) -> Result<Affine, Diagnostic> {
     Ok(if is_from_below(entity)? { Affine::scale(-1.0, 1.0).then(&within.map) } else { within.map })
 }

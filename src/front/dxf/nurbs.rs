@@ -9,7 +9,7 @@ use crate::geom::{Point, Vector, polyline};
 const HIGHEST_DEGREE: usize = 11;
 /// Halvings of a span between two knots: far more than a curve on a table needs.
 const MOST_HALVINGS: u32 = 16;
-/// Where a chord is held against its curve, as parts of it.
+/// Places at which a chord is held against its curve, as parts of it.
 const LOOKED_AT: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A rational B-spline.
@@ -21,7 +21,7 @@ pub(super) struct Nurbs {
     control: Vec<(Vector, f64)>,
 }
 
-/// What is wrong with the numbers of a spline, in words that follow "the spline has".
+/// Fault of a spline, in words that follow "it has".
 pub(super) type Flaw = &'static str;
 
 impl Nurbs {
@@ -45,12 +45,15 @@ impl Nurbs {
         if knots.windows(2).any(|pair| pair[1] < pair[0]) || knots[degree] >= knots[points.len()] {
             return Err("knots that do not rise");
         }
+        if !(knots[knots.len() - 1] - knots[0]).is_finite() {
+            return Err("knots that are too far apart");
+        }
         let weight = |k: usize| weights.get(k).copied().unwrap_or(1.0);
         let control = points.iter().enumerate().map(|(k, point)| (point.coords * weight(k), weight(k))).collect();
         Ok(Self { degree, knots, control })
     }
 
-    /// The same where a map puts it.
+    /// This spline under a map.
     pub(super) fn mapped(&self, map: &Affine) -> Self {
         let place = |&(point, weight): &(Vector, f64)| (map.point(Point::from(point / weight)).coords * weight, weight);
         Self { control: self.control.iter().map(place).collect(), ..self.clone() }
@@ -99,7 +102,7 @@ impl Nurbs {
     /// The place at a parameter of its domain.
     fn place(&self, at: f64) -> Point {
         let (p, last) = (self.degree, self.control.len() - 1);
-        let span = (self.knots.partition_point(|&knot| knot <= at) - 1).clamp(p, last);
+        let span = self.knots.partition_point(|&knot| knot <= at).saturating_sub(1).clamp(p, last);
         let mut points: [(Vector, f64); HIGHEST_DEGREE + 1] = [(Vector::zeros(), 0.0); HIGHEST_DEGREE + 1];
         points[..=p].copy_from_slice(&self.control[span - p..=span]);
         for round in 1..=p {

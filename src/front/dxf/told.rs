@@ -70,8 +70,8 @@ impl Told {
         }
         if let Some((count, span)) = self.hidden {
             let names: Vec<&str> = self.hidden_layers.iter().take(SHOWN).map(String::as_str).collect();
-            let (are, names) = (are(count, "line", "lines"), names.join("`, `"));
-            let message = format!("{are} invisible or on a layer that is off or frozen, and not cut: on `{names}`");
+            let (are, names) = (are(count, "entity", "entities"), names.join("`, `"));
+            let message = format!("{are} hidden, on `{names}`, and not cut");
             let finding = Diagnostic::new(&code::DXF_NOT_SHOWN, message).at(span);
             out.push(finding.hint("show the layer in the CAD system if they are to be cut"));
         }

@@ -18,7 +18,7 @@ const LONGEST: f64 = 3e4;
 const WIDEST_CLOTH: f64 = 3300.0;
 /// Largest side of a drawing, mm, below which it is doubted.
 const SMALLEST: f64 = 20.0;
-/// What to do where nobody knows the unit.
+/// Hint where nobody knows the unit.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
 /// Unit of a drawing: its length, and whether the file does not say it.

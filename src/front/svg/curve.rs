@@ -24,16 +24,16 @@ pub(super) struct Elliptic {
     pub(super) centre: Pair,
     /// Two conjugate half axes.
     pub(super) axes: [Pair; 2],
-    /// Where it starts, rad.
+    /// Start angle, rad.
     pub(super) start: f64,
-    /// How far it turns, rad.
+    /// Sweep, rad.
     pub(super) sweep: f64,
     /// Its end, exact.
     pub(super) to: Pair,
 }
 
 impl Curve {
-    /// How many chords of equal steps keep within `sagitta` mm of it.
+    /// Number of chords of equal steps that keep within `sagitta` mm of it.
     pub(super) fn chords(&self, sagitta: f64) -> usize {
         let needed = match self {
             // Wang's bound: the root of 6 m / (8 s), m the greatest second difference of the control points.
@@ -49,8 +49,8 @@ impl Curve {
                 arc.sweep.abs() / step.min(TAU / 4.0)
             }
         };
-        // A number that is none has one chord; its place is refused elsewhere.
-        needed.ceil().clamp(1.0, MOST_CHORDS) as usize
+        // `max` passes over a number that is none: it has one chord.
+        needed.ceil().max(1.0).min(MOST_CHORDS) as usize
     }
 
     /// Its place behind so many of its chords.
@@ -91,6 +91,10 @@ pub(super) fn arc(from: Pair, arc: Arc, map: Affine) -> Option<Curve> {
     let half = [(from[0] - to[0]) / 2.0, (from[1] - to[1]) / 2.0];
     let unit = [(cos * half[0] + sin * half[1]) / rx, (cos * half[1] - sin * half[0]) / ry];
     let square = unit[0] * unit[0] + unit[1] * unit[1];
+    // Radii so large that their squares vanish make a straight line.
+    if square == 0.0 {
+        return None;
+    }
     // An ellipse that does not reach both ends grows until it does.
     let grown = square.sqrt().max(1.0);
     let height = if square < 1.0 { ((1.0 - square) / square).sqrt() } else { 0.0 };

@@ -19,7 +19,7 @@ const STRIDE: usize = 256;
 pub(super) struct Letters<'a> {
     /// All of them.
     pub(super) text: Cow<'a, str>,
-    /// How they stand in the file.
+    /// Encoding in which they stand in the file.
     width: Width,
     /// Places in the text and in the file, in order, where both differ.
     marks: Vec<[usize; 2]>,

@@ -32,7 +32,7 @@ pub(super) struct Page {
     pub(super) pixel: f64,
     /// Width and height that percents are of, in units of the file.
     pub(super) whole: Pair,
-    /// How many pixels make an inch, and who says so.
+    /// Pixels to the inch, and the source of that.
     dots: Dots,
     /// Whether the size of the drawing depends on that.
     is_by_pixels: bool,

@@ -16,16 +16,16 @@ const FARTHEST: f64 = 1e6;
 /// Shortest line, mm: sums of relative places come back to their start within a thousandth of that.
 const SHORTEST: f64 = 1e-6;
 
-/// What draws.
+/// Pencil that makes strokes of the steps of paths.
 pub(super) struct Pencil {
     pub(super) drawing: Drawing,
     /// Farthest that a chord may lie off its curve, mm.
     sagitta: f64,
     /// Chords that were drawn.
     chords: usize,
-    /// Start of the subpath, in units of the file and mm, and what led there.
+    /// Start of the subpath, in units of the file, and its place in the source.
     start: (Pair, Span),
-    /// Where the pencil is, in units of the file.
+    /// Place of the pencil, in units of the file.
     at: Pair,
 }
 

@@ -18,7 +18,7 @@ impl<'a> Scan<'a> {
         self.at
     }
 
-    /// What comes next.
+    /// Rest of the text.
     pub(super) fn rest(&self) -> &'a str {
         &self.text[self.at..]
     }

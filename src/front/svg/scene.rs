@@ -8,7 +8,7 @@ use super::style::{self, Style};
 use super::transform::Pair;
 use crate::geom::affine::Affine;
 
-/// What an element has from those around it.
+/// Properties that an element has from those around it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scene<'a> {
     /// From its units to mm.

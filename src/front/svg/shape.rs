@@ -12,7 +12,7 @@ use super::transform::Pair;
 /// A fault of an attribute: its name, and words for it.
 pub(super) type BadValue = (&'static str, &'static str);
 
-/// What lengths of an element are measured by.
+/// Measures of the lengths of an element.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     /// Size of a pixel, mm.
@@ -21,7 +21,7 @@ pub(super) struct Measure {
     pub(super) whole: Pair,
 }
 
-/// What a percentage is of.
+/// Base of a percentage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     Width,

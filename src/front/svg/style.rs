@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use roxmltree::Node;
 
 /// Properties that matter.
-pub(super) const PROPERTIES: [&str; 12] = [
+pub(super) const PROPERTIES: [&str; 21] = [
     "display",
     "visibility",
     "stroke",
@@ -20,6 +20,15 @@ pub(super) const PROPERTIES: [&str; 12] = [
     "marker-end",
     "transform",
     "d",
+    "transform-origin",
+    "translate",
+    "rotate",
+    "scale",
+    "cx",
+    "cy",
+    "r",
+    "rx",
+    "ry",
 ];
 /// Places of some of them in a [`Style`].
 pub(super) const DISPLAY: usize = 0;
@@ -30,7 +39,7 @@ pub(super) const CLIP_PATH: usize = 4;
 pub(super) const MASK: usize = 5;
 pub(super) const MARKERS: std::ops::Range<usize> = 6..10;
 /// Properties that move or shape what is drawn: as attributes they are read elsewhere, as styles nobody writes them.
-const MOVING: std::ops::Range<usize> = 10..12;
+const MOVING: std::ops::Range<usize> = 10..21;
 
 /// Values of an element's own properties.
 pub(super) type Style<'a> = [Option<&'a str>; PROPERTIES.len()];
@@ -114,7 +123,7 @@ impl<'a> Sheets<'a> {
         self.rules.push(rule);
     }
 
-    /// What is said of an element: by its attributes, by sheets, by its `style`, the later the stronger.
+    /// Style of an element: by its attributes, by sheets, by its `style`, the later the stronger.
     pub(super) fn of(&self, node: Node<'a, '_>) -> Style<'a> {
         let mut style = Style::default();
         for (value, property) in style.iter_mut().zip(&PROPERTIES[..MOVING.start]) {

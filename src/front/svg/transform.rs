@@ -9,12 +9,12 @@ use crate::units::rad;
 /// A place or a way, in units of the file or in mm.
 pub(super) type Pair = [f64; 2];
 
-/// Where a place comes to lie.
+/// Image of a place.
 pub(super) fn placed(map: &Affine, [x, y]: Pair) -> Pair {
     map.point(Point::new(x, y)).into()
 }
 
-/// Length and direction that a way gets.
+/// Image of a way.
 pub(super) fn led(map: &Affine, [x, y]: Pair) -> Pair {
     map.vector(Vector::new(x, y)).into()
 }

@@ -23,8 +23,8 @@ use crate::source::Span;
 /// Elements around each other, copies included: nobody nests so deep, and the stack is not endless.
 const MOST_DEPTH: usize = 200;
 /// Copies that `use` makes, and elements that are drawn in all.
-const MOST_COPIES: usize = 1_000_000;
-const MOST_ELEMENTS: usize = 8_000_000;
+const MOST_COPIES: usize = 100_000;
+const MOST_ELEMENTS: usize = 2_000_000;
 /// Layers that are told apart, and the name of all others: a thousand groups with names are no layers.
 const MOST_LAYERS: usize = 10_000;
 const OTHERS: &str = "others";
@@ -59,7 +59,7 @@ const SILENT: &[&str] = &[
 /// Elements that change another one in time.
 const ANIMATIONS: &[&str] = &["animate", "animateColor", "animateMotion", "animateTransform", "set"];
 
-/// What walks.
+/// Traversal of the elements.
 pub(super) struct Walk<'a, 'input, 'o> {
     pub(super) letters: &'a Letters<'a>,
     pub(super) page: Page,
@@ -71,7 +71,7 @@ pub(super) struct Walk<'a, 'input, 'o> {
     pub(super) tally: Tally,
     pub(super) out: &'o mut Diagnostics,
     layers: HashMap<String, u16>,
-    /// What is drawn and not read: kind, layer and place.
+    /// Things that are drawn and not read: kind, layer and place.
     pub(super) unread: Vec<(String, String, Span)>,
     /// The copies that are being made.
     uses: Vec<NodeId>,
@@ -293,7 +293,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         self.viewport(target, inner, size)
     }
 
-    /// What lengths of an element are measured by.
+    /// Measures of the lengths of an element.
     pub(super) fn measure(&self, scene: Scene) -> Measure {
         Measure { pixel: self.page.pixel, whole: scene.whole }
     }
@@ -304,7 +304,9 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         if drawing.strokes.len() == strokes {
             return;
         }
-        let name = if self.layers.len() < MOST_LAYERS { scene.layer() } else { OTHERS.to_owned() };
+        let name = scene.layer();
+        let is_told = self.layers.contains_key(&name) || self.layers.len() < MOST_LAYERS;
+        let name = if is_told { name } else { OTHERS.to_owned() };
         let pen = *self.layers.entry(name).or_insert_with_key(|name| drawing.layer(name));
         drawing.strokes[strokes..].iter_mut().for_each(|stroke| stroke.pen = pen);
     }

@@ -20,6 +20,10 @@ impl Drawn {
     pub(in crate::verify::source) fn is_said(&self, job: &Job) -> bool {
         let layers: Vec<&str> = self.layers.iter().map(String::as_str).collect();
         let uses = layers::uses(&layers, job.lines.layers.as_ref(), &job.profile.drawing.layers);
-        job.lines.pens.is_some() || !job.profile.hpgl.pens.is_empty() || uses.iter().any(Option::is_some)
+        if layers.is_empty() {
+            job.lines.pens.is_some() || !job.profile.hpgl.pens.is_empty()
+        } else {
+            uses.iter().any(Option::is_some)
+        }
     }
 }

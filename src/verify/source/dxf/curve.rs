@@ -83,7 +83,11 @@ pub(super) fn spline(item: &Item) -> Option<Curve> {
     Some(Box::new(move |share| {
         let at = first + share * (last - first);
         let mut sums = [0.0; 3];
-        for (k, (point, weight)) in control.iter().zip(&weights).enumerate() {
+        // Only the control points of the span have a part in it; at its end the next ones begin.
+        let span = knots.partition_point(|&knot| knot <= at);
+        let near = span.saturating_sub(degree + 2)..control.len().min(span + 1);
+        for k in near {
+            let (point, weight) = (control[k], weights[k]);
             let part = weight * basis(&knots, [k, degree], at, last);
             sums = [sums[0] + part * point[0], sums[1] + part * point[1], sums[2] + part];
         }
@@ -165,6 +169,11 @@ fn fit(mut points: Vec<Place>, is_closed: bool) -> Option<Curve> {
 pub(super) fn breaks(item: &Item) -> Vec<f64> {
     let knots: Vec<f64> = item.each([40; 3]).map(|(_, number)| number).collect();
     let degree = item.number(71).unwrap_or(3.0) as usize;
+    if item.kind == b"SPLINE" && knots.is_empty() {
+        // As many stretches as the curve has points: no longer one needs more chords.
+        let count = item.each([11; 3]).count().max(1);
+        return (0..=count).map(|k| k as f64 / count as f64).collect();
+    }
     if item.kind != b"SPLINE" || knots.len() < 2 * degree + 2 {
         return vec![0.0, 1.0];
     }

@@ -18,13 +18,14 @@ const UNITS: [(f64, f64); 7] =
 const LONGEST: f64 = 3e4;
 /// Insertions around another one, and all that are followed: beyond them readers refuse.
 const DEEPEST: usize = 32;
-const MOST_INSERTS: usize = 1_000_000;
+const MOST_INSERTS: usize = 100_000;
+const MOST_ITEMS: usize = 8_000_000;
 /// Chords of a curve between two breaks, the farthest that they may be off it as a part of what the reader's may, and how
 /// often their number is doubled at the most to that end.
 const CHORDS: usize = 16;
 const FINER: f64 = 1.0 / 16.0;
 const DOUBLINGS: usize = 9;
-/// How much shorter than its curve a chord is, for the angle that it cuts off and its height: a third of both.
+/// Factor of the length that chords lack: a third of their height times the angle that they cut off.
 const LACKING: f64 = 1.0 / 3.0;
 /// Room for the rounding of that.
 const ROOM: f64 = 2.0;
@@ -61,8 +62,9 @@ struct Scan<'a> {
     strokes: Vec<Vec<Point>>,
     /// Names of the layers that draw them.
     layers: BTreeSet<&'a [u8]>,
-    /// Insertions that may still be followed.
+    /// Insertions that may still be followed, and items that may still be looked at.
     left: usize,
+    items_left: usize,
 }
 
 /// Counts what a drawing draws.
@@ -113,6 +115,7 @@ impl<'a> Scan<'a> {
             strokes: Vec::new(),
             layers: BTreeSet::new(),
             left: MOST_INSERTS,
+            items_left: MOST_ITEMS,
         }
     }
 
@@ -123,6 +126,10 @@ impl<'a> Scan<'a> {
             let is_vertex = |item: &&Item| item.kind == b"VERTEX";
             let vertices = if item.kind == b"POLYLINE" { behind.iter().take_while(is_vertex).count() } else { 0 };
             rest = &behind[vertices..];
+            if self.items_left == 0 {
+                return;
+            }
+            self.items_left -= 1;
             let own = item.text(8);
             let on = layer.filter(|_| own == b"0" || own.is_empty()).unwrap_or(own);
             if self.hidden.contains(on) || item.number(60) == Some(1.0) {
@@ -275,7 +282,7 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// How far a line of three places turns, rad.
+/// Turn of a line of three places, rad.
 fn turned([a, b, c]: [Point; 3]) -> f64 {
     let [v, w] = [b - a, c - b];
     (v.x * w.y - v.y * w.x).atan2(v.dot(&w)).abs()

@@ -10,7 +10,7 @@ use super::path;
 use super::pen::{Bow, Pen};
 use super::trace::Trace;
 
-/// What lengths of an element are measured by: pixels to the inch, and the size that percents are of.
+/// Measures of the lengths of an element: pixels to the inch, and the size that percents are of.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ruler {
     pub(super) dots: f64,

@@ -8,7 +8,7 @@ use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, Vector};
 use crate::verify::source::census::{Census, Slack};
 
-/// How many chords stand here for one of the reader's, and how many those may be at the most.
+/// Chords that stand here for one of the reader's, and the most of those.
 const FINER: usize = 4;
 const MOST_CHORDS: f64 = 100_000.0;
 /// Rounding of a number of chords, as a part of it.
@@ -28,7 +28,7 @@ pub(super) enum Bow {
     Ellipse { centre: Point, axes: [Vector; 2], start: f64, sweep: f64 },
 }
 
-/// What draws.
+/// Pen that makes strokes of the steps of paths.
 pub(super) struct Pen {
     sagitta: f64,
     pub(super) census: Census,
@@ -41,7 +41,7 @@ pub(super) struct Pen {
     /// Places since the pen was lifted, and what led to the last.
     places: Vec<Point>,
     cause: usize,
-    /// What chords of curves since then have and the reader's lack.
+    /// Moments that the chords of curves since then have and the reader's lack.
     lack: Moments,
 }
 
@@ -82,7 +82,7 @@ impl Pen {
     pub(super) fn curve(&mut self, bow: &Bow, to: Point, cause: usize) {
         let Some(&from) = self.places.last() else { return };
         let needed = bow.needed(self.sagitta);
-        let whole = |needed: f64| needed.ceil().clamp(1.0, MOST_CHORDS);
+        let whole = |needed: f64| needed.ceil().max(1.0).min(MOST_CHORDS);
         let least = whole(needed * (1.0 - COUNT_EPSILON));
         let is_doubtful = least < whole(needed * (1.0 + COUNT_EPSILON));
         let count = least as usize * FINER;
@@ -130,7 +130,7 @@ impl Pen {
 }
 
 impl Bow {
-    /// How many chords the reader needs.
+    /// Number of chords that the reader needs.
     fn needed(&self, sagitta: f64) -> f64 {
         match self {
             Self::Bezier(controls) => {

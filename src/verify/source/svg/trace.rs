@@ -8,7 +8,7 @@ pub(super) struct Trace<'p> {
     pub(super) pen: &'p mut Pen,
     /// To mm.
     pub(super) map: Map,
-    /// Where the pen is, and where the subpath began.
+    /// Place of the pen, and start of the subpath.
     pub(super) at: [f64; 2],
     first: [f64; 2],
     /// Whether a line has been drawn since it began.

@@ -15,13 +15,13 @@ use super::rules::Rules;
 
 /// Elements around each other, copies included, and elements in all, beyond which nothing is followed.
 const MOST_DEPTH: usize = 210;
-const MOST_ELEMENTS: usize = 9_000_000;
+const MOST_ELEMENTS: usize = 2_500_000;
 
 /// Elements that are gone into, and those that draw a line.
 const GROUPS: [&str; 4] = ["g", "a", "svg", "switch"];
 const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
 
-/// What walks.
+/// Traversal of the elements.
 pub(super) struct Walk<'d, 'i, 'p> {
     document: &'d Document<'i>,
     rules: Rules,
@@ -30,7 +30,7 @@ pub(super) struct Walk<'d, 'i, 'p> {
     elements: usize,
 }
 
-/// What holds for an element.
+/// Properties that hold for an element.
 #[derive(Debug, Clone)]
 struct State {
     map: Map,
