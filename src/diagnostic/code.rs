@@ -147,7 +147,7 @@ codes! {
     /// Too much of everything.
     SVG_TOO_MUCH = error(Shape, "svg/too-much", "The elements, copies or curves of an SVG file are more, or stand deeper in each other, than a drawing can need.", "Copies of copies multiply, and a damaged radius has chords without end. Turn copies into shapes, ungroup, and look for a number with too many digits.");
     /// A place beyond any table.
-    SVG_FAR = error(Text, "svg/far-place", "A place of an SVG file lies more than a kilometre from the page.", "A digit is doubled, a decimal point lost, or a transform wrong. No table is a kilometre long.");
+    SVG_FAR = error(Text, "svg/far-place", "A place of an SVG file lies more than a kilometre from the page.", "A digit is doubled, a decimal point lost, or a transform wrong: no table is a kilometre long. Look at the number and at the transforms of the groups around it.\n  cutc check drawing.svg");
     /// A picture of ours.
     SVG_OWN_PICTURE = error(Shape, "svg/own-picture", "The file is a picture that cutc made of a marker.", "It shows runs, plunges, overlaps and findings beside the lines of the parts: all of them would be cut. Compile the marker that it was made of.\n  cutc compile marker.cut -o marker.svg");
     /// A size in pixels.
