@@ -44,8 +44,9 @@ pub fn detect(
         name_extension.is_some_and(|name| dialect.extensions.iter().any(|known| known.eq_ignore_ascii_case(name)))
     };
     // `max_by_key` gives the last of equals and the likelier dialects come first, hence the reversal.
-    let best = DIALECTS.iter().rev().max_by_key(|dialect| ((dialect.sniff)(source.bytes()), named(dialect)));
-    let found = best.filter(|dialect| (dialect.sniff)(source.bytes()) != Likeness::No);
+    let sniffed = DIALECTS.iter().rev().map(|dialect| (dialect, (dialect.sniff)(source.bytes())));
+    let best = sniffed.max_by_key(|(dialect, likeness)| (*likeness, named(dialect)));
+    let found = best.filter(|(_, likeness)| *likeness != Likeness::No).map(|(dialect, _)| dialect);
     if found.is_none() && !foreign::refuse_by_name(source, diagnostics) {
         let known: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
         let message = format!("the content is none of the dialects that cutc reads: {}", known.join(", "));

@@ -49,7 +49,9 @@ impl Signs {
     fn of(bytes: &[u8]) -> Self {
         let mut signs = Self::default();
         let (mut kind, mut is_in_block): (&[u8], bool) = (b"", false);
-        let mut lines = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+        let mut start = 0;
+        let ends = memchr::memchr_iter(b'\n', bytes).chain([bytes.len()]);
+        let mut lines = ends.map(|end| bytes[std::mem::replace(&mut start, end + 1)..end].trim_ascii());
         while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
             match code {
                 BEGINS => {
