@@ -335,7 +335,7 @@ codes! {
     /// A spline whose numbers make none.
     DXF_SPLINE = error(Text, "dxf/spline", "The numbers of a SPLINE of a plain DXF drawing make no curve: its knots, weights or control points do not fit together.", "A curve that nobody can draw would be missing in the part. Let the CAD system export it as a polyline, or export the file again.");
     /// A block that holds itself.
-    DXF_RECURSION = error(Shape, "dxf/recursive-block", "Blocks of a plain DXF drawing insert each other more than 32 deep: one of them may hold itself.", "A block that holds itself has no end. Explode its insertions in the CAD system.");
+    DXF_RECURSION = error(Shape, "dxf/recursive-block", "Blocks of a plain DXF drawing insert each other more than 32 deep: one of them may hold itself.", "A block that holds itself has no end, and a file with one is damaged or was made to do harm. Explode its insertions in the CAD system, and export the drawing again.\n  cutc check drawing.dxf");
     /// More than can be drawn.
     DXF_TOO_LARGE = error(Shape, "dxf/too-large", "A plain DXF drawing draws more than four million places, or has more than a hundred thousand insertions.", "No marker has so many: a damaged number, or blocks that insert each other many times, make them. Look at radii and at counts of columns and rows.");
 

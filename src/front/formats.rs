@@ -254,18 +254,22 @@ fn is_circuit_board(bytes: &[u8]) -> bool {
 /// Lines of words that begin with G, M, N and the like, and no asterisks to end them.
 fn is_g_code(bytes: &[u8]) -> bool {
     let head = head(bytes);
-    let (mut all, mut sound, mut g) = (0, 0, false);
+    let begins_word = |at: usize| at == 0 || head[at - 1].is_ascii_whitespace();
+    let is_g_word = |at: usize| begins_word(at) && head.get(at + 1).is_some_and(u8::is_ascii_digit);
+    if !memchr::memchr2_iter(b'G', b'g', head).any(is_g_word) {
+        return false; // as most files that are read
+    }
+    let (mut all, mut sound) = (0, 0);
     for line in head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty()) {
         all += 1;
         let comment = matches!(line[0], b'(' | b';' | b'%');
         let word =
             line[0].is_ascii_alphabetic() && line.get(1).is_some_and(|b| b.is_ascii_digit() || b"-. ".contains(b));
         sound += usize::from(comment || word);
-        g |= line.split(u8::is_ascii_whitespace).any(|w| matches!(w, [b'G' | b'g', b'0'..=b'9', ..]));
     }
     // Some senders add a checksum behind an asterisk, one a line at most, and never behind each word.
     let asterisks = memchr::memchr_iter(b'*', head).count();
-    g && 2 * sound > all && all >= 2 && asterisks == 0
+    2 * sound > all && all >= 2 && asterisks == 0
 }
 
 #[cfg(test)]

@@ -374,7 +374,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         let [control, fitted] = [[X, Y], [X2, Y2]].map(|codes| self.points(entity, codes));
         let (control, fitted) = (control?, fitted?);
         let refuse = |flaw: &str| {
-            let message = format!("the SPLINE cannot be drawn: it has {flaw}");
+            let message = format!("the SPLINE has {flaw}");
             Diagnostic::new(&code::DXF_SPLINE, message).at(entity.span()).hint("export it as a polyline, or again")
         };
         if control.is_empty() && TANGENTS.iter().any(|&code| entity.value(code).is_some()) {
