@@ -70,7 +70,9 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
     }
     let mut meeting: BTreeMap<Node, usize> = BTreeMap::new();
     for (ends, between) in &edges {
-        ends.iter().for_each(|node| *meeting.entry(*node).or_default() += between.len());
+        for node in ends {
+            *meeting.entry(*node).or_default() += between.len();
+        }
     }
     let is_shared = |ends: &[Node; 2]| ends.iter().all(|node| meeting[node] >= MEETING);
     let twice = edges.iter().filter(|(ends, _)| is_shared(ends)).flat_map(|(_, between)| between);

@@ -7,7 +7,7 @@
 //! nobody inserts.
 //!
 //! [`lower`] follows the entities, [`insert`] puts blocks where they are inserted, [`conic`] and [`nurbs`] make chords of
-//! curves, `fit` lays a curve through points, [`unit`] has the table of units, [`told`] says what is not drawn.
+//! curves, `fit` lays a curve through points, [`mod@unit`] has the table of units, [`told`] says what is not drawn.
 
 pub(in crate::front) mod arc;
 mod conic;

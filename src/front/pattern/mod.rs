@@ -5,7 +5,7 @@
 //! closed, notches on them in the forms that passes know, laid in a row unless the file places them; and an account of
 //! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
 //!
-//! [`likeness`] tells such files from plain drawings. [`dxf`](super::dxf) makes groups, sections and blocks, [`shape`] lines and
+//! [`likeness`] tells such files from plain drawings. [`dxf`] makes groups, sections and blocks, [`shape`] lines and
 //! points in mm in the [`mod@unit`]; [`text`] reads what texts say in their [`letters`](mod@letters) by their [`key`]s with [`markup`] and [`choice`] which blocks that
 //! lets be cut; [`unknown`] names keys that may be quantities, [`namesakes`] pieces that may be sizes. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
 //! [`mod@notch`] by the table of [`layer`]s that is not [`drawn`] already. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on

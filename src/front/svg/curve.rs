@@ -49,8 +49,8 @@ impl Curve {
                 arc.sweep.abs() / step.min(TAU / 4.0)
             }
         };
-        // `max` passes over a number that is none: it has one chord.
-        needed.ceil().max(1.0).min(MOST_CHORDS) as usize
+        // A number that is none has one chord.
+        if needed.is_nan() { 1 } else { needed.ceil().clamp(1.0, MOST_CHORDS) as usize }
     }
 
     /// Its place behind so many of its chords.

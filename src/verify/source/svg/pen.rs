@@ -82,7 +82,7 @@ impl Pen {
     pub(super) fn curve(&mut self, bow: &Bow, to: Point, cause: usize) {
         let Some(&from) = self.places.last() else { return };
         let needed = bow.needed(self.sagitta);
-        let whole = |needed: f64| needed.ceil().max(1.0).min(MOST_CHORDS);
+        let whole = |needed: f64| if needed.is_nan() { 1.0 } else { needed.ceil().clamp(1.0, MOST_CHORDS) };
         let least = whole(needed * (1.0 - COUNT_EPSILON));
         let is_doubtful = least < whole(needed * (1.0 + COUNT_EPSILON));
         let count = least as usize * FINER;
