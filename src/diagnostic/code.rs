@@ -129,7 +129,7 @@ codes! {
     /// A polygon that does not end.
     HPGL_ENDS_IN_POLYGON = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.", "What PM gathers is drawn by EP, and the file ends before. Transfer it again and compare the sizes.");
 
-    // What SVG drawings want read.
+    // SVG drawings.
     /// No XML, or another kind of it.
     SVG_NOT_XML = error(Text, "svg/not-xml", "The file is no whole XML, or XML of another kind than SVG.", "A drawing that was cut short on its way, or edited by hand, lacks the ends of its elements, and nobody knows what is lost. Save it again from the program that drew it, and compare the sizes of the copies.");
     /// Entities that blow up.

@@ -13,7 +13,7 @@ pub struct Code {
     pub harm: Harm,
     /// The thing at fault.
     pub fault: Fault,
-    /// What it means, in a sentence or two.
+    /// Meaning, in a sentence or two.
     pub about: &'static str,
     /// Why it matters in a cutting room, and what to do: a line a paragraph, an indented line an example.
     pub more: &'static str,

@@ -142,7 +142,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         }
     }
 
-    /// Drawing of the file in a unit of so many mm.
+    /// Drawing of the file; `unit` is the length of its unit, mm.
     fn drawn(mut self, unit: f64) -> Drawing {
         let within = Within { map: Affine::scale(unit, unit), layer: None, depth: 0 };
         self.entities(self.entities, &within);
@@ -416,7 +416,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         groups.map(|group| number_at(self.source, group.value)).collect()
     }
 
-    /// Room for so many places more.
+    /// Checks that `count` more places fit into a drawing.
     fn room(&mut self, count: usize, span: Span) -> Result<usize, Diagnostic> {
         if self.drawing.vertices.len().saturating_add(count) > MOST_PLACES {
             return Err(self.full(span));

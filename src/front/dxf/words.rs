@@ -1,4 +1,4 @@
-//! What the manual lists of plain DXF.
+//! Rows of the manual on plain DXF.
 
 use crate::front::Word;
 

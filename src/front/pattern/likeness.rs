@@ -21,7 +21,7 @@ const TEXTS: [&[u8]; 4] = [b"TEXT", b"MTEXT", b"ATTRIB", b"ATTDEF"];
 const LINES: [&[u8]; 4] = [b"LINE", b"ARC", b"CIRCLE", b"SPLINE"];
 const CHAINS: [&[u8]; 2] = [b"POLYLINE", b"LWPOLYLINE"];
 
-/// How much some bytes look like a set of patterns.
+/// Likeness of some bytes to a set of patterns.
 pub(super) fn sniff(bytes: &[u8]) -> Likeness {
     if foreign::is_dxf(bytes) && Signs::of(bytes).are_of_patterns() { Likeness::Sure } else { Likeness::No }
 }

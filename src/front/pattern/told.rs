@@ -1,4 +1,4 @@
-//! What is said of entities that are not read, not in the drawing, or not shown.
+//! Messages about entities that are not read, not in the drawing, or not shown.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -104,7 +104,7 @@ pub(super) fn say_uncut(names: &[Span], asked: &Asked, out: &mut Diagnostics) {
     out.push(finding.hint("let the CAD system export each outline on layer 1"));
 }
 
-/// What kinds of entities are not read, and on which layers.
+/// Says the kinds of entities that are not read, and their layers.
 pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     let mut kinds: BTreeMap<&str, (Vec<&Unread>, BTreeSet<&str>)> = BTreeMap::new();
     for entity in unread {
@@ -137,7 +137,7 @@ fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
     }
 }
 
-/// How much is cut that nobody sees in the drawing.
+/// Says the number of cuts that nobody sees in the drawing.
 fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
     if let Some((count, span)) = hidden {
         let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };

@@ -17,7 +17,7 @@ const NAMES: [(f64, &[&str]); 3] = [
 ];
 /// Letters of a text that a message shows.
 const SHOWN: usize = 24;
-/// What to do where nobody knows which it is.
+/// Hint where nobody knows the unit.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
 /// Greatest length of a line in the unit of the header, mm: no part has a longer outline.

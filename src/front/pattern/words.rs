@@ -1,4 +1,4 @@
-//! What the manual lists of pattern DXF.
+//! Rows of the manual on pattern DXF.
 
 use crate::front::Word;
 

@@ -49,7 +49,7 @@ impl Curve {
                 arc.sweep.abs() / step.min(TAU / 4.0)
             }
         };
-        // A number that is none has one chord.
+        // Not a number: one chord.
         if needed.is_nan() { 1 } else { needed.ceil().clamp(1.0, MOST_CHORDS) as usize }
     }
 
