@@ -106,11 +106,9 @@ impl Common {
             let reach = (ABOUT * distance).max(crossing(joint, reference, grid, distance));
             let about = &mut joint.about[0];
             *about = Extent::between(joint.at, joint.at).grown(reach);
-            for lead in
-                boxes.at(joint.at).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= ABOUT * distance)
-            {
-                about.join(&boxes.all()[lead]);
-            }
+            let near = boxes.near(*about).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= reach);
+            let of_leads: Vec<Extent> = near.map(|lead| boxes.all()[lead]).collect();
+            of_leads.iter().for_each(|extent| about.join(extent));
         }
         common
     }
