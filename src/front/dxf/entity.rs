@@ -1,6 +1,6 @@
 //! Entities: groups become the sections of the file, its blocks and what they hold.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::group::Group;
 use super::syntax::{number, whole};
@@ -20,6 +20,10 @@ pub(in crate::front) const FLAGS: i32 = 70;
 /// Codes of the first place of an entity.
 pub(super) const X: i32 = 10;
 pub(super) const Y: i32 = 20;
+
+/// Code of the bulge of the arc that leads to the next vertex, and of the count of vertices of a light polyline.
+pub(in crate::front) const BULGE: i32 = 42;
+const COUNT: i32 = 90;
 
 /// Code of the name of a variable of the header, and the names of the unit and of the code page of texts.
 const VARIABLE: i32 = 9;
@@ -46,6 +50,18 @@ pub(in crate::front) struct Block<'a> {
     pub(in crate::front) entities: Vec<Entity<'a>>,
 }
 
+/// A vertex, the bulge of the arc that leads to the next, and where it stands.
+pub(in crate::front) type Bulged = (Point, f64, Span);
+
+/// State of a layer that is not shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::front) enum Hidden {
+    /// Blocks that are inserted on it show what they have on other layers.
+    Off,
+    /// Blocks that are inserted on it show nothing.
+    Frozen,
+}
+
 /// Sections of a file that are read.
 #[derive(Debug, Clone, Default)]
 pub(in crate::front) struct Sections<'a> {
@@ -53,8 +69,8 @@ pub(in crate::front) struct Sections<'a> {
     pub(in crate::front) unit: Option<Span>,
     /// The name of the code page that the header has.
     pub(in crate::front) page: Option<Span>,
-    /// Names of layers that are not shown.
-    pub(in crate::front) hidden: BTreeSet<&'a [u8]>,
+    /// Layers that are not shown, by name.
+    pub(in crate::front) hidden: BTreeMap<&'a [u8], Hidden>,
     pub(in crate::front) blocks: Vec<Block<'a>>,
     /// Entities outside all blocks.
     pub(in crate::front) entities: Vec<Entity<'a>>,
@@ -188,10 +204,47 @@ impl Entity<'_> {
         self.groups().get(variable + 1).map(|group| group.value)
     }
 
-    /// Of an entry of the table of layers: whether what is on the layer is not shown.
-    fn is_hidden_layer(&self) -> bool {
+    /// Of an entry of the table of layers: the state of a layer that is not shown.
+    fn hidden_layer(&self) -> Option<Hidden> {
         let is_off = self.whole(COLOUR).is_ok_and(|colour| colour.is_some_and(|colour| colour < 0));
-        self.is("LAYER") && (is_off || self.flags().is_ok_and(|flags| flags & FROZEN != 0))
+        let is_frozen = self.flags().is_ok_and(|flags| flags & FROZEN != 0);
+        let state = if is_frozen { Some(Hidden::Frozen) } else { is_off.then_some(Hidden::Off) };
+        state.filter(|_| self.is("LAYER"))
+    }
+
+    /// The vertices of a light polyline, which follow each other in one entity.
+    pub(in crate::front) fn light_vertices(&self) -> Result<Vec<Bulged>, Diagnostic> {
+        let mut vertices: Vec<Bulged> = Vec::new();
+        let mut x = None;
+        let lost = |span: Span| {
+            let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
+            Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
+        };
+        for group in self.groups() {
+            let number = || number_at(self.source, group.value);
+            match (group.code, x) {
+                (X, None) => x = Some((number()?, group.value)),
+                (Y, Some((first, span))) => {
+                    vertices.push((Point::new(first, number()?), 0.0, span));
+                    x = None;
+                }
+                (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
+                (BULGE, None) => {
+                    let bulge = number()?;
+                    vertices.last_mut().into_iter().for_each(|vertex| vertex.1 = bulge);
+                }
+                _ => {}
+            }
+        }
+        let told = self.number(COUNT)?;
+        match x {
+            Some((_, span)) => Err(lost(span)),
+            None if told.is_some_and(|count| count != vertices.len() as f64) => {
+                let message = format!("the LWPOLYLINE has {} vertices, and its count another", vertices.len());
+                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(self.span()).hint("export the file again"))
+            }
+            None => Ok(vertices),
+        }
     }
 
     /// Whether it is not shown, on whatever layer.
@@ -238,7 +291,7 @@ pub(in crate::front) fn sections<'a>(source: &'a Source, groups: &'a [Group], ou
                 (Some(block), _) => block.entities.push(entity),
                 (None, Within::Entities) => sections.entities.push(entity),
                 (None, Within::Tables) => {
-                    sections.hidden.extend(entity.is_hidden_layer().then(|| entity.bytes(NAME)));
+                    sections.hidden.extend(entity.hidden_layer().map(|state| (entity.bytes(NAME), state)));
                 }
                 (None, Within::Blocks | Within::Others) => {}
             }

@@ -4,12 +4,12 @@
 //! and insertions have them on their own plane (DXF reference, "Object Coordinate Systems (OCS)"), which is the cloth or its
 //! back: anything else is refused.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use super::arc::{bulged, height};
 use super::conic::Conic;
-use super::entity::{Block, Entity, NAME, Sections, TEXT, X, Y, number_at, place, sections};
+use super::entity::{BULGE, Block, Bulged, Entity, Hidden, NAME, Sections, TEXT, X, Y, number_at, place, sections};
 use super::fit;
 use super::group::groups;
 use super::insert::{Placing, base};
@@ -32,7 +32,6 @@ use crate::units::rad;
 const X2: i32 = 11;
 const Y2: i32 = 21;
 const RADIUS: i32 = 40;
-const BULGE: i32 = 42;
 const ANGLE: i32 = 50;
 const END_ANGLE: i32 = 51;
 const RATIO: i32 = 40;
@@ -42,8 +41,7 @@ const KNOT: i32 = 40;
 const WEIGHT: i32 = 41;
 const DEGREE: i32 = 71;
 const TANGENTS: [i32; 4] = [12, 22, 13, 23];
-/// Codes of the number of vertices, and of the direction from which something is seen.
-const COUNT: i32 = 90;
+/// Codes of the direction from which something is seen.
 const EXTRUSION: [i32; 3] = [210, 220, 230];
 /// Rounding that is allowed in it.
 const EXTRUSION_EPSILON: f64 = 1e-6;
@@ -101,7 +99,7 @@ struct Lowering<'a, 'o> {
     source: &'a Source,
     entities: &'a [Entity<'a>],
     blocks: BTreeMap<Vec<u8>, &'a Block<'a>>,
-    hidden: &'a BTreeSet<&'a [u8]>,
+    hidden: &'a BTreeMap<&'a [u8], Hidden>,
     letters: Letters,
     /// Farthest that chords lie off their curve, mm.
     sagitta: f64,
@@ -170,7 +168,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
                 self.told.on_paper(entity);
                 continue;
             }
-            if entity.is_invisible() || self.hidden.contains(layer_of(entity, within)) {
+            if entity.is_invisible() || self.is_hidden(entity, within) {
                 if !is_text(entity) {
                     let name = self.letters.name(layer_of(entity, within));
                     self.told.hidden(entity, name);
@@ -192,6 +190,15 @@ impl<'a, 'o> Lowering<'a, 'o> {
             if let Err(fault) = drawn {
                 self.out.push(fault);
             }
+        }
+    }
+
+    /// Whether the layer of an entity hides it: an insertion on a layer that is off still shows the other layers of its block.
+    fn is_hidden(&self, entity: &Entity<'a>, within: &Within<'a>) -> bool {
+        match self.hidden.get(layer_of(entity, within)) {
+            Some(Hidden::Off) => !entity.is("INSERT"),
+            Some(Hidden::Frozen) => true,
+            None => false,
         }
     }
 
@@ -235,7 +242,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
             let [from, to] = [place(entity, [X, Y])?, place(entity, [X2, Y2])?].map(|at| within.map.point(at));
             self.draw(entity, within, &[(from, span(X)), (to, span(X2))])
         } else if entity.is("LWPOLYLINE") {
-            let vertices = self.light_vertices(entity)?;
+            let vertices = entity.light_vertices()?;
             let map = on_plane(entity, within)?;
             let is_closed = entity.flags()? & CLOSED != 0;
             self.chain(entity, &Within { map, ..*within }, &vertices, is_closed)
@@ -287,41 +294,6 @@ impl<'a, 'o> Lowering<'a, 'o> {
             }
         }
         self.chain(entity, &Within { map, ..*within }, &places, flags & CLOSED != 0)
-    }
-
-    /// The vertices of a light polyline, which follow each other in one entity.
-    fn light_vertices(&self, entity: &Entity) -> Result<Vec<Bulged>, Diagnostic> {
-        let mut vertices: Vec<Bulged> = Vec::new();
-        let mut x = None;
-        let lost = |span: Span| {
-            let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
-            Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
-        };
-        for group in entity.groups() {
-            let number = || number_at(self.source, group.value);
-            match (group.code, x) {
-                (X, None) => x = Some((number()?, group.value)),
-                (Y, Some((first, span))) => {
-                    vertices.push((Point::new(first, number()?), 0.0, span));
-                    x = None;
-                }
-                (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
-                (BULGE, None) => {
-                    let bulge = number()?;
-                    vertices.last_mut().into_iter().for_each(|vertex| vertex.1 = bulge);
-                }
-                _ => {}
-            }
-        }
-        let told = entity.number(COUNT)?;
-        match x {
-            Some((_, span)) => Err(lost(span)),
-            None if told.is_some_and(|count| count != vertices.len() as f64) => {
-                let message = format!("the LWPOLYLINE has {} vertices, and its count another", vertices.len());
-                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(entity.span()).hint("export the file again"))
-            }
-            None => Ok(vertices),
-        }
     }
 
     /// Draws from vertex to vertex; where one bulges, an arc leads to the next.
@@ -457,9 +429,6 @@ fn layer_of<'a>(entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
     let own = entity.layer_bytes();
     within.layer.filter(|_| own == LAYER_OF_INSERT || own.is_empty()).unwrap_or(own)
 }
-
-/// A vertex, the bulge of the arc that leads to the next, and where it stands.
-type Bulged = (Point, f64, Span);
 
 fn is_text(entity: &Entity) -> bool {
     ["TEXT", "MTEXT", "ATTRIB"].iter().any(|kind| entity.is(kind))

@@ -1,12 +1,12 @@
 //! Shapes: the entities of a block become lines, points and texts in mm, each with its layer.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::layer::{Does, Layer, Named, Names, layer};
 use super::text::{Facts, is_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::dxf::arc::{Arc, bulged, height};
-use crate::front::dxf::entity::{Block, Entity, FLAGS, NAME, TEXT, number_at};
+use crate::front::dxf::entity::{BULGE, Block, Bulged, Entity, FLAGS, Hidden, NAME, TEXT};
 use crate::geom::{Heading, Point};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Label;
@@ -24,11 +24,8 @@ const WIDTH: i32 = 39;
 const RADIUS: i32 = 40;
 const SCALE_X: i32 = 41;
 const SCALE_Y: i32 = 42;
-const BULGE: i32 = 42;
 const ANGLE: i32 = 50;
 const END_ANGLE: i32 = 51;
-/// Code of the number of vertices that a light polyline has.
-const COUNT: i32 = 90;
 /// Codes of the base point of a block.
 const BASE: [i32; 2] = [X, Y];
 /// Codes of how many columns and rows of copies an insertion puts.
@@ -150,7 +147,7 @@ pub(super) struct Reader<'a, 'o> {
     /// The layers on which lines are.
     pub(super) names: Names,
     /// Names of layers that are not shown.
-    pub(super) hidden_layers: &'a BTreeSet<&'a [u8]>,
+    pub(super) hidden_layers: &'a BTreeMap<&'a [u8], Hidden>,
     /// How much is cut and not shown, and where it begins.
     pub(super) hidden: Option<(usize, Span)>,
     pub(super) out: &'o mut Diagnostics,
@@ -169,7 +166,7 @@ impl<'a> Reader<'a, '_> {
                 self.on_paper.get_or_insert((0, entity.span())).0 += 1;
                 continue;
             }
-            let is_hidden = || entity.is_invisible() || self.hidden_layers.contains(entity.layer_bytes());
+            let is_hidden = || entity.is_invisible() || self.hidden_layers.contains_key(entity.layer_bytes());
             if layer(entity.layer()).is_cut() && is_hidden() {
                 self.hidden.get_or_insert((0, entity.span())).0 += 1;
             }
@@ -226,7 +223,10 @@ impl<'a> Reader<'a, '_> {
             let vertices = vec![Vertex { at: from, span: span(X) }, Vertex { at: to, span: span(X2) }];
             shapes.lines.push(Line { layer, vertices, is_closed: false });
         } else if entity.is("LWPOLYLINE") {
-            let vertices = self.light_vertices(entity)?;
+            let places = entity.light_vertices()?;
+            let on_table =
+                |(at, bulge, span): Bulged| Ok((Vertex { at: self.on_table([at.x, at.y], span)?, span }, bulge));
+            let vertices = places.into_iter().map(on_table).collect::<Result<Vec<_>, Diagnostic>>()?;
             shapes.lines.push(self.line(layer, &vertices, entity.flags()? & CLOSED != 0)?);
         } else if entity.is("ARC") || entity.is("CIRCLE") {
             self.arc(entity, layer, shapes)?;
@@ -301,42 +301,6 @@ impl<'a> Reader<'a, '_> {
         }
         shapes.lines.push(self.line(layer, &places, flags & CLOSED != 0)?);
         Ok(())
-    }
-
-    /// The vertices of a light polyline, which follow each other in one entity.
-    fn light_vertices(&self, entity: &Entity) -> Result<Vec<(Vertex, f64)>, Diagnostic> {
-        let mut vertices: Vec<(Vertex, f64)> = Vec::new();
-        let mut x = None;
-        let lost = |span: Span| {
-            let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
-            Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
-        };
-        for group in entity.groups() {
-            let number = || number_at(self.source, group.value);
-            match (group.code, x) {
-                (X, None) => x = Some((number()?, group.value)),
-                (Y, Some((first, span))) => {
-                    let at = self.on_table([first, number()?], span)?;
-                    vertices.push((Vertex { at, span }, 0.0));
-                    x = None;
-                }
-                (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
-                (BULGE, None) => {
-                    let bulge = number()?;
-                    vertices.last_mut().into_iter().for_each(|(_, of_last)| *of_last = bulge);
-                }
-                _ => {}
-            }
-        }
-        let told = entity.number(COUNT)?;
-        match x {
-            Some((_, span)) => Err(lost(span)),
-            None if told.is_some_and(|count| count != vertices.len() as f64) => {
-                let message = format!("the LWPOLYLINE has {} vertices, and its count another", vertices.len());
-                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(entity.span()).hint("export the file again"))
-            }
-            None => Ok(vertices),
-        }
     }
 
     /// A line; where a vertex bulges, an arc leads to the next.

@@ -54,7 +54,7 @@ impl Map {
 /// A drawing that is followed.
 struct Scan<'a> {
     blocks: BTreeMap<Vec<u8>, &'a Sheet<'a>>,
-    hidden: &'a BTreeSet<Vec<u8>>,
+    hidden: &'a BTreeMap<Vec<u8>, bool>,
     /// Farthest that the reader's chords lie off their curve, mm.
     sagitta: f64,
     census: Census,
@@ -132,10 +132,12 @@ impl<'a> Scan<'a> {
             self.items_left -= 1;
             let own = item.text(8);
             let on = layer.filter(|_| own == b"0" || own.is_empty()).unwrap_or(own);
-            if self.hidden.contains(on) || item.number(60) == Some(1.0) {
+            let is_insert = item.kind == b"INSERT";
+            let is_hidden = self.hidden.get(on).is_some_and(|&is_frozen| is_frozen || !is_insert);
+            if is_hidden || item.number(60) == Some(1.0) {
                 continue;
             }
-            if item.kind == b"INSERT" {
+            if is_insert {
                 self.insert(item, map, on, depth);
             } else {
                 let before = self.strokes.len();

@@ -1,6 +1,6 @@
 //! A second, small reading of the lines of a DXF file: what stands in which block.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::letters::Letters;
 use crate::machine::labels::Labels;
@@ -121,10 +121,10 @@ impl<'a> Item<'a> {
         tags.filter_map(|tag| Some((tag.code, number(tag.text)?)))
     }
 
-    /// Whether a layer is off or frozen.
-    fn is_hidden(&self) -> bool {
+    /// Of a layer that is off or frozen: whether it is frozen, so that blocks on it show nothing at all.
+    fn frozen(&self) -> Option<bool> {
         let is_frozen = self.number(70).is_some_and(|flags| flags as u32 & 1 != 0);
-        is_frozen || self.number(62).is_some_and(|colour| colour < 0.0)
+        (is_frozen || self.number(62).is_some_and(|colour| colour < 0.0)).then_some(is_frozen)
     }
 
     pub(super) fn is_text(&self) -> bool {
@@ -244,8 +244,8 @@ pub(super) struct File<'a> {
     pub(super) unit: Option<f64>,
     /// How its texts are encoded.
     pub(super) letters: Letters,
-    /// Names of layers that are off or frozen.
-    pub(super) hidden: BTreeSet<Vec<u8>>,
+    /// Layers that are off or frozen, by name: whether they are frozen.
+    pub(super) hidden: BTreeMap<Vec<u8>, bool>,
 }
 
 /// Items with their texts in the letters in which the most of them say something.
@@ -281,7 +281,7 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
     }
     let letters = lettered(&mut items, labels);
     let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
-    let (mut section, mut is_in_block, mut unit, mut hidden) = (Vec::new(), false, None, BTreeSet::new());
+    let (mut section, mut is_in_block, mut unit, mut hidden) = (Vec::new(), false, None, BTreeMap::new());
     // What has 1 in group 67 stands on the sheet around the drawing; only what it says is of interest.
     let is_part =
         |item: &Item| [&b"VERTEX"[..], b"SEQEND", b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK"].contains(&&item.kind[..]);
@@ -301,7 +301,9 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
                 }
             }
             b"ENDSEC" => section.clear(),
-            b"LAYER" if section == b"TABLES" && item.is_hidden() => _ = hidden.insert(item.text(2).to_vec()),
+            b"LAYER" if section == b"TABLES" => {
+                hidden.extend(item.frozen().map(|frozen| (item.text(2).to_vec(), frozen)))
+            }
             b"BLOCK" => {
                 is_in_block = true;
                 let base = if item.has(10) || item.has(20) { item.pair([10, 20]) } else { Some([0.0; 2]) };
