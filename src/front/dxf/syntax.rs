@@ -1,14 +1,5 @@
 //! The grammar of a group, without meaning: one function a rule of `grammar/dxf.bnf`, in its order.
 
-use nom::bytes::complete::{take_while, take_while_m_n};
-use nom::character::complete::one_of;
-use nom::combinator::{all_consuming, opt, recognize};
-use nom::error::Error;
-use nom::{IResult, Parser};
-
-/// What a rule gives.
-pub(in crate::front) type Out<'a, T> = IResult<&'a [u8], T, Error<&'a [u8]>>;
-
 /// Most digits of a code: 1071 is the greatest that is in use.
 const CODE_DIGITS: usize = 4;
 /// Codes whose values are decimal numbers, and whole numbers: coordinates, sizes and angles; flags and counts.
@@ -17,8 +8,12 @@ const WHOLE_CODES: std::ops::RangeInclusive<i32> = 60..=79;
 
 /// `<code>`: a whole number alone in its line.
 pub(in crate::front) fn code(line: &[u8]) -> Option<i32> {
-    let mut rule = all_consuming(recognize((opt(one_of("-+")), take_while_m_n(1, CODE_DIGITS, digit))));
-    parsed(rule.parse(line.trim_ascii()))
+    let line = line.trim_ascii();
+    let digits = line.strip_prefix(b"-").or(line.strip_prefix(b"+")).unwrap_or(line);
+    if digits.len() > CODE_DIGITS {
+        return None;
+    }
+    parsed(line)
 }
 
 /// Whether `<value>` may stand behind a code.
@@ -32,11 +27,8 @@ pub(in crate::front) fn fits(code: i32, value: &[u8]) -> bool {
 
 /// `<number>`: a decimal number, with an exponent or without; always finite.
 pub(in crate::front) fn number(value: &[u8]) -> Option<f64> {
-    let fraction = (one_of("."), take_while(digit));
-    let exponent = (one_of("eE"), opt(one_of("-+")), take_while_m_n(1, CODE_DIGITS, digit));
-    let unsigned = recognize((take_while(digit), opt(fraction)));
-    let mut rule = all_consuming(recognize((opt(one_of("-+")), unsigned, opt(exponent))));
-    let number: Option<f64> = parsed(rule.parse(value.trim_ascii()));
+    // Of all that the standard library takes for a number, words alone are none here, and they are not finite.
+    let number: Option<f64> = parsed(value.trim_ascii());
     // The negative of zero is another bit pattern than zero, though the same place.
     number.filter(|number| number.is_finite()).map(|number| number + 0.0)
 }
@@ -48,13 +40,8 @@ pub(in crate::front) fn whole(value: &[u8]) -> Option<i64> {
         .map(|number| number as i64)
 }
 
-fn digit(byte: u8) -> bool {
-    byte.is_ascii_digit()
-}
-
-/// What a text that a rule has taken stands for.
-fn parsed<T: std::str::FromStr>(taken: Out<'_, &[u8]>) -> Option<T> {
-    let (_, text) = taken.ok()?;
+/// The number that a text stands for.
+fn parsed<T: std::str::FromStr>(text: &[u8]) -> Option<T> {
     std::str::from_utf8(text).ok()?.parse().ok()
 }
 
@@ -80,7 +67,7 @@ mod tests {
     fn numbers_are_decimal_and_finite() {
         let read = |text: &str| number(text.as_bytes());
         assert_eq!([" 12.50", "-.5", "1e2", "+3."].map(read), [Some(12.5), Some(-0.5), Some(100.0), Some(3.0)]);
-        assert_eq!(["12,5", "", ".", "-", "nan", "1e999", "0x10"].map(read), [None; 7]);
+        assert_eq!(["12,5", "", ".", "-", "nan", "-inf", "infinity", "1e999", "0x10", "1_0", "1 0"].map(read), [None; 11]);
         assert_eq!(read("-0.0").map(f64::to_bits), Some(0));
         assert_eq!(["1", "66.0", "0.5", "1e40"].map(|text| whole(text.as_bytes())), [Some(1), Some(66), None, None]);
     }
