@@ -169,9 +169,9 @@ fn pairs(boxes: &[Extent], around: &Extent, work: &mut Budget, mut met: impl FnM
     let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
     let mut order: Vec<(i64, u32)> =
         boxes.iter().zip(0..).map(|(extent, i)| (in_total_order(side(extent)[0]), i)).collect();
-    order.sort_unstable();
+    order.sort_by_key(|&(start, _)| start); // stable: those that start alike in their order
     // Boxes that are not left behind yet: where they end, and which they are.
-    let mut active: Vec<(f64, usize)> = Vec::new();
+    let mut active: Vec<(f64, usize)> = Vec::with_capacity(boxes.len());
     for i in order.into_iter().map(|(_, i)| i as usize) {
         let [start, end] = side(&boxes[i]);
         if !work.spend(active.len()) {
