@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 
 use crate::geom::budget::Budget;
-use crate::geom::monotone::{Chain, Crossing, crossing};
-use crate::geom::{Extent, Point, cross, monotone, polyline, ring};
+use crate::geom::monotone::{Crossing, crossing};
+use crate::geom::{Extent, Point, cross, polyline, ring};
+use crate::ir::Chains;
 use crate::ir::marker::{Drill, Marker};
 
 /// How far a line is followed from a crossing to see whether it really leads to the other side, vertices.
@@ -18,9 +19,7 @@ pub struct Outlines<'a> {
     /// Its contours, in order.
     pub contours: Vec<Start>,
     /// Monotone chains of the points.
-    pub chains: Vec<Chain>,
-    /// The box around each chain.
-    pub boxes: Vec<Extent>,
+    pub chains: Chains<'a>,
     /// The box around all.
     pub extent: Extent,
 }
@@ -36,8 +35,8 @@ pub struct Start {
 
 impl Default for Outlines<'_> {
     fn default() -> Self {
-        let points = Cow::default();
-        Self { points, contours: Vec::new(), chains: Vec::new(), boxes: Vec::new(), extent: Extent::EMPTY }
+        let (points, chains) = (Cow::default(), Chains::default());
+        Self { points, contours: Vec::new(), chains, extent: Extent::EMPTY }
     }
 }
 
@@ -51,28 +50,21 @@ impl<'a> Outlines<'a> {
 
     /// Takes the outlines of a piece in place of those that are here: one of these serves all pieces of a marker in turn.
     pub fn gather(&mut self, marker: &'a Marker, piece: usize) {
-        let Self { points, contours, chains, boxes, extent } = self;
-        *points = Cow::default();
+        let Self { points, contours, chains, extent } = self;
         contours.clear();
-        chains.clear();
-        boxes.clear();
-        *extent = Extent::EMPTY;
+        (*points, *chains, *extent) = (Cow::default(), Chains::default(), Extent::EMPTY);
         for contour in &marker.pieces[piece].contours {
             let start = points.len();
             contours.push(Start { first: start, is_closed: contour.closed });
-            let of_contour = marker.list.points(contour.range);
+            extent.join(&marker.list.extent(contour.range));
+            let of_contour = (marker.list.points(contour.range), marker.list.chains(contour.range));
             // A piece of one contour, as most are, is looked at where it stands.
             if start == 0 {
-                *points = of_contour;
+                (*points, *chains) = of_contour;
             } else {
-                points.to_mut().extend_from_slice(&of_contour);
-            }
-            for chain in monotone::chains(&points[start..]) {
-                let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
-                let of_chain = chain.extent(points);
-                extent.join(&of_chain);
-                chains.push(chain);
-                boxes.push(of_chain);
+                points.to_mut().extend_from_slice(&of_contour.0);
+                chains.all.to_mut().extend(of_contour.1.all.iter().map(|chain| chain.moved(start as u32)));
+                chains.boxes.to_mut().extend_from_slice(&of_contour.1.boxes);
             }
         }
     }
@@ -108,7 +100,7 @@ impl<'a> Outlines<'a> {
 
     /// Edges that may come into a box, those of open lines among them.
     pub fn edges_near(&self, around: Extent) -> impl Iterator<Item = [Point; 2]> {
-        let near = self.chains.iter().zip(&self.boxes).filter(move |(_, extent)| extent.meets(&around));
+        let near = self.chains.each().filter(move |(_, extent)| extent.meets(&around));
         near.flat_map(move |(chain, _)| {
             let points = &self.points[chain.first as usize..=chain.last as usize];
             // Along a chain X does not turn back.
@@ -157,8 +149,8 @@ impl<'a> Outlines<'a> {
             self.leads_across(a, ends(b), slack(marker)) && self.leads_across(b, ends(a), slack(marker))
         };
         let mut found: Option<Crossing> = None;
-        pairs(&self.boxes, &self.extent, work, |i, k, work| {
-            let both = [i.min(k), i.max(k)].map(|chain| self.chains[chain]);
+        pairs(&self.chains.boxes, &self.extent, work, |i, k, work| {
+            let both = [i.min(k), i.max(k)].map(|chain| self.chains.all[chain]);
             found = crossing([&self.points, &self.points], both, work, &mut wanted);
             found.is_none() && !work.is_spent()
         });
@@ -177,9 +169,9 @@ fn pairs(boxes: &[Extent], around: &Extent, work: &mut Budget, mut met: impl FnM
     let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
     let mut order: Vec<(i64, u32)> =
         boxes.iter().zip(0..).map(|(extent, i)| (in_total_order(side(extent)[0]), i)).collect();
-    order.sort_unstable();
+    order.sort_by_key(|&(start, _)| start); // stable: those that start alike in their order
     // Boxes that are not left behind yet: where they end, and which they are.
-    let mut active: Vec<(f64, usize)> = Vec::new();
+    let mut active: Vec<(f64, usize)> = Vec::with_capacity(boxes.len());
     for i in order.into_iter().map(|(_, i)| i as usize) {
         let [start, end] = side(&boxes[i]);
         if !work.spend(active.len()) {

@@ -3,7 +3,7 @@
 //! (Monotone chains: Park & Shin, "Self-intersection elimination by monotone chains", CAD 34, 2002.)
 
 use super::budget::Budget;
-use super::{Extent, Point, cross};
+use super::{Extent, Point, Vector, cross};
 
 /// A stretch of a polyline along which neither x nor y turns back: indices of its first and last point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +34,12 @@ impl Chain {
         (self.last - self.first) as usize
     }
 
+    /// The same where so many points stand before those of the polyline.
+    #[must_use]
+    pub fn moved(self, by: u32) -> Self {
+        Self { first: self.first + by, last: self.last + by }
+    }
+
     fn halves(self) -> [Self; 2] {
         let middle = self.first.midpoint(self.last);
         [Self { last: middle, ..self }, Self { first: middle, ..self }]
@@ -54,15 +60,15 @@ pub fn chains(points: &[Point]) -> impl Iterator<Item = Chain> {
 /// Where the first chain of a polyline that has a segment ends.
 fn turning(points: &[Point]) -> usize {
     // The signs of dx and dy so far; 0 as long as there is none.
-    let (mut sx, mut sy) = (0.0, 0.0);
-    for (i, ends) in points.windows(2).enumerate() {
-        let (dx, dy) = (ends[1].x - ends[0].x, ends[1].y - ends[0].y);
-        if dx * sx < 0.0 || dy * sy < 0.0 {
+    let mut so_far = Vector::zeros();
+    for (i, (from, to)) in points.iter().zip(&points[1..]).enumerate() {
+        let way = to - from;
+        // Both are looked at in one step.
+        if (way.x * so_far.x < 0.0) | (way.y * so_far.y < 0.0) {
             return i;
         }
         // Only the signs count; a sum of numbers of one sign has it.
-        sx += dx;
-        sy += dy;
+        so_far += way;
     }
     points.len() - 1
 }

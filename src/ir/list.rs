@@ -1,12 +1,14 @@
 //! The doubly linked segment list: data in vectors, order as ids of neighbours beside them.
 //!
 //! The segments of a range join, since each is kept as its end alone; links are kept only where something was moved,
-//! and what the file asks for only where it asks for something: twenty-eight bytes, for large markers are as slow to
-//! read as they are large in memory. Ids are never reused. Nobody outside this file sees a link; others walk a
-//! [`Range`] or edit through a [`Cursor`], whose every operation takes constant time.
+//! and what the file asks for only where it asks for something: twenty-eight bytes, and some five for chains that every
+//! pass asks for, since large markers are as slow to read as they are large in memory. Ids are never reused. Nobody
+//! outside this file sees a link; others walk a [`Range`] or edit through a [`Cursor`], whose every operation takes
+//! constant time.
 
 use std::borrow::Cow;
 
+use super::lines::{Chains, Line, LineId, Lines};
 use super::links::{Link, Links};
 use super::scattered::Scattered;
 use crate::geom::{Extent, Point};
@@ -87,6 +89,8 @@ pub struct Range {
     backward: bool,
     /// Whether its segments stand beside each other as they were appended.
     in_order: bool,
+    /// What is known of it, if anything was when it was appended.
+    line: Option<LineId>,
 }
 
 impl Range {
@@ -107,15 +111,8 @@ pub struct SegmentList {
     spans: Vec<Span>,
     asked: Scattered<Asked>,
     links: Links,
-    /// The boxes around the ranges that [`SegmentList::append_line`] made, in order, as long as no point is moved.
-    boxes: Vec<Boxed>,
-}
-
-/// A range as it was appended, by its first segment and its last, and the box around it.
-#[derive(Debug, Clone, Copy)]
-struct Boxed {
-    ends: [SegmentId; 2],
-    extent: Extent,
+    /// What is known of the ranges that [`SegmentList::append_line`] made.
+    lines: Lines,
 }
 
 impl SegmentList {
@@ -123,6 +120,7 @@ impl SegmentList {
     pub fn reserve(&mut self, segments: usize, ranges: usize) {
         self.ends.reserve(segments + ranges);
         self.spans.reserve(segments + ranges);
+        self.lines.reserve(segments, ranges);
     }
 
     /// Appends a chain of segments, each of which starts where the one before it ends, as a range of its own; `None` when
@@ -146,7 +144,7 @@ impl SegmentList {
             }
         }
         let [first, last] = [front + 1, self.ends.len() - 1].map(id);
-        Some(Range { first, last, backward: false, in_order: true })
+        Some(Range { first, last, backward: false, in_order: true, line: None })
     }
 
     /// Appends the segments between points as a range of their own; `None` when there are none. Beside each point
@@ -159,21 +157,29 @@ impl SegmentList {
         self.spans.push(Span::default());
         self.spans.extend_from_slice(&spans[1..points.len()]);
         let [first, last] = [front + 1, self.ends.len() - 1].map(id);
-        self.boxes.push(Boxed { ends: [first, last], extent: Extent::of(points) });
-        Some(Range { first, last, backward: false, in_order: true })
+        let line = self.lines.add([first.0, last.0], points);
+        Some(Range { first, last, backward: false, in_order: true, line: Some(line) })
     }
 
     /// The box around a range, mm. Of most it is known.
     pub fn extent(&self, range: Range) -> Extent {
-        let Range { first, last, backward, in_order } = range;
-        let place = self.boxes.partition_point(|boxed| boxed.ends[0] < first);
-        let known = self.boxes.get(place).filter(|boxed| boxed.ends == [first, last] && in_order && !backward);
-        known.map_or_else(|| Extent::of(&self.points(range)), |boxed| boxed.extent)
+        self.known(range).map_or_else(|| Extent::of(&self.points(range)), |line| line.extent)
+    }
+
+    /// The monotone chains of a range in its direction. Of most ranges they are known.
+    pub fn chains(&self, range: Range) -> Chains<'_> {
+        self.known(range).map_or_else(|| Chains::of(&self.points(range)), |line| self.lines.chains(line))
+    }
+
+    /// What is known of a range, if it still stands as it was appended.
+    fn known(&self, range: Range) -> Option<&Line> {
+        let Range { first, last, backward, in_order, line } = range;
+        line.filter(|_| in_order && !backward).and_then(|line| self.lines.get(line, [first.0, last.0]))
     }
 
     /// Moves every point.
     pub fn move_points(&mut self, to: impl Fn(Point) -> Point) {
-        self.boxes.clear();
+        self.lines.clear();
         self.ends.iter_mut().for_each(|end| *end = to(*end));
     }
 
@@ -281,7 +287,7 @@ impl SegmentList {
         }
         let (ahead, behind) = if first.backward { (second, first) } else { (first, second) };
         self.links.join(ahead.last.0, behind.first.0);
-        Some(Range { first: ahead.first, last: behind.last, backward: first.backward, in_order: false })
+        Some(Range { first: ahead.first, last: behind.last, backward: first.backward, in_order: false, line: None })
     }
 
     /// A cursor on the first segment of a range, in the order of the list.
@@ -366,13 +372,13 @@ impl Cursor<'_> {
     /// Where the segment under the cursor starts and the one before it ends, to change.
     pub fn from_mut(&mut self) -> &mut Point {
         let before = self.link().prev;
-        self.list.boxes.clear();
+        self.list.lines.forget(before);
         &mut self.list.ends[before as usize]
     }
 
     /// Where the segment under the cursor ends and the next one starts, to change.
     pub fn to_mut(&mut self) -> &mut Point {
-        self.list.boxes.clear();
+        self.list.lines.forget(self.at.0);
         &mut self.list.ends[self.at.0 as usize]
     }
 
@@ -408,7 +414,7 @@ impl Cursor<'_> {
     pub fn split(&mut self, point: Point) -> SegmentId {
         let Asked { percent, .. } = self.list.asked(self.at);
         let behind = id(self.list.ends.len());
-        self.list.boxes.clear();
+        self.list.lines.forget(self.at.0);
         if percent != FULL_SPEED {
             self.list.asked_mut(behind).percent = percent;
         }
@@ -519,14 +525,16 @@ mod tests {
     }
 
     #[test]
-    fn the_box_around_a_range_is_that_of_its_points_whatever_is_done_to_them() {
+    fn the_box_and_the_chains_of_a_range_are_those_of_its_points_whatever_is_done_to_them() {
         let mut list = SegmentList::default();
         let points: Vec<Point> = [0.0, 3.0, -2.0, 1.0].map(|x| Point::new(x, 2.0 * x)).into();
         let spans = vec![Span::default(); points.len()];
         let [mut range, other] = [(); 2].map(|()| list.append_line(&points, &spans).expect("three segments"));
         let check = |list: &SegmentList, range: Range| {
             for range in [range, range.reversed(), other] {
-                assert_eq!(list.extent(range), Extent::of(&list.points(range)));
+                let points = list.points(range);
+                assert_eq!(list.extent(range), Extent::of(&points));
+                assert_eq!(list.chains(range), Chains::of(&points));
             }
         };
         check(&list, range);

@@ -18,6 +18,7 @@ pub mod check;
 pub mod declaration;
 pub mod drawing;
 pub mod label;
+mod lines;
 mod links;
 pub mod list;
 pub mod marker;
@@ -29,6 +30,7 @@ pub mod verdict;
 
 pub use arcs::Arcs;
 pub use drawing::Drawing;
+pub use lines::Chains;
 pub use list::{Range, Segment, SegmentId, SegmentList};
 pub use marker::Marker;
 pub use motion::Motion;

@@ -120,7 +120,8 @@ impl<'a> Blocks<'a> {
         }
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         // Nearly every block has no blanks inside and is read where it stands.
-        if let Ok((after, words)) = syntax::block(rest) {
+        let plain = syntax::plain_point_and_code(rest);
+        if let Some((after, words)) = plain.or_else(|| syntax::block(rest).ok()) {
             return Some(Block { span: self.step_to(after), words: Ok(words) });
         }
         self.next_with_blanks()
@@ -164,12 +165,11 @@ impl<'a> Blocks<'a> {
     pub(super) fn next_point(&mut self) -> Option<(Point, Span)> {
         self.skip_blanks();
         let rest = self.bytes.get(self.at..)?;
-        if let Some((length, x, y)) = rest.first_chunk().and_then(syntax::signed_block) {
-            let point = Point { x: Some(x.into()), y: Some(y.into()), ..Point::default() };
-            return Some((point, self.step_to(&rest[length..])));
-        }
         if rest.first().is_some_and(|&letter| syntax::is_code_letter(letter)) {
             return None;
+        }
+        if let Some((length, x, y)) = rest.first_chunk().and_then(syntax::signed_block) {
+            return Some((Point::whole(x, y), self.step_to(&rest[length..])));
         }
         let (after, point) = syntax::point(rest).ok()?;
         let (b'*', after) = after.split_first()? else { return None };

@@ -116,6 +116,11 @@ fn codes<'a>(mut i: &'a [u8], words: &mut Words) -> Result<&'a [u8], Err<Fault<'
 }
 
 impl Point {
+    /// X and Y, both whole numbers.
+    pub(super) fn whole(x: i32, y: i32) -> Self {
+        Self { x: Some(x.into()), y: Some(y.into()), ..Self::default() }
+    }
+
     /// Whether it is written as the end of an arc: with a centre.
     pub(super) fn has_centre(&self) -> bool {
         self.i.is_some() || self.j.is_some()
@@ -175,9 +180,15 @@ pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
 /// The same with signs, or none.
 #[inline(never)] // apart, it is not in the way of the others
 pub(super) fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
+    let (at, x, y) = plain_place(i)?;
+    (i[at] == b'*').then_some((at + 1, x, y))
+}
+
+/// X and Y, both whole numbers: where they end, and the numbers.
+fn plain_place(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let (at, x) = plain_coordinate(i, 0, b'X')?;
     let (at, y) = plain_coordinate(i, at, b'Y')?;
-    (i[at] == b'*').then_some((at + 1, x, y))
+    Some((at, x, y))
 }
 
 /// A letter at a place and a whole number of at most eight digits, below [`VALUE_MAX`]: where it ends, and the number.
@@ -201,6 +212,13 @@ pub(super) fn plain_code(i: &[u8]) -> Option<(&[u8], Code)> {
     };
     let [b'*', rest @ ..] = rest else { return None };
     Some((rest, Code { letter, number }))
+}
+
+/// `<block>`, when it is X and Y and one code behind them, as those of labels are: likewise.
+pub(super) fn plain_point_and_code(i: &[u8]) -> Option<(&[u8], Words)> {
+    let (at, x, y) = plain_place(i.first_chunk()?)?;
+    let (rest, code) = plain_code(&i[at..])?;
+    Some((rest, Words { codes: std::iter::once(code).collect(), ahead: 0, point: Some(Point::whole(x, y)) }))
 }
 
 /// `<coordinate>`: the letter stands at `i`, its number at `rest`. From the letter on the branch is certain.

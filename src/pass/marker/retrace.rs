@@ -8,9 +8,11 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
-use crate::geom::Point;
 use crate::geom::again::{Step, course};
 use crate::geom::closing::{self, Retrace};
+use crate::geom::monotone::Chain;
+use crate::geom::{Extent, Point};
+use crate::ir::Chains;
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker, Notch, Piece};
 use crate::machine::Job;
@@ -31,7 +33,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         for contour in &mut piece.contours {
             let points = marker.list.points(contour.range);
             let points: &[Point] = &points;
-            if never_returns(points, reach) {
+            if never_returns(points, &marker.list.chains(contour.range), reach) {
                 continue;
             }
             let Some(found) = closing::retrace(points.len(), |k| points[k], reach) else { continue };
@@ -94,9 +96,16 @@ fn there_and_back(piece: &mut Piece, list: &mut SegmentList, found: &mut Found) 
 }
 
 /// Whether a line ends where it starts and has not been near there before, as nearly all have not.
-fn never_returns(points: &[Point], reach: f64) -> bool {
+fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
     let [first, inner @ .., last] = points else { return true };
-    first == last && !inner.iter().any(|at| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach)
+    let is_near = |at: &Point| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach;
+    // Twice as far: then rounding hides no place.
+    let around = Extent::between(*first, *first).grown(2.0 * reach);
+    let returns = |(chain, extent): (&Chain, &Extent)| {
+        let places = chain.first as usize..inner.len().min(chain.last as usize);
+        extent.meets(&around) && inner[places].iter().any(is_near)
+    };
+    first == last && !chains.each().any(returns)
 }
 
 /// Outlines or lines that something was found about.

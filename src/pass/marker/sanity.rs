@@ -264,10 +264,10 @@ impl<'a> Search<'a> {
     fn overlap(&self, i: usize, k: usize, work: &mut Budget) -> Option<(Point, Span)> {
         let (a, b) = (self.part(i), self.part(k));
         let common = |part: &Outlines, other: &Outlines| -> Vec<Chain> {
-            let near = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.overlaps(&other.extent));
+            let near = part.chains.each().filter(|(_, extent)| extent.overlaps(&other.extent));
             near.map(|(chain, _)| *chain).collect()
         };
-        if !work.spend(a.chains.len() + b.chains.len()) {
+        if !work.spend(a.chains.all.len() + b.chains.all.len()) {
             return None;
         }
         let (of_a, of_b) = (common(a, b), common(b, a));
@@ -302,7 +302,7 @@ impl<'a> Search<'a> {
         let slack = slack(self.marker);
         let beside = |part: &Outlines, other: &Outlines| -> Vec<Chain> {
             let around = other.extent.grown(slack);
-            let beside = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.meets(&around));
+            let beside = part.chains.each().filter(|(_, extent)| extent.meets(&around));
             beside.map(|(chain, _)| *chain).collect()
         };
         let (of_a, of_b) = (beside(a, b), beside(b, a));

@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use super::pass::MarkerPass;
 use crate::diagnostic::Diagnostics;
+use crate::geom::monotone::Chain;
 use crate::geom::{Point, Vector, bits, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{Marker, Notch, NotchKind};
@@ -52,7 +53,8 @@ fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
         .enumerate()
         .flat_map_iter(|(i, piece)| {
             let closed = piece.contours.iter().enumerate().filter(|(_, contour)| contour.closed);
-            let may_be = closed.filter(|(_, contour)| measure.has_tip(&list.points(contour.range)));
+            let may_be = closed
+                .filter(|(_, contour)| measure.has_tip(&list.points(contour.range), &list.chains(contour.range).all));
             may_be.map(|(k, _)| [i, k]).collect::<Vec<_>>()
         })
         .collect();
@@ -119,29 +121,24 @@ impl Measure {
         off(one, other).min(off(other, one)) <= self.width
     }
 
-    /// Whether a closed line has a tip; the last of its points is the first again.
-    #[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
-    fn has_tip(self, points: &[Point]) -> bool {
+    /// Whether a closed line has a tip; the last of its points is the first again. Along a chain it does not turn back: the
+    /// bottom of a tip is the first segment of a chain or the last.
+    fn has_tip(self, points: &[Point], chains: &[Chain]) -> bool {
         let count = points.len() - 1;
         if count <= LEAST_LEFT {
             return false;
         }
         let most = self.width * self.width;
-        let first = points[1] - points[0];
-        let last = points[count] - points[count - 1];
-        let (mut bottom, mut was_on) = (first, goes_on(last, first));
-        for (i, ends) in points[1..].windows(2).enumerate() {
-            let next = ends[1] - ends[0];
-            let is_on = goes_on(bottom, next);
-            if !(was_on && is_on) {
-                let before = if i == 0 { last } else { points[i] - points[i - 1] };
-                if is_tip([before, bottom, next], most) && self.is_narrow(points, i) {
-                    return true;
-                }
-            }
-            (bottom, was_on) = (next, is_on);
-        }
-        is_tip([points[count - 1] - points[count - 2], last, first], most) && self.is_narrow(points, count - 1)
+        let way = |i: usize| points[i + 1] - points[i];
+        let is_at = |i: usize| {
+            let before = if i > 0 { i - 1 } else { count - 1 };
+            let next = if i + 1 < count { i + 1 } else { 0 };
+            is_tip([before, i, next].map(way), most) && self.is_narrow(points, i)
+        };
+        chains.iter().any(|chain| {
+            let [first, last] = [chain.first, chain.last - 1].map(|i| i as usize);
+            is_at(first) || last > first && is_at(last)
+        })
     }
 
     /// Whether the sides beside a segment of a closed line stay beside each other at first, or the one before it does so
@@ -152,12 +149,6 @@ impl Measure {
         let [c, d] = [points[i + 1], points[if i + 2 <= count { i + 2 } else { 1 }]];
         self.may_follow([b, a], [b, c]) || self.may_follow([b, a], [c, d])
     }
-}
-
-/// Whether two ways go on both in X and in Y, as most of a line do. Three of which each goes on behind the one before have
-/// no tip.
-fn goes_on(before: Vector, next: Vector) -> bool {
-    before.x * next.x > 0.0 && before.y * next.y > 0.0
 }
 
 /// Whether a line turns back where the first of three segments ends, or over the second when that is short; `most` is the

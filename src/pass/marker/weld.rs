@@ -90,8 +90,9 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     let longest = dropped.longest;
     let has_length = |way: Vector| has_length(way, longest);
     // Nearly all have, and along X alone.
-    let is_long = |ends: &[Point]| (ends[1].x - ends[0].x).abs() > longest || has_length(ends[1] - ends[0]);
-    if list.points(*range).windows(2).all(is_long) {
+    let is_long = |(from, to): (&Point, &Point)| (to.x - from.x).abs() > longest || has_length(to - from);
+    let points = list.points(*range);
+    if points.iter().zip(&points[1..]).all(is_long) {
         return true;
     }
     let mut cursor = list.cursor(range);

@@ -148,10 +148,15 @@ impl<'a> Outline<'a> {
             let there = self.mouths.iter().filter(|mouth| (mouth.is_left == is_left) == is_inward);
             self.apart(there.copied())
         });
-        let straight = [straighter(&inward, &outward, count), straighter(&outward, &inward, count)];
-        let [inward, outward] = [&inward, &outward].map(|all| self.alone(all));
-        let kept = inward.into_iter().chain(outward).zip(straight.concat());
-        let mut kept: Vec<Mouth> = kept.filter_map(|(mouth, is_straight)| mouth.filter(|_| is_straight)).collect();
+        let mut kept: Vec<Mouth> = match [&inward[..], &outward[..]] {
+            // As in nearly all outlines, they go one way.
+            [all, []] | [[], all] => self.alone(all).into_iter().flatten().collect(),
+            [inward, outward] => {
+                let straight = [straighter(inward, outward, count), straighter(outward, inward, count)];
+                let kept = [inward, outward].map(|all| self.alone(all)).concat().into_iter().zip(straight.concat());
+                kept.filter_map(|(mouth, is_straight)| mouth.filter(|_| is_straight)).collect()
+            }
+        };
         kept.sort_by_key(|mouth| mouth.first);
         if kept.iter().map(|mouth| mouth.segments + 1).sum::<usize>() + LEAST_OTHERS > count {
             kept.clear();
@@ -226,9 +231,6 @@ impl<'a> Outline<'a> {
 /// Of each of some notches, whether it is one beside others that go the other way: between two of those, and beside one
 /// with which it shares a segment and whose edge is straighter, stands none.
 fn straighter(mouths: &[Mouth], others: &[Mouth], count: usize) -> Vec<bool> {
-    if mouths.is_empty() || others.is_empty() {
-        return vec![true; mouths.len()];
-    }
     let segments = |mouth: &Mouth| (mouth.first..mouth.first + mouth.segments).map(move |i| i % count);
     let mut owners = vec![None; count];
     for (k, other) in others.iter().enumerate() {

@@ -5,6 +5,8 @@
 
 use std::f64::consts::PI;
 
+use arrayvec::ArrayVec;
+
 use crate::geom::{Point, Vector, angle, cross, polyline};
 use crate::ir::marker::{Notch, NotchForm};
 
@@ -38,7 +40,7 @@ const SURELY_STRAIGHT: f64 = 0.194;
 const EDGE: f64 = 2.0;
 /// How far from the first end a notch can go, mm: the far corner of the largest.
 const FAR: f64 = 21.0;
-/// How many vertices a notch may have, and how many are looked at for the direction of an edge: a guard against tangles.
+/// How many vertices a way may have, and how many are looked at for the direction of an edge: a guard against tangles.
 const MOST_STEPS: usize = 64;
 /// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
@@ -73,26 +75,29 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
         }
     };
     see(0, points[count - 1]);
-    let mut i = 0;
-    while let Some(next) = next_turn(points, i) {
-        see(next, points[next - 1]);
-        i = next;
-    }
+    each_turn(points, |i| see(i, points[i - 1]));
     found
 }
 
-/// The first vertex behind one of a line at which a notch may begin. Most turn by far less, which takes no lengths to see.
+/// Calls `see` for each vertex of a line at which a notch may begin. Most turn by far less, which takes no lengths to see, and
+/// half as many steps where two are looked at together.
 #[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
-fn next_turn(points: &[Point], behind: usize) -> Option<usize> {
-    let mut before = points[behind + 1] - points[behind];
-    for (k, ends) in points[behind + 1..].windows(2).enumerate() {
-        let after = ends[1] - ends[0];
-        if cross(before, after).abs() >= SURELY_STRAIGHT * before.dot(&after) {
-            return Some(behind + 1 + k);
+fn each_turn(points: &[Point], mut see: impl FnMut(usize)) {
+    let may_turn = |before: Vector, after: Vector| cross(before, after).abs() >= SURELY_STRAIGHT * before.dot(&after);
+    let [first, second, rest @ ..] = points else { return };
+    let (mut at, mut before) = (*second, second - first);
+    let (twos, last) = rest.as_chunks();
+    for (&[next, next_but_one], i) in twos.iter().zip((1..).step_by(2)) {
+        let (after, then) = (next - at, next_but_one - next);
+        let turns = [may_turn(before, after), may_turn(after, then)];
+        if turns[0] | turns[1] {
+            (i..).zip(turns).filter(|(_, turns)| *turns).for_each(|(i, _)| see(i));
         }
-        before = after;
+        (at, before) = (next_but_one, then);
     }
-    None
+    if last.first().is_some_and(|end| may_turn(before, end - at)) {
+        see(points.len() - 2);
+    }
 }
 
 /// Whether a notch may begin between two segments.
@@ -110,12 +115,15 @@ struct Ring<'a> {
 }
 
 /// A way between the ends of a mouth: from its first end along the mouth, and into the notch.
-struct Way {
+struct Way<'a> {
     /// Its vertices.
-    points: Vec<[f64; 2]>,
+    points: &'a [[f64; 2]],
     width: f64,
     depth: f64,
 }
+
+/// Room for the vertices of a way; filled where it stands.
+type Room = ArrayVec<[f64; 2], MOST_STEPS>;
 
 impl Ring<'_> {
     /// A vertex, less than twice round.
@@ -185,26 +193,29 @@ impl Ring<'_> {
             let way = self.at(i + k) - self.points[i];
             [way.dot(&along), side * cross(along, way)]
         };
-        let points: Vec<[f64; 2]> = (0..=steps).map(local).collect();
+        let mut points = Room::new();
+        points.extend((0..=steps).map(local));
         let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
-        let way = Way { points, width, depth };
+        let way = Way { points: &points, width, depth };
         if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
             return None;
         }
         let (form, tip) = way.form(self.slack)?;
         let askew = self.askew(i, false, steps, chord)?.max(self.askew(i, true, steps, chord)?);
-        let deepest = (0..=steps).find(|&k| way.points[k][1] >= depth - self.slack)?;
-        let across = Vector::new(-along.y, along.x) * side;
+        let (deepest, tip) = if form == NotchForm::V {
+            let apex = way.apex();
+            (apex, self.at(i + apex))
+        } else {
+            let across = Vector::new(-along.y, along.x) * side;
+            let deepest = (0..=steps).find(|&k| way.points[k][1] >= depth - self.slack)?;
+            (deepest, self.points[i] + along * tip[0] + across * tip[1])
+        };
         Some(Mouth {
             first: i,
             segments: steps,
             form,
-            tip: if form == NotchForm::V {
-                self.at(i + way.apex())
-            } else {
-                self.points[i] + along * tip[0] + across * tip[1]
-            },
-            deepest: (i + if form == NotchForm::V { way.apex() } else { deepest }) % self.points.len(),
+            tip,
+            deepest: (i + deepest) % self.points.len(),
             is_left: side > 0.0,
             askew,
         })
@@ -248,7 +259,7 @@ fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
     (least - slack..=most + slack).contains(&length)
 }
 
-impl Way {
+impl Way<'_> {
     /// What it looks like, and the middle of its bottom.
     fn form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
         self.square_form(slack).or_else(|| self.leaning_form(slack))
@@ -270,8 +281,10 @@ impl Way {
             return None;
         }
         let lean = across / self.depth;
-        let points = self.points.iter().map(|&[x, y]| [x - lean * y, y]).collect();
-        let (form, [x, y]) = Self { points, ..*self }.square_form(slack).filter(|(form, _)| *form != NotchForm::U)?;
+        let mut points = Room::new();
+        points.extend(self.points.iter().map(|&[x, y]| [x - lean * y, y]));
+        let upright = Way { points: &points, ..*self };
+        let (form, [x, y]) = upright.square_form(slack).filter(|(form, _)| *form != NotchForm::U)?;
         Some((form, [x + lean * y, y]))
     }
 
