@@ -1,12 +1,13 @@
-//! What is known of the lines of a segment list as they were appended: their monotone chains and the boxes around them.
-//! Most passes ask for these, and most lines stay what they were.
+//! Lines of a segment list as they were appended, with their monotone chains and the boxes around these.
+//!
+//! Most passes ask for chains, and most lines stay as they were appended.
 
 use std::borrow::Cow;
 
 use crate::geom::monotone::{self, Chain};
 use crate::geom::{Extent, Point};
 
-/// Segments of a chain, as a rule: room is made for so many chains, and grows where they are shorter.
+/// Segments of a usual chain: room is made for so many chains, and grows where they are shorter.
 const SEGMENTS_A_CHAIN: usize = 8;
 
 /// Monotone chains of some points.
@@ -32,7 +33,7 @@ impl Chains<'_> {
     }
 }
 
-/// Names one of some lines.
+/// Name of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct LineId(u32);
 
@@ -51,7 +52,7 @@ pub(super) struct Lines {
 pub(super) struct Line {
     /// Its first and its last segment, as ids.
     ends: [u32; 2],
-    /// Which chains are its own.
+    /// Its chains, by their places among those of all lines.
     chains: [u32; 2],
     /// The box around it.
     pub(super) extent: Extent,
@@ -60,7 +61,7 @@ pub(super) struct Line {
 }
 
 impl Lines {
-    /// Makes room for so many more segments in so many lines.
+    /// Makes room for more segments in some lines.
     pub(super) fn reserve(&mut self, segments: usize, lines: usize) {
         self.all.reserve(lines);
         self.chains.reserve(segments / SEGMENTS_A_CHAIN);
@@ -90,7 +91,7 @@ impl Lines {
         Chains { all: Cow::Borrowed(&self.chains[first..end]), boxes: Cow::Borrowed(&self.boxes[first..end]) }
     }
 
-    /// A point is moved, which is the end of that segment or the start of the next one: it is of one line at the most.
+    /// Forgets the chains of a line of which a point is moved: the end of that segment, or the start of the next one.
     pub(super) fn forget(&mut self, id: u32) {
         let place = self.all.partition_point(|line| line.ends[1] < id);
         if let Some(line) = self.all.get_mut(place).filter(|line| line.ends[0] <= id + 1) {
@@ -98,7 +99,7 @@ impl Lines {
         }
     }
 
-    /// All points are moved.
+    /// Forgets all lines, as all points are moved.
     pub(super) fn clear(&mut self) {
         self.all.clear();
         self.chains.clear();

@@ -1,8 +1,8 @@
 //! The doubly linked segment list: data in vectors, order as ids of neighbours beside them.
 //!
 //! The segments of a range join, since each is kept as its end alone; links are kept only where something was moved,
-//! and what the file asks for only where it asks for something: twenty-eight bytes, and some five for chains that every
-//! pass asks for, since large markers are as slow to read as they are large in memory. Ids are never reused. Nobody
+//! and what the file asks for only where it asks for something: twenty-eight bytes, and some five for the monotone chains that
+//! passes ask for, since large markers are as slow to read as they are large in memory. Ids are never reused. Nobody
 //! outside this file sees a link; others walk a [`Range`] or edit through a [`Cursor`], whose every operation takes
 //! constant time.
 
@@ -89,7 +89,7 @@ pub struct Range {
     backward: bool,
     /// Whether its segments stand beside each other as they were appended.
     in_order: bool,
-    /// What is known of it, if anything was when it was appended.
+    /// Name of the line as which it was appended.
     line: Option<LineId>,
 }
 
@@ -111,7 +111,7 @@ pub struct SegmentList {
     spans: Vec<Span>,
     asked: Scattered<Asked>,
     links: Links,
-    /// What is known of the ranges that [`SegmentList::append_line`] made.
+    /// Lines that [`SegmentList::append_line`] made, with their chains.
     lines: Lines,
 }
 
@@ -171,7 +171,7 @@ impl SegmentList {
         self.known(range).map_or_else(|| Chains::of(&self.points(range)), |line| self.lines.chains(line))
     }
 
-    /// What is known of a range, if it still stands as it was appended.
+    /// Line of a range that still stands as it was appended.
     fn known(&self, range: Range) -> Option<&Line> {
         let Range { first, last, backward, in_order, line } = range;
         line.filter(|_| in_order && !backward).and_then(|line| self.lines.get(line, [first.0, last.0]))
