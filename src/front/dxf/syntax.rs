@@ -67,7 +67,10 @@ mod tests {
     fn numbers_are_decimal_and_finite() {
         let read = |text: &str| number(text.as_bytes());
         assert_eq!([" 12.50", "-.5", "1e2", "+3."].map(read), [Some(12.5), Some(-0.5), Some(100.0), Some(3.0)]);
-        assert_eq!(["12,5", "", ".", "-", "nan", "-inf", "infinity", "1e999", "0x10", "1_0", "1 0"].map(read), [None; 11]);
+        assert_eq!(
+            ["12,5", "", ".", "-", "nan", "-inf", "infinity", "1e999", "0x10", "1_0", "1 0"].map(read),
+            [None; 11]
+        );
         assert_eq!(read("-0.0").map(f64::to_bits), Some(0));
         assert_eq!(["1", "66.0", "0.5", "1e40"].map(|text| whole(text.as_bytes())), [Some(1), Some(66), None, None]);
     }
