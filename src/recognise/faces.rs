@@ -1,0 +1,303 @@
+//! Faces of the graph that cutting lines make: parts with an edge in common that is drawn once for both of them.
+//!
+//! Every line of a knife is cut, so each face that such lines enclose comes free: it is a part. Of other lines that is said
+//! where each edge of two faces is drawn twice. Strokes are put in the order of the faces that they bound, an edge of two faces
+//! once for each, so that [`succession`](super::succession) finds the rings. A graph that is not plane, or has a face below the
+//! size of a part, stays as it is drawn.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+use super::chains::{End, other, place};
+use super::line::SMALL_OUTLINE;
+use super::pens::Use;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::{Extent, Point, polyline, ring};
+use crate::ir::drawing::{Drawing, PenStroke, Redrawn, Vertex};
+use crate::units::number::{counted, fixed};
+
+/// Ends at one place that are looked at: more are the middle of a star.
+const MOST_ENDS: usize = 64;
+/// Ends at one X that are compared with another: more are a hatching.
+const MOST_BESIDE: usize = 4096;
+/// Stretch of a stroke that its direction at an end is taken from, mm.
+const STRETCH: f64 = 1.0;
+/// Least angle between two strokes that leave a place, rad: nearer ones are in no order.
+const LEAST_ANGLE: f64 = 1e-3;
+/// Digits of the length that a message tells.
+const DECIMALS: u32 = 1;
+
+/// Edges that are drawn once and bound two faces.
+#[derive(Debug, Default)]
+pub(super) struct Faces {
+    /// Each such edge, as it is drawn.
+    pub(super) edges: Vec<Vec<Vertex>>,
+    /// Lines that were moved to the places where they meet others.
+    pub(super) redrawn: Vec<Redrawn>,
+    /// Faces that have such an edge.
+    pub(super) faces: usize,
+    /// Faces among them without any edge of their own: waste between parts looks the same.
+    pub(super) enclosed: usize,
+}
+
+impl Faces {
+    /// Says how many edges are drawn once for two parts.
+    pub(super) fn say(&self, out: &mut Diagnostics) {
+        let length = |edge: &[Vertex]| edge.windows(2).map(|ends| (ends[1].at - ends[0].at).norm()).sum::<f64>();
+        let lengths = self.edges.iter().map(|edge| (length(edge), edge[edge.len() - 1].span));
+        let Some((longest, span)) = lengths.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+        let (edges, faces) = (counted(self.edges.len(), "edge"), counted(self.faces, "part"));
+        let message = format!("{edges} drawn once for two parts, up to {} mm: {faces}", fixed(longest, DECIMALS));
+        let finding = Diagnostic::new(&code::DRAWING_FACES, message).at(span);
+        out.push(match self.enclosed {
+            0 => finding,
+            enclosed => {
+                let have = if enclosed == 1 { "has" } else { "have" };
+                let hint =
+                    format!("{enclosed} of these {have} no edge alone, as waste between parts: `--skip` leaves out");
+                finding.hint(hint)
+            }
+        });
+    }
+}
+
+/// Puts strokes in the order of the faces that they bound.
+pub(super) fn split(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Faces {
+    let used = |k: usize| uses.get(usize::from(drawing.strokes[k].pen)).copied().unwrap_or(Use::Ignore);
+    let is_layer = |k: usize| drawing.pens.get(usize::from(drawing.strokes[k].pen)).is_some_and(|pen| pen.is_layer);
+    let may_cut = |k: &usize| used(*k).is_knife() || used(*k) == Use::Unsaid && is_layer(*k);
+    let is_open = |k: &usize| (place(drawing, 2 * k) - place(drawing, 2 * k + 1)).amax() > reach;
+    let strokes: Vec<usize> = (0..drawing.strokes.len()).filter(may_cut).filter(is_open).collect();
+    let graph = Graph::new(drawing, &strokes, reach);
+    let mut found = Faces::default();
+    let mut in_order: BTreeMap<usize, Vec<PenStroke>> = BTreeMap::new();
+    let mut taken: BTreeSet<usize> = BTreeSet::new();
+    let mut places: Vec<Vertex> = Vec::new();
+    for component in graph.components() {
+        let Some(faces) = graph.faces(&component) else { continue };
+        let mut sides: BTreeMap<usize, usize> = BTreeMap::new();
+        faces.iter().flatten().for_each(|end| *sides.entry(end / 2).or_default() += 1);
+        let is_shared = |end: &End| sides[&(end / 2)] > 1;
+        let once: Vec<usize> = sides
+            .iter()
+            .filter(|(stroke, count)| **count > 1 && !graph.twins.contains_key(stroke))
+            .map(|(k, _)| *k)
+            .collect();
+        let is_sure = once.is_empty() || used(component[0]).is_knife();
+        if !is_sure || !faces.iter().flatten().any(is_shared) {
+            continue;
+        }
+        found.edges.extend(once.iter().map(|&stroke| graph.vertices(stroke).to_vec()));
+        found.faces += faces.iter().filter(|face| face.iter().any(is_shared)).count();
+        found.enclosed += faces.iter().filter(|face| face.iter().all(is_shared)).count();
+        let mut laid: Vec<PenStroke> = Vec::new();
+        for &end in faces.iter().flatten() {
+            let twin = graph.twins.get(&(end / 2)).filter(|_| taken.contains(&(end / 2)));
+            let stroke = twin.copied().unwrap_or(end / 2);
+            taken.insert(stroke);
+            let from = if graph.node[&(2 * stroke)] == graph.node[&end] { 2 * stroke } else { 2 * stroke + 1 };
+            let first = (drawing.vertices.len() + places.len()) as u32;
+            let mut along = directed(graph.vertices(stroke), from);
+            found.redrawn.extend(graph.meet(&mut along, [end, other(end)]));
+            places.append(&mut along);
+            let end = (drawing.vertices.len() + places.len()) as u32;
+            laid.push(PenStroke { first, end, pen: drawing.strokes[stroke].pen });
+        }
+        in_order.insert(component[0], laid);
+    }
+    let lay = |k: usize| {
+        in_order.remove(&k).unwrap_or_default().into_iter().chain((!taken.contains(&k)).then_some(drawing.strokes[k]))
+    };
+    let strokes: Vec<PenStroke> = (0..drawing.strokes.len()).flat_map(lay).collect();
+    drawing.strokes = strokes;
+    drawing.vertices.extend(places);
+    found
+}
+
+/// The places of a stroke from one of its ends on; each line keeps what drew it.
+fn directed(vertices: &[Vertex], from: End) -> Vec<Vertex> {
+    if from.is_multiple_of(2) {
+        return vertices.to_vec();
+    }
+    let last = vertices.len() - 1;
+    (0..=last).rev().map(|k| Vertex { at: vertices[k].at, span: vertices[(k + 1).min(last)].span }).collect()
+}
+
+/// Strokes between the places where their ends meet, those that lead nowhere left out.
+struct Graph<'a> {
+    drawing: &'a Drawing,
+    /// The place of each end.
+    node: BTreeMap<End, usize>,
+    /// The ends at each place, those of twins left out.
+    nodes: BTreeMap<usize, Vec<End>>,
+    /// Strokes that lie on others, by these.
+    twins: BTreeMap<usize, usize>,
+}
+
+impl<'a> Graph<'a> {
+    fn new(drawing: &'a Drawing, strokes: &[usize], reach: f64) -> Self {
+        let node = meeting(drawing, strokes, reach);
+        let mut graph = Self { drawing, node, nodes: BTreeMap::new(), twins: BTreeMap::new() };
+        let mut between: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+        for &stroke in strokes {
+            let mut places = graph.places(stroke);
+            places.sort_unstable();
+            let known = between.entry(places).or_default();
+            let is_free =
+                |other: &&usize| !graph.twins.contains_key(*other) && graph.are_twins([**other, stroke], reach);
+            if let Some(&other) = known.iter().find(is_free) {
+                graph.twins.insert(other, stroke);
+                continue;
+            }
+            known.push(stroke);
+            for (end, place) in [2 * stroke, 2 * stroke + 1].into_iter().zip(graph.places(stroke)) {
+                graph.nodes.entry(place).or_default().push(end);
+            }
+        }
+        graph.leave_out_dead_ends();
+        graph
+    }
+
+    fn leave_out_dead_ends(&mut self) {
+        let mut queue: Vec<usize> = self.nodes.keys().copied().collect();
+        while let Some(place) = queue.pop() {
+            let Some(&[end]) = self.nodes.get(&place).map(Vec::as_slice) else { continue };
+            for place in self.places(end / 2) {
+                self.nodes.entry(place).or_default().retain(|known| known / 2 != end / 2);
+                queue.push(place);
+            }
+        }
+        self.nodes.retain(|_, ends| !ends.is_empty());
+    }
+
+    /// The places of both ends of a stroke.
+    fn places(&self, stroke: usize) -> [usize; 2] {
+        [2 * stroke, 2 * stroke + 1].map(|end| self.node[&end])
+    }
+
+    fn vertices(&self, stroke: usize) -> &'a [Vertex] {
+        &self.drawing.vertices[self.drawing.strokes[stroke].range()]
+    }
+
+    /// Whether two strokes between the same places are drawn along each other.
+    fn are_twins(&self, [one, other]: [usize; 2], reach: f64) -> bool {
+        let [one, other] = [one, other].map(|stroke| self.points(&[2 * stroke]));
+        let is_along = |at: &Point| polyline::distance(*at, &other) <= reach;
+        (polyline::length(&one) - polyline::length(&other)).abs() <= reach && one.iter().all(is_along)
+    }
+
+    /// Moves the first and the last place of a stroke to where others meet it; the lines that were moved.
+    fn meet(&self, along: &mut [Vertex], ends: [End; 2]) -> Vec<Redrawn> {
+        let last = along.len() - 1;
+        let before: Vec<Point> = along.iter().map(|vertex| vertex.at).collect();
+        let [first, end] = ends.map(|end| place(self.drawing, self.node[&end]));
+        (along[0].at, along[last].at) = (first, end);
+        let moved = |&k: &usize| along[k].at != before[k] || along[k + 1].at != before[k + 1];
+        let redrawn = |k: usize| Redrawn { drawn: before[k..k + 2].to_vec(), now: [along[k].at, along[k + 1].at] };
+        let mut lines = vec![0, last - 1];
+        lines.dedup();
+        lines.into_iter().filter(moved).map(redrawn).collect()
+    }
+
+    /// Strokes that hang together, the first one first.
+    fn components(&self) -> Vec<Vec<usize>> {
+        let mut components = Vec::new();
+        let mut seen: BTreeSet<usize> = BTreeSet::new();
+        for first in self.nodes.values().flatten().map(|end| end / 2) {
+            let (mut component, mut queue) = (Vec::new(), vec![first]);
+            while let Some(stroke) = queue.pop() {
+                if seen.insert(stroke) {
+                    component.push(stroke);
+                    queue.extend(self.places(stroke).iter().flat_map(|place| &self.nodes[place]).map(|end| end / 2));
+                }
+            }
+            component.sort_unstable();
+            components.extend((!component.is_empty()).then_some(component));
+        }
+        components
+    }
+
+    /// The faces of a plane graph but the one around it: each as the ends at which its strokes begin, counter-clockwise, in the
+    /// order of their first strokes; `None` for one that is not plane, has strokes with one face on both sides, or small faces.
+    fn faces(&self, component: &[usize]) -> Option<Vec<Vec<End>>> {
+        let places: BTreeSet<usize> = component.iter().flat_map(|&stroke| self.places(stroke)).collect();
+        if places.iter().all(|place| self.nodes[place].len() < 3) {
+            return None; // a ring
+        }
+        // Of each end the one that is next to it clockwise.
+        let mut next: BTreeMap<End, End> = BTreeMap::new();
+        for &place in &places {
+            let around = self.around(place)?;
+            let clockwise = around.iter().cycle().skip(around.len() - 1);
+            next.extend(around.iter().copied().zip(clockwise.copied()));
+        }
+        let mut faces: Vec<Vec<End>> = Vec::new();
+        let mut face_of: BTreeMap<End, usize> = BTreeMap::new();
+        for start in component.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]) {
+            if face_of.contains_key(&start) {
+                continue;
+            }
+            let on = |at: &End| Some(next[&other(*at)]).filter(|&at| at != start);
+            let face: Vec<End> = std::iter::successors(Some(start), on).collect();
+            face_of.extend(face.iter().map(|&end| (end, faces.len())));
+            faces.push(face);
+        }
+        let has_two_sides = component.iter().all(|stroke| face_of[&(2 * stroke)] != face_of[&(2 * stroke + 1)]);
+        // Euler's formula for a graph that hangs together.
+        let is_plane = places.len() + faces.len() == component.len() + 2;
+        let (inner, around): (Vec<_>, Vec<_>) =
+            faces.into_iter().partition(|face| ring::area(&self.points(face)) > 0.0);
+        let is_part = |face: &Vec<End>| {
+            let (width, height) = Extent::of(&self.points(face)).size();
+            let places: BTreeSet<usize> = face.iter().map(|end| self.node[end]).collect();
+            width.max(height) > SMALL_OUTLINE && places.len() == face.len()
+        };
+        (has_two_sides && is_plane && around.len() == 1 && inner.iter().all(is_part)).then_some(inner)
+    }
+
+    /// The ends at a place, counter-clockwise by the directions in which their strokes leave it.
+    fn around(&self, place: usize) -> Option<Vec<End>> {
+        let ends = &self.nodes[&place];
+        if ends.len() > MOST_ENDS {
+            return None;
+        }
+        let mut around: Vec<(f64, End)> = ends.iter().map(|&end| (self.heading(end), end)).collect();
+        around.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let is_apart = around.windows(2).all(|pair| pair[1].0 - pair[0].0 >= LEAST_ANGLE);
+        let turn = TAU - (around[around.len() - 1].0 - around[0].0);
+        (is_apart && turn >= LEAST_ANGLE).then(|| around.into_iter().map(|(_, end)| end).collect())
+    }
+
+    /// The direction in which a stroke leaves the place of an end, rad.
+    fn heading(&self, end: End) -> f64 {
+        let points = self.points(&[end]);
+        let stations = polyline::stations(&points);
+        let way = polyline::place(&points, &stations, STRETCH) - points[0];
+        way.y.atan2(way.x)
+    }
+
+    /// Places of some strokes behind each other.
+    fn points(&self, ends: &[End]) -> Vec<Point> {
+        let vertices = |&end: &End| directed(self.vertices(end / 2), end);
+        ends.iter().flat_map(vertices).map(|vertex| vertex.at).collect()
+    }
+}
+
+/// The place of both ends of each stroke: ends of one pen within reach of each other, in the order of X, are at one place.
+fn meeting(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, usize> {
+    let key = |end: End| (drawing.strokes[end / 2].pen, place(drawing, end));
+    let mut ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
+    ends.sort_by(|&a, &b| {
+        let ((pen, at), (other_pen, other)) = (key(a), key(b));
+        pen.cmp(&other_pen).then(at.x.total_cmp(&other.x)).then(a.cmp(&b))
+    });
+    let mut node: BTreeMap<End, usize> = BTreeMap::new();
+    for (k, &end) in ends.iter().enumerate() {
+        let (pen, at) = key(end);
+        let is_beside = |known: &&End| key(**known).0 == pen && at.x - key(**known).1.x <= reach;
+        let before = ends[..k].iter().rev().take_while(is_beside).take(MOST_BESIDE);
+        let near = before.copied().find(|&known| (key(known).1 - at).amax() <= reach);
+        node.insert(end, near.map_or(end, |known| node[&known]));
+    }
+    node
+}
