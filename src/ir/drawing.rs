@@ -265,6 +265,8 @@ pub struct Moved {
     pub closed: Vec<Vec<Point>>,
     /// Lines that are drawn once and bound two parts: each is there twice.
     pub shared: Vec<Vec<Vertex>>,
+    /// Places that lines got where others end on them or cross them.
+    pub parted: usize,
 }
 
 /// A line that was drawn a little otherwise than it is now.

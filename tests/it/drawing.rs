@@ -322,6 +322,42 @@ fn cells_whose_edges_are_drawn_once_are_parts() {
     }
 }
 
+#[test]
+fn lines_that_end_on_others_or_cross_them_bound_parts_with_them() {
+    let job = Job::default();
+    let line =
+        |[from, to]: [[f64; 2]; 2]| entity("LINE", "CUT", &[(10, from[0]), (20, from[1]), (11, to[0]), (21, to[1])]);
+    for seed in 0..DRAWINGS {
+        let mut rng = Rng::with_seed(seed);
+        let (rows, columns) = (rng.usize(1..5), rng.usize(2..6));
+        let (width, height) = (170.0 * columns as f64, 110.0 * rows as f64);
+        let across = (0..=rows).map(|k| 110.0 * k as f64).map(|y| [[0.0, y], [width, y]]);
+        let mut lines: Vec<[[f64; 2]; 2]> = across.collect();
+        if seed % 2 == 0 {
+            // Lines over all of it, which cross.
+            lines.extend((0..=columns).map(|i| 170.0 * i as f64).map(|x| [[x, 0.0], [x + 20.0 * rng.f64(), height]]));
+            lines[rows + 1][1][0] = 0.0;
+            lines.last_mut().expect("lines").iter_mut().for_each(|end| end[0] = width);
+        } else {
+            // Bricks: each row is parted elsewhere, by lines that miss it by what a file rounds.
+            lines.extend([0.0, width].map(|x| [[x, 0.0], [x, height]]));
+            for (row, i) in (0..rows).flat_map(|row| (1..columns).map(move |i| (row, i))) {
+                let (x, y) = (170.0 * i as f64 + 60.0 * (rng.f64() - 0.5), 110.0 * row as f64);
+                let [below, above] = [y, y + 110.0].map(|y| y + 0.04 * (rng.f64() - 0.5));
+                lines.push([[x, below], [x + 10.0 * rng.f64(), above]]);
+            }
+        }
+        rng.shuffle(&mut lines);
+        let source = named(&file(&lines.iter().copied().map(line).collect::<String>(), ""));
+        let (marker, found) = as_read(&source, &job);
+        assert_eq!(marker.pieces.len(), columns * rows, "{seed}: {:?}", codes(&found));
+        let expected = width * height;
+        assert!((area(&marker) - expected).abs() <= 1e-3 * expected, "{seed}: {} of {expected}", area(&marker));
+        let broken = broken(&source, &marker, &job);
+        assert!(broken.is_empty(), "{seed}: {broken:#?}");
+    }
+}
+
 /// A cut file's marker drawn as plain DXF: outlines as polylines on one layer, slits as lines on it.
 fn drawn(marker: &Marker) -> String {
     let mut entities = String::new();

@@ -82,7 +82,7 @@ impl Census {
             }
             self.points += points_of(vertices);
         }
-        self.points += aside.moved.points;
+        self.points = (self.points + aside.moved.points).saturating_sub(aside.moved.parted);
         // Nobody drew the lines that close outlines.
         for places in &aside.moved.closed {
             let moments = Moments::of(places.iter().copied());
