@@ -63,8 +63,7 @@ fn turning(points: &[Point]) -> usize {
     let mut so_far = Vector::zeros();
     for (i, (from, to)) in points.iter().zip(&points[1..]).enumerate() {
         let way = to - from;
-        // Both are looked at in one step.
-        if (way.x * so_far.x < 0.0) | (way.y * so_far.y < 0.0) {
+        if way.x * so_far.x < 0.0 || way.y * so_far.y < 0.0 {
             return i;
         }
         // Only the signs count; a sum of numbers of one sign has it.

@@ -40,7 +40,7 @@ pub(super) struct Faces {
     /// Places where strokes were parted.
     pub(super) parted: usize,
     /// Faces that have such an edge.
-    pub(super) faces: usize,
+    pub(super) count: usize,
     /// Faces among them without any edge of their own: waste between parts looks the same.
     pub(super) enclosed: usize,
 }
@@ -51,7 +51,7 @@ impl Faces {
         let length = |edge: &[Vertex]| edge.windows(2).map(|ends| (ends[1].at - ends[0].at).norm()).sum::<f64>();
         let lengths = self.edges.iter().map(|edge| (length(edge), edge[edge.len() - 1].span));
         let Some((longest, span)) = lengths.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-        let (edges, faces) = (counted(self.edges.len(), "edge"), counted(self.faces, "part"));
+        let (edges, faces) = (counted(self.edges.len(), "edge"), counted(self.count, "part"));
         let message = format!("{edges} drawn once for two parts, up to {} mm: {faces}", fixed(longest, DECIMALS));
         let finding = Diagnostic::new(&code::DRAWING_FACES, message).at(span);
         out.push(match self.enclosed {
@@ -92,7 +92,7 @@ pub(super) fn split(drawing: &mut Drawing, uses: &[Use], reach: f64, work: &mut 
         }
         let is_shared = |end: &End| shared.binary_search(&(end / 2)).is_ok();
         laying.found.edges.extend(once.iter().map(|&edge| graph.edges[edge].vertices.clone()));
-        laying.found.faces += faces.iter().filter(|face| face.iter().any(is_shared)).count();
+        laying.found.count += faces.iter().filter(|face| face.iter().any(is_shared)).count();
         laying.found.enclosed += faces.iter().filter(|face| face.iter().all(is_shared)).count();
         faces.iter().flatten().for_each(|&end| laying.lay(&graph, end, graph.edges[component[0]].stroke));
     }

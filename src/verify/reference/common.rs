@@ -108,7 +108,9 @@ impl Common {
             *about = Extent::between(joint.at, joint.at).grown(reach);
             let near = boxes.near(*about).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= reach);
             let of_leads: Vec<Extent> = near.map(|lead| boxes.all()[lead]).collect();
-            of_leads.iter().for_each(|extent| about.join(extent));
+            for extent in &of_leads {
+                about.join(extent);
+            }
         }
         common
     }

@@ -302,7 +302,7 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
             }
             b"ENDSEC" => section.clear(),
             b"LAYER" if section == b"TABLES" => {
-                hidden.extend(item.frozen().map(|frozen| (item.text(2).to_vec(), frozen)))
+                hidden.extend(item.frozen().map(|frozen| (item.text(2).to_vec(), frozen)));
             }
             b"BLOCK" => {
                 is_in_block = true;
