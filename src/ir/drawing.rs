@@ -263,10 +263,6 @@ pub struct Moved {
     pub redrawn: Vec<Redrawn>,
     /// Lines that nobody drew: each closes an outline that is cut, from its last place to its first.
     pub closed: Vec<Vec<Point>>,
-    /// Lines that are drawn once and bound two parts: each is there twice.
-    pub shared: Vec<Vec<Vertex>>,
-    /// Places that lines got where others end on them or cross them.
-    pub parted: usize,
 }
 
 /// A line that was drawn a little otherwise than it is now.

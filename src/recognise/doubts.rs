@@ -236,7 +236,7 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
         code: &code::DRAWING_SHARED_EDGE,
         does: ["one line between strokes", "lines between strokes"],
         hints: &[
-            "if two parts share it, name its pen or layer as a knife: `--cut-pens`, `--layers`",
+            "if two parts share it, let the CAD draw each as one closed line, or cut it: `--cut-all`",
             "if it is a line in one part, `--inner ignore` says so",
         ],
     },

@@ -1,23 +1,17 @@
-//! Faces of the graph that cutting lines make: parts with an edge in common that is drawn once for both of them.
+//! Faces of the graph that loose lines of a drawing with layers make: parts whose common edges are drawn twice, once for each.
 //!
-//! Every line of a knife is cut, so each face that such lines enclose comes free: it is a part. Of other lines that is said
-//! where each edge of two faces is drawn twice. Strokes are put in the order of the faces that they bound, an edge of two faces
-//! once for each, so that [`succession`](super::succession) finds the rings. A graph that is not plane, or has a face below the
-//! size of a part, stays as it is drawn.
+//! In the order of the file such lines tell the parts apart ([`succession`](super::succession)). In any other order their strokes
+//! are put in the order of the faces that they bound, so that the rings are found. A graph that is not plane, has an edge of two
+//! faces that is drawn once, or a face below the size of a part, stays as it is drawn.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 use super::chains::{End, other, place};
 use super::line::SMALL_OUTLINE;
-use super::noding::{Edge, edges};
 use super::pens::Use;
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::{Drawing, PenStroke, Redrawn, Vertex};
-use crate::units::number::{counted, fixed};
 
 /// Ends at one place that are looked at: more are the middle of a star.
 const MOST_ENDS: usize = 64;
@@ -27,133 +21,54 @@ const MOST_BESIDE: usize = 4096;
 const STRETCH: f64 = 1.0;
 /// Least angle between two strokes that leave a place, rad: nearer ones are in no order.
 const LEAST_ANGLE: f64 = 1e-3;
-/// Digits of the length that a message tells.
-const DECIMALS: u32 = 1;
 
-/// Edges that are drawn once and bound two faces.
-#[derive(Debug, Default)]
-pub(super) struct Faces {
-    /// Each such edge, as it is drawn.
-    pub(super) edges: Vec<Vec<Vertex>>,
-    /// Lines that were moved to the places where they meet others.
-    pub(super) redrawn: Vec<Redrawn>,
-    /// Places where strokes were parted.
-    pub(super) parted: usize,
-    /// Faces that have such an edge.
-    pub(super) count: usize,
-    /// Faces among them without any edge of their own: waste between parts looks the same.
-    pub(super) enclosed: usize,
-}
-
-impl Faces {
-    /// Says how many edges are drawn once for two parts.
-    pub(super) fn say(&self, out: &mut Diagnostics) {
-        let length = |edge: &[Vertex]| edge.windows(2).map(|ends| (ends[1].at - ends[0].at).norm()).sum::<f64>();
-        let lengths = self.edges.iter().map(|edge| (length(edge), edge[edge.len() - 1].span));
-        let Some((longest, span)) = lengths.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-        let (edges, faces) = (counted(self.edges.len(), "edge"), counted(self.count, "part"));
-        let message = format!("{edges} drawn once for two parts, up to {} mm: {faces}", fixed(longest, DECIMALS));
-        let finding = Diagnostic::new(&code::DRAWING_FACES, message).at(span);
-        out.push(match self.enclosed {
-            0 => finding,
-            enclosed => {
-                let have = if enclosed == 1 { "has" } else { "have" };
-                let hint =
-                    format!("{enclosed} of these {have} no edge alone, as waste between parts: `--skip` leaves out");
-                finding.hint(hint)
-            }
-        });
-    }
-}
-
-/// Puts strokes in the order of the faces that they bound.
-pub(super) fn split(drawing: &mut Drawing, uses: &[Use], reach: f64, work: &mut Budget) -> Faces {
-    let used = |pen: u16| uses.get(usize::from(pen)).copied().unwrap_or(Use::Ignore);
-    let is_layer = |pen: u16| drawing.pens.get(usize::from(pen)).is_some_and(|pen| pen.is_layer);
-    let may_cut = |pen: u16| used(pen).is_knife() || used(pen) == Use::Unsaid && is_layer(pen);
+/// Puts strokes in the order of the faces that they bound; the lines that were moved so that their ends meet.
+pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Vec<Redrawn> {
+    let is_asked = |k: &usize| {
+        let pen = usize::from(drawing.strokes[*k].pen);
+        drawing.pens.get(pen).is_some_and(|pen| pen.is_layer)
+            && !matches!(uses.get(pen), None | Some(Use::Ignore | Use::Drawn))
+    };
     let is_open = |k: &usize| (place(drawing, 2 * k) - place(drawing, 2 * k + 1)).amax() > reach;
-    let strokes = (0..drawing.strokes.len()).filter(|&k| may_cut(drawing.strokes[k].pen));
-    let graph = Graph::new(edges(drawing, &strokes.filter(is_open).collect::<Vec<_>>(), reach, work), reach);
-    let mut laying = Laying::default();
+    let strokes: Vec<usize> = (0..drawing.strokes.len()).filter(is_asked).filter(is_open).collect();
+    let graph = Graph::new(drawing, &strokes, reach);
+    if graph.twins.is_empty() {
+        return Vec::new(); // as in nearly all
+    }
+    let mut redrawn = Vec::new();
+    let mut in_order: BTreeMap<usize, Vec<PenStroke>> = BTreeMap::new();
+    let mut taken: BTreeSet<usize> = BTreeSet::new();
+    let mut places: Vec<Vertex> = Vec::new();
     for component in graph.components() {
-        let Some(faces) = graph.faces(&component) else { continue };
-        let mut sides = vec![0; component.len()];
-        let of = |end: &End| component.binary_search(&(end / 2)).expect("faces are of edges of their graph");
-        faces.iter().flatten().for_each(|end| sides[of(end)] += 1);
-        let is_twice = |edge: &usize| graph.twins.contains_key(edge);
-        let shared: Vec<usize> =
-            component.iter().zip(&sides).filter(|(_, count)| **count > 1).map(|(&edge, _)| edge).collect();
-        let once: Vec<usize> = shared.iter().copied().filter(|edge| !is_twice(edge)).collect();
-        let is_sure = once.is_empty() || used(graph.edges[component[0]].pen).is_knife();
-        // An edge of one part that is drawn twice is a copy.
-        let is_again = component.iter().any(|edge| is_twice(edge) && !shared.contains(edge));
-        if shared.is_empty() || !is_sure || is_again {
+        if !component.iter().any(|stroke| graph.twins.contains_key(stroke)) {
             continue;
         }
-        let is_shared = |end: &End| shared.binary_search(&(end / 2)).is_ok();
-        laying.found.edges.extend(once.iter().map(|&edge| graph.edges[edge].vertices.clone()));
-        laying.found.count += faces.iter().filter(|face| face.iter().any(is_shared)).count();
-        laying.found.enclosed += faces.iter().filter(|face| face.iter().all(is_shared)).count();
-        faces.iter().flatten().for_each(|&end| laying.lay(&graph, end, graph.edges[component[0]].stroke));
-    }
-    laying.put_into(drawing, &graph.edges)
-}
-
-/// Strokes of faces as they are laid behind each other.
-#[derive(Debug, Default)]
-struct Laying {
-    found: Faces,
-    /// Strokes by the stroke of the drawing in whose place they stand; their places are among those below.
-    in_order: BTreeMap<usize, Vec<(Range<usize>, u16)>>,
-    places: Vec<Vertex>,
-    /// Edges that bound a face.
-    taken: BTreeSet<usize>,
-}
-
-impl Laying {
-    /// Lays an edge that begins at an end, or its twin where it lies already.
-    fn lay(&mut self, graph: &Graph, end: End, stroke: usize) {
-        let twin = graph.twins.get(&(end / 2)).filter(|_| self.taken.contains(&(end / 2)));
-        let edge = twin.copied().unwrap_or(end / 2);
-        self.taken.insert(edge);
-        let from = if graph.node[&(2 * edge)] == graph.node[&end] { 2 * edge } else { 2 * edge + 1 };
-        let mut along = directed(&graph.edges[edge].vertices, from);
-        self.found.redrawn.extend(graph.meet(&mut along, [end, other(end)]));
-        let first = self.places.len();
-        self.places.append(&mut along);
-        let laid = (first..self.places.len(), graph.edges[edge].pen);
-        self.in_order.entry(stroke).or_default().push(laid);
-    }
-
-    /// Puts all into a drawing: a stroke of which no edge bounds a face stays whole.
-    fn put_into(mut self, drawing: &mut Drawing, edges: &[Edge]) -> Faces {
-        if self.taken.is_empty() {
-            return self.found;
+        let Some(faces) = graph.faces(&component) else { continue };
+        let mut sides: BTreeMap<usize, usize> = BTreeMap::new();
+        faces.iter().flatten().for_each(|end| *sides.entry(end / 2).or_default() += 1);
+        if sides.iter().any(|(stroke, count)| (*count > 1) != graph.twins.contains_key(stroke)) {
+            continue;
         }
-        let mut of_stroke: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        edges.iter().enumerate().for_each(|(k, edge)| of_stroke.entry(edge.stroke).or_default().push(k));
-        let strokes = std::mem::take(&mut drawing.strokes);
-        let add = |drawing: &mut Drawing, vertices: &[Vertex], pen: u16| {
-            let first = drawing.vertices.len() as u32;
-            drawing.vertices.extend_from_slice(vertices);
-            drawing.strokes.push(PenStroke { first, end: drawing.vertices.len() as u32, pen });
-        };
-        for (k, stroke) in strokes.into_iter().enumerate() {
-            for (range, pen) in self.in_order.remove(&k).unwrap_or_default() {
-                add(drawing, &self.places[range], pen);
-            }
-            let of_stroke = of_stroke.get(&k).map_or(&[][..], Vec::as_slice);
-            if !of_stroke.iter().any(|edge| self.taken.contains(edge)) {
-                drawing.strokes.push(stroke);
-                continue;
-            }
-            self.found.parted += of_stroke.len() - 1;
-            for edge in of_stroke.iter().filter(|edge| !self.taken.contains(edge)) {
-                add(drawing, &edges[*edge].vertices, edges[*edge].pen);
-            }
+        for &end in faces.iter().flatten() {
+            let twin = graph.twins.get(&(end / 2)).filter(|_| taken.contains(&(end / 2)));
+            let stroke = twin.copied().unwrap_or(end / 2);
+            taken.insert(stroke);
+            let from = if graph.node[&(2 * stroke)] == graph.node[&end] { 2 * stroke } else { 2 * stroke + 1 };
+            let first = (drawing.vertices.len() + places.len()) as u32;
+            let mut along = directed(graph.vertices(stroke), from);
+            redrawn.extend(graph.meet(&mut along, [end, other(end)]));
+            places.append(&mut along);
+            let end = (drawing.vertices.len() + places.len()) as u32;
+            let laid = PenStroke { first, end, pen: drawing.strokes[stroke].pen };
+            in_order.entry(component[0]).or_default().push(laid);
         }
-        self.found
     }
+    let strokes = drawing.strokes.iter().enumerate().flat_map(|(k, &stroke)| {
+        in_order.remove(&k).unwrap_or_default().into_iter().chain((!taken.contains(&k)).then_some(stroke))
+    });
+    drawing.strokes = strokes.collect();
+    drawing.vertices.append(&mut places);
+    redrawn
 }
 
 /// The places of a stroke from one of its ends on; each line keeps what drew it.
@@ -166,22 +81,22 @@ fn directed(vertices: &[Vertex], from: End) -> Vec<Vertex> {
 }
 
 /// Strokes between the places where their ends meet, those that lead nowhere left out.
-struct Graph {
-    edges: Vec<Edge>,
+struct Graph<'a> {
+    drawing: &'a Drawing,
     /// The place of each end.
     node: BTreeMap<End, usize>,
     /// The ends at each place, those of twins left out.
     nodes: BTreeMap<usize, Vec<End>>,
-    /// Edges that lie on others, by these.
+    /// Strokes that lie on others, by these.
     twins: BTreeMap<usize, usize>,
 }
 
-impl Graph {
-    fn new(edges: Vec<Edge>, reach: f64) -> Self {
-        let node = meeting(&edges, reach);
-        let mut graph = Self { edges, node, nodes: BTreeMap::new(), twins: BTreeMap::new() };
+impl<'a> Graph<'a> {
+    fn new(drawing: &'a Drawing, strokes: &[usize], reach: f64) -> Self {
+        let node = meeting(drawing, strokes, reach);
+        let mut graph = Self { drawing, node, nodes: BTreeMap::new(), twins: BTreeMap::new() };
         let mut between: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
-        for stroke in 0..graph.edges.len() {
+        for &stroke in strokes {
             let mut places = graph.places(stroke);
             places.sort_unstable();
             let known = between.entry(places).or_default();
@@ -217,6 +132,10 @@ impl Graph {
         [2 * stroke, 2 * stroke + 1].map(|end| self.node[&end])
     }
 
+    fn vertices(&self, stroke: usize) -> &'a [Vertex] {
+        &self.drawing.vertices[self.drawing.strokes[stroke].range()]
+    }
+
     /// Whether two strokes between the same places are drawn along each other.
     fn are_twins(&self, [one, other]: [usize; 2], reach: f64) -> bool {
         let [one, other] = [one, other].map(|stroke| self.points(&[2 * stroke]));
@@ -228,7 +147,7 @@ impl Graph {
     fn meet(&self, along: &mut [Vertex], ends: [End; 2]) -> Vec<Redrawn> {
         let last = along.len() - 1;
         let before: Vec<Point> = along.iter().map(|vertex| vertex.at).collect();
-        let [first, end] = ends.map(|end| end_of(&self.edges, self.node[&end]));
+        let [first, end] = ends.map(|end| place(self.drawing, self.node[&end]));
         (along[0].at, along[last].at) = (first, end);
         let moved = |&k: &usize| along[k].at != before[k] || along[k + 1].at != before[k + 1];
         let redrawn = |k: usize| Redrawn { drawn: before[k..k + 2].to_vec(), now: [along[k].at, along[k + 1].at] };
@@ -316,21 +235,15 @@ impl Graph {
 
     /// Places of some strokes behind each other.
     fn points(&self, ends: &[End]) -> Vec<Point> {
-        let vertices = |&end: &End| directed(&self.edges[end / 2].vertices, end);
+        let vertices = |&end: &End| directed(self.vertices(end / 2), end);
         ends.iter().flat_map(vertices).map(|vertex| vertex.at).collect()
     }
 }
 
-/// The place of an end, as it is drawn.
-fn end_of(edges: &[Edge], end: End) -> Point {
-    let vertices = &edges[end / 2].vertices;
-    vertices[if end.is_multiple_of(2) { 0 } else { vertices.len() - 1 }].at
-}
-
-/// The place of both ends of each edge: ends of one pen within reach of each other, in the order of X, are at one place.
-fn meeting(edges: &[Edge], reach: f64) -> BTreeMap<End, usize> {
-    let key = |end: End| (edges[end / 2].pen, end_of(edges, end));
-    let mut ends: Vec<End> = (0..2 * edges.len()).collect();
+/// The place of both ends of each stroke: ends of one pen within reach of each other, in the order of X, are at one place.
+fn meeting(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, usize> {
+    let key = |end: End| (drawing.strokes[end / 2].pen, place(drawing, end));
+    let mut ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
     ends.sort_by(|&a, &b| {
         let ((pen, at), (other_pen, other)) = (key(a), key(b));
         pen.cmp(&other_pen).then(at.x.total_cmp(&other.x)).then(a.cmp(&b))

@@ -6,7 +6,7 @@
 //! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
 //! Never knows the dialect.
 //!
-//! `faces` puts strokes, parted by `noding` where others meet them, in the order of the parts that they bound, `again` puts those aside that are drawn twice, `join` makes lines (`chains`) of the others, by their `succession` where
+//! `faces` puts loose lines in the order of the parts that they bound, `again` puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, by their `succession` where
 //! parts touch, over the gaps that `bridge` finds and without the slits that `slits` finds, `close` closes them, `twins` puts
 //! those aside that lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what
 //! lies in what, `remains` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses
@@ -26,7 +26,6 @@ mod letters;
 mod line;
 mod marks;
 mod nest;
-mod noding;
 mod pens;
 mod piece;
 mod remains;
@@ -58,13 +57,10 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     let uses = pens::uses(&drawing.pens, job);
     let shared = shared::edges(&drawing, &uses);
     let reach = join::reach(drawing.unit);
+    let redrawn = faces::put_in_order(&mut drawing, &uses, reach);
     let mut work = Budget::of_a_marker();
-    let faces = faces::split(&mut drawing, &uses, reach, &mut work);
     let (mut lines, mut moved) = join::join(&mut drawing, job, &mut work);
-    faces.say(diagnostics);
-    moved.shared = faces.edges;
-    moved.redrawn.extend(faces.redrawn);
-    moved.parted = faces.parted;
+    moved.redrawn.extend(redrawn);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     twins::mark(&mut lines, &drawing.vertices, sheet::band(drawing.unit), &mut work);
     let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;

@@ -259,9 +259,7 @@ fn pen_down(sheet: &Sheet) -> f64 {
     let lines = sheet.lines.iter().fold(0.0, |sum, line| sum + line.length);
     let longer = |Redrawn { drawn, now: [from, to] }: &Redrawn| polyline::length(drawn) - (to - from).norm();
     let bridges: f64 = sheet.moved.closed.iter().map(|bridge| polyline::length(bridge)).sum();
-    let along = |vertices: &Vec<Vertex>| vertices.windows(2).map(|ends| (ends[1].at - ends[0].at).norm()).sum::<f64>();
-    let twice: f64 = sheet.moved.shared.iter().map(along).sum();
-    sheet.moved.redrawn.iter().map(longer).fold(lines, |sum, longer| sum + longer) - bridges - twice
+    sheet.moved.redrawn.iter().map(longer).fold(lines, |sum, longer| sum + longer) - bridges
 }
 
 /// How many lines were taken for what.

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use cutc::diagnostic::Diagnostics;
 use cutc::front::by_name;
 use cutc::geom::{Point, ring};
-use cutc::ir::drawing::{Aside, Vertex};
+use cutc::ir::drawing::Aside;
 use cutc::ir::list::SegmentList;
 use cutc::ir::marker::Notch;
 use cutc::ir::{Finding, Marker};
@@ -258,103 +258,6 @@ fn parts_of_loose_lines_that_touch_are_cut_in_any_order() {
             }
         }
         assert_eq!(read(&lines), (2, Vec::new()), "{lines:?}");
-    }
-}
-
-/// Cells beside each other, whose corners are moved at random: every edge once, some as arcs, in any order and direction, with
-/// the area of all cells.
-fn cells(rng: &mut Rng, [columns, rows]: [usize; 2]) -> (String, f64) {
-    let mut corner = |i: usize, k: usize| {
-        let [x, y] = [rng.f64(), rng.f64()].map(|share| 30.0 * (share - 0.5));
-        [150.0 * i as f64 + x, 130.0 * k as f64 + y]
-    };
-    let corners: Vec<Vec<[f64; 2]>> = (0..=columns).map(|i| (0..=rows).map(|k| corner(i, k)).collect()).collect();
-    let mut edges = Vec::new();
-    for i in 0..=columns {
-        for k in 0..=rows {
-            edges.extend((i < columns).then(|| ([corners[i][k], corners[i + 1][k]], k == 0 || k == rows)));
-            edges.extend((k < rows).then(|| ([corners[i][k], corners[i][k + 1]], i == 0 || i == columns)));
-        }
-    }
-    rng.shuffle(&mut edges);
-    let mut line = |([mut from, mut to], is_outer): ([[f64; 2]; 2], bool)| {
-        if rng.bool() {
-            (from, to) = (to, from);
-        }
-        let bulge = if is_outer { 0.0 } else { 0.3 * (rng.f64() - 0.5) };
-        let places = [(90, 2.0), (70, 0.0), (10, from[0]), (20, from[1]), (42, bulge), (10, to[0]), (20, to[1])];
-        entity("LWPOLYLINE", "CUT", &places)
-    };
-    let entities = edges.into_iter().map(&mut line).collect();
-    let around: Vec<[f64; 2]> = (0..columns)
-        .map(|i| corners[i][0])
-        .chain((0..rows).map(|k| corners[columns][k]))
-        .chain((0..columns).map(|i| corners[columns - i][rows]))
-        .chain((0..rows).map(|k| corners[0][rows - k]))
-        .collect();
-    let around: Vec<Point> = around.iter().chain(around.first()).map(|&[x, y]| Point::new(x, y)).collect();
-    (entities, ring::area(&around).abs())
-}
-
-#[test]
-fn cells_whose_edges_are_drawn_once_are_parts() {
-    let job = Job::default();
-    for seed in 0..DRAWINGS {
-        let mut rng = Rng::with_seed(seed);
-        let [columns, rows] = [rng.usize(1..5), rng.usize(2..5)];
-        let (entities, expected) = cells(&mut rng, [columns, rows]);
-        let source = named(&file(&entities, ""));
-        let (marker, found) = as_read(&source, &job);
-        assert_eq!(marker.pieces.len(), columns * rows, "{seed}");
-        assert_eq!(codes(&found), ["drawing/layers", "drawing/faces"], "{seed}");
-        assert!((area(&marker) - expected).abs() <= 1e-6 * expected, "{seed}: {} of {expected}", area(&marker));
-        let broken = broken(&source, &marker, &job);
-        assert!(broken.is_empty(), "{seed}: {broken:#?}");
-        let wrong = |change: &dyn Fn(&mut Vec<Vec<Vertex>>)| {
-            let mut marker = marker.clone();
-            change(&mut marker.drawing.as_mut().expect("an account").aside.moved.shared);
-            self::broken(&source, &marker, &job).iter().map(|found| found.rule.name).collect::<Vec<_>>()
-        };
-        let forgotten = wrong(&|shared| _ = shared.pop());
-        assert!(forgotten.contains(&"source/length"), "{seed}: {forgotten:?}");
-        let elsewhere = wrong(&|shared| shared[0].iter_mut().for_each(|vertex| vertex.at.x += 3.0));
-        assert!(elsewhere.contains(&"source/outermost"), "{seed}: {elsewhere:?}");
-    }
-}
-
-#[test]
-fn lines_that_end_on_others_or_cross_them_bound_parts_with_them() {
-    let job = Job::default();
-    let line =
-        |[from, to]: [[f64; 2]; 2]| entity("LINE", "CUT", &[(10, from[0]), (20, from[1]), (11, to[0]), (21, to[1])]);
-    for seed in 0..DRAWINGS {
-        let mut rng = Rng::with_seed(seed);
-        let (rows, columns) = (rng.usize(1..5), rng.usize(2..6));
-        let (width, height) = (170.0 * columns as f64, 110.0 * rows as f64);
-        let across = (0..=rows).map(|k| 110.0 * k as f64).map(|y| [[0.0, y], [width, y]]);
-        let mut lines: Vec<[[f64; 2]; 2]> = across.collect();
-        if seed % 2 == 0 {
-            // Lines over all of it, which cross.
-            lines.extend((0..=columns).map(|i| 170.0 * i as f64).map(|x| [[x, 0.0], [x + 20.0 * rng.f64(), height]]));
-            lines[rows + 1][1][0] = 0.0;
-            lines.last_mut().expect("lines").iter_mut().for_each(|end| end[0] = width);
-        } else {
-            // Bricks: each row is parted elsewhere, by lines that miss it by what a file rounds.
-            lines.extend([0.0, width].map(|x| [[x, 0.0], [x, height]]));
-            for (row, i) in (0..rows).flat_map(|row| (1..columns).map(move |i| (row, i))) {
-                let (x, y) = (170.0 * i as f64 + 60.0 * (rng.f64() - 0.5), 110.0 * row as f64);
-                let [below, above] = [y, y + 110.0].map(|y| y + 0.04 * (rng.f64() - 0.5));
-                lines.push([[x, below], [x + 10.0 * rng.f64(), above]]);
-            }
-        }
-        rng.shuffle(&mut lines);
-        let source = named(&file(&lines.iter().copied().map(line).collect::<String>(), ""));
-        let (marker, found) = as_read(&source, &job);
-        assert_eq!(marker.pieces.len(), columns * rows, "{seed}: {:?}", codes(&found));
-        let expected = width * height;
-        assert!((area(&marker) - expected).abs() <= 1e-3 * expected, "{seed}: {} of {expected}", area(&marker));
-        let broken = broken(&source, &marker, &job);
-        assert!(broken.is_empty(), "{seed}: {broken:#?}");
     }
 }
 

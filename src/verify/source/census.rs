@@ -3,7 +3,7 @@
 use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
-use crate::ir::drawing::{Account, Redrawn, Vertex};
+use crate::ir::drawing::{Account, Redrawn};
 use crate::ir::marker::Notch;
 
 /// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
@@ -74,27 +74,22 @@ impl Census {
     /// Adds what a plot draws beyond what is cut: its marker keeps all of it.
     fn add_aside(&mut self, Account { aside, .. }: &Account) {
         for (_, vertices) in aside.each() {
+            let mut span = None;
             let moments = Moments::of(vertices.iter().map(|vertex| vertex.at));
             self.length += moments.length();
             self.moments += moments;
             for vertex in vertices {
                 self.bounds.add(vertex.at);
             }
-            self.points += points_of(vertices);
+            self.points +=
+                vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
         }
-        self.points = (self.points + aside.moved.points).saturating_sub(aside.moved.parted);
+        self.points += aside.moved.points;
         // Nobody drew the lines that close outlines.
         for places in &aside.moved.closed {
             let moments = Moments::of(places.iter().copied());
             self.length -= moments.length();
             self.moments -= moments;
-        }
-        // Nor the edges of a second part that are drawn once for both.
-        for vertices in &aside.moved.shared {
-            let moments = Moments::of(vertices.iter().map(|vertex| vertex.at));
-            self.length -= moments.length();
-            self.moments -= moments;
-            self.points -= points_of(vertices);
         }
         // What was drawn elsewhere is another line, whatever the account says.
         for Redrawn { drawn, now: [from, to] } in aside.moved.redrawn.iter().filter(|line| is_redrawn_nearby(line)) {
@@ -107,12 +102,6 @@ impl Census {
             }
         }
     }
-}
-
-/// Points of the file behind the first place of a line: the chords of an arc come from one.
-fn points_of(vertices: &[Vertex]) -> usize {
-    let mut span = None;
-    vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count()
 }
 
 /// Whether every place of a line as it was drawn lies near to what it is now, and its ends near to the ends.

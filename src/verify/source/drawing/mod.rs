@@ -3,14 +3,13 @@
 //! The census knows nothing of what is cut: a marker of a drawing keeps account of what it leaves aside, and both together
 //! must be what is drawn. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges by the same
 //! strokes whether the right lines are cut: `around` whether others go around these, `cloth` whether the edge of the cloth is
-//! cut, whose rectangles `rectangle` finds, `shared` whether edges of two parts are drawn, `slits` whether slits are lost.
+//! cut, whose rectangles `rectangle` finds, `slits` whether slits are lost.
 
 mod around;
 mod cloth;
 pub(super) mod drawn;
 mod outermost;
 mod rectangle;
-mod shared;
 mod slits;
 
 use self::drawn::Drawn;

@@ -7,7 +7,7 @@
 use std::cell::{OnceCell, RefCell};
 
 use super::drawn::Drawn;
-use super::{around, cloth, rectangle, shared, slits};
+use super::{around, cloth, rectangle, slits};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -63,8 +63,6 @@ pub struct DrawingCuts {
     legs: Vec<[Point; 2]>,
     /// Lines that close an outline and that nobody drew.
     closed: Vec<Vec<Point>>,
-    /// Edges that bound two parts and are drawn once.
-    shared: Vec<Vec<Point>>,
 }
 
 impl DrawingCuts {
@@ -73,11 +71,8 @@ impl DrawingCuts {
         let contours = marker.contours().map(|(_, contour)| marker.points(contour)).collect();
         let notches = marker.pieces.iter().flat_map(|piece| &piece.notches);
         let legs = notches.flat_map(Notch::strokes).map(|stroke| [stroke.from, stroke.to]).collect();
-        let moved = || marker.drawing.iter().map(|account| &account.aside.moved);
-        let closed = moved().flat_map(|moved| moved.closed.iter().cloned()).collect();
-        let edges = moved().flat_map(|moved| &moved.shared);
-        let shared = edges.map(|edge| edge.iter().map(|vertex| vertex.at).collect()).collect();
-        Self { contours, legs, closed, shared }
+        let closed = marker.drawing.iter().flat_map(|account| account.aside.moved.closed.iter().cloned()).collect();
+        Self { contours, legs, closed }
     }
 }
 
@@ -92,7 +87,6 @@ pub fn drawing_audit(dialect: &str, bytes: &[u8], read: &DrawingCuts, job: &Job)
     let Drawn { strokes: drawn, unit, .. } = drawn;
     let judging = Judging::new(&drawn, unit, read, job);
     let mut wrong = judging.made_up();
-    wrong.extend(shared::wrong(&read.shared, &drawn, &read.contours, judging.reach()));
     let mut lost = Vec::new();
     if !is_said {
         wrong.extend(judging.in_uncut_outlines());
