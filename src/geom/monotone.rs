@@ -34,7 +34,7 @@ impl Chain {
         (self.last - self.first) as usize
     }
 
-    /// The same where so many points stand before those of the polyline.
+    /// The chain, where `by` points stand before those of its polyline.
     #[must_use]
     pub fn moved(self, by: u32) -> Self {
         Self { first: self.first + by, last: self.last + by }

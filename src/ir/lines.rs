@@ -7,41 +7,41 @@ use std::borrow::Cow;
 use crate::geom::monotone::{self, Chain};
 use crate::geom::{Extent, Point};
 
-/// Segments of a usual chain: room is made for so many chains, and grows where they are shorter.
+/// Usual number of segments of a chain, for the room that is made.
 const SEGMENTS_A_CHAIN: usize = 8;
 
 /// Monotone chains of some points.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chains<'a> {
-    /// The chains, by the places of the points.
+    /// The chains, as indices of the points.
     pub all: Cow<'a, [Chain]>,
     /// The box around each.
     pub boxes: Cow<'a, [Extent]>,
 }
 
 impl Chains<'_> {
-    /// Those of a line.
+    /// Chains of a line.
     pub(super) fn of(points: &[Point]) -> Self {
         let (all, boxes): (Vec<_>, Vec<_>) =
             monotone::chains(points).map(|chain| (chain, chain.extent(points))).unzip();
         Self { all: all.into(), boxes: boxes.into() }
     }
 
-    /// Each with the box around it.
+    /// Chains with their boxes.
     pub fn each(&self) -> impl Iterator<Item = (&Chain, &Extent)> {
         self.all.iter().zip(&*self.boxes)
     }
 }
 
-/// Name of a line.
+/// Index of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct LineId(u32);
 
-/// Some lines, in order.
+/// Lines in the order in which they were appended.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lines {
     all: Vec<Line>,
-    /// The chains of all, by the places of the points in their line.
+    /// The chains of all, as indices of the points of their line.
     chains: Vec<Chain>,
     /// The box around each.
     boxes: Vec<Extent>,
@@ -56,7 +56,7 @@ pub(super) struct Line {
     chains: [u32; 2],
     /// The box around it.
     pub(super) extent: Extent,
-    /// Whether one of its points was moved: then all else of it is out of date.
+    /// Whether a point of it was moved since: then chains and boxes are out of date.
     is_moved: bool,
 }
 
@@ -80,7 +80,7 @@ impl Lines {
         LineId(self.all.len() as u32 - 1)
     }
 
-    /// A line that has these ends and of which no point was moved.
+    /// The line with these ends, unless a point of it was moved.
     pub(super) fn get(&self, LineId(id): LineId, ends: [u32; 2]) -> Option<&Line> {
         self.all.get(id as usize).filter(|line| line.ends == ends && !line.is_moved)
     }

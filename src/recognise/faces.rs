@@ -17,8 +17,12 @@ use crate::ir::drawing::{Drawing, PenStroke, Redrawn, Vertex};
 const MOST_ENDS: usize = 64;
 /// Ends at one X that are compared with another: more are a hatching.
 const MOST_BESIDE: usize = 4096;
+/// Distance of two strokes that are drawn along each other, in those of ends that meet: stations differ as lengths do.
+const REACH_OF_TWINS: f64 = 2.0;
 /// Stretch of a stroke that its direction at an end is taken from, mm.
 const STRETCH: f64 = 1.0;
+/// Places of a stroke that are looked at for its direction at an end.
+const MOST_STEPS: usize = 64;
 /// Least angle between two strokes that leave a place, rad: nearer ones are in no order.
 const LEAST_ANGLE: f64 = 1e-3;
 
@@ -115,14 +119,25 @@ impl<'a> Graph<'a> {
         graph
     }
 
+    /// Leaves out strokes that lead nowhere, and those that do then.
     fn leave_out_dead_ends(&mut self) {
-        let mut queue: Vec<usize> = self.nodes.keys().copied().collect();
+        let mut degree: BTreeMap<usize, usize> = self.nodes.iter().map(|(place, ends)| (*place, ends.len())).collect();
+        let mut is_dead: BTreeSet<usize> = BTreeSet::new();
+        let mut queue: Vec<usize> = degree.iter().filter(|(_, count)| **count == 1).map(|(place, _)| *place).collect();
         while let Some(place) = queue.pop() {
-            let Some(&[end]) = self.nodes.get(&place).map(Vec::as_slice) else { continue };
-            for place in self.places(end / 2) {
-                self.nodes.entry(place).or_default().retain(|known| known / 2 != end / 2);
-                queue.push(place);
+            let ends = &self.nodes[&place];
+            let Some(stroke) = ends.iter().map(|end| end / 2).find(|stroke| !is_dead.contains(stroke)) else {
+                continue;
+            };
+            is_dead.insert(stroke);
+            for place in self.places(stroke) {
+                let left = degree.entry(place).or_default();
+                *left = left.saturating_sub(1);
+                queue.extend((*left == 1).then_some(place));
             }
+        }
+        for ends in self.nodes.values_mut() {
+            ends.retain(|end| !is_dead.contains(&(end / 2)));
         }
         self.nodes.retain(|_, ends| !ends.is_empty());
     }
@@ -136,11 +151,16 @@ impl<'a> Graph<'a> {
         &self.drawing.vertices[self.drawing.strokes[stroke].range()]
     }
 
-    /// Whether two strokes between the same places are drawn along each other.
+    /// Whether two strokes between two places are drawn along each other.
     fn are_twins(&self, [one, other]: [usize; 2], reach: f64) -> bool {
-        let [one, other] = [one, other].map(|stroke| self.points(&[2 * stroke]));
-        let is_along = |at: &Point| polyline::distance(*at, &other) <= reach;
-        (polyline::length(&one) - polyline::length(&other)).abs() <= reach && one.iter().all(is_along)
+        let end = if self.places(one)[0] == self.places(other)[0] { 2 * other } else { 2 * other + 1 };
+        let [one, other] = [2 * one, end].map(|end| self.points(&[end]));
+        let [of_one, of_other] = [&one, &other].map(|points| polyline::stations(points));
+        let is_along = |(at, &station): (&Point, &f64)| {
+            (polyline::place(&other, &of_other, station) - at).norm() <= REACH_OF_TWINS * reach
+        };
+        let length = |stations: &[f64]| stations[stations.len() - 1];
+        (length(&of_one) - length(&of_other)).abs() <= reach && one.iter().zip(&of_one).all(is_along)
     }
 
     /// Moves the first and the last place of a stroke to where others meet it; the lines that were moved.
@@ -156,16 +176,17 @@ impl<'a> Graph<'a> {
         lines.into_iter().filter(moved).map(redrawn).collect()
     }
 
-    /// Strokes that hang together, the first one first.
+    /// Strokes that hang together, in their order.
     fn components(&self) -> Vec<Vec<usize>> {
         let mut components = Vec::new();
-        let mut seen: BTreeSet<usize> = BTreeSet::new();
+        let (mut seen, mut passed): (BTreeSet<usize>, BTreeSet<usize>) = Default::default();
         for first in self.nodes.values().flatten().map(|end| end / 2) {
             let (mut component, mut queue) = (Vec::new(), vec![first]);
             while let Some(stroke) = queue.pop() {
                 if seen.insert(stroke) {
                     component.push(stroke);
-                    queue.extend(self.places(stroke).iter().flat_map(|place| &self.nodes[place]).map(|end| end / 2));
+                    let new = self.places(stroke).into_iter().filter(|place| passed.insert(*place));
+                    queue.extend(new.flat_map(|place| &self.nodes[&place]).map(|end| end / 2));
                 }
             }
             component.sort_unstable();
@@ -218,19 +239,22 @@ impl<'a> Graph<'a> {
         if ends.len() > MOST_ENDS {
             return None;
         }
-        let mut around: Vec<(f64, End)> = ends.iter().map(|&end| (self.heading(end), end)).collect();
+        let heading = |&end: &End| Some((self.heading(end)?, end));
+        let mut around: Vec<(f64, End)> = ends.iter().map(heading).collect::<Option<_>>()?;
         around.sort_by(|a, b| a.0.total_cmp(&b.0));
         let is_apart = around.windows(2).all(|pair| pair[1].0 - pair[0].0 >= LEAST_ANGLE);
         let turn = TAU - (around[around.len() - 1].0 - around[0].0);
         (is_apart && turn >= LEAST_ANGLE).then(|| around.into_iter().map(|(_, end)| end).collect())
     }
 
-    /// The direction in which a stroke leaves the place of an end, rad.
-    fn heading(&self, end: End) -> f64 {
-        let points = self.points(&[end]);
-        let stations = polyline::stations(&points);
-        let way = polyline::place(&points, &stations, STRETCH) - points[0];
-        way.y.atan2(way.x)
+    /// The direction in which a stroke leaves the place of an end, rad; `None` of one without length there.
+    fn heading(&self, end: End) -> Option<f64> {
+        let vertices = self.vertices(end / 2);
+        let from = place(self.drawing, self.node[&end]);
+        let at = |k: usize| vertices[if end.is_multiple_of(2) { k } else { vertices.len() - 1 - k }].at;
+        let ways = (1..vertices.len()).map(|k| at(k) - from);
+        let way = ways.take(MOST_STEPS).find(|way| way.norm() >= STRETCH).unwrap_or(at(vertices.len() - 1) - from);
+        (way.norm() >= STRETCH).then(|| way.y.atan2(way.x))
     }
 
     /// Places of some strokes behind each other.
@@ -240,7 +264,8 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The place of both ends of each stroke: ends of one pen within reach of each other, in the order of X, are at one place.
+/// The place of both ends of each stroke: ends of one pen within reach of the first of them, in the order of X, are at
+/// one place.
 fn meeting(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, usize> {
     let key = |end: End| (drawing.strokes[end / 2].pen, place(drawing, end));
     let mut ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
@@ -253,8 +278,8 @@ fn meeting(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, us
         let (pen, at) = key(end);
         let is_beside = |known: &&End| key(**known).0 == pen && at.x - key(**known).1.x <= reach;
         let before = ends[..k].iter().rev().take_while(is_beside).take(MOST_BESIDE);
-        let near = before.copied().find(|&known| (key(known).1 - at).amax() <= reach);
-        node.insert(end, near.map_or(end, |known| node[&known]));
+        let mut places = before.map(|known| node[known]);
+        node.insert(end, places.find(|&first| (key(first).1 - at).amax() <= reach).unwrap_or(end));
     }
     node
 }

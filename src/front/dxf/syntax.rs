@@ -27,7 +27,7 @@ pub(in crate::front) fn fits(code: i32, value: &[u8]) -> bool {
 
 /// `<number>`: a decimal number, with an exponent or without; always finite.
 pub(in crate::front) fn number(value: &[u8]) -> Option<f64> {
-    // Of all that the standard library takes for a number, words alone are none here, and they are not finite.
+    // The standard library also reads `inf` and `nan`: they are not finite, so they are refused.
     let number: Option<f64> = parsed(value.trim_ascii());
     // The negative of zero is another bit pattern than zero, though the same place.
     number.filter(|number| number.is_finite()).map(|number| number + 0.0)

@@ -177,7 +177,7 @@ pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     }
 }
 
-/// The same with signs, or none.
+/// `<block>`, when it is X and Y, both whole numbers with signs or none: where it ends, and the numbers.
 #[inline(never)] // apart, it is not in the way of the others
 pub(super) fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let (at, x, y) = plain_place(i)?;
@@ -214,7 +214,7 @@ pub(super) fn plain_code(i: &[u8]) -> Option<(&[u8], Code)> {
     Some((rest, Code { letter, number }))
 }
 
-/// `<block>`, when it is X and Y and one code behind them, as those of labels are: likewise.
+/// `<block>`, when it is X and Y and one code behind them, as on labels: the rest, and its words.
 pub(super) fn plain_point_and_code(i: &[u8]) -> Option<(&[u8], Words)> {
     let (at, x, y) = plain_place(i.first_chunk()?)?;
     let (rest, code) = plain_code(&i[at..])?;

@@ -99,7 +99,7 @@ fn there_and_back(piece: &mut Piece, list: &mut SegmentList, found: &mut Found) 
 fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
     let [first, inner @ .., last] = points else { return true };
     let is_near = |at: &Point| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach;
-    // Twice as far: then rounding hides no place.
+    // Twice the reach, so that rounding hides no place.
     let around = Extent::between(*first, *first).grown(2.0 * reach);
     let returns = |(chain, extent): (&Chain, &Extent)| {
         let places = chain.first as usize..inner.len().min(chain.last as usize);

@@ -121,8 +121,8 @@ impl Measure {
         off(one, other).min(off(other, one)) <= self.width
     }
 
-    /// Whether a closed line has a tip; the last of its points is the first again. Along a chain it does not turn back: the
-    /// bottom of a tip is the first segment of a chain or the last.
+    /// Whether a closed line has a tip; the last of its points is the first again. A line does not turn back within a
+    /// chain: the bottom of a tip is the first segment of a chain or the last.
     fn has_tip(self, points: &[Point], chains: &[Chain]) -> bool {
         let count = points.len() - 1;
         if count <= LEAST_LEFT {

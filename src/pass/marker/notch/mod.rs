@@ -149,7 +149,7 @@ impl<'a> Outline<'a> {
             self.apart(there.copied())
         });
         let mut kept: Vec<Mouth> = match [&inward[..], &outward[..]] {
-            // As in nearly all outlines, they go one way.
+            // In nearly all outlines all notches go one way.
             [all, []] | [[], all] => self.alone(all).into_iter().flatten().collect(),
             [inward, outward] => {
                 let straight = [straighter(inward, outward, count), straighter(outward, inward, count)];
