@@ -32,8 +32,6 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("line-in-overlap.cut", ""),                 // a line of one piece where another one, cut before, lies over it
     ("long-heel.cut", LONG_HEEL),                // a heel overlap of half a blade
     ("narrow-spike.cut", COARSE),                // a leg of a spike beside the other leg
-    ("needle-at-the-border.plt", ""),            // the tip of a needle, where both its edges go on as one
-    ("needle-between-two.plt", ""),              // a needle whose edges are cut with the parts on either side
     ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
     ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm

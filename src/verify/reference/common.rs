@@ -16,8 +16,8 @@ use crate::verify::rules;
 const ALONG: f64 = 0.866;
 /// How many distances of two edges one cut may be broken, or the next begin behind it: about corners.
 const BREAK: f64 = 2.5;
-/// How many distances of two edges from where the outlines need it two cuts may cross at the least, or from the way on which one
-/// of them is led on: where outlines overlap one crosses the other before it ends.
+/// How many distances of two edges from where the outlines need it two cuts may cross, or from the way on which one of them is
+/// led on: where outlines overlap one crosses the other before it ends.
 const ABOUT: f64 = 4.0;
 /// Least sine of the angle between two lines for which their crossing is looked for in full: those at a smaller angle go on along
 /// each other.
@@ -106,10 +106,10 @@ impl Common {
             let reach = (ABOUT * distance).max(crossing(joint, reference, grid, distance));
             let about = &mut joint.about[0];
             *about = Extent::between(joint.at, joint.at).grown(reach);
-            let near = boxes.near(*about).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= reach);
-            let of_leads: Vec<Extent> = near.map(|lead| boxes.all()[lead]).collect();
-            for extent in &of_leads {
-                about.join(extent);
+            for lead in
+                boxes.at(joint.at).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= ABOUT * distance)
+            {
+                about.join(&boxes.all()[lead]);
             }
         }
         common

@@ -241,13 +241,11 @@ impl<'a> Leads<'a> {
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
         // From whichever side of the edge it comes it ends on the other: the side of where it begins, unless that lies about
-        // on an edge that it comes along. At the tip of a needle there is no edge before.
-        let look = 2.0 * near.distance;
-        let (ahead, before) = (from + sign * look, at - along * look);
+        // on the edge.
+        let ahead = from + sign * 2.0 * near.distance;
         let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
-        let is_along = (edge.place(from - sign * look) - before).norm() <= look;
-        let is_on = aside.abs() <= LEAST || aside.abs() <= near.distance / 2.0 && is_along;
-        let is_inside = if is_on { edge.holds(before) } else { aside > 0.0 };
+        let is_on = aside.abs() <= near.distance / 2.0;
+        let is_inside = if is_on { edge.holds(at - along * (2.0 * near.distance)) } else { aside > 0.0 };
         let through = if is_inside { -through } else { through };
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
             let station = |share: f64| from + sign * length * share;
