@@ -9,14 +9,13 @@ use std::f64::consts::TAU;
 
 use super::chains::{End, other, place};
 use super::line::SMALL_OUTLINE;
+use super::meeting;
 use super::pens::Use;
 use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::{Drawing, PenStroke, Redrawn, Vertex};
 
 /// Ends at one place that are looked at: more are the middle of a star.
 const MOST_ENDS: usize = 64;
-/// Ends at one X that are compared with another: more are a hatching.
-const MOST_BESIDE: usize = 4096;
 /// Distance of two strokes that are drawn along each other, in those of ends that meet: stations differ as lengths do.
 const REACH_OF_TWINS: f64 = 2.0;
 /// Stretch of a stroke that its direction at an end is taken from, mm.
@@ -97,7 +96,7 @@ struct Graph<'a> {
 
 impl<'a> Graph<'a> {
     fn new(drawing: &'a Drawing, strokes: &[usize], reach: f64) -> Self {
-        let node = meeting(drawing, strokes, reach);
+        let node = ends_at_places(drawing, strokes, reach);
         let mut graph = Self { drawing, node, nodes: BTreeMap::new(), twins: BTreeMap::new() };
         let mut between: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
         for &stroke in strokes {
@@ -264,22 +263,11 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The place of both ends of each stroke: ends of one pen within reach of the first of them, in the order of X, are at
-/// one place.
-fn meeting(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, usize> {
-    let key = |end: End| (drawing.strokes[end / 2].pen, place(drawing, end));
-    let mut ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
-    ends.sort_by(|&a, &b| {
-        let ((pen, at), (other_pen, other)) = (key(a), key(b));
-        pen.cmp(&other_pen).then(at.x.total_cmp(&other.x)).then(a.cmp(&b))
-    });
-    let mut node: BTreeMap<End, usize> = BTreeMap::new();
-    for (k, &end) in ends.iter().enumerate() {
-        let (pen, at) = key(end);
-        let is_beside = |known: &&End| key(**known).0 == pen && at.x - key(**known).1.x <= reach;
-        let before = ends[..k].iter().rev().take_while(is_beside).take(MOST_BESIDE);
-        let mut places = before.map(|known| node[known]);
-        node.insert(end, places.find(|&first| (key(first).1 - at).amax() <= reach).unwrap_or(end));
-    }
-    node
+/// The place of both ends of each stroke, as the first end there.
+fn ends_at_places(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, End> {
+    let ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
+    let drawn: Vec<(u16, Point)> =
+        ends.iter().map(|&end| (drawing.strokes[end / 2].pen, place(drawing, end))).collect();
+    let places = meeting::places(&drawn, reach).into_iter().map(|first| ends[first]);
+    ends.iter().copied().zip(places).collect()
 }

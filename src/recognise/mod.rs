@@ -6,13 +6,14 @@
 //! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
 //! Never knows the dialect.
 //!
-//! `faces` puts loose lines in the order of the parts that they bound, `again` puts strokes aside that are drawn twice, `join`
-//! makes lines (`chains`) of the others, by their `succession` where parts touch, over the gaps that `bridge` finds and without
-//! the slits that `slits` finds, `close` closes them, `twins` puts those aside that lie along another; `sheet` sorts them out,
-//! and asks the others: `frame` finds the frames, `nest` what lies in what, `remains` the outlines that are not whole, `marks`
-//! and `strokes` the notches, `signs` the arrows and crosses among them, `letters` and `seam` what their names say; `line` has
-//! the table of classes, and of when each is cut, `pens` what pens stand for, `layers` says it of layers, `shared` refuses parts
-//! that are lost. `piece` makes the marker, `say` names what is doubtful, `doubts` that about pieces.
+//! `faces` puts loose lines in the order of the parts that they bound, by the places of their ends that `meeting` finds; `again`
+//! puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, by their `succession` where parts touch,
+//! over the gaps that `bridge` finds and without the slits that `slits` finds, `close` closes them, `twins` puts those aside that
+//! lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `remains`
+//! the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them, `letters` and
+//! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for, `layers`
+//! says it of layers, `shared` refuses parts that are lost. `piece` makes the marker, `say` names what is doubtful, `doubts` that
+//! about pieces.
 
 mod again;
 mod bridge;
@@ -26,6 +27,7 @@ mod layers;
 mod letters;
 mod line;
 mod marks;
+mod meeting;
 mod nest;
 mod pens;
 mod piece;

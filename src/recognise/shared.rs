@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::line::Line;
+use super::meeting;
 use super::pens::Use;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
@@ -20,8 +21,6 @@ const SHORTEST: f64 = 25.0;
 const REACH: f64 = 0.2;
 /// Lines that meet where two parts do, the edge that they share counted once.
 const MEETING: usize = 3;
-/// Ends at one X that are compared with another: more are a hatching.
-const MOST_BESIDE: usize = 4096;
 /// Digits of the length that a message tells.
 const DECIMALS: u32 = 1;
 
@@ -57,7 +56,8 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
         let span = vertices[vertices.len() - 1].span;
         strokes.push((stroke.pen, ends, SharedEdge { middle, length, span }));
     }
-    let nodes = nodes(&strokes);
+    let ends: Vec<(u16, Point)> = strokes.iter().flat_map(|&(pen, ends, _)| ends.map(|end| (pen, end))).collect();
+    let nodes = meeting::places(&ends, REACH);
     let mut edges: BTreeMap<[Node; 2], Vec<(usize, SharedEdge)>> = BTreeMap::new();
     for (k, (_, _, edge)) in strokes.iter().enumerate() {
         let mut ends = [nodes[2 * k], nodes[2 * k + 1]];
@@ -68,31 +68,15 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
             None => between.push((1, *edge)),
         }
     }
-    let mut meeting: BTreeMap<Node, usize> = BTreeMap::new();
+    let mut degree: BTreeMap<Node, usize> = BTreeMap::new();
     for (ends, between) in &edges {
         for node in ends {
-            *meeting.entry(*node).or_default() += between.len();
+            *degree.entry(*node).or_default() += between.len();
         }
     }
-    let is_shared = |ends: &[Node; 2]| ends.iter().all(|node| meeting[node] >= MEETING);
+    let is_shared = |ends: &[Node; 2]| ends.iter().all(|node| degree[node] >= MEETING);
     let twice = edges.iter().filter(|(ends, _)| is_shared(ends)).flat_map(|(_, between)| between);
     twice.filter(|(count, _)| *count > 1).map(|(_, edge)| *edge).collect()
-}
-
-/// The node of both ends of each stroke: ends of one pen that lie within reach of each other, in the order of X, are in one.
-fn nodes(strokes: &[(u16, [Point; 2], SharedEdge)]) -> Vec<Node> {
-    let at = |end: usize| strokes[end / 2].1[end % 2];
-    let mut ends: Vec<usize> = (0..2 * strokes.len()).collect();
-    ends.sort_by(|&a, &b| strokes[a / 2].0.cmp(&strokes[b / 2].0).then(at(a).x.total_cmp(&at(b).x)).then(a.cmp(&b)));
-    let mut nodes = vec![0; ends.len()];
-    for (k, &end) in ends.iter().enumerate() {
-        let is_beside =
-            |other: &&usize| strokes[**other / 2].0 == strokes[end / 2].0 && at(end).x - at(**other).x <= REACH;
-        let before = ends[..k].iter().rev().take_while(is_beside).take(MOST_BESIDE);
-        let near = before.copied().find(|&other| (at(other) - at(end)).amax() <= REACH);
-        nodes[end] = near.map_or(end, |other| nodes[other]);
-    }
-    nodes
 }
 
 /// Refuses a drawing of whose shared edges not each is on the outlines of two parts.
