@@ -103,10 +103,8 @@ impl<'a> Graph<'a> {
             let mut places = graph.places(stroke);
             places.sort_unstable();
             let known = between.entry(places).or_default();
-            let is_free =
-                |other: &&usize| !graph.twins.contains_key(*other) && graph.are_twins([**other, stroke], reach);
-            if let Some(&other) = known.iter().find(is_free) {
-                graph.twins.insert(other, stroke);
+            if let Some(k) = known.iter().position(|&other| graph.are_twins([other, stroke], reach)) {
+                graph.twins.insert(known.swap_remove(k), stroke);
                 continue;
             }
             known.push(stroke);
