@@ -1,7 +1,7 @@
 //! Which line lies in which: what holds each line of a marker or a drawing, and which part each belongs to.
 //!
-//! A closed line holds another when a place well inside that lies in it, when it is the larger one, and when most of the
-//! other, as [`Hold`] says, does not stick out. What is held by an odd number of closed lines is an inner line: it
+//! A closed line holds another when a place well inside that, or each vertex of one that is open, lies in it, when it is the
+//! larger one, and when most of the other, as [`Hold`] says, does not stick out. What is held by an odd number of closed lines is an inner line: it
 //! bounds a cut-out of the part whose outline is the smallest around it. What lies in a cut-out is a part again.
 
 use std::borrow::Cow;
@@ -314,8 +314,23 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
             return None;
         }
         let holders = regions.owners_at(place);
-        let mut around: Vec<u32> =
-            candidates.iter().copied().filter(|candidate| holders.binary_search(candidate).is_ok()).collect();
+        let holds = |owners: &[u32], candidate: &u32| owners.binary_search(candidate).is_ok();
+        let mut around: Vec<u32> = candidates.iter().copied().filter(|candidate| holds(&holders, candidate)).collect();
+        if !is_closed && around.len() < candidates.len() {
+            // One that crosses a bay of an outline and ends within it lies in it as well.
+            if !self.work.spend(points.len() * regions.cost_at(place)) {
+                return None;
+            }
+            let mut ends_within: Vec<u32> = candidates.iter().copied().filter(|one| !around.contains(one)).collect();
+            for &point in points.iter() {
+                if ends_within.is_empty() {
+                    break;
+                }
+                let owners = regions.owners_at(point);
+                ends_within.retain(|candidate| holds(&owners, candidate));
+            }
+            around.extend(ends_within);
+        }
         if self.hold.share > 0.0 && !around.is_empty() {
             if !self.work.spend(SAMPLES * regions.cost_at(place)) {
                 return None;

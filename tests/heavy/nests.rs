@@ -13,12 +13,16 @@ const SEEDS: u64 = 144;
 /// Width of a blade and of its back, mm.
 const BLADES: [[f64; 2]; 4] = [[6.6, 6.35], [6.0, 4.0], [8.89, 6.35], [3.0, 1.5]];
 
+/// Nests of hundreds of parts that are compiled: needles between three parts show only there.
+const LARGE_SEEDS: u64 = 4;
+/// How many parts they have.
+const LARGE: usize = 400;
+
 /// One of so many has edges cut once that are up to 1 mm apart.
 const WIDE: u64 = 5;
 
 /// What is wrong with the programs of a seed; the nest is then kept, so that it can be looked at.
-fn wrong(seed: u64) -> Option<String> {
-    let recipe = Recipe::of(seed, 30, 20);
+fn wrong(seed: u64, recipe: &Recipe) -> Option<String> {
     let nest = recipe.nest();
     let blade = BLADES[(seed + seed / 36) as usize % BLADES.len()];
     let mut job = Job::default();
@@ -53,6 +57,14 @@ fn wrong(seed: u64) -> Option<String> {
 
 #[test]
 fn no_nest_is_refused_whatever_notches_gaps_and_blades() {
-    let found: Vec<String> = (0..SEEDS).into_par_iter().filter_map(wrong).collect();
+    let found: Vec<String> =
+        (0..SEEDS).into_par_iter().filter_map(|seed| wrong(seed, &Recipe::of(seed, 30, 20))).collect();
     assert!(found.is_empty(), "{} of {SEEDS} nests:\n{}", found.len(), found.join("\n\n"));
+}
+
+#[test]
+fn no_nest_of_hundreds_of_parts_is_refused() {
+    let large = |seed: u64| Recipe { dialect: Dialect::Plot, ..Recipe::of(seed, LARGE, 0) };
+    let found: Vec<String> = (0..LARGE_SEEDS).into_par_iter().filter_map(|seed| wrong(seed, &large(seed))).collect();
+    assert!(found.is_empty(), "{} of {LARGE_SEEDS} nests:\n{}", found.len(), found.join("\n\n"));
 }

@@ -8,20 +8,21 @@ use crate::support::room::{DONE, Room};
 
 /// Drawings of `fixtures/sound` with the settings or options under which they were refused, and the habit that each shows.
 const DRAWINGS: &[(&str, &str)] = &[
+    ("across-loops.plt", "--cut-all"), // a line from one loop of a seam line into another
     ("along-edge.plt", "--cut-all --target=gcode"), // a slit that lies along an edge, which arcs bow away from
-    ("barbs.cut", LONG_OVERLAPS),                   // a long overlap along an edge and through a barb
-    ("bay.cut", ""),                                // a bay narrower than the blade
-    ("bends.cut", "knife.max_down_mm=100"),         // a lift in a bend that is followed
-    ("castles.cut", NO_OVERLAPS),                   // overlaps of one tolerance, written with six decimals
-    ("corner-on-edge.plt", "--cut-all"),            // a corner on an edge that it leaves by 7 degrees
-    ("crossed-earlier.plt", "--cut-all"),           // two cuts beside an edge that cross before the one ends
-    ("deep-end.cut", "path.tolerance_mm=0.02"),     // a blade that is deepest in the part before its end
-    ("dense-blob.cut", ""),                         // points as near as their rounding
-    ("dense-hole.cut", ""),                         // the same around a hole narrower than the blade
-    ("dense-ring.cut", LONG_OVERLAPS),              // a ring that is longer than the way along it
-    ("flat-ellipse.cut", ""),                       // the end of a cut in a tight curve
-    ("inch-hole.cut", ""),                          // a ring whose end must run over its start
-    ("inch-nest.cut", ""),                          // two cuts that end at one corner and go on the same way
+    ("barbs.cut", LONG_OVERLAPS),      // a long overlap along an edge and through a barb
+    ("bay.cut", ""),                   // a bay narrower than the blade
+    ("bends.cut", "knife.max_down_mm=100"), // a lift in a bend that is followed
+    ("castles.cut", NO_OVERLAPS),      // overlaps of one tolerance, written with six decimals
+    ("corner-on-edge.plt", "--cut-all"), // a corner on an edge that it leaves by 7 degrees
+    ("crossed-earlier.plt", "--cut-all"), // two cuts beside an edge that cross before the one ends
+    ("deep-end.cut", "path.tolerance_mm=0.02"), // a blade that is deepest in the part before its end
+    ("dense-blob.cut", ""),            // points as near as their rounding
+    ("dense-hole.cut", ""),            // the same around a hole narrower than the blade
+    ("dense-ring.cut", LONG_OVERLAPS), // a ring that is longer than the way along it
+    ("flat-ellipse.cut", ""),          // the end of a cut in a tight curve
+    ("inch-hole.cut", ""),             // a ring whose end must run over its start
+    ("inch-nest.cut", ""),             // two cuts that end at one corner and go on the same way
     ("led-to-one-end.ggt", "knife.width_mm=8.89"), // two cuts that are led on to one place, where the drawing has neither
     ("lifted-bends.cut", "knife.max_down_mm=60"),  // a lift over one bend of a coarse circle
     ("lifted-blob.cut", "knife.max_down_mm=38"),   // lifts right before bends
@@ -32,12 +33,15 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("line-in-overlap.cut", ""),                 // a line of one piece where another one, cut before, lies over it
     ("long-heel.cut", LONG_HEEL),                // a heel overlap of half a blade
     ("narrow-spike.cut", COARSE),                // a leg of a spike beside the other leg
+    ("needle-led-over.plt", ""),                 // a cut that is led over to another at the tip of a needle
+    ("needle-tip.plt", ""),                      // cuts on both sides of a needle that meet past its tip
     ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
     ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
     ("polygon.cut", ""),                         // edges shorter than the blade
     ("scallops.cut", COARSE), // a chord that the blade before covers and the one behind does not meet
+    ("seam-out-of-part.plt", "--cut-all"), // a seam line that sticks out of its part into another one
     ("slit-askew.cut", NO_OVERLAPS), // slits that lean on their edge, led on by the tolerance alone
     ("slit-coarse.csv", ""),  // slits that end on an edge whose chords stand for a curve
     ("slit-root.plt", "knife.width_mm=3 knife.back_mm=1.5"), // a slit whose edge is cut as far beside it as may be
@@ -45,6 +49,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("spike.plt", "--cut-all"), // a chord of 0.18 mm at the point of a spike
     ("straight-edge.cut", COARSE), // an edge as long as the blade that bends a little
     ("tabs.cut", ""),         // a curve that begins at a reflex corner
+    ("touching-seam.plt", "--cut-all"), // a line that touches another and goes on along it
     ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end
     ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
 ];

@@ -13,6 +13,8 @@ pub(in crate::verify) struct Joints<'a> {
     all: &'a [Joint],
     /// Where their cuts must cross, the boxes of one joint after those of the other.
     boxes: Boxes,
+    /// The joint of each box, by its place among all.
+    of: Vec<usize>,
     /// The ways that come by each joint; `None` once its cuts are known to cross.
     ways: Vec<Option<Vec<Way>>>,
 }
@@ -30,7 +32,8 @@ impl<'a> Joints<'a> {
     pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
         Self {
             all: joints,
-            boxes: Boxes::new(joints.iter().flat_map(|joint| joint.about).collect()),
+            boxes: Boxes::new(joints.iter().flat_map(|joint| joint.about.iter().copied()).collect()),
+            of: joints.iter().enumerate().flat_map(|(i, joint)| joint.about.iter().map(move |_| i)).collect(),
             ways: joints.iter().map(|_| Some(Vec::new())).collect(),
         }
     }
@@ -41,7 +44,7 @@ impl<'a> Joints<'a> {
             return;
         }
         for place in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
-            let i = place / self.all[0].about.len();
+            let i = self.of[place];
             let Some(known) = &mut self.ways[i] else { continue };
             let before = known.len();
             known.extend(ways(points, cut, self.boxes.all()[place]));

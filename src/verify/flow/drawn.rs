@@ -37,7 +37,10 @@ pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: 
         let mut near = boxes.near(Extent::between(place, place).grown(reach)).map(|i| drawn[i]);
         near.any(|[from, to]| polyline::distance_to_segment(place, from, to) <= reach)
     };
-    let inside = LazyCell::new(|| Inside::new(ground.marker, ground.profile.notch));
+    let inside = LazyCell::new(|| {
+        let (marker, profile) = (ground.marker, ground.profile);
+        Inside::new(marker, profile.notch, profile.band(marker.unit))
+    });
     for cut in required.cuts.iter().filter(|cut| !cut.drawn) {
         let (length, _) = longest_off(&cut.points, is_drawn);
         let is_right = |place: Point| is_drawn(place) || length <= MOUTH && !inside.is_in_ring(place);

@@ -37,7 +37,7 @@ pub(in crate::verify) struct Common {
 }
 
 /// A place at the edge of a part where two cuts must meet, so that it comes free.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(in crate::verify) struct Joint {
     /// The place.
     pub(in crate::verify) at: Point,
@@ -45,17 +45,18 @@ pub(in crate::verify) struct Joint {
     pub(in crate::verify) block: u32,
     /// The cuts, by their places among those of the marker.
     pub(in crate::verify) cuts: [u32; 2],
-    /// Where they must cross, in one of these: about the place and the ways on which cuts are led on there, or about where their
-    /// lines cross before it.
-    pub(in crate::verify) about: [Extent; 2],
+    /// Where they must cross, in one of these: about the place, along the stretch of the edge for which both stand, and on ways
+    /// on which cuts are led on there.
+    pub(in crate::verify) about: Vec<Extent>,
 }
 
 /// A cut that stands for an edge from a place on.
 struct Stood {
     cut: u32,
     from: Sighting,
-    /// Where the line of the cut before it crosses its own while both stand for the edge.
-    crossing: Extent,
+    /// Boxes along the stretch of the edge for which the cut before it stands as well: wherever the two cross there, the one
+    /// bounds the part up to that place and the other from it on.
+    both: Vec<Extent>,
 }
 
 /// A stretch of an edge for which a cut stands.
@@ -81,14 +82,6 @@ struct Beside {
     round: Option<f64>,
 }
 
-impl Beside {
-    /// How far it lies to the left of the edge at a station of that, mm.
-    fn aside_at(&self, station: f64) -> f64 {
-        let [from, to] = self.over;
-        self.aside[0] + (self.aside[1] - self.aside[0]) * ((station - from) / (to - from))
-    }
-}
-
 impl Common {
     /// Looks for what stands for the spared edges of some contours; these may lie so far apart, mm.
     pub(in crate::verify) fn new(shared: &[Around], reference: &Reference, grid: &Grid, distance: f64) -> Self {
@@ -104,13 +97,16 @@ impl Common {
         let boxes = Boxes::new(leads.iter().map(|lead| Extent::of(lead).grown(ABOUT * distance)).collect());
         for joint in &mut common.joints {
             let reach = (ABOUT * distance).max(crossing(joint, reference, grid, distance));
-            let about = &mut joint.about[0];
-            *about = Extent::between(joint.at, joint.at).grown(reach);
-            for lead in
-                boxes.at(joint.at).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= ABOUT * distance)
-            {
+            let mut about = Extent::between(joint.at, joint.at).grown(reach);
+            let within = boxes.near(about).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= reach);
+            for lead in within.collect::<Vec<_>>() {
                 about.join(&boxes.all()[lead]);
             }
+            joint.about[0] = about;
+            let mut led: Vec<usize> = joint.about[1..].iter().flat_map(|&stretch| boxes.near(stretch)).collect();
+            led.sort_unstable();
+            led.dedup();
+            joint.about.extend(led.into_iter().map(|lead| boxes.all()[lead]));
         }
         common
     }
@@ -139,7 +135,7 @@ impl Common {
         for stretch in &ring {
             let [from, _] = stretch.ends;
             match stretch.cut {
-                Some(cut) => cuts.push(Stood { cut, from: sighting(from, stretch.block), crossing: Extent::EMPTY }),
+                Some(cut) => cuts.push(Stood { cut, from: sighting(from, stretch.block), both: Vec::new() }),
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
@@ -160,10 +156,12 @@ impl Common {
                 self.uncut.push((length, place));
             }
         }
-        for (i, &Stood { cut, from: Sighting { point: at, block, .. }, crossing }) in cuts.iter().enumerate() {
-            let before = cuts[(i + count - 1) % count].cut;
+        let mut before = cuts.last().map(|last| last.cut);
+        for Stood { cut, from: Sighting { point: at, block, .. }, both } in cuts {
+            let before = before.replace(cut).unwrap_or(cut);
             if before != cut {
-                self.joints.push(Joint { at, block, cuts: [before, cut], about: [Extent::EMPTY, crossing] });
+                let about = [Extent::EMPTY].into_iter().chain(both).collect();
+                self.joints.push(Joint { at, block, cuts: [before, cut], about });
             }
         }
     }
@@ -206,19 +204,19 @@ impl Common {
         self.joints.extend(slits.filter_map(|slit| {
             let cut = first_across(slit, &stands, reference, grid, distance)?;
             let (at, block) = (root(slit), slit.block(0));
-            Some(Joint { at, block, cuts: [cut, slit.cut.index], about: [Extent::EMPTY; 2] })
+            Some(Joint { at, block, cuts: [cut, slit.cut.index], about: vec![Extent::EMPTY] })
         }));
-        let about_crossing = |before: &Stand, next: &Stand| {
-            let crossing = last_crossing(&pieces, [before, next], 2.0 * reference.tolerance + distance);
-            crossing.map_or(Extent::EMPTY, |over| around(&points, &stations, over).grown(distance))
+        let both = |before: &Stand, next: &Stand| {
+            let [from, to] = [before.over[0].max(next.over[0]), before.over[1].min(next.over[1])];
+            if from < to { along_edge(&points, &stations, [from, to], distance) } else { Vec::new() }
         };
         let (mut at, mut chain, mut before) = (0.0, Vec::new(), None);
         while length - at > reach {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
             if let Some(next) = next {
-                let crossing = before.map_or(Extent::EMPTY, |before| about_crossing(before, next));
-                chain.push(Stood { cut: next.cut, from: seen(at), crossing });
+                let both = before.map_or_else(Vec::new, |before| both(before, next));
+                chain.push(Stood { cut: next.cut, from: seen(at), both });
                 (at, before) = (next.over[1], Some(next));
                 continue;
             }
@@ -346,45 +344,19 @@ impl Stands {
     }
 }
 
-/// The last stretch of an edge, mm along it, over which the lines of two cuts cross while both stand for it; each is off so that
-/// they come `reach` mm nearer.
-fn last_crossing(pieces: &[Beside], [before, next]: [&Stand; 2], reach: f64) -> Option<[f64; 2]> {
-    let over = [before.over[0].max(next.over[0]), before.over[1].min(next.over[1])];
-    let of_cut = |stand: &Stand| {
-        let cut = stand.cut;
-        pieces.iter().filter(move |piece| piece.cut == cut).peekable()
-    };
-    let [mut ones, mut others] = [before, next].map(of_cut);
-    let mut found = None;
-    while let (Some(one), Some(other)) = (ones.peek(), others.peek()) {
-        let [from, to] = [one.over[0].max(other.over[0]).max(over[0]), one.over[1].min(other.over[1]).min(over[1])];
-        if from < to {
-            let [first, last] = [from, to].map(|station| one.aside_at(station) - other.aside_at(station));
-            if (first < 0.0) != (last < 0.0) {
-                let (at, way) =
-                    (from + (to - from) * (first / (first - last)), reach * (to - from) / (last - first).abs());
-                found = Some([(at - way).max(over[0]), (at + way).min(over[1])]);
-            }
-        }
-        if one.over[1] < other.over[1] {
-            ones.next()
-        } else {
-            others.next()
-        };
-    }
-    found
-}
-
 /// Where the chords of an edge end.
 fn ends(edge: &[Drawn]) -> impl Iterator<Item = Point> {
     edge.iter().map(|chord| chord.ends[1])
 }
 
-/// The box around a stretch of a polyline, mm along it.
-fn around(points: &[Point], stations: &[f64], [from, to]: [f64; 2]) -> Extent {
-    let inner = stations.iter().zip(points).filter(|(station, _)| (from..=to).contains(*station));
+/// Boxes around the chords of a stretch of an edge, mm along it, as wide as what stands for the edge lies apart.
+fn along_edge(points: &[Point], stations: &[f64], [from, to]: [f64; 2], distance: f64) -> Vec<Extent> {
+    let first = stations.partition_point(|&station| station <= from);
+    let last = stations.partition_point(|&station| station < to);
     let ends = [from, to].map(|station| polyline::place(points, stations, station));
-    Extent::of(&inner.map(|(_, point)| *point).chain(ends).collect::<Vec<_>>())
+    let vertices: Vec<Point> =
+        ends[..1].iter().chain(&points[first.min(last)..last]).chain(&ends[1..]).copied().collect();
+    vertices.windows(2).map(|chord| Extent::between(chord[0], chord[1]).grown(distance)).collect()
 }
 
 /// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.

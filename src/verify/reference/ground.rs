@@ -29,7 +29,7 @@ impl<'a> Ground<'a> {
         let reference = Reference::new(marker, profile);
         let (grid, (inside, held)) = rayon::join(
             || Grid::new(&reference),
-            || rayon::join(|| Inside::new(marker, profile.notch), || held(marker, &reference)),
+            || rayon::join(|| Inside::new(marker, profile.notch, reference.band), || held(marker, &reference)),
         );
         let mut common = Common::new(&reference.shared, &reference, &grid, reference.common);
         let sizes = [profile.knife.width_mm, profile.verify.max_uncut_mm];

@@ -49,19 +49,23 @@ struct Part<'a> {
 
 impl<'a> Inside<'a> {
     /// The index of a marker, whose notches are cut in a style: the cloth of one that is a slit, or none, stays with its part.
-    pub fn new(marker: &'a Marker, notches: Notches) -> Self {
+    /// Edges within a band, mm, are one.
+    pub fn new(marker: &'a Marker, notches: Notches, band: f64) -> Self {
         let part = |i: usize| Part::new(i, marker, notches);
         let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(part).collect();
         let boxes = Boxes::new(parts.iter().map(|part| part.extent).collect());
         let mut inside = Self { boxes, parts, part_of: Vec::new() };
-        // What lies in a piece is a cut-out of it, whoever it belongs to.
+        // What lies in a piece is a cut-out of it, whoever it belongs to; a piece that only overlaps another is none.
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
+        let part = |piece: u32| &inside.parts[inside.parts.partition_point(|part| part.piece < piece as usize)];
+        let lies_in = |own: u32, other: u32| part(own).lies_in(part(other), band);
         let shape = |piece: &Piece| {
             let closed = piece.contours.iter().filter(|contour| contour.closed);
             Shape::new(&closed.map(|contour| marker.list.points(contour.range)).collect::<Vec<_>>())
         };
         let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
-        inside.part_of = parts::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
+        let part_of = parts::regions(&shapes, holders, lies_in);
+        inside.part_of = part_of.into_iter().map(|part| part as usize).collect();
         inside
     }
 
@@ -193,6 +197,13 @@ impl<'a> Part<'a> {
                 shares.push(share);
             }
         }
+    }
+
+    /// Whether more of its vertices lie in another part, or within a band of its edges, mm, than do not.
+    fn lies_in(&self, other: &Self, band: f64) -> bool {
+        let vertices = || self.rings.iter().flat_map(|ring| ring.iter().copied());
+        let within = vertices().filter(|&vertex| other.holds(vertex) || other.distance(vertex, band) <= band).count();
+        2 * within > vertices().count()
     }
 
     /// How far a point is from its edges in the bands within `reach`, mm.

@@ -7,8 +7,12 @@ use crate::geom::shape::Shape;
 
 /// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest
 /// of these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose
-/// rings a point lies.
-pub(super) fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
+/// rings a point lies, and `lies_in` tells whether most of the one shape lies in the other.
+pub(super) fn regions(
+    shapes: &[Shape],
+    holders: impl Fn(Point) -> Vec<u32> + Sync,
+    lies_in: impl Fn(u32, u32) -> bool + Sync,
+) -> Vec<u32> {
     let area = |shape: u32| {
         let (width, height) = shapes[shape as usize].extent().size();
         width * height
@@ -16,7 +20,8 @@ pub(super) fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sy
     let holder = |own: u32| {
         let shape = &shapes[own as usize];
         let mut holders = holders(shape.inner()?);
-        holders.retain(|&other| other != own && shapes[other as usize].extent().covers(&shape.extent()));
+        let covers = |other: u32| shapes[other as usize].extent().covers(&shape.extent());
+        holders.retain(|&other| other != own && covers(other) && lies_in(own, other));
         let smallest = holders.iter().copied().min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
         smallest.filter(|_| holders.len() % 2 == 1)
     };
@@ -46,13 +51,20 @@ mod tests {
     fn nested(rings: &[Vec<Point>]) -> Vec<u32> {
         let index = Regions::new(0..rings.len() as u32, |owner| vec![rings[owner as usize][..].into()]);
         let shapes: Vec<Shape> = rings.iter().map(|ring| Shape::new(std::slice::from_ref(ring))).collect();
-        regions(&shapes, |point| index.owners_at(point))
+        regions(&shapes, |point| index.owners_at(point), |_, _| true)
     }
 
     #[test]
     fn what_lies_in_a_part_is_its_cut_out_and_what_lies_in_that_a_part_again() {
         let shapes = [square(40.0, 60.0), square(0.0, 100.0), square(20.0, 80.0), square(45.0, 50.0)];
         assert_eq!(nested(&shapes), [0, 1, 1, 0]);
+    }
+
+    #[test]
+    fn what_only_overlaps_a_part_is_none_of_its_cut_outs() {
+        let shapes = [square(0.0, 100.0), square(20.0, 80.0)].map(|ring| Shape::new(&[ring]));
+        assert_eq!(regions(&shapes, |_| vec![0, 1], |_, _| true), [0, 0]);
+        assert_eq!(regions(&shapes, |_| vec![0, 1], |_, _| false), [0, 1]);
     }
 
     #[test]

@@ -37,14 +37,22 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
             let is_drawn = |chord| !(is_led && is_aside(other, other.chord(chord).deviation(end).1));
             let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= MET_SHARE * limit && is_drawn(chord);
             for chord in run.chords().filter(meets) {
-                // Both off by the tolerance they cross as far from there as they are askew.
-                let sine = cross(along, other.direction(chord)).abs().max(LEAST_SINE);
+                // Both off by the tolerance they cross as far from there as they are askew: those that go on along each other
+                // somewhere on the cut that ends there.
+                let sine = cross(along, other.direction(chord)).abs();
                 let chord = other.chord(chord);
                 let beside = bow(other, chord.deviation(end).1, width) + chord.sagitta();
-                let about = Extent::between(end, end).grown((2.0 * (reference.tolerance + limit) + beside) / sine);
+                let off = 2.0 * (reference.tolerance + limit) + beside;
+                if sine * line.length() <= off {
+                    continue; // nowhere farther from it than both may be off: it parts nothing beside
+                }
+                let mut about = Extent::between(end, end).grown(off / sine.max(LEAST_SINE));
+                if sine < LEAST_SINE {
+                    about.join(&Extent::between(end, end + along * (off / sine)).grown(off));
+                }
                 match found[before..].iter_mut().find(|joint| joint.cuts == cuts) {
                     Some(joint) => joint.about[0].join(&about),
-                    None => found.push(Joint { at: end, block, cuts, about: [about, Extent::EMPTY] }),
+                    None => found.push(Joint { at: end, block, cuts, about: vec![about] }),
                 }
             }
         }

@@ -137,6 +137,10 @@ fn led_on(own: &Ring, [from, to]: [f64; 2], [start, end]: [Point; 2], like: Segm
     cut.insert(0, Segment { from: start, to: ends[0], joint: Joint::default(), ..first });
     cut.push(Segment { from: ends[1], to: end, joint: Joint::default(), ..last });
     cut.retain(|segment| segment.length() > LEAST);
+    // Where one that has no length was dropped the next begins at the end of the one before it.
+    for next in 1..cut.len() {
+        cut[next].from = cut[next - 1].to;
+    }
     cut
 }
 
@@ -315,5 +319,28 @@ impl Sharing<'_> {
             }
         }
         Ok(led)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Span;
+
+    /// A stretch that begins less than a segment's least length before a corner.
+    #[test]
+    fn a_cut_that_begins_just_before_a_corner_has_no_gap_there() {
+        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|[x, y]| Point::new(x, y));
+        let side = |i: usize| Segment {
+            from: corners[i],
+            to: corners[(i + 1) % 4],
+            span: Span::default(),
+            joint: Joint::default(),
+            percent: 100,
+        };
+        let own = Ring::new([0, 0], true, (0..4).map(side).collect(), Vec::new());
+        let cut = led_on(&own, [10.0 - 5e-7, 25.0], [Point::new(10.0, -1.0), Point::new(4.0, 10.0)], side(0));
+        assert_eq!(cut.len(), 4, "{cut:?}");
+        assert!(cut.windows(2).all(|pair| pair[0].to == pair[1].from), "{cut:?}");
     }
 }

@@ -244,7 +244,9 @@ impl<'a> Leads<'a> {
         // on the edge.
         let ahead = from + sign * 2.0 * near.distance;
         let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
-        let is_on = aside.abs() <= near.distance / 2.0;
+        let behind = from - sign * 2.0 * near.distance;
+        let is_along = edge.arriving(behind, sign > 0.0).dot(&along) >= LEAST_COSINE;
+        let is_on = aside.abs() <= LEAST || aside.abs() <= near.distance / 2.0 && is_along;
         let is_inside = if is_on { edge.holds(at - along * (2.0 * near.distance)) } else { aside > 0.0 };
         let through = if is_inside { -through } else { through };
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
