@@ -1,8 +1,9 @@
 //! Which line lies in which: what holds each line of a marker or a drawing, and which part each belongs to.
 //!
-//! A closed line holds another when a place well inside that, or each vertex of one that is open, lies in it, when it is the
-//! larger one, and when most of the other, as [`Hold`] says, does not stick out. What is held by an odd number of closed lines is an inner line: it
-//! bounds a cut-out of the part whose outline is the smallest around it. What lies in a cut-out is a part again.
+//! A closed line holds a smaller one if a place well inside the smaller one lies in it and most of the smaller one, as [`Hold`]
+//! says, does not stick out. It holds an open line if the middle of its first segment or all of its vertices lie in it. A line
+//! that an odd number of closed lines hold is an inner line: it bounds a cut-out of the part whose outline is the smallest
+//! around it. What lies in a cut-out is a part again.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -25,6 +26,8 @@ const DEEP: usize = 16;
 /// What a line costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
 /// place in it looks at them all.
 const HELD: usize = 200;
+/// Distance within which a vertex of an open line lies on an outline, neither in it nor outside, mm: coordinates are rounded.
+const ON_OUTLINE: f64 = 0.1;
 /// Places of a line that are looked at to see whether it sticks out.
 const SAMPLES: usize = 12;
 
@@ -317,26 +320,28 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
         let holds = |owners: &[u32], candidate: &u32| owners.binary_search(candidate).is_ok();
         let mut around: Vec<u32> = candidates.iter().copied().filter(|candidate| holds(&holders, candidate)).collect();
         if !is_closed && around.len() < candidates.len() {
-            // One that crosses a bay of an outline and ends within it lies in it as well.
-            if !self.work.spend(points.len() * regions.cost_at(place)) {
-                return None;
-            }
-            let mut ends_within: Vec<u32> = candidates.iter().copied().filter(|one| !around.contains(one)).collect();
+            // The first segment of an open line may cross a bay of the outline that holds all its vertices.
+            let mut left: Vec<u32> = candidates.iter().copied().filter(|one| !holds(&holders, one)).collect();
+            let mut deep: Vec<u32> = Vec::new();
             for &point in points.iter() {
-                if ends_within.is_empty() {
+                if left.is_empty() {
                     break;
                 }
-                let owners = regions.owners_at(point);
-                ends_within.retain(|candidate| holds(&owners, candidate));
+                if !self.work.spend(regions.cost_at(point)) {
+                    return None;
+                }
+                let owners: Vec<(u32, f64)> = regions.depths_about(point, ON_OUTLINE).collect();
+                left.retain(|candidate| owners.iter().any(|(owner, _)| owner == candidate));
+                deep.extend(owners.iter().filter(|(_, depth)| *depth >= ON_OUTLINE).map(|(owner, _)| owner));
             }
-            around.extend(ends_within);
+            around.extend(left.into_iter().filter(|candidate| deep.contains(candidate)));
         }
         if self.hold.share > 0.0 && !around.is_empty() {
             if !self.work.spend(SAMPLES * regions.cost_at(place)) {
                 return None;
             }
             let samples: Vec<Vec<u32>> = samples(&points).map(|sample| regions.owners_at(sample)).collect();
-            let inside = |outer: &u32| samples.iter().filter(|owners| owners.binary_search(outer).is_ok()).count();
+            let inside = |outer: &u32| samples.iter().filter(|owners| holds(owners, outer)).count();
             around.retain(|outer| inside(outer) as f64 >= self.hold.share * SAMPLES as f64);
         }
         let area = |line: u32| self.area(line as usize);

@@ -153,6 +153,17 @@ impl<'a> Regions<'a> {
         self.depths_at_of(point, reach).map(|(region, depth)| (region.owner, depth))
     }
 
+    /// The owners in whose region a point lies, or at most `reach` mm outside, each with how deep it lies there: mm from the
+    /// edges, at most `reach`, negative outside.
+    pub fn depths_about(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let near = self.boxes.near(around(point, reach)).map(|i| &self.owners[i]);
+        near.filter_map(move |region| {
+            let away = region.depth(point, reach);
+            let depth = if region.holds(point) { away } else { -away };
+            (depth > -reach).then_some((region.owner, depth))
+        })
+    }
+
     /// The same, of those in which a point lies deeper than `slack` mm, or than a quarter of the width of a strip.
     pub fn deep_at(&self, point: Point, reach: f64, slack: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.depths_at_of(point, reach).filter_map(move |(region, depth)| {

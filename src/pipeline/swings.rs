@@ -30,7 +30,10 @@ pub(super) fn warn(toolpath: &Toolpath, declared: &[Declaration], knife: &Knife,
         n => format!(" ({n} more in this contour)"),
     };
     let message = format!("the heel leaves its line by {by} mm at a bend{more}");
-    let finding = Diagnostic::new(&code::PATH_SWING, message).at(run.spans[worst.vertex]).by(worst.off);
+    // The block that leads to the bend in the file.
+    let chord = if run.turned { worst.vertex } else { worst.vertex.checked_sub(1).unwrap_or(run.spans.len() - 1) };
+    let finding = Diagnostic::new(&code::PATH_SWING, message).at(run.spans[chord]).by(worst.off);
+    let finding = finding.on_cloth(run.points[worst.vertex]);
     found.push(finding.hint(match knife.max_swing_mm {
         None => "`knife.max_swing_mm = 3` lifts the knife at such bends as at corners",
         Some(_) => "a lower `knife.max_swing_mm` lifts the knife at this bend, too",

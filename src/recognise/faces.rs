@@ -103,7 +103,9 @@ impl<'a> Graph<'a> {
             let mut places = graph.places(stroke);
             places.sort_unstable();
             let known = between.entry(places).or_default();
-            if let Some(k) = known.iter().position(|&other| graph.are_twins([other, stroke], reach)) {
+            // A place where more strokes end has no order anyway.
+            let twin = known.iter().take(MOST_ENDS).position(|&other| graph.are_twins([other, stroke], reach));
+            if let Some(k) = twin {
                 graph.twins.insert(known.swap_remove(k), stroke);
                 continue;
             }
@@ -261,7 +263,7 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The place of both ends of each stroke, as the first end there.
+/// The place of each end of the strokes, named by the first end there.
 fn ends_at_places(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, End> {
     let ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
     let drawn: Vec<(u16, Point)> =

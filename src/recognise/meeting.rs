@@ -4,20 +4,22 @@ use std::collections::BTreeMap;
 
 use crate::geom::Point;
 
-/// For each end, given with its pen, the first one that is at its place: itself where no earlier one is. `reach` is the
-/// farthest that ends at one place lie apart along an axis, mm.
+/// Index, for each end, of the nearest end before it that is the first at its place; ends are given with their pens. An end without an earlier one there has
+/// its own index. `reach` is the farthest that an end lies from the first one at its place, along an axis, mm.
 pub(super) fn places(ends: &[(u16, Point)], reach: f64) -> Vec<usize> {
     let cell = |at: Point| [at.x, at.y].map(|mm| (mm / reach).floor() as i64);
-    // First ends alone: in a cell there are few, as they lie apart.
-    let mut first: BTreeMap<(u16, [i64; 2]), Vec<usize>> = BTreeMap::new();
+    // A cell is as wide as the reach, so it has one first end of a pen at most.
+    let mut first: BTreeMap<(u16, [i64; 2]), usize> = BTreeMap::new();
     let mut places = Vec::with_capacity(ends.len());
     for (end, &(pen, at)) in ends.iter().enumerate() {
         let [x, y] = cell(at);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (pen, [x, y])));
-        let mut known = around.filter_map(|cell| first.get(&cell)).flatten();
-        let place = known.find(|&&known| (ends[known].1 - at).amax() <= reach).copied().unwrap_or(end);
+        let known = around.filter_map(|cell| first.get(&cell)).map(|&known| ((ends[known].1 - at).amax(), known));
+        let nearest = known.filter(|(apart, _)| *apart <= reach).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let place = nearest.map_or(end, |(_, known)| known);
         if place == end {
-            first.entry((pen, [x, y])).or_default().push(end);
+            // Two of a cell may lie an ulp farther apart than the reach.
+            first.entry((pen, [x, y])).or_insert(end);
         }
         places.push(place);
     }
@@ -34,5 +36,6 @@ mod tests {
         // The third lies within reach of the second alone, and the last is of another pen.
         let ends = [at(1, 0.0), at(1, 0.15), at(1, 0.3), at(1, -0.2), at(2, 0.0)];
         assert_eq!(places(&ends, 0.2), [0, 0, 2, 0, 4]);
+        assert_eq!(places(&[at(1, 0.0), at(1, 0.3), at(1, 0.16)], 0.2), [0, 1, 1], "the nearer one");
     }
 }

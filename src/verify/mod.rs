@@ -18,6 +18,8 @@ pub(crate) mod rules;
 mod simulate;
 mod source;
 pub mod spray;
+#[cfg(test)]
+mod testing;
 
 pub use declared::Declared;
 pub use program::cutter_file::cutter_file;

@@ -186,6 +186,24 @@ fn every_form_is_found_in_every_unit_on_every_edge() {
     }
 }
 
+/// Each corner is rounded by itself, so that the two at the bottom lie at different depths.
+#[test]
+fn a_castle_stays_a_castle_however_its_corners_are_rounded() {
+    const TURNS: u32 = 180;
+    let job = Job::default();
+    let castles = forms().into_iter().filter(|(_, word, ..)| word.starts_with("castle"));
+    for (drawn, word, width, depth) in castles {
+        for unit in UNITS {
+            for turn in (0..TURNS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(TURNS)) {
+                let points = part(Edge { turn, radius: 0.0 }, &drawn);
+                let (marker, ..) = passed(&[rounded(&ring(&points, 0, false), unit)], unit, &job);
+                let found: Vec<&str> = notches(&marker).into_iter().map(|(word, ..)| word).collect();
+                assert_eq!(found, [word], "{width} by {depth}, unit {unit}, turned {turn}");
+            }
+        }
+    }
+}
+
 #[test]
 fn strokes_at_an_edge_are_slits_also_when_they_miss_it_and_carry_crossbars() {
     let job = Job::default();

@@ -111,7 +111,8 @@ impl Alone {
                 };
                 let span = span(marker, i, &part, crossing.segments[1]);
                 let finding = Diagnostic::new(&code::MARKER_SELF_CROSSING, message);
-                alone.findings.push(finding.at(span).on_cloth(crossing.at));
+                let hint = "see in the picture (`-t svg`) which side is the part, and mend the line in the CAD";
+                alone.findings.push(finding.at(span).on_cloth(crossing.at).hint(hint));
             }
             if let Some(slit) = severing(&marker.pieces[i], &part, &mut work) {
                 let message =

@@ -11,12 +11,14 @@ use crate::verify::reference::common::Joint;
 #[derive(Debug)]
 pub(in crate::verify) struct Joints<'a> {
     all: &'a [Joint],
-    /// Where their cuts must cross, the boxes of one joint after those of the other.
+    /// Boxes of all joints, those of one joint next to each other.
     boxes: Boxes,
-    /// The joint of each box, by its place among all.
-    of: Vec<usize>,
-    /// The ways that come by each joint; `None` once its cuts are known to cross.
-    ways: Vec<Option<Vec<Way>>>,
+    /// Index of the joint of each box.
+    joint_of: Vec<usize>,
+    /// The ways through each box.
+    ways: Vec<Vec<Way>>,
+    /// Whether the cuts of each joint are known to cross.
+    is_met: Vec<bool>,
 }
 
 /// A part of a way that a blade cuts.
@@ -33,8 +35,9 @@ impl<'a> Joints<'a> {
         Self {
             all: joints,
             boxes: Boxes::new(joints.iter().flat_map(|joint| joint.about.iter().copied()).collect()),
-            of: joints.iter().enumerate().flat_map(|(i, joint)| joint.about.iter().map(move |_| i)).collect(),
-            ways: joints.iter().map(|_| Some(Vec::new())).collect(),
+            joint_of: joints.iter().enumerate().flat_map(|(i, joint)| joint.about.iter().map(move |_| i)).collect(),
+            ways: joints.iter().flat_map(|joint| &joint.about).map(|_| Vec::new()).collect(),
+            is_met: vec![false; joints.len()],
         }
     }
 
@@ -44,22 +47,29 @@ impl<'a> Joints<'a> {
             return;
         }
         for place in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
-            let i = self.of[place];
-            let Some(known) = &mut self.ways[i] else { continue };
+            let joint = self.joint_of[place];
+            if self.is_met[joint] {
+                continue;
+            }
+            let known = &mut self.ways[place];
             let before = known.len();
             known.extend(ways(points, cut, self.boxes.all()[place]));
-            let crosses = |way: &Way| known.iter().any(|other| self.all[i].is_of([way, other]) && way.crosses(other));
-            if known[before..].iter().any(crosses) {
-                self.ways[i] = None;
-            }
+            let crosses =
+                |way: &Way| known.iter().any(|other| self.all[joint].is_of([way, other]) && way.crosses(other));
+            self.is_met[joint] = known[before..].iter().any(crosses);
         }
     }
 
     /// Sees how wide a thread is left at each joint.
     pub(super) fn see_gaps(&self, worst: &mut Worst) {
-        let open = self.all.par_iter().zip(&self.ways).filter_map(|(joint, ways)| Some((joint, ways.as_ref()?)));
-        let gaps: Vec<(&Joint, f64)> = open.map(|(joint, ways)| (joint, gap(joint, ways))).collect();
-        for (joint, gap) in gaps {
+        let firsts = self.all.iter().scan(0, |next, joint| Some(std::mem::replace(next, *next + joint.about.len())));
+        let joints = self.all.iter().zip(firsts).zip(&self.is_met);
+        let open: Vec<(&'a Joint, usize)> = joints.filter(|(_, is_met)| !**is_met).map(|(joint, _)| joint).collect();
+        let least = |&(joint, first): &(&'a Joint, usize)| -> (&'a Joint, f64) {
+            let ways: Vec<&Way> = self.ways[first..first + joint.about.len()].iter().flatten().collect();
+            (joint, gap(joint, &ways))
+        };
+        for (joint, gap) in open.par_iter().map(least).collect::<Vec<_>>() {
             worst.see(gap, || Sighting::missing(joint.at, joint.block));
         }
     }
@@ -95,10 +105,10 @@ fn ways(points: &[Point], cut: u32, about: Extent) -> Vec<Way> {
     found
 }
 
-/// How wide the widest gap is on the best way from the one cut of a joint to the other over all that is cut about it, mm.
-fn gap(joint: &Joint, ways: &[Way]) -> f64 {
+/// How wide the widest gap is on the best way from the one cut of a joint to the other over all that is cut in its boxes, mm.
+fn gap(joint: &Joint, ways: &[&Way]) -> f64 {
     let [from, to] = joint.cuts;
-    // What is not there at all is as far away as can be.
+    // Where a cut is missing the gap is as wide as the box around the place.
     let (width, height) = joint.about[0].size();
     let most = width.hypot(height);
     let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { most }).collect();

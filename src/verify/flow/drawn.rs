@@ -9,6 +9,7 @@ use super::rules;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::verdict::{Sighting, WorstByRule};
+use crate::verify::reference::band::band;
 use crate::verify::{Inside, Required};
 
 /// Places of an edge that are looked at are no farther from each other, mm.
@@ -39,7 +40,7 @@ pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: 
     };
     let inside = LazyCell::new(|| {
         let (marker, profile) = (ground.marker, ground.profile);
-        Inside::new(marker, profile.notch, profile.band(marker.unit))
+        Inside::new(marker, profile.notch, band(marker.unit, profile))
     });
     for cut in required.cuts.iter().filter(|cut| !cut.drawn) {
         let (length, _) = longest_off(&cut.points, is_drawn);
@@ -75,33 +76,16 @@ fn longest_off(points: &[Point], is_on: impl Fn(Point) -> bool) -> (f64, Point) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::Marker;
-    use crate::ir::list::{Joint, Segment};
-    use crate::ir::marker::{Contour, Piece};
     use crate::machine::MachineProfile;
-    use crate::source::Span;
-    use crate::verify::RequiredCut;
-
-    const EDGE: Segment = Segment {
-        from: Point::new(0.0, 0.0),
-        to: Point::new(0.0, 0.0),
-        span: Span { start: 0, end: 0, block: 1 },
-        joint: Joint { lift: false, full_advance: false, no_overcut: false },
-        percent: 100,
-    };
+    use crate::verify::{RequiredCut, testing};
 
     /// What is said of a cut for two parts, one of which has its edge 0.2 mm aside and ends 10 mm before the other.
     fn broken(cut: &[(f64, f64)]) -> Vec<&'static str> {
         let points = |list: &[(f64, f64)]| list.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>();
-        let parts = [[(0.0, 0.0), (100.0, -20.0)], [(0.0, 0.2), (90.0, 20.0)]];
-        let mut marker = Marker::default();
-        for [(left, edge), (right, far)] in parts {
-            let corners = points(&[(left, edge), (right, edge), (right, far), (left, far), (left, edge)]);
-            let edges = corners.windows(2).map(|ends| Segment { from: ends[0], to: ends[1], ..EDGE });
-            let range = marker.list.append(edges).expect("it has a length");
-            let contours = vec![Contour { range, closed: true }];
-            marker.pieces.push(Piece { contours, ..Piece::default() });
-        }
+        let rectangle =
+            |left: f64, edge: f64, right: f64, far: f64| [[left, edge], [right, edge], [right, far], [left, far]];
+        let parts = [rectangle(0.0, 0.0, 100.0, -20.0), rectangle(0.0, 0.2, 90.0, 20.0)];
+        let marker = testing::marker(parts.iter().map(|part| &part[..]));
         let cuts = vec![RequiredCut {
             points: points(cut),
             closed: false,

@@ -2,6 +2,8 @@
 //!
 //! All of it is measured on the cloth: going along an edge that is spared, cuts of any part that run beside it are looked for.
 
+use std::collections::BTreeSet;
+
 use super::grid::Grid;
 use super::line::Line;
 use super::lines::Reference;
@@ -22,6 +24,8 @@ const ABOUT: f64 = 4.0;
 /// Least sine of the angle between two lines for which their crossing is looked for in full: those at a smaller angle go on along
 /// each other.
 pub(super) const LEAST_SINE: f64 = 0.1;
+/// Most boxes along one chord of a way.
+const MOST_BOXES: f64 = 64.0;
 /// Longest part of an edge that cuts are looked for beside at a time, mm.
 const SPAN: f64 = 32.0;
 
@@ -45,8 +49,8 @@ pub(in crate::verify) struct Joint {
     pub(in crate::verify) block: u32,
     /// The cuts, by their places among those of the marker.
     pub(in crate::verify) cuts: [u32; 2],
-    /// Where they must cross, in one of these: about the place, along the stretch of the edge for which both stand, and on ways
-    /// on which cuts are led on there.
+    /// Boxes in one of which the cuts must cross: the first around the place, the others along the stretch of the edge beside
+    /// which both run, and around the ways there on which one of them is led on.
     pub(in crate::verify) about: Vec<Extent>,
 }
 
@@ -54,9 +58,9 @@ pub(in crate::verify) struct Joint {
 struct Stood {
     cut: u32,
     from: Sighting,
-    /// Boxes along the stretch of the edge for which the cut before it stands as well: wherever the two cross there, the one
-    /// bounds the part up to that place and the other from it on.
-    both: Vec<Extent>,
+    /// Boxes along the stretch of the edge beside which the cut before it runs too. The cuts may cross anywhere in it: the
+    /// earlier one bounds the part up to that place, the later one from it on.
+    overlap: Vec<Extent>,
 }
 
 /// A stretch of an edge for which a cut stands.
@@ -69,6 +73,7 @@ struct Stand {
 }
 
 /// A straight piece of a cut beside an edge.
+#[derive(Clone, Copy)]
 struct Beside {
     /// From where to where beside the edge, mm along that.
     over: [f64; 2],
@@ -94,19 +99,17 @@ impl Common {
             common.uncut.push(((to - from).norm(), sighting(from, stretch.block)));
         }
         let leads: Vec<Vec<Point>> = leads(&reference.lines);
-        let boxes = Boxes::new(leads.iter().map(|lead| Extent::of(lead).grown(ABOUT * distance)).collect());
+        let boxes = Boxes::new(leads.iter().map(|lead| Extent::of(lead)).collect());
+        let near = ABOUT * distance;
         for joint in &mut common.joints {
-            let reach = (ABOUT * distance).max(crossing(joint, reference, grid, distance));
-            let mut about = Extent::between(joint.at, joint.at).grown(reach);
-            let within = boxes.near(about).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= reach);
-            for lead in within.collect::<Vec<_>>() {
-                about.join(&boxes.all()[lead]);
-            }
-            joint.about[0] = about;
-            let mut led: Vec<usize> = joint.about[1..].iter().flat_map(|&stretch| boxes.near(stretch)).collect();
-            led.sort_unstable();
-            led.dedup();
-            joint.about.extend(led.into_iter().map(|lead| boxes.all()[lead]));
+            let place = Extent::between(joint.at, joint.at);
+            joint.about[0] = place.grown(near.max(crossing(joint, reference, grid, distance)));
+            let by_place = boxes.near(place.grown(near));
+            let by_place = by_place.filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= near);
+            let by_edge = joint.about[1..].iter().flat_map(|&about| boxes.near(about));
+            // Of any cut: two cuts may hang together through a third one that ends there.
+            let led: BTreeSet<usize> = by_place.chain(by_edge).collect();
+            joint.about.extend(led.into_iter().map(|lead| boxes.all()[lead].grown(near)));
         }
         common
     }
@@ -135,7 +138,7 @@ impl Common {
         for stretch in &ring {
             let [from, _] = stretch.ends;
             match stretch.cut {
-                Some(cut) => cuts.push(Stood { cut, from: sighting(from, stretch.block), both: Vec::new() }),
+                Some(cut) => cuts.push(Stood { cut, from: sighting(from, stretch.block), overlap: Vec::new() }),
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
@@ -156,13 +159,13 @@ impl Common {
                 self.uncut.push((length, place));
             }
         }
-        let mut before = cuts.last().map(|last| last.cut);
-        for Stood { cut, from: Sighting { point: at, block, .. }, both } in cuts {
-            let before = before.replace(cut).unwrap_or(cut);
+        let Some(mut before) = cuts.last().map(|last| last.cut) else { return };
+        for Stood { cut, from: Sighting { point: at, block, .. }, overlap } in cuts {
             if before != cut {
-                let about = [Extent::EMPTY].into_iter().chain(both).collect();
+                let about = [Extent::EMPTY].into_iter().chain(overlap).collect();
                 self.joints.push(Joint { at, block, cuts: [before, cut], about });
             }
+            before = cut;
         }
     }
 
@@ -189,8 +192,7 @@ impl Common {
                 found.add(Beside { over: one.over.map(|way| way + start), ..one });
             }
         }
-        let Stands { all: stands, pieces, left, shift, .. } = found;
-        let covered: Vec<[f64; 2]> = pieces.iter().map(|piece| piece.over).collect();
+        let Stands { all: stands, covered, left, shift, .. } = found;
         for gap in left {
             let (length, at) = longest_without(gap, &covered);
             if length > distance / 2.0 {
@@ -206,7 +208,7 @@ impl Common {
             let (at, block) = (root(slit), slit.block(0));
             Some(Joint { at, block, cuts: [cut, slit.cut.index], about: vec![Extent::EMPTY] })
         }));
-        let both = |before: &Stand, next: &Stand| {
+        let overlap = |before: &Stand, next: &Stand| {
             let [from, to] = [before.over[0].max(next.over[0]), before.over[1].min(next.over[1])];
             if from < to { along_edge(&points, &stations, [from, to], distance) } else { Vec::new() }
         };
@@ -215,8 +217,8 @@ impl Common {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
             if let Some(next) = next {
-                let both = before.map_or_else(Vec::new, |before| both(before, next));
-                chain.push(Stood { cut: next.cut, from: seen(at), both });
+                let overlap = before.map_or_else(Vec::new, |before| overlap(before, next));
+                chain.push(Stood { cut: next.cut, from: seen(at), overlap });
                 (at, before) = (next.over[1], Some(next));
                 continue;
             }
@@ -306,8 +308,8 @@ fn leads(lines: &[Line]) -> Vec<Vec<Point>> {
 #[derive(Default)]
 struct Stands {
     all: Vec<Stand>,
-    /// All their pieces.
-    pieces: Vec<Beside>,
+    /// Stretches of the edge that pieces of cuts cover, mm along it.
+    covered: Vec<[f64; 2]>,
     /// Over what a cut does not go straight on, mm along the edge.
     left: Vec<[f64; 2]>,
     /// How far off one is at the most, and where, mm.
@@ -318,9 +320,8 @@ struct Stands {
 
 impl Stands {
     /// Adds the next piece of a cut.
-    fn add(&mut self, piece: Beside) {
-        let Beside { over, cut, aside, at, round } = piece;
-        self.pieces.push(piece);
+    fn add(&mut self, Beside { over, cut, aside, at, round }: Beside) {
+        self.covered.push(over);
         let off = aside[0].abs().max(aside[1].abs());
         if off > self.shift.0 {
             self.shift = (off, over[0]);
@@ -349,14 +350,27 @@ fn ends(edge: &[Drawn]) -> impl Iterator<Item = Point> {
     edge.iter().map(|chord| chord.ends[1])
 }
 
-/// Boxes around the chords of a stretch of an edge, mm along it, as wide as what stands for the edge lies apart.
+/// Boxes along a stretch of an edge, mm along it, each grown by `distance`, the greatest distance of a cut from the edge, mm.
 fn along_edge(points: &[Point], stations: &[f64], [from, to]: [f64; 2], distance: f64) -> Vec<Extent> {
     let first = stations.partition_point(|&station| station <= from);
     let last = stations.partition_point(|&station| station < to);
     let ends = [from, to].map(|station| polyline::place(points, stations, station));
-    let vertices: Vec<Point> =
-        ends[..1].iter().chain(&points[first.min(last)..last]).chain(&ends[1..]).copied().collect();
-    vertices.windows(2).map(|chord| Extent::between(chord[0], chord[1]).grown(distance)).collect()
+    let vertices: Vec<Point> = ends[..1].iter().chain(&points[first..last]).chain(&ends[1..]).copied().collect();
+    boxes_of(&vertices, distance)
+}
+
+/// Boxes along a way, each grown by a distance, mm, and not much longer than that is wide: one around a long chord askew would
+/// hold places far from it.
+pub(super) fn boxes_of(points: &[Point], distance: f64) -> Vec<Extent> {
+    let mut found = Vec::new();
+    for chord in points.windows(2) {
+        let way = chord[1] - chord[0];
+        let count = (way.norm() / (ABOUT * distance)).ceil().clamp(1.0, MOST_BOXES);
+        let place = |share: f64| chord[0] + way * (share / count);
+        let places = (0..count as u64).map(|k| k as f64);
+        found.extend(places.map(|k| Extent::between(place(k), place(k + 1.0)).grown(distance)));
+    }
+    found
 }
 
 /// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.

@@ -49,16 +49,17 @@ struct Part<'a> {
 
 impl<'a> Inside<'a> {
     /// The index of a marker, whose notches are cut in a style: the cloth of one that is a slit, or none, stays with its part.
-    /// Edges within a band, mm, are one.
-    pub fn new(marker: &'a Marker, notches: Notches, band: f64) -> Self {
+    /// Edges of two parts at most `merge` mm apart are one edge.
+    pub fn new(marker: &'a Marker, notches: Notches, merge: f64) -> Self {
         let part = |i: usize| Part::new(i, marker, notches);
         let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(part).collect();
         let boxes = Boxes::new(parts.iter().map(|part| part.extent).collect());
         let mut inside = Self { boxes, parts, part_of: Vec::new() };
-        // What lies in a piece is a cut-out of it, whoever it belongs to; a piece that only overlaps another is none.
+        // A piece that lies in another one is a cut-out of it, even if the file has it as a part. A piece that merely overlaps
+        // another one is a part of its own.
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
-        let part = |piece: u32| &inside.parts[inside.parts.partition_point(|part| part.piece < piece as usize)];
-        let lies_in = |own: u32, other: u32| part(own).lies_in(part(other), band);
+        let of_piece = |piece: u32| &inside.parts[inside.parts.partition_point(|part| part.piece < piece as usize)];
+        let lies_in = |own: u32, other: u32| of_piece(own).lies_in(of_piece(other), merge);
         let shape = |piece: &Piece| {
             let closed = piece.contours.iter().filter(|contour| contour.closed);
             Shape::new(&closed.map(|contour| marker.list.points(contour.range)).collect::<Vec<_>>())
@@ -199,11 +200,23 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Whether more of its vertices lie in another part, or within a band of its edges, mm, than do not.
-    fn lies_in(&self, other: &Self, band: f64) -> bool {
-        let vertices = || self.rings.iter().flat_map(|ring| ring.iter().copied());
-        let within = vertices().filter(|&vertex| other.holds(vertex) || other.distance(vertex, band) <= band).count();
-        2 * within > vertices().count()
+    /// Whether most of its edges, by length, end in another part or at most `merge` mm from its edges. Each end stands for half
+    /// of its edge.
+    fn lies_in(&self, other: &Self, merge: f64) -> bool {
+        if !other.extent.grown(merge).covers(&self.extent) {
+            return false;
+        }
+        let (mut whole, mut within) = (0.0, 0.0);
+        for ring in &self.rings {
+            let is_within = |&end: &Point| other.holds(end) || other.distance(end, merge) <= merge;
+            let ends: Vec<f64> = ring.iter().map(|end| if is_within(end) { 0.5 } else { 0.0 }).collect();
+            for (edge, shares) in ring.windows(2).zip(ends.windows(2)) {
+                let length = (edge[1] - edge[0]).norm();
+                whole += length;
+                within += length * (shares[0] + shares[1]);
+            }
+        }
+        2.0 * within > whole
     }
 
     /// How far a point is from its edges in the bands within `reach`, mm.
@@ -221,5 +234,39 @@ impl<'a> Part<'a> {
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
         };
         self.edges.of(self.band(point.y)).iter().filter(is_crossed).count() % 2 == 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::testing;
+
+    /// The part to which each of some pieces belongs, given as the corners of their outlines.
+    fn parts(outlines: &[Vec<[f64; 2]>]) -> Vec<usize> {
+        let marker = testing::marker(outlines.iter().map(Vec::as_slice));
+        Inside::new(&marker, Notches::default(), 0.2).part_of
+    }
+
+    fn square(low: f64, high: f64) -> Vec<[f64; 2]> {
+        vec![[low, low], [high, low], [high, high], [low, high]]
+    }
+
+    #[test]
+    fn a_piece_in_another_one_is_a_cut_out_of_it_however_it_is_rounded() {
+        assert_eq!(parts(&[square(0.0, 100.0), square(20.0, 80.0)]), [0, 0]);
+        assert_eq!(parts(&[square(0.0, 100.0), square(-0.1, 80.0)]), [0, 0]);
+    }
+
+    #[test]
+    fn a_piece_that_merely_overlaps_a_part_is_no_cut_out_of_it_however_its_edges_are_drawn() {
+        assert_eq!(parts(&[square(0.0, 100.0), square(20.0, 120.0)]), [0, 1]);
+        // A beam like an I, and a square over its web, on which one of its edges has many vertices.
+        let half = vec![[0.0, 0.0], [100.0, 0.0], [100.0, 10.0], [55.0, 10.0], [55.0, 90.0], [100.0, 90.0]];
+        let beam = [half.clone(), half.iter().map(|[x, y]| [100.0 - x, 100.0 - y]).collect()].concat();
+        assert_eq!(parts(&[beam.clone(), square(20.0, 80.0)]), [0, 1]);
+        let mut dense = square(20.0, 80.0);
+        dense.splice(1..1, (46..55).map(|x| [f64::from(x), 20.0]));
+        assert_eq!(parts(&[beam, dense]), [0, 1]);
     }
 }

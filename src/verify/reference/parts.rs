@@ -1,5 +1,7 @@
 //! What lies in what: whose cut-out a piece is.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
 use crate::geom::Point;
@@ -7,7 +9,7 @@ use crate::geom::shape::Shape;
 
 /// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest
 /// of these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose
-/// rings a point lies, and `lies_in` tells whether most of the one shape lies in the other.
+/// rings a point lies, and `lies_in` tells whether the one shape, or most of it, lies in the other.
 pub(super) fn regions(
     shapes: &[Shape],
     holders: impl Fn(Point) -> Vec<u32> + Sync,
@@ -20,8 +22,9 @@ pub(super) fn regions(
     let holder = |own: u32| {
         let shape = &shapes[own as usize];
         let mut holders = holders(shape.inner()?);
-        let covers = |other: u32| shapes[other as usize].extent().covers(&shape.extent());
-        holders.retain(|&other| other != own && covers(other) && lies_in(own, other));
+        // One that lies in another is the smaller one, so that no two lie in each other.
+        let is_larger = |other: u32| (area(other), own).partial_cmp(&(area(own), other)).is_some_and(Ordering::is_gt);
+        holders.retain(|&other| is_larger(other) && lies_in(own, other));
         let smallest = holders.iter().copied().min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
         smallest.filter(|_| holders.len() % 2 == 1)
     };
@@ -61,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn what_only_overlaps_a_part_is_none_of_its_cut_outs() {
+    fn a_shape_that_lies_in_no_other_is_none_of_its_cut_outs() {
         let shapes = [square(0.0, 100.0), square(20.0, 80.0)].map(|ring| Shape::new(&[ring]));
         assert_eq!(regions(&shapes, |_| vec![0, 1], |_, _| true), [0, 0]);
         assert_eq!(regions(&shapes, |_| vec![0, 1], |_, _| false), [0, 1]);

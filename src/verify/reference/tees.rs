@@ -1,6 +1,8 @@
 //! Tees: where the drawing has an open cut end on another cut, as a slit does on the edge of its part.
 
-use super::common::{Joint, LEAST_SINE, along};
+use std::iter;
+
+use super::common::{Joint, LEAST_SINE, along, boxes_of};
 use super::grid::{Grid, Run};
 use super::inside::Inside;
 use super::line::Line;
@@ -37,22 +39,24 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
             let is_drawn = |chord| !(is_led && is_aside(other, other.chord(chord).deviation(end).1));
             let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= MET_SHARE * limit && is_drawn(chord);
             for chord in run.chords().filter(meets) {
-                // Both off by the tolerance they cross as far from there as they are askew: those that go on along each other
-                // somewhere on the cut that ends there.
+                // Two straight lines at the angle a, each off by d, cross within 2 d / sin a of the drawn place. At a small angle
+                // that is looked for along the ending cut alone.
                 let sine = cross(along, other.direction(chord)).abs();
-                let chord = other.chord(chord);
-                let beside = bow(other, chord.deviation(end).1, width) + chord.sagitta();
-                let off = 2.0 * (reference.tolerance + limit) + beside;
-                if sine * line.length() <= off {
-                    continue; // nowhere farther from it than both may be off: it parts nothing beside
+                let drawn = other.chord(chord);
+                let off = 2.0 * (reference.tolerance + limit);
+                let is_beside = sine < LEAST_SINE;
+                if is_beside && lies_along(line, run.line(), reference, grid, off) {
+                    continue; // both may lie on each other over its whole length: it parts nothing that the other does not
                 }
-                let mut about = Extent::between(end, end).grown(off / sine.max(LEAST_SINE));
-                if sine < LEAST_SINE {
-                    about.join(&Extent::between(end, end + along * (off / sine)).grown(off));
-                }
+                let off = off + bow(other, drawn.deviation(end).1, width) + drawn.sagitta();
+                let about = Extent::between(end, end).grown(off / sine.max(LEAST_SINE));
+                let far = if is_beside { boxes_along(line, station, off / sine, off) } else { Vec::new() };
                 match found[before..].iter_mut().find(|joint| joint.cuts == cuts) {
-                    Some(joint) => joint.about[0].join(&about),
-                    None => found.push(Joint { at: end, block, cuts, about: vec![about] }),
+                    Some(joint) => {
+                        joint.about[0].join(&about);
+                        joint.about.extend(far);
+                    }
+                    None => found.push(Joint { at: end, block, cuts, about: iter::once(about).chain(far).collect() }),
                 }
             }
         }
@@ -75,6 +79,14 @@ fn lies_along(line: &Line, other: usize, reference: &Reference, grid: &Grid, lim
         ways.zip(0..).all(|(way, chord)| way <= line.station(chord + 1) - line.station(chord) + limit)
     };
     does(line) && reference.lines.iter().filter(|of_cut| of_cut.cut.index == line.cut.index).all(does)
+}
+
+/// Boxes along an open line from the end at a station, `way` mm far or to its other end, each grown by `off` mm.
+fn boxes_along(line: &Line, station: f64, way: f64, off: f64) -> Vec<Extent> {
+    let [from, to] = if station > 0.0 { [(station - way).max(0.0), station] } else { [0.0, way.min(line.length())] };
+    let inner = line.vertices(from, to).map(|vertex| line.point(vertex));
+    let points: Vec<Point> = iter::once(line.place(from)).chain(inner).chain([line.place(to)]).collect();
+    boxes_of(&points, off)
 }
 
 /// How far a blade of a width that is plunged over a station of a line may lie beside it there, mm: as far as an arc that turns

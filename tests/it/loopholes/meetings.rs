@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use cutc::geom::{Heading, Vector};
-use cutc::ir::marker::{Notch, NotchKind};
+use cutc::geom::{Heading, Point, Vector};
+use cutc::ir::list::Segment;
+use cutc::ir::marker::{Contour, Notch, NotchKind};
 use cutc::machine::Job;
 use cutc::source::Span;
 
@@ -94,5 +95,35 @@ fn a_slit_meets_the_edge_that_it_stands_on() {
             program.run(ends[0] + aside, ends[1] + aside, block);
         }
         check(&mut program, &marker, apart);
+    }
+}
+
+#[test]
+fn a_cut_that_leaves_an_edge_little_by_little_meets_it() {
+    let corners = [p(100.0, 0.0), p(200.0, 0.0), p(200.0, 100.0), p(100.0, 100.0), p(100.0, 0.0)];
+    // From the edge into the part: straight at 3 degrees, and on an arc that begins along the edge.
+    let straight: Vec<Point> = vec![p(180.0, 100.0), p(120.0, 100.0 - 60.0 * 3.0_f64.to_radians().tan())];
+    let arc = |k: u32| Heading::new(TAU * f64::from(k) / 720.0).unit();
+    let bent: Vec<Point> = (0..=90).map(|k| p(180.0 - 50.0 * arc(k).y, 50.0 + 50.0 * arc(k).x)).collect();
+    for line in [straight, bent] {
+        let mut marker = support::marker(&corners);
+        let like = marker.list.walk(marker.pieces[0].contours[0].range).next().expect("it is not empty").1;
+        let span = Span { block: 11, ..Span::default() };
+        let segments = line.windows(2).map(|ends| Segment { from: ends[0], to: ends[1], span, ..like });
+        let range = marker.list.append(segments).expect("it has a length");
+        marker.pieces[0].contours.push(Contour { range, closed: false });
+        // Farther than the tolerance the edge is another line.
+        for apart in [0.0].into_iter().chain(APART).filter(|apart| *apart < 0.1) {
+            let mut program = Program::new(&bare());
+            for ends in line.windows(2) {
+                program.run(ends[0], ends[1], 11);
+            }
+            for (ends, block) in corners.windows(2).zip(1..) {
+                // The edge of the line alone is cut farther out.
+                let aside = if block == 3 { Vector::new(0.0, apart) } else { Vector::zeros() };
+                program.run(ends[0] + aside, ends[1] + aside, block);
+            }
+            check(&mut program, &marker, apart);
+        }
     }
 }

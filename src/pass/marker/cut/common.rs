@@ -137,9 +137,14 @@ fn led_on(own: &Ring, [from, to]: [f64; 2], [start, end]: [Point; 2], like: Segm
     cut.insert(0, Segment { from: start, to: ends[0], joint: Joint::default(), ..first });
     cut.push(Segment { from: ends[1], to: end, joint: Joint::default(), ..last });
     cut.retain(|segment| segment.length() > LEAST);
-    // Where one that has no length was dropped the next begins at the end of the one before it.
-    for next in 1..cut.len() {
-        cut[next].from = cut[next - 1].to;
+    // Closes the gaps that dropped segments leave.
+    let mut at = start;
+    for segment in &mut cut {
+        segment.from = at;
+        at = segment.to;
+    }
+    if let Some(last) = cut.last_mut() {
+        last.to = end;
     }
     cut
 }

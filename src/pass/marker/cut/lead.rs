@@ -31,6 +31,8 @@ const ABOUT: f64 = 3.0;
 const MOST_CUTS: usize = 200;
 /// Stretches that are shorter have no length, mm: rounding.
 const LEAST: f64 = 1e-9;
+/// Distance within which a place is on an edge, mm: rounding.
+const ON_EDGE_EPSILON: f64 = 1e-9;
 
 /// How a cut comes to where it should cross another.
 #[derive(Debug, Clone, Copy)]
@@ -240,13 +242,13 @@ impl<'a> Leads<'a> {
         // its end, which goes on as it does, leaves the distance, or that it ends deeper than it may.
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
-        // From whichever side of the edge it comes it ends on the other: the side of where it begins, unless that lies about
-        // on the edge.
+        // The cut ends on the far side of the edge, seen from where it begins. A place on the edge, or one within half a
+        // distance that is reached along the edge, tells no side: there the stretch before it decides.
         let ahead = from + sign * 2.0 * near.distance;
         let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
         let behind = from - sign * 2.0 * near.distance;
         let is_along = edge.arriving(behind, sign > 0.0).dot(&along) >= LEAST_COSINE;
-        let is_on = aside.abs() <= LEAST || aside.abs() <= near.distance / 2.0 && is_along;
+        let is_on = aside.abs() <= ON_EDGE_EPSILON || aside.abs() <= near.distance / 2.0 && is_along;
         let is_inside = if is_on { edge.holds(at - along * (2.0 * near.distance)) } else { aside > 0.0 };
         let through = if is_inside { -through } else { through };
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {

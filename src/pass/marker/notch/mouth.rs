@@ -4,6 +4,7 @@
 //! short way. Nearly all vertices are passed over at their turn, nearly all others at the next vertex.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use arrayvec::ArrayVec;
 
@@ -207,7 +208,7 @@ impl Ring<'_> {
             (apex, self.at(i + apex))
         } else {
             let across = Vector::new(-along.y, along.x) * side;
-            let deepest = (0..=steps).find(|&k| way.points[k][1] >= depth - self.slack)?;
+            let (deepest, _) = way.bottom(0..steps + 1, self.slack)?;
             (deepest, self.points[i] + along * tip[0] + across * tip[1])
         };
         Some(Mouth {
@@ -268,9 +269,8 @@ impl Way<'_> {
     /// The form of a notch whose axis leans: the form that it has when it is sheared along its mouth until its axis is square.
     /// A part of a round bottom may look like a U that leans, so that only a V and a castle may.
     fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
-        let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
         let last = self.points.len() - 1;
-        let (left, right) = ((0..=last).find(low)?, (0..=last).rfind(low)?);
+        let (left, right) = self.bottom(0..last + 1, slack)?;
         // Shearing keeps straight sides straight, so that a way with curved ones is neither a V nor a castle.
         if !self.is_straight([0, left], slack) || !self.is_straight([right, last], slack) {
             return None;
@@ -307,6 +307,14 @@ impl Way<'_> {
         (0..self.points.len()).max_by(|&a, &b| self.points[a][1].total_cmp(&self.points[b][1])).unwrap_or(0)
     }
 
+    /// First and last of some vertices within two slacks of the greatest depth: rounding moves a vertex by one slack and the
+    /// mouth, from which depth is measured, by another.
+    fn bottom(&self, mut among: Range<usize>, slack: f64) -> Option<(usize, usize)> {
+        let is_low = |k: &usize| self.points[*k][1] >= self.depth - 2.0 * slack;
+        let left = among.find(is_low)?;
+        Some((left, among.rfind(is_low).unwrap_or(left)))
+    }
+
     fn place(&self, k: usize) -> Point {
         Point::new(self.points[k][0], self.points[k][1])
     }
@@ -330,8 +338,7 @@ impl Way<'_> {
     /// The middle of the bottom, if it is a rectangle.
     fn castle(&self, slack: f64) -> Option<[f64; 2]> {
         let last = self.points.len() - 1;
-        let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
-        let (left, right) = ((1..last).find(low)?, (1..last).rfind(low)?);
+        let (left, right) = self.bottom(1..last, slack)?;
         let most = slack + LEAN * self.depth.min(self.width);
         let leans = [self.points[left][0].abs(), (self.points[right][0] - self.width).abs()];
         let is_castle = leans.into_iter().all(|lean| lean <= most)
