@@ -78,7 +78,7 @@ struct File<'a> {
 impl<'a> File<'a> {
     fn new(context: &'a Context<'a>) -> Self {
         // As the file had it: the rounding of a marker grows with that.
-        let growth = context.job.profile.sheet.growth();
+        let growth = context.job.growth();
         let unit = UNITS.iter().map(|row| row.0).find(|&unit| unit * growth == context.marker.unit);
         Self {
             context,

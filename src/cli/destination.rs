@@ -53,7 +53,7 @@ pub(super) struct Asked<'a, T: Target> {
     /// The file that is read.
     pub(super) input: &'a Path,
     /// The machine profile, and the centre line.
-    pub(super) beside: [Option<&'a Path>; 2],
+    pub(super) beside: [Option<&'a Path>; 3],
     /// Whether a program that was made from another input may be overwritten.
     pub(super) force: bool,
 }
@@ -228,7 +228,7 @@ pub(super) fn targets_of_many<T: Target>(out: &Path, typed: &[&'static T]) -> an
         return Err(of_many(out));
     }
     let folder = Path::new(DIRECTORY);
-    Asked { out: Some(folder), targets: typed, input: folder, beside: [None; 2], force: false }.targets()
+    Asked { out: Some(folder), targets: typed, input: folder, beside: [None; 3], force: false }.targets()
 }
 
 /// Where the programs of one of many files go, by the extensions of their targets: below a folder, in the structure that
@@ -319,7 +319,7 @@ mod tests {
     use crate::cli::files;
 
     fn find(out: Option<&Path>, input: &Path) -> Result<Place, String> {
-        let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 2], force: false };
+        let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 3], force: false };
         asked.destination().map(|found| found.place).map_err(|error| error.to_string())
     }
 
@@ -343,7 +343,7 @@ mod tests {
                 out: Some(Path::new(out)),
                 targets,
                 input: Path::new("a.cut"),
-                beside: [None; 2],
+                beside: [None; 3],
                 force: false,
             };
             let found = asked.destination().map_err(|error| error.to_string())?;
@@ -390,7 +390,7 @@ mod tests {
         fs::write(meta(&program), r#"{"source": "m05.cut"}"#).expect("writable");
         let find = |input: &str, force| {
             let (out, input) = (Some(directory.path()), Path::new(input));
-            let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 2], force };
+            let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 3], force };
             asked.destination().map(|found| found.place).map_err(|error| error.to_string())
         };
         assert!(find("in/m05.plt", false).expect_err("refused").contains("made from `m05.cut`, not from `m05.plt`"));

@@ -21,6 +21,7 @@ pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                    
                                               a row a file: time, area, use of the cloth, costs
   cutc compile marker.cut --pieces 3,7-12     some pieces only; --skip and --resume-from likewise
   cutc compile marker.cut --dry-run           the same motion, knife up; --frame: once around the box
+  cutc compile print.cut --map marks.csv      where the registration marks of a print were found
   cutc sew pocket.csv -t queue,svg            a pattern for a sewing machine: stitches, speeds
   cutc track log.csv -t centre                the line that moving cloth took: compile --centre follows it
   cutc flow marker.cut -o flow/ --speed 50    on a conveyor that moves: programs of several heads

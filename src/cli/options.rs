@@ -9,7 +9,7 @@ use super::choices::Format;
 use super::finished::{FAULTY, Finished, USAGE, failure, say};
 use super::{choices, files};
 use crate::diagnostic::{Detail, Diagnostics, Severity, render_with};
-use crate::front::Dialect;
+use crate::front::{self, Dialect};
 use crate::machine::layers::{LayerUses, NotLayers};
 use crate::machine::patterns::{Patterns, Quantity, Sizes};
 use crate::machine::plot::{Inner, Lines};
@@ -205,6 +205,14 @@ pub(super) struct Choice {
     /// come first (`flow.rulers_mm`).
     #[arg(long, value_name = "FILE")]
     centre: Option<PathBuf>,
+
+    /// Lay the drawing on the table by its registration marks: a CSV of where they stand in it and where they were found
+    ///
+    /// The header is `x_mm,y_mm,found_x_mm,found_y_mm`, with one row for each of at least four marks. X and Y in the drawing
+    /// are mm with Y upwards, as `cutc compile -t csv` without `--map` has them. Turn, stretch, skew and place are those that
+    /// fit all marks best; `map.max_mm` limits how far that leaves a mark. The keys of `sheet` stay at their defaults.
+    #[arg(long, value_name = "MARKS.csv", conflicts_with = "centre")]
+    map: Option<PathBuf>,
 }
 
 fn numbers(text: &str) -> Result<Numbers, NotNumbers> {
@@ -228,12 +236,12 @@ fn pens(text: &str) -> anyhow::Result<Numbers> {
 }
 
 impl Choice {
-    /// The file of the centre line as typed.
-    pub(super) fn centre(&self) -> Option<&Path> {
-        self.centre.as_deref()
+    /// The files beside the source, as typed: that of the centre line and that of the marks.
+    pub(super) fn beside(&self) -> [Option<&Path>; 2] {
+        [self.centre.as_deref(), self.map.as_deref()]
     }
 
-    /// The job as it is read, with this choice; or what is wrong with its profile or its centre line.
+    /// The job as it is read, with this choice; or what is wrong with its profile, its centre line or its marks.
     pub(super) fn job(&self, reading: &Reading) -> anyhow::Result<Result<Job, Finished>> {
         self.job_with(reading, &[])
     }
@@ -246,7 +254,7 @@ impl Choice {
         }
     }
 
-    /// The job, with this choice; or what is wrong with its centre line.
+    /// The job, with this choice; or what is wrong with its centre line or its marks.
     fn of(&self, job: Job) -> anyhow::Result<Result<Job, Finished>> {
         let job = self.left_out.of(job);
         let mut centre = None;
@@ -255,7 +263,16 @@ impl Choice {
             let mut found = Diagnostics::default();
             match track::centre::read(&source, &mut found) {
                 Some(line) => centre = Some(Arc::new(Centre { line, source: Arc::new(source), rulers: None })),
-                None => return Ok(Err(unfit(&found, &source))),
+                None => return Ok(Err(unfit(&found, &source, "centre line"))),
+            }
+        }
+        let mut marks = None;
+        if let Some(path) = &self.map {
+            let source = Arc::new(files::read(path)?);
+            let mut found = Diagnostics::default();
+            match front::marks::read(&source, job.profile.map.max_mm, &mut found) {
+                Some(read) => marks = Some(Arc::new(read)),
+                None => return Ok(Err(unfit(&found, &source, "file of marks"))),
             }
         }
         let selection = Selection { pieces: self.pieces.clone(), resume_from: self.resume_from, ..job.selection };
@@ -264,15 +281,15 @@ impl Choice {
             (true, false) => Mode::Dry,
             (false, false) => Mode::Cut,
         };
-        Ok(Ok(Job { selection, mode, centre, ..job }))
+        Ok(Ok(Job { selection, mode, centre, marks, ..job }))
     }
 }
 
-/// What is said about a faulty centre line.
-fn unfit(found: &Diagnostics, source: &Source) -> Finished {
+/// Message on a faulty file beside the source; `noun` names the kind of file.
+fn unfit(found: &Diagnostics, source: &Source, noun: &str) -> Finished {
     let mut said = render_with(found, source, Detail::All);
     let errors = counted(found.count(Severity::Error), "error");
-    say(&mut said, format_args!("the centre line `{}` has {errors}", source.name()));
+    say(&mut said, format_args!("the {noun} `{}` has {errors}", source.name()));
     Finished::text(String::new(), said, FAULTY)
 }
 
@@ -303,6 +320,7 @@ pub(super) fn typed(job: &Job) -> String {
     words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
     words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));
     words.extend(job.centre.iter().map(|centre| format!("--centre {}", file_name(&centre.source))));
+    words.extend(job.marks.iter().map(|marks| format!("--map {}", file_name(marks.source()))));
     match job.mode {
         Mode::Cut => {}
         Mode::Dry => words.push("--dry-run".to_owned()),

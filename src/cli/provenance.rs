@@ -46,7 +46,10 @@ struct Provenance<'a> {
     declared: Option<&'a [Declaration]>,
     /// The centre line that the marker follows; not there when there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    centre: Option<CentreFile>,
+    centre: Option<SideFile>,
+    /// The registration marks that the marker was laid by, likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map: Option<SideFile>,
     /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
     #[serde(skip_serializing_if = "str::is_empty")]
     options: &'a str,
@@ -59,19 +62,17 @@ struct Scale {
     units: Units,
 }
 
-/// The file of a centre line.
+/// A file beside the source.
 #[derive(Serialize)]
-struct CentreFile {
+struct SideFile {
     /// Without its directory.
     file: String,
     sha256: String,
 }
 
-impl CentreFile {
-    /// That of a job; `None` where it has none.
-    fn of(job: &Job) -> Option<Self> {
-        let centre = job.centre.as_ref()?;
-        Some(Self { file: file_name(&centre.source), sha256: sha256_hex(centre.source.bytes()) })
+impl SideFile {
+    fn of(source: &Source) -> Self {
+        Self { file: file_name(source), sha256: sha256_hex(source.bytes()) }
     }
 }
 
@@ -146,7 +147,8 @@ fn json(path: &Path, blake3: &str, Made { source, job, target, verified, cut, op
         verified: *verified,
         program_blake3: blake3,
         declared: cut.and_then(|cut| cut.declared),
-        centre: CentreFile::of(job),
+        centre: job.centre.as_ref().map(|centre| SideFile::of(&centre.source)),
+        map: job.marks.as_ref().map(|marks| SideFile::of(marks.source())),
         options,
     })
 }
@@ -254,25 +256,44 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, op
             ),
         );
     }
-    doubt_centre(&mut said, &meta, &path, job);
+    let centre = job.centre.as_ref().map(|centre| &*centre.source);
+    let marks = job.marks.as_ref().map(|marks| &**marks.source());
+    for beside in [
+        Beside { option: "centre", fault: "follows another centre line", source: centre },
+        Beside { option: "map", fault: "was laid by other marks", source: marks },
+    ] {
+        beside.doubt(&mut said, &meta, &path);
+    }
     doubt_options(&mut said, &meta, &path, options);
     said
 }
 
-/// Says that a program follows another centre line than it is judged by, if it does.
-fn doubt_centre(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
-    let given = job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
-    if let (Some(told), Some(given)) = (meta["centre"]["sha256"].as_str(), &given)
-        && told != given
-    {
-        say(
-            said,
-            format_args!(
-                "warning: the program follows another centre line\n  --> {path}: `{}`, with other bytes\n  \
-                 = hint: give the file that it was compiled with as --centre",
-                meta["centre"]["file"].as_str().unwrap_or("another file")
-            ),
-        );
+/// A file beside the source that a program is judged by.
+struct Beside<'a> {
+    /// The option that gives it.
+    option: &'a str,
+    /// What a program does that was made with another one.
+    fault: &'a str,
+    source: Option<&'a Source>,
+}
+
+impl Beside<'_> {
+    /// Warns of a program that was made with another file.
+    fn doubt(&self, said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display) {
+        let Self { option, fault, source } = *self;
+        let given = source.map(|source| sha256_hex(source.bytes()));
+        if let (Some(told), Some(given)) = (meta[option]["sha256"].as_str(), &given)
+            && told != given
+        {
+            say(
+                said,
+                format_args!(
+                    "warning: the program {fault}\n  --> {path}: `{}`, with other bytes\n  \
+                     = hint: give the file that it was compiled with as --{option}",
+                    meta[option]["file"].as_str().unwrap_or("another file")
+                ),
+            );
+        }
     }
 }
 

@@ -19,6 +19,20 @@ pub(super) struct Setup {
     /// How the marker lies on the table; not there where it lies as the file has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     sheet: Option<Sheet>,
+    /// The map by registration marks; not there where none were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map: Option<Map>,
+}
+
+/// A map by registration marks.
+#[derive(Debug, Serialize)]
+struct Map {
+    marks: usize,
+    /// The greatest distance of a mark from where the map has it.
+    worst_mm: f64,
+    turned_deg: f64,
+    skewed_deg: f64,
+    stretch: [f64; 2],
 }
 
 /// Where the values came from.
@@ -68,11 +82,18 @@ impl Setup {
             profile: Profile::of(job),
             knife: Knife { width_mm: knife.width_mm, back_mm: back, radius_mm: rounded(knife.width_mm - back), axis },
             sheet: Some(&job.profile.sheet).filter(|sheet| !sheet.is_plain()).cloned(),
+            map: job.marks.as_ref().map(|marks| Map {
+                marks: marks.count(),
+                worst_mm: rounded(marks.farthest().1),
+                turned_deg: rounded(marks.map().turned_deg()),
+                skewed_deg: rounded(marks.map().skewed_deg()),
+                stretch: marks.map().stretch().map(rounded),
+            }),
         }
     }
 }
 
-/// Without what the subtraction adds, mm.
+/// Rounds to 1e-9: errors of computation are smaller.
 fn rounded(value: f64) -> f64 {
     (value * 1e9).round() / 1e9
 }
@@ -128,11 +149,12 @@ fn knife(job: &Job) -> String {
 
 /// A line on how the marker lies on the table; empty where it lies as the file has it.
 pub(super) fn sheet(job: &Job) -> String {
-    let sheet = &job.profile.sheet;
-    if sheet.is_plain() {
-        return String::new();
-    }
-    format!("  {:10} {}\n", "sheet", wrapped(&sheet.to_string(), WIDTH).replace('\n', "\n             "))
+    let sheet = Some(&job.profile.sheet).filter(|sheet| !sheet.is_plain()).map(|sheet| ("sheet", sheet.to_string()));
+    let map = job.marks.as_ref().map(|marks| ("map", marks.to_string()));
+    let line = |(label, text): (&str, String)| {
+        format!("  {label:10} {}\n", wrapped(&text, WIDTH).replace('\n', "\n             "))
+    };
+    sheet.into_iter().chain(map).map(line).collect()
 }
 
 #[cfg(test)]

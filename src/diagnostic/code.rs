@@ -303,7 +303,7 @@ codes! {
     /// A line on a layer of points.
     DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83), of drill holes (13) or of turn and curve points (2, 3), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
     /// A quantity that is none.
-    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or no number, and the piece is cut once; or it has words behind its number, which holds.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
+    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or cannot be read, and the piece is cut once; or it counts pairs; or it has words behind its number, which holds.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// Two counts of a piece.
     DXF_PLACED_QUANTITY = warning(Spares, Shape, "dxf/placed-quantity", "A piece of a DXF file is placed by INSERTs, and not as often as its quantity says.", "A file that puts its pieces somewhere is a marker, and each INSERT in it is one piece. The quantity of a pattern is then another count of the same: compare both before the cloth is spread.");
     /// An insertion of nothing.
@@ -548,6 +548,14 @@ codes! {
     CENTRE_BEYOND = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
     /// A centre line that no cloth takes.
     CENTRE_STEEP = warning(Spoils, Shape, "centre/steep", "The centre line runs across more steeply than cloth does on a conveyor, or bends within a notch, which is cut straight.", "Parts are sheared along the line: where it is wrong they are spoilt. Compare the file with the cloth; a column in another unit, or damage of an edge that was taken for its way, looks like that.\n  cutc track log.csv -t centre,svg");
+    /// A row of marks that cannot be read.
+    MARKS_ROW = error(Text, "marks/row", "A row of a file of registration marks (`--map`) cannot be read, or the first one is not `x_mm,y_mm,found_x_mm,found_y_mm`.", "Guessing a place would move every part. The first two numbers are where the mark stands in the drawing, the others where it lies on the table.\n  120.5,80,1322.4,96.2");
+    /// Marks that give no map.
+    MARKS_FIT = error(Shape, "marks/fit", "Registration marks do not say where the drawing lies: they are fewer than four, lie on a line or mirrored, stretch it as no cloth is, or do not fit each other within `map.max_mm`.", "A mark that was read wrongly would spoil every part. Find the marks again that the message names; six marks or more tell well which one is wrong.");
+    /// A map that no cloth needs.
+    MARKS_ODD = warning(Spoils, Shape, "marks/odd", "The map of the registration marks turns or skews the drawing by more than 5 degrees or stretches it by more than a twentieth, or the marker reaches far beyond the marks.", "It fits the marks all the same: they may be in another unit, or of another drawing. Far beyond the marks their errors grow. Compare one part with a ruler before the first cut.");
+    /// A map, and something else that moves the drawing.
+    MARKS_SHEET = error(Shape, "marks/sheet", "`--map` says where the drawing lies, and a key of `sheet`, the file or the row of a pattern set lays it as well.", "Two answers to where the cloth lies would cut beside it. Leave the keys of `sheet` out.\n  cutc compile marker.cut --map marks.csv");
     // Flow cutting.
     /// No cut.
     FLOW_NOTHING = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");

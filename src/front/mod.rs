@@ -12,6 +12,7 @@ mod foreign;
 mod formats;
 mod hpgl;
 mod iso;
+pub mod marks;
 mod pattern;
 pub mod sewn;
 mod svg;

@@ -10,8 +10,8 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drawings, drill, flow, gcode, knife, labels, layers, nest, notches, order, path, patterns,
-    sewing, sheet, table, time, tool, tracking, verify,
+    axes, common, counts, drawings, drill, flow, gcode, knife, labels, layers, marks, nest, notches, order, path,
+    patterns, sewing, sheet, table, time, tool, tracking, verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.
@@ -23,6 +23,7 @@ const SECTIONS: &[&[Key]] = &[
     common::KEYS,
     order::KEYS,
     sheet::KEYS,
+    marks::KEYS,
     drill::KEYS,
     path::KEYS,
     axes::KEYS,

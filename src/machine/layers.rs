@@ -18,6 +18,10 @@ const WORDS: [(PenUse, &[&str]); 3] = [
     (PenUse::Knife, &["CUT", "CUTS", "CUTTING", "CUTLINE", "CUTLINES", "CUTOUT", "CUTOUTS", "BLADE", "OUTLINE", "OUTLINES", "CONTOUR", "CONTOURS", "KNIFE", "SCHNITT", "SCHNITTE", "SCHNITTLINIE", "SCHNITTLINIEN", "AUSSCHNITT", "AUSSCHNITTE", "SCHNEIDEN", "MESSER", "KONTUR", "KONTUREN", "AUSSENKONTUR", "INNENKONTUR", "UMRISS", "SNIJ", "SNIJDEN", "SNIJLIJN", "MES", "COUPE", "COUPES", "DECOUPE", "DECOUPES", "DÉCOUPE", "DÉCOUPES", "CONTORNO", "CONTORNI", "OMTREK", "TAGLIO", "LAMA", "CORTE", "CUCHILLA", "THROUGHCUT"]),
 ];
 
+/// Words among those for a knife that name holes in parts: where no other layer is a knife, the parts are on layers of which
+/// nobody says anything.
+const HOLES: [&str; 5] = ["CUTOUT", "CUTOUTS", "AUSSCHNITT", "AUSSCHNITTE", "INNENKONTUR"];
+
 /// Words beside which one for a knife is none: what is not cut, or not through, or tells of cuts.
 #[rustfmt::skip] // a table
 const VOIDING: [&str; 19] = [
@@ -124,7 +128,11 @@ pub fn uses(
         said.or_else(|| named().map(|used| (used, Known::Named)))
     };
     let mut uses: Vec<Option<(PenUse, Known)>> = layers.iter().map(found).collect();
-    if uses.iter().flatten().any(|(used, _)| *used == PenUse::Knife) {
+    let is_of_outlines = |(name, used): (&&str, &Option<(PenUse, Known)>)| match used {
+        Some((PenUse::Knife, known)) => *known != Known::Named || !names_holes_alone(name),
+        _ => false,
+    };
+    if layers.iter().zip(&uses).any(is_of_outlines) {
         for used in &mut uses {
             _ = used.get_or_insert((PenUse::Pen, Known::Beside));
         }
@@ -134,11 +142,33 @@ pub fn uses(
 
 /// Use by the words of a name.
 fn by_name(name: &str) -> Option<PenUse> {
-    let name = name.to_uppercase();
-    let words: Vec<&str> = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
-    let used = WORDS.iter().find(|(_, known)| words.iter().any(|word| known.contains(word))).map(|(used, _)| *used);
-    let is_void = words.iter().any(|word| VOIDING.contains(word));
+    let used = WORDS.iter().find(|(_, known)| has_word(name, known)).map(|(used, _)| *used);
+    let is_void = has_word(name, &VOIDING);
     used.map(|used| if is_void && used == PenUse::Knife { PenUse::Pen } else { used })
+}
+
+/// Whether all words for a knife in a name are words for holes.
+fn names_holes_alone(name: &str) -> bool {
+    let (_, knives) = WORDS[2];
+    words(name).iter().filter(|word| knives.contains(&&***word)).all(|word| HOLES.contains(&&**word))
+}
+
+/// Whether one of some words, in capitals, is a word of a name.
+fn has_word(name: &str, known: &[&str]) -> bool {
+    words(name).iter().any(|word| known.contains(&&**word))
+}
+
+/// The words of a name in capitals; `CUT OUT` is one.
+fn words(name: &str) -> Vec<String> {
+    let name = name.to_uppercase();
+    let mut words: Vec<String> = Vec::new();
+    for word in name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()) {
+        match words.last_mut() {
+            Some(last) if last == "CUT" && ["OUT", "OUTS"].contains(&word) => last.push_str(word),
+            _ => words.push(word.to_owned()),
+        }
+    }
+    words
 }
 
 #[cfg(test)]
@@ -181,6 +211,12 @@ mod tests {
         let no = uses(&["DO NOT CUT", "nicht schneiden", "Kiss cut", "cut number"], None, &none);
         assert!(no.iter().all(|used| used.is_some_and(|(used, _)| used != PenUse::Knife)), "{no:?}");
         assert_eq!(uses(&["0", "deel 1", "Layer1", "cutter"], None, &none), [None; 4]);
+        let holes = uses(&["0", "CUTOUT", "TEXT"], None, &none);
+        assert_eq!((holes[0], holes[1]), (None, Some((PenUse::Knife, Named))), "the parts are on layer 0");
+        assert_eq!(uses(&["0", "Cut-outs"], None, &none), [None, Some((PenUse::Knife, Named))]);
+        for outlines in ["CUT", "OUTLINE CUTOUT"] {
+            assert_eq!(uses(&["0", "CUTOUT", outlines], None, &none)[0], Some((PenUse::Pen, Beside)), "{outlines}");
+        }
         let cut = uses(&["CUT_OUTER", "SCHNITT-2", "dim.cut"], None, &none);
         assert_eq!(cut[0], Some((PenUse::Knife, Named)));
         assert_eq!([cut[1], cut[2]].map(|used| used.map(|used| used.0)), [Some(PenUse::Knife), Some(PenUse::Ignore)]);

@@ -25,6 +25,7 @@ pub mod labels;
 pub mod layers;
 pub mod letters;
 mod load;
+pub mod marks;
 mod measured;
 mod near;
 pub mod nest;
@@ -59,6 +60,7 @@ pub use flow::Flow;
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, Spare, TightCurves};
 pub use load::{Faults, load, load_given};
+pub use marks::{AffineMap, Mark, Marks};
 pub use nest::Nest;
 pub use notches::{NotchStyle, Notches, TNotch};
 pub use order::{Order, OrderPolicy};
@@ -89,6 +91,15 @@ pub struct Job {
     pub lines: plot::Lines,
     /// Where the cloth lies across the conveyor that brings it; `None` = everywhere in the middle.
     pub centre: Option<Arc<Centre>>,
+    /// Where the drawing lies on the table by its registration marks; `None` = where the sheet of the profile has it.
+    pub marks: Option<Arc<Marks>>,
     /// Which patterns it cuts.
     pub patterns: patterns::Patterns,
+}
+
+impl Job {
+    /// By what the drawing grows at the most as it is laid on the table.
+    pub fn growth(&self) -> f64 {
+        self.marks.as_ref().map_or(self.profile.sheet.growth(), |marks| marks.map().growth())
+    }
 }

@@ -19,6 +19,7 @@ use super::gcode::Gcode;
 use super::key::{Key, Takes};
 use super::knife::Knife;
 use super::labels::Labels;
+use super::marks::Map;
 use super::nest::Nest;
 use super::notches::Notches;
 use super::order::Order;
@@ -73,6 +74,8 @@ pub struct MachineProfile {
     pub order: Order,
     /// How the marker lies on the table.
     pub sheet: Sheet,
+    /// How closely registration marks must fit.
+    pub map: Map,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -160,6 +163,7 @@ impl Default for MachineProfile {
             common: Common::default(),
             order: Order::default(),
             sheet: Sheet::default(),
+            map: Map::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),

@@ -78,7 +78,7 @@ pub fn read_to_judge(
     let (finding, laying) = marker_passes().0.split_at(DRAWN_PASSES);
     run_passes(finding, &mut input.marker, source, job, diagnostics);
     // What a sheet or the cloth moves cannot be compared with the file, but only with what was drawn.
-    let is_moved = !job.profile.sheet.is_plain() || job.centre.is_some();
+    let is_moved = !job.profile.sheet.is_plain() || job.centre.is_some() || job.marks.is_some();
     let drawn = is_moved.then(|| (works.kept(&input.marker, &job.profile), Drawn::of(&input.marker)));
     run_passes(laying, &mut input.marker, source, job, diagnostics);
     let (kept, laid) = match drawn {

@@ -37,6 +37,11 @@ pub(super) fn advice(marker: &Marker, job: &Job) -> String {
     let ways: Vec<String> = tight.iter().flatten().map(way).collect();
     let way = if ways.is_empty() { "away from that edge".to_owned() } else { format!("by {}", ways.join(" and ")) };
     let by = tight.map(|axis| axis.map_or(0.0, |axis| axis.by));
+    if job.marks.is_some() {
+        return format!(
+            "move the cloth {way}, and find its marks again: so far the blade may reach beyond its lines there"
+        );
+    }
     let key = match job.profile.sheet.origin {
         Some([x, y]) => format!("sheet.origin = [{}, {}]", place(x, by[0]), place(y, by[1])),
         None => "`sheet.origin`".to_owned(),

@@ -49,7 +49,7 @@ pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &m
     let by = up(off, DECIMALS);
     let message = format!("the blade leaves the table by {by} mm where it cuts beyond the end of a line");
     let mut finding = Diagnostic::new(&code::MARKER_OFF_TABLE, message).at(span).on_cloth(at).by(off);
-    if profile.sheet.origin.is_some() {
+    if profile.sheet.origin.is_some() && job.marks.is_none() {
         finding =
             finding.hint("have the marker laid as far from the edges as the blade reaches: sheet.origin = \"corner\"");
     }

@@ -20,6 +20,9 @@ pub(super) fn report(passes: &[Pass], job: &Job, out: &mut Diagnostics) -> Optio
     let (distance, beyond) = (fixed(job.profile.tool.distance_mm, 1), fixed(off(worst), 1));
     let message = format!("the head, {distance} mm outside the edges, leaves the table by {beyond} mm");
     let hint = match (moves, job.profile.sheet.origin) {
+        ([Some(x), Some(y)], _) if job.marks.is_some() => {
+            format!("move the cloth by {} mm in X and {} mm in Y, and find its marks again", fixed(x, 1), fixed(y, 1))
+        }
         ([Some(x), Some(y)], None) => format!("move the marker by {} mm in X and {} mm in Y", fixed(x, 1), fixed(y, 1)),
         ([Some(x), Some(y)], Some(origin)) => {
             format!("set `sheet.origin` = [{}, {}]", fixed(origin[0] + x, 1), fixed(origin[1] + y, 1))

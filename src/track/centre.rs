@@ -5,10 +5,10 @@
 
 use std::io::{self, Write};
 
-use super::rows::{FARTHEST, Lines, number};
+use super::row::FARTHEST;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::CentreLine;
-use crate::source::Source;
+use crate::source::{CsvFault, Source, csv_fields, csv_number, csv_rows};
 use crate::units::number::{push_fixed, short};
 
 /// The first row.
@@ -21,48 +21,49 @@ const ROW: &str =
 
 /// Reads a centre line; `None` when it has faults, which are diagnostics.
 pub fn read(source: &Source, out: &mut Diagnostics) -> Option<CentreLine> {
-    let mut rows: Vec<[f64; 2]> = Vec::new();
-    let mut has_header = false;
-    let mut is_sound = true;
-    for (line, span) in Lines::of(source.bytes()) {
-        if !has_header {
-            has_header = true;
-            if line.trim_ascii() != HEADER.as_bytes() {
-                let message = format!("the first row is not `{HEADER}`");
-                let hint = "`cutc track LOG.csv -t centre` writes such a file";
-                out.push(Diagnostic::new(&code::CENTRE_HEADER, message).at(span).hint(hint));
-                return None;
+    let mut last = None;
+    let row = |text: &str| {
+        let row = parse(text, last)?;
+        last = Some(row);
+        Ok(row)
+    };
+    let rows = match csv_rows(source.bytes(), HEADER, row) {
+        Ok(rows) => rows,
+        Err(faults) => {
+            for fault in faults {
+                out.push(told(fault));
             }
-            continue;
+            return None;
         }
-        match parse(line, rows.last()) {
-            Ok(row) => rows.push(row),
-            Err(message) => {
-                is_sound = false;
-                out.push(Diagnostic::new(&code::CENTRE_ROW, message).at(span).hint(ROW));
-            }
-        }
-    }
-    if rows.len() < 2 && is_sound {
+    };
+    if rows.len() < 2 {
         let message = format!("the centre line has fewer than two rows: {}", rows.len());
         let hint = "give two at the least: where the conveyor begins, and where it ends";
         out.push(Diagnostic::new(&code::CENTRE_SHORT, message).hint(hint));
     }
-    CentreLine::new(rows).filter(|_| is_sound)
+    CentreLine::new(rows.into_iter().map(|(row, _)| row).collect())
+}
+
+/// Diagnostic of a fault.
+fn told(fault: CsvFault) -> Diagnostic {
+    match fault {
+        CsvFault::Header(span) => {
+            let message = format!("the first row is not `{HEADER}`");
+            let hint = "`cutc track LOG.csv -t centre` writes such a file";
+            Diagnostic::new(&code::CENTRE_HEADER, message).at(span).hint(hint)
+        }
+        CsvFault::Row(span, message) => Diagnostic::new(&code::CENTRE_ROW, message).at(span).hint(ROW),
+    }
 }
 
 /// A row, which the conveyor has come to behind another.
-fn parse(line: &[u8], last: Option<&[f64; 2]>) -> Result<[f64; 2], String> {
-    let text = std::str::from_utf8(line).map_err(|_| "the row is no text".to_owned())?;
-    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let [conveyor, centre] = fields[..] else {
-        return Err(format!("the row has {} fields instead of 2", fields.len()));
-    };
-    let place = |field: &str| number(field, "place in mm", FARTHEST);
+fn parse(text: &str, last: Option<[f64; 2]>) -> Result<[f64; 2], String> {
+    let [conveyor, centre] = csv_fields(text)?;
+    let place = |field: &str| csv_number(field, "place in mm", FARTHEST);
     let row = [place(conveyor)?, place(centre)?];
     match last {
-        Some([before, _]) if row[0] <= *before => {
-            Err(format!("the conveyor does not go on: {} mm comes behind {} mm", short(row[0]), short(*before)))
+        Some([before, _]) if row[0] <= before => {
+            Err(format!("the conveyor does not go on: {} mm comes behind {} mm", short(row[0]), short(before)))
         }
         _ => Ok(row),
     }

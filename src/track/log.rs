@@ -2,11 +2,10 @@
 //!
 //! Promises rows whose times increase and whose readings a ruler can give; every fault of a file is found in one run.
 
-use super::row::Row;
-use super::rows::{FARTHEST, Lines, number};
+use super::row::{FARTHEST, Row};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Tracking;
-use crate::source::{Source, Span};
+use crate::source::{CsvLines, Source, Span, csv_number};
 use crate::units::MS_PER_S;
 use crate::units::number::short;
 
@@ -49,7 +48,7 @@ const MISSING: f64 = 0.4;
 /// Reads a log. Faults of the data are diagnostics.
 pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Vec<Row> {
     let bytes = source.bytes();
-    let mut lines = Lines::of(bytes);
+    let mut lines = CsvLines::of(bytes);
     let Some((header, span)) = lines.next() else {
         out.push(Diagnostic::new(&code::SOURCE_EMPTY, "the log is empty"));
         return Vec::new();
@@ -152,13 +151,13 @@ fn parse(line: &[u8], columns: &[Column], track: &Tracking) -> Result<Row, Strin
         };
         let field = field.trim();
         match column {
-            Column::Time => row.time = number(field, "time in s", LATEST)?,
+            Column::Time => row.time = csv_number(field, "time in s", LATEST)?,
             Column::Left => row.covered[0] = count(field, track)?,
             Column::Right => row.covered[1] = count(field, track)?,
             Column::UpstreamLeft => upstream[0] = count(field, track)?,
             Column::UpstreamRight => upstream[1] = count(field, track)?,
-            Column::Conveyor => row.conveyor = Some(number(field, "place of the conveyor in mm", FARTHEST)?),
-            Column::Carriage => row.carriage = Some(number(field, "place of the carriage in mm", FARTHEST)?),
+            Column::Conveyor => row.conveyor = Some(csv_number(field, "place of the conveyor in mm", FARTHEST)?),
+            Column::Carriage => row.carriage = Some(csv_number(field, "place of the carriage in mm", FARTHEST)?),
             Column::Said | Column::Other => {}
         }
     }

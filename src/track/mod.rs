@@ -21,7 +21,6 @@ pub mod measure;
 mod replay;
 mod rivals;
 mod row;
-mod rows;
 mod rulers;
 pub mod scenario;
 pub mod simulate;

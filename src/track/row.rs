@@ -1,5 +1,8 @@
 //! A row of a log: what was read at a time, and what else is known of it.
 
+/// Farthest places, mm: no conveyor is as long.
+pub(super) const FARTHEST: f64 = 1e9;
+
 /// A sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {

@@ -120,6 +120,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("continuation", "tells where a line goes on straight beyond a short cut, for the pass that plunges"),
+    ("marks", "reads registration marks, which are given beside a source"),
     ("near", "tells which stretches of a run are near lines, for the pass that slows down there"),
     ("saved", "tells what another order would save: runs two of the passes on a copy"),
     ("junctions", "tells which chords come by a junction, for the pass that keeps the tip near its line there"),

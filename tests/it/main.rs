@@ -31,6 +31,7 @@ mod loopholes;
 mod manual;
 mod many_info;
 mod markers;
+mod marks;
 mod messages;
 mod motion;
 mod nest;

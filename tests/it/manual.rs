@@ -16,6 +16,7 @@ use cutc::verify::spray::RULES as SPRAY_RULES;
 use cutc::{sew, track};
 use yaml_rust2::{Yaml, YamlLoader};
 
+use crate::support;
 use crate::support::page::{blocks, commands, expect_same, page, search_path, section};
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
 
@@ -104,6 +105,7 @@ fn every_command_of_the_manual_runs() {
     fs::copy(drawing, room.at("drawing.dxf")).expect("a copy");
     fs::copy(root().join("fixtures/svg/inkscape-layers-in-mm.svg"), room.at("pattern.svg")).expect("a copy");
     room.write("machine.toml", b"knife.width_mm = 7.2\n");
+    room.write("marks.csv", support::MARKS);
     for name in ["pocket.csv", "seat.dst"] {
         fs::copy(root().join("fixtures/sew").join(name), room.at(name)).expect("a copy");
     }

@@ -6,6 +6,8 @@ use std::process::{Command, Output};
 
 use cutc::manual::{PAGES, Page};
 
+use crate::support;
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -49,6 +51,7 @@ fn the_first_two_commands_are_the_main_job_and_the_tests() {
 fn every_command_of_the_readme_runs() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::copy(root().join("fixtures/pictures/marker.cut"), folder.path().join("marker.cut")).expect("a copy");
+    fs::write(folder.path().join("marks.csv"), support::MARKS).expect("marks");
     fs::write(folder.path().join("machine.toml"), "knife.width_mm = 7.2\n").expect("a profile");
     fs::create_dir(folder.path().join("in")).expect("a folder");
     fs::copy(root().join("fixtures/pictures/marker.cut"), folder.path().join("in/marker.cut")).expect("a copy");

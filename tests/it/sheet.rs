@@ -126,7 +126,7 @@ fn a_sheet_that_changes_nothing_gives_the_same_bytes() {
 fn whatever_the_sheet_every_file_lies_as_it_says_and_is_as_long_as_scaled() {
     let mut rng = Rng::with_seed(11);
     let mut count = 0;
-    for marker in files("iso").into_iter().chain(files("hpgl")) {
+    for marker in ["iso", "hpgl", "pattern", "dxf", "svg"].into_iter().flat_map(files) {
         let Some(drawn) = drawn(&marker) else { continue };
         for _ in 0..4 {
             let sheet = any_sheet(&mut rng);
@@ -141,7 +141,7 @@ fn whatever_the_sheet_every_file_lies_as_it_says_and_is_as_long_as_scaled() {
             assert!((found - expected).abs() <= 1e-9 * (1.0 + expected), "{}, {sheet:?}", marker.name());
         }
     }
-    assert!(count > 400, "{count} sheets");
+    assert!(count > 1000, "{count} sheets");
 }
 
 #[test]

@@ -114,12 +114,13 @@ impl Making {
         self.reading.machine.profile.as_deref()
     }
 
-    /// The file of the centre line as typed.
-    pub(in crate::cli) fn centre(&self) -> Option<&Path> {
-        self.choice.centre()
+    /// The files beside the source, as typed: profile, centre line and marks.
+    pub(in crate::cli) fn beside(&self) -> [Option<&Path>; 3] {
+        let [centre, map] = self.choice.beside();
+        [self.profile(), centre, map]
     }
 
-    /// The job, or what is wrong with its profile or its centre line.
+    /// The job, or what is wrong with its profile, its centre line or its marks.
     pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         let planner: Vec<String> = self.planner.iter().map(|name| format!("{}={name}", choices::PLANNER)).collect();
         self.choice.job_with(&self.reading, &planner)

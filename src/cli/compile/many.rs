@@ -102,8 +102,9 @@ impl<'a> Many<'a> {
     pub(in crate::cli) fn made(&self, input: &Input, source: &Source) -> Made {
         let mut options = vec![typed(self.job)];
         options.extend(self.making.reading.from.map(|dialect| format!("--from {}", dialect.name)));
-        let centre = self.job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
-        options.extend(centre.map(|sha256| format!("(sha256 {sha256})")));
+        let centre = self.job.centre.iter().map(|centre| &centre.source);
+        let beside = centre.chain(self.job.marks.iter().map(|marks| marks.source()));
+        options.extend(beside.map(|source| format!("(sha256 {})", sha256_hex(source.bytes()))));
         options.extend(self.making.no_verify.then(|| "--no-verify".to_owned()));
         options.retain(|option| !option.is_empty());
         Made {

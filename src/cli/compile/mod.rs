@@ -32,6 +32,12 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     if arguments.dump_after.is_some() {
         return Err(failure("`--dump-after` looks into one file", "name one file, without --changed and --shard"));
     }
+    if inputs.len() > 1 && arguments.making.choice.beside()[1].is_some() {
+        return Err(failure(
+            "`--map` lays one drawing by the marks of its cloth",
+            "name one file: every cloth has marks of its own",
+        ));
+    }
     if !arguments.messages.quiet {
         batch::tell_passed_over(&arguments.files, console);
     }

@@ -26,7 +26,7 @@ const MOST_LINES: usize = 10;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
     let Making { out, targets, force, .. } = &arguments.making;
-    let beside = [arguments.making.profile(), arguments.making.centre()];
+    let beside = arguments.making.beside();
     let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
     if place == Place::Stdout && arguments.format == Format::Json {

@@ -30,7 +30,8 @@ use crate::source::Source;
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let targets = targets(arguments)?;
     let plan = arguments.out.join(PLAN);
-    let inputs = [Some(&*arguments.file), arguments.reading.machine.profile.as_deref(), arguments.choice.centre()];
+    let [centre, _] = arguments.choice.beside();
+    let inputs = [Some(&*arguments.file), arguments.reading.machine.profile.as_deref(), centre];
     let inputs: Vec<_> = inputs.into_iter().flatten().filter(|path| !files::is_dash(path)).collect();
     writable(&plan, &inputs)?;
     if !arguments.force {
@@ -80,6 +81,12 @@ fn refuse_others(job: &Job) -> anyhow::Result<()> {
         return Err(failure(
             "heads over a conveyor have no dry run and no frame",
             "leave `--dry-run` and `--frame` out",
+        ));
+    }
+    if job.marks.is_some() {
+        return Err(failure(
+            "`--map` lays a drawing on a table, and cloth on a conveyor moves",
+            "leave `--map` out; `--centre` follows cloth that wanders",
         ));
     }
     if job.profile.tool.kind == ToolKind::Spray {

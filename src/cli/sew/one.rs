@@ -13,7 +13,7 @@ use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
     let Arguments { out, targets, force, machine, .. } = arguments;
-    let beside = [machine.profile.as_deref(), None];
+    let beside = [machine.profile.as_deref(), None, None];
     let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
     if place == Place::Stdout && arguments.format == Format::Json {

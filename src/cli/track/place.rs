@@ -8,7 +8,7 @@ use crate::track::{TARGETS, Target};
 /// Files of a run: the chosen targets, by default one for a log and none for a scenario, and the picture of `--plot`.
 pub(super) fn destinations(arguments: &Arguments) -> anyhow::Result<Vec<Destination<Target>>> {
     let Arguments { file: input, out, targets, plot, simulate, force, machine, .. } = arguments;
-    let beside = [machine.profile.as_deref(), None];
+    let beside = [machine.profile.as_deref(), None, None];
     let asked = Asked { out: out.as_deref(), targets, input, beside, force: *force };
     let mut found = Vec::new();
     if !simulate || !targets.is_empty() || out.is_some() {

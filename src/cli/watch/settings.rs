@@ -16,7 +16,7 @@ use crate::machine::Job;
 /// The file with the options of a folder.
 pub(super) const NAME: &str = "cutc.toml";
 /// The options that name a file: in a folder it is meant from there.
-const FILES: [&str; 2] = ["profile", "centre"];
+const FILES: [&str; 3] = ["profile", "centre", "map"];
 
 /// What some files look like; `None` = not there.
 pub(super) type Stamps = Vec<Option<Stamp>>;
@@ -58,8 +58,7 @@ impl Settings {
             failure(format!("{from}{message}"), "its keys are the long options of `cutc watch`, each given once")
         })?;
         let targets = targets_of_many(arguments.making.place(), arguments.making.targets())?;
-        let named = [arguments.making.profile(), arguments.making.centre()];
-        let named: Vec<PathBuf> = named.into_iter().flatten().map(Path::to_owned).collect();
+        let named: Vec<PathBuf> = arguments.making.beside().into_iter().flatten().map(Path::to_owned).collect();
         let stamps = std::iter::once(stamp).chain(named.iter().map(|path| Stamp::at(path))).collect();
         let read = std::iter::once(file).chain(named).collect();
         Ok(arguments.making.job()?.map(|job| Self { arguments, targets, job, read, stamps }))

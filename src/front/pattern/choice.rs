@@ -188,13 +188,17 @@ const OF_PIECES: [&str; 51] = [
     "ON THE FOLD",
 ];
 
+/// Words for a right piece and a left one, in capitals.
+const PAIRS: [&str; 12] =
+    ["PAIR", "PAIRS", "PR", "PRS", "PAAR", "PAARE", "PAIRE", "PAIRES", "PAIO", "PAIA", "PAR", "PARES"];
+
 /// How often a piece is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Wanted {
     /// As it is drawn, and mirrored: `1,1` is right and left.
     pub(super) times: [u32; 2],
-    /// Whether words stand behind the number.
-    has_words: bool,
+    /// What is told of words behind the number.
+    words: Option<Thing>,
 }
 
 /// How often a piece is cut. `None` when it is no such text or names none at all.
@@ -203,16 +207,16 @@ pub(super) fn quantity(text: &str) -> Option<Wanted> {
     let whole = |number: &str| number.trim_end_matches('0').strip_suffix('.').unwrap_or(number).parse::<u32>().ok();
     let numbers: Option<Vec<u32>> = text.split(',').map(|number| whole(number.trim())).collect();
     let times = match numbers.as_deref() {
-        None => return of_pieces(text).map(|right| Wanted { times: [right, 0], has_words: true }),
+        None => return worded(text),
         Some(&[right]) => [right, 0],
         Some(&[right, left]) => [right, left],
         Some(_) => return None,
     };
-    (times != [0, 0]).then_some(Wanted { times, has_words: false })
+    (times != [0, 0]).then_some(Wanted { times, words: None })
 }
 
-/// The number with which a text begins that has a word for pieces behind it, or something in parentheses.
-fn of_pieces(text: &str) -> Option<u32> {
+/// The number with which a text begins that has a word for pieces or pairs behind it, or something in parentheses.
+fn worded(text: &str) -> Option<Wanted> {
     let text = text.trim();
     let digits = text.bytes().take_while(u8::is_ascii_digit).count();
     let (number, behind) = text.split_at(digits);
@@ -222,9 +226,15 @@ fn of_pieces(text: &str) -> Option<u32> {
     };
     let word = word.trim().trim_end_matches('.').to_uppercase();
     let is_aside = aside.is_some_and(|aside| !aside.contains(['(', ')']));
-    let is_clear =
-        if word.is_empty() { is_aside } else { OF_PIECES.contains(&word.as_str()) && aside.is_none_or(|_| is_aside) };
-    number.parse().ok().filter(|&number| is_clear && number > 0)
+    let is_pair = PAIRS.contains(&word.as_str());
+    let is_known = is_pair || OF_PIECES.contains(&word.as_str());
+    let is_clear = if word.is_empty() { is_aside } else { is_known && aside.is_none_or(|_| is_aside) };
+    let number = number.parse().ok().filter(|&number| is_clear && number > 0)?;
+    Some(if is_pair {
+        Wanted { times: [number, number], words: Some(Thing::QuantityPairs) }
+    } else {
+        Wanted { times: [number, 0], words: Some(Thing::QuantityWords) }
+    })
 }
 
 impl Asked<'_> {
@@ -248,8 +258,7 @@ impl Asked<'_> {
         let wanted = quantity(&self.letters.text(self.source.slice(span)));
         match wanted {
             None => tally.add(Thing::Quantity, span),
-            Some(Wanted { has_words: true, .. }) => tally.add(Thing::QuantityWords, span),
-            Some(Wanted { has_words: false, .. }) => {}
+            Some(Wanted { words, .. }) => words.into_iter().for_each(|words| tally.add(words, span)),
         }
         wanted.map(|wanted| wanted.times)
     }
@@ -277,7 +286,10 @@ mod tests {
         for text in ["2x", "2 Stück", "2 Stk.", "2 (1 PAIR)", "2 pcs (left and right)", "2片", "2 SELF", "2 Lining"] {
             check(text, Some([2, 0]));
         }
-        for text in ["2 PAIRS", "1L 1R", "1+1", "1/1", "1 (R), 1 (L)", "2 x SELF", "x", "2 ", "()", "2 ()("] {
+        for text in ["2 PAIRS", "2 Paar", "2 pairs (left and right)", "2prs."] {
+            check(text, Some([2, 2]));
+        }
+        for text in ["1L 1R", "0 PAIRS", "PAIR", "1+1", "1/1", "1 (R), 1 (L)", "2 x SELF", "x", "2 ", "()", "2 ()("] {
             check(text, times("2").filter(|_| text == "2 "));
         }
     }

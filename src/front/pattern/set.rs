@@ -397,8 +397,9 @@ impl Set {
         if self.placed.is_none() && count > 1 && count > self.loose {
             let message =
                 format!("patterns are no marker: {count} pieces{} lie in a row, {} mm apart", self.sizes, self.gap);
-            let finding = Diagnostic::new(&code::DXF_SAMPLE, message);
-            out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
+            let hint = "it is a cutting sample: for a lay make a marker of it in the CAD system";
+            let code = if asked.job.marks.is_some() { &code::MARKS_SHEET } else { &code::DXF_SAMPLE };
+            out.push(Diagnostic::new(code, message).hint(hint));
         }
         if self.loose > 1 || self.loose == 1 && self.placed.is_some() {
             let (outlines, they) = if self.loose == 1 {

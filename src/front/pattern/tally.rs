@@ -19,6 +19,8 @@ pub(super) enum Thing {
     StrokeOfPoints,
     /// A quantity is no number, or none.
     Quantity,
+    /// A quantity in pairs.
+    QuantityPairs,
     /// Words stand behind the number of a quantity.
     QuantityWords,
     /// Texts of a piece say different quantities.
@@ -83,7 +85,8 @@ fn row(thing: Thing) -> Row {
         Thing::StrokeOfNotch => Row { code: &code::DXF_STROKE, one: "a line on a layer of notches (4, 80 to 83) is not cut", many: "lines on layers of notches (4, 80 to 83) are not cut", hint: "let the CAD system export notches as points, or draw them into the outline" },
         Thing::StrokeOfHole => Row { code: &code::DXF_STROKE, one: "a line on the layer of drill holes (13) is not drilled", many: "lines on the layer of drill holes (13) are not drilled", hint: "let the CAD system export holes as points" },
         Thing::StrokeOfPoints => Row { code: &code::DXF_STROKE, one: "a line on layer 2 or 3 is not cut", many: "lines on layers 2, 3 are not cut", hint: "they hold points; draw what is to be cut on layer 1, or on 11 if it lies inside" },
-        Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is 0 or no number; the piece is cut once", many: "quantities are 0 or no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is 0 or cannot be read; the piece is cut once", many: "quantities are 0 or cannot be read; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::QuantityPairs => Row { code: &code::DXF_QUANTITY, one: "a quantity counts pairs: each is a right piece and a mirrored left one", many: "quantities count pairs: each is a right piece and a mirrored left one", hint: "if none is to be mirrored write the number of pieces without the word" },
         Thing::QuantityWords => Row { code: &code::DXF_QUANTITY, one: "words stand behind the number of a quantity, which holds", many: "quantities have words behind their number, which holds", hint: "none is mirrored: right and left are `QUANTITY: 1,1`" },
         Thing::TwoQuantities => Row { code: &code::DXF_SAID_TWICE, one: "a piece has two quantities, the other one here", many: "pieces have two quantities, another one", hint: "see which is right; `--quantity one` cuts each piece once" },
         Thing::Placed => Row { code: &code::DXF_PLACED_QUANTITY, one: "INSERTs place a piece more or less often than its quantity says; they hold", many: "pieces are placed more or less often than their quantities say; the INSERTs hold", hint: "count the pieces with `cutc info`" },

@@ -1,4 +1,5 @@
-//! Sheet: the marker is laid on the table as the profile says: turned, mirrored, scaled, moved, copied.
+//! Sheet: the marker is laid on the table as the profile says (turned, mirrored, scaled, moved, copied), or as registration
+//! marks say.
 //!
 //! Needs: all that is found by its size as the file draws it, such as notches. Leaves true: the same pieces, in the same
 //! order, once for each copy; what is asked of the operator is asked in each of them. Whatever is done, the lower left corner
@@ -8,21 +9,32 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Heading, Point, Vector};
+use crate::geom::{Extent, Heading, Point, Vector};
 use crate::ir::drawing::{Account, Aside};
 use crate::ir::marker::{Contour, Event, Label, Marker, Piece};
 use crate::ir::toolpath;
-use crate::machine::{Flip, Job, MachineProfile, Mirror, Sheet};
+use crate::machine::{AffineMap, Flip, Job, MachineProfile, Marks, Mirror, Sheet};
+use crate::units::number::fixed;
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sheet", about: "turns, mirrors, scales, moves and copies the marker, if that is asked", run };
 
 /// Degrees of a quarter turn.
 const QUARTER: f64 = 90.0;
+/// Stretch of cloth beyond which a map is doubted, as a share.
+const ODD_STRETCH: f64 = 0.05;
+/// Turn or skew of a lay beyond which a map is doubted, deg.
+const ODD_ANGLE_DEG: f64 = 5.0;
+/// Error of a map at the corners of the marker beyond which it is doubted, in the greatest one at a mark: that about a third
+/// of their extent beyond them.
+const MOST_ERROR: f64 = 1.5;
 /// Segments of all copies together, at the most: they take some gigabytes of memory.
 const MOST_SEGMENTS: usize = 1 << 26;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    if let Some(marks) = &job.marks {
+        return by_marks(marker, marks, &job.profile.sheet, diagnostics);
+    }
     let sheet = &job.profile.sheet;
     if sheet.is_plain() {
         return;
@@ -60,6 +72,50 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     lay(marker, &Way { by, ..Way::STAYS });
     marker.unit *= sheet.growth();
     copy(marker, copies, Vector::new(pitch, 0.0));
+}
+
+/// Lays a marker where its registration marks were found.
+fn by_marks(marker: &mut Marker, marks: &Marks, sheet: &Sheet, diagnostics: &mut Diagnostics) {
+    if !sheet.is_plain() {
+        let message = format!("`--map` says where the drawing lies on the table, and so does `sheet`: {sheet}");
+        diagnostics
+            .push(Diagnostic::new(&code::MARKS_SHEET, message).hint("leave the keys of `sheet` at their defaults"));
+    }
+    if let Some(advance) = advances(marker).next() {
+        let message = "the file moves the cloth on, so that marks that were found before do not say where it lies then";
+        let hint = "cut it without `--map`, or switch the advance off: codes.M69 = \"ignore\"";
+        diagnostics.push(Diagnostic::new(&code::MARKS_SHEET, message).at(advance.span).hint(hint));
+    }
+    let drawn = marker.extent();
+    if diagnostics.has_errors() || drawn.is_empty() {
+        return;
+    }
+    odd(marks, &drawn, diagnostics);
+    lay(marker, &Way::by(marks.map()));
+    marker.unit *= marks.map().growth();
+}
+
+/// Tells of a map that no cloth needs, and of a marker far beyond its marks.
+fn odd(marks: &Marks, drawn: &Extent, diagnostics: &mut Diagnostics) {
+    let mut warn =
+        |message: String, hint: &str| diagnostics.push(Diagnostic::new(&code::MARKS_ODD, message).hint(hint));
+    let map = marks.map();
+    let stretch = map.stretch().map(|stretch| (stretch - 1.0).abs()).into_iter().fold(0.0, f64::max);
+    let angle = map.turned_deg().abs().max(map.skewed_deg().abs());
+    if stretch > ODD_STRETCH || angle > ODD_ANGLE_DEG {
+        warn(format!("the marks give an odd map: {marks}"), "are they of this drawing, and found on this cloth?");
+    }
+    let corners = [drawn.min.x, drawn.max.x].into_iter().flat_map(|x| [[x, drawn.min.y], [x, drawn.max.y]]);
+    let error = corners.map(|corner| marks.error(corner)).fold(0.0, f64::max);
+    if error > MOST_ERROR {
+        let times = fixed(error, 1);
+        warn(
+            format!(
+                "the marker reaches beyond the marks: an error in finding them is {times} times as large at its corners"
+            ),
+            "find marks near its ends as well; are all four numbers in mm?",
+        );
+    }
 }
 
 /// Where the file moves the cloth on.
@@ -115,6 +171,11 @@ impl Way {
             is_mirrored: sheet.is_mirrored(),
             ..Self::STAYS
         }
+    }
+
+    /// By a map, which mirrors nothing.
+    fn by(map: &AffineMap) -> Self {
+        Self { axes: map.axes.map(Vector::from), by: Vector::from(map.by), is_mirrored: false }
     }
 
     fn stays(&self) -> bool {

@@ -7,7 +7,7 @@ use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point};
 use crate::ir::marker::{Marker, Notch};
-use crate::machine::{Job, Knife, Sheet, Table};
+use crate::machine::{Job, Knife, Table};
 use crate::source::Span;
 use crate::units::number::{exact, fixed, up};
 
@@ -47,7 +47,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let finding = finding.at(span).on_cloth(place).by(off);
     let moves = axes.map(|axis| axis.advice());
     let hints = if moves.iter().flatten().all(|advice| matches!(advice, Advice::Move { .. })) {
-        vec![moved(&moves, &job.profile.sheet)]
+        vec![moved(&moves, job)]
     } else {
         let alone = |(advice, name): (&Option<Advice>, &str)| Some(advice.as_ref()?.alone(name));
         moves.iter().zip(["X", "Y"]).filter_map(alone).chain(fitting(marker, &extent, job)).collect()
@@ -56,11 +56,14 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 }
 
 /// How to move a marker that fits, and the key that does it.
-fn moved(moves: &[Option<Advice>; 2], sheet: &Sheet) -> String {
+fn moved(moves: &[Option<Advice>; 2], job: &Job) -> String {
     let words: Vec<String> =
         moves.iter().zip(["X", "Y"]).filter_map(|(advice, name)| Some(advice.as_ref()?.way(name))).collect();
+    if job.marks.is_some() {
+        return format!("move the cloth by {}, and find its marks again", words.join(" and "));
+    }
     let hint = format!("move the marker by {}", words.join(" and "));
-    let Some(origin) = sheet.origin else { return hint };
+    let Some(origin) = job.profile.sheet.origin else { return hint };
     // Three decimals are all that is said of a way.
     let place = |i: usize| exact(((origin[i] + moves[i].as_ref().map_or(0.0, Advice::by)) * 1e3).round() / 1e3);
     format!("{hint}: sheet.origin = [{}, {}]", place(0), place(1))
@@ -68,6 +71,9 @@ fn moved(moves: &[Option<Advice>; 2], sheet: &Sheet) -> String {
 
 /// What fits where the marker does not: fewer copies, or the marker turned by a quarter.
 fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
+    if job.marks.is_some() {
+        return None;
+    }
     let (sheet, table) = (&job.profile.sheet, &job.profile.table);
     let room =
         [table.x_mm, table.y_mm].map(|ends| ends.map_or(f64::INFINITY, |[least, most]| most - least + OFF_EPSILON));

@@ -11,6 +11,7 @@ pub(super) mod drawing;
 pub(super) mod dxf;
 pub(super) mod hpgl;
 pub(super) mod kept;
+mod marks;
 pub(super) mod scan;
 pub(super) mod sheet;
 pub(super) mod svg;

@@ -1,5 +1,5 @@
-//! Whether what was drawn lies on the table as the profile asks: every piece in every copy, to the last point, and nothing
-//! else. Where it should lie is found here from the keys of the profile alone.
+//! Whether what was drawn lies on the table as the profile or registration marks ask: every piece in every copy, to the last
+//! point, and nothing else. Where it should lie is found here from the keys of the profile or the file of the marks alone.
 
 use std::collections::BTreeMap;
 
@@ -11,6 +11,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Flip, Job, MachineProfile, Mirror};
 use crate::verify::rules;
 use crate::verify::source::cloth::Cloth;
+use crate::verify::source::marks::ByMarks;
 
 /// Rounding of places on a table that is a kilometre long, mm.
 const PLACE_EPSILON: f64 = 1e-6;
@@ -38,7 +39,12 @@ impl Drawn {
         let limit = if cloth.is_some() { job.profile.tolerance(marker.unit) } else { PLACE_EPSILON };
         let mut worst = Worst::new(&rules::SOURCE_LAID, Some(limit));
         let Self(drawn) = self;
-        let table = Lay { cloth: cloth.as_ref(), ..Lay::of(drawn, &job.profile) };
+        let marks = ByMarks::of(job);
+        if marks.is_some_and(|marks| marks.off > job.profile.map.max_mm) {
+            worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), 0));
+        }
+        let table = marks.map_or_else(|| Lay::of(drawn, &job.profile), Lay::by);
+        let table = Lay { cloth: cloth.as_ref(), ..table };
         let mut laid: BTreeMap<Name, Vec<&Piece>> = BTreeMap::new();
         for piece in marker.pieces.iter().rev() {
             laid.entry((piece.number, piece.span.start, piece.copy)).or_default().push(piece);
@@ -61,7 +67,7 @@ impl Drawn {
         for extra in laid.into_values().flatten() {
             worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), extra.span.block));
         }
-        let unit = drawn.unit * job.profile.sheet.scale_x.max(job.profile.sheet.scale_y);
+        let unit = drawn.unit * table.growth;
         let told = |marker: &Marker, times: u32| -> Vec<Event> {
             let events = marker.pieces.iter().flat_map(|piece| &piece.events).copied();
             std::iter::repeat_n(events.collect::<Vec<_>>(), times as usize).flatten().collect()
@@ -94,9 +100,10 @@ fn of(piece: &Piece, table: &Lay) -> Sighting {
 /// Where places of the file come to lie on the table.
 #[derive(Debug, Clone, Copy)]
 struct Lay<'a> {
-    turn: f64,
-    /// What X and Y are multiplied by behind the turn.
-    factors: [f64; 2],
+    /// Where a step of 1 mm along X goes, and one along Y.
+    axes: [[f64; 2]; 2],
+    /// Growth of the unit of the file.
+    growth: f64,
     /// From one copy to the next.
     pitch: f64,
     by: [f64; 2],
@@ -107,19 +114,18 @@ struct Lay<'a> {
 impl Lay<'_> {
     fn of(drawn: &Marker, profile: &MachineProfile) -> Self {
         let sheet = &profile.sheet;
-        let mut lay = Self {
-            turn: sheet.rotate_deg.to_radians(),
-            factors: [sheet.scale_x, sheet.scale_y],
-            pitch: 0.0,
-            by: [0.0; 2],
-            cloth: None,
-        };
+        // What X and Y are multiplied by behind the turn.
+        let mut factors = [sheet.scale_x, sheet.scale_y];
         if sheet.mirror == Mirror::Ends {
-            lay.factors[0] *= -1.0;
+            factors[0] *= -1.0;
         }
         if sheet.flip == Flip::Sides {
-            lay.factors[1] *= -1.0;
+            factors[1] *= -1.0;
         }
+        let along = Rotation(sheet.rotate_deg.to_radians()).unit();
+        let axes = [[along.x, along.y], [-along.y, along.x]].map(|[x, y]| [factors[0] * x, factors[1] * y]);
+        let growth = f64::max(sheet.scale_x, sheet.scale_y);
+        let mut lay = Self { axes, growth, pitch: 0.0, by: [0.0; 2], cloth: None };
         let (mut before, mut behind) = (Extent::EMPTY, Extent::EMPTY);
         let mut see = |place: Point| {
             before.add(place);
@@ -147,6 +153,11 @@ impl Lay<'_> {
         lay
     }
 
+    fn by(ByMarks { axes, by, .. }: ByMarks) -> Self {
+        let growth = axes.map(|[x, y]| x.hypot(y)).into_iter().fold(0.0, f64::max);
+        Self { axes, growth, pitch: 0.0, by, cloth: None }
+    }
+
     /// Of a copy, from 1.
     fn of_copy(self, copy: u32) -> Self {
         let [x, y] = self.by;
@@ -165,8 +176,7 @@ impl Lay<'_> {
     }
 
     fn turned(&self, x: f64, y: f64) -> [f64; 2] {
-        let along = Rotation(self.turn).unit();
-        [self.factors[0] * (x * along.x - y * along.y), self.factors[1] * (x * along.y + y * along.x)]
+        [0, 1].map(|k| self.axes[0][k] * x + self.axes[1][k] * y)
     }
 
     fn away(&self, drawn: Point, laid: Point) -> f64 {
@@ -189,18 +199,15 @@ impl Lay<'_> {
             worst.see(f64::INFINITY, || of(one, self));
             return;
         }
-        for (drawn, laid) in contours(drawn).into_iter().zip(contours(laid)) {
-            self.contour(&drawn, &laid, worst);
+        let (before, behind) = (contours(drawn), contours(laid));
+        let start = |contour: &Vec<Segment>| contour.iter().map(|segment| segment.span.start).min().unwrap_or(0);
+        for (drawn, laid) in pairs([&before, &behind], start, |drawn, laid| self.contour(drawn, laid).0) {
+            let (away, place) = self.contour(drawn, laid);
+            worst.see(away, || place);
         }
-        for (drawn, laid) in
-            by_span(&one.notches, |n| n.span.start).into_iter().zip(by_span(&other.notches, |n| n.span.start))
-        {
-            let strokes = |notch: &Notch| notch.strokes().collect::<Vec<_>>();
-            let (strokes, found) = (strokes(drawn), strokes(laid));
-            let is_same = strokes.len() == found.len() && drawn.percent == laid.percent;
-            let ways = strokes.iter().zip(&found);
-            let away = ways.map(|(a, b)| self.away(a.from, b.from).max(self.away(a.to, b.to))).fold(0.0, f64::max);
-            worst.see(if is_same { away } else { f64::INFINITY }, || Sighting::at(0.0, laid.tip, laid.span.block));
+        let away = |drawn: &Notch, laid: &Notch| self.notch(drawn, laid);
+        for (drawn, laid) in pairs([&one.notches, &other.notches], |notch| notch.span.start, away) {
+            worst.see(self.notch(drawn, laid), || Sighting::at(0.0, laid.tip, laid.span.block));
         }
         for (drawn, laid) in one.drills.iter().zip(&other.drills) {
             let Drill { at: place, tool, span } = *laid;
@@ -214,29 +221,44 @@ impl Lay<'_> {
                 Sighting::at(0.0, laid.at.unwrap_or(Point::origin()), laid.span.block)
             });
         }
-        let sorted = |piece: &Piece| {
-            by_span(&piece.outline_notches, |notch| notch.span.start).into_iter().copied().collect::<Vec<_>>()
-        };
-        for (drawn, laid) in sorted(one).into_iter().zip(sorted(other)) {
-            // Lines of a notch may be parted where the cloth wanders.
-            let parted = if self.cloth.is_some() { laid.segments.saturating_sub(drawn.segments) } else { 0 };
-            let told = |n: &OutlineNotch| (n.form, n.outwards, n.span);
-            let [from, to] = laid.mouth;
-            let mouths = [[from, to], [to, from]].into_iter();
-            let away = mouths.map(|mouth| self.away(drawn.mouth[0], mouth[0]).max(self.away(drawn.mouth[1], mouth[1])));
-            let away = away.fold(f64::INFINITY, f64::min).max(self.away(drawn.tip, laid.tip));
-            let is_same = told(&drawn) == told(&laid) && drawn.segments + parted == laid.segments;
-            worst.see(if is_same { away } else { f64::INFINITY }, || Sighting::at(0.0, laid.tip, laid.span.block));
+        let away = |drawn: &OutlineNotch, laid: &OutlineNotch| self.outline_notch(drawn, laid);
+        for (drawn, laid) in pairs([&one.outline_notches, &other.outline_notches], |notch| notch.span.start, away) {
+            worst.see(self.outline_notch(drawn, laid), || Sighting::at(0.0, laid.tip, laid.span.block));
         }
     }
 
-    /// Compares contours: closed ones may begin elsewhere, and all may be cut the other way.
-    fn contour(&self, drawn: &[Segment], laid: &[Segment], worst: &mut Worst) {
+    /// How far a notch is from where it should be, mm; infinite where it is another.
+    fn notch(&self, drawn: &Notch, laid: &Notch) -> f64 {
+        let strokes = |notch: &Notch| notch.strokes().collect::<Vec<_>>();
+        let (strokes, found) = (strokes(drawn), strokes(laid));
+        if strokes.len() != found.len() || (drawn.percent, drawn.span) != (laid.percent, laid.span) {
+            return f64::INFINITY;
+        }
+        let ways = strokes.iter().zip(&found);
+        ways.map(|(a, b)| self.away(a.from, b.from).max(self.away(a.to, b.to))).fold(0.0, f64::max)
+    }
+
+    /// The same of a notch in an outline.
+    fn outline_notch(&self, drawn: &OutlineNotch, laid: &OutlineNotch) -> f64 {
+        // Lines of a notch may be parted where the cloth wanders.
+        let parted = if self.cloth.is_some() { laid.segments.saturating_sub(drawn.segments) } else { 0 };
+        let told = |n: &OutlineNotch| (n.form, n.outwards, n.span);
+        if told(drawn) != told(laid) || drawn.segments + parted != laid.segments {
+            return f64::INFINITY;
+        }
+        let [from, to] = laid.mouth;
+        let mouths = [[from, to], [to, from]].into_iter();
+        let away = mouths.map(|mouth| self.away(drawn.mouth[0], mouth[0]).max(self.away(drawn.mouth[1], mouth[1])));
+        away.fold(f64::INFINITY, f64::min).max(self.away(drawn.tip, laid.tip))
+    }
+
+    /// How far a contour is from where it should be at the most, mm, and where: closed ones may begin elsewhere, and all may be
+    /// cut the other way.
+    fn contour(&self, drawn: &[Segment], laid: &[Segment]) -> (f64, Sighting) {
         let turned = laid.iter().rev().map(|&segment| Segment { from: segment.to, to: segment.from, ..segment });
         let turned: Vec<Segment> = turned.collect();
         let nearer = [laid, &turned].map(|laid| self.farthest(drawn, laid)).into_iter();
-        let (away, place) = nearer.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are two");
-        worst.see(away, || place);
+        nearer.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are two")
     }
 
     /// The farthest of the segments of a contour from where it should be, mm, with its place.
@@ -280,7 +302,8 @@ impl Lay<'_> {
 
     /// How far a text is from its place; infinite where it is another, or points elsewhere.
     fn label(&self, drawn: &Label, laid: &Label) -> f64 {
-        let is_mirrored = self.factors[0] * self.factors[1] < 0.0;
+        let [[a, b], [c, d]] = self.axes;
+        let is_mirrored = a * d - b * c < 0.0;
         let texts = match drawn.mirrored {
             Some(mirrored) if is_mirrored => (mirrored, Some(drawn.span)),
             other => (drawn.span, other),
@@ -301,17 +324,30 @@ impl Lay<'_> {
     }
 }
 
-/// The segments of each contour of a piece, by the first byte that any of them came from: they may come in another order.
+/// The segments of each contour of a piece.
 fn contours((marker, piece): (&Marker, &Piece)) -> Vec<Vec<Segment>> {
     let segments = |contour: &Contour| marker.list.walk(contour.range).map(|(_, segment)| segment).collect::<Vec<_>>();
-    let mut contours: Vec<Vec<Segment>> = piece.contours.iter().map(segments).collect();
-    contours.sort_by_key(|segments| segments.iter().map(|segment| segment.span.start).min());
-    contours
+    piece.contours.iter().map(segments).collect()
 }
 
-/// Some things in the order of the file.
-fn by_span<T>(things: &[T], start: impl Fn(&T) -> u32) -> Vec<&T> {
-    let mut sorted: Vec<&T> = things.iter().collect();
+/// Things as drawn with those as laid, which may come in another order: by the byte that they begin at, and of those from one
+/// byte, as the two halves of a folded piece are, the nearest.
+fn pairs<T>([drawn, laid]: [&[T]; 2], start: impl Fn(&T) -> u32, away: impl Fn(&T, &T) -> f64) -> Vec<(&T, &T)> {
+    let mut left: Vec<&T> = laid.iter().collect();
+    left.sort_by_key(|thing| start(thing));
+    let mut sorted: Vec<&T> = drawn.iter().collect();
     sorted.sort_by_key(|thing| start(thing));
-    sorted
+    let mut found = Vec::with_capacity(sorted.len());
+    for thing in sorted {
+        let first = left.partition_point(|other| start(other) < start(thing));
+        let alike = left[first..].iter().take_while(|other| start(other) == start(thing)).count();
+        let nearest = if alike > 1 {
+            let away = (first..first + alike).map(|k| (away(thing, left[k]), k));
+            away.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(first, |(_, k)| k)
+        } else {
+            first.min(left.len() - 1)
+        };
+        found.push((thing, left.remove(nearest)));
+    }
+    found
 }

@@ -20,6 +20,10 @@ pub(crate) mod program;
 pub(crate) mod room;
 pub(crate) mod samples;
 
+/// Registration marks about the marker of the pictures.
+pub(crate) const MARKS: &[u8] =
+    b"x_mm,y_mm,found_x_mm,found_y_mm\n0,0,5,8\n1700,0,1705,9\n1700,1400,1704,1409\n0,1400,4,1408\n";
+
 /// A marker of one piece with one contour through the points; block k + 1 holds the k-th chord.
 pub(crate) fn marker(points: &[Point]) -> Marker {
     let mut marker = Marker::default();

@@ -371,7 +371,7 @@ fn quantity(text: &str) -> Option<[u32; 2]> {
     };
     let numbers: Option<Vec<u32>> = text.split(',').map(whole).collect();
     match numbers.as_deref() {
-        None => Some([worded(text)?, 0]),
+        None => worded(text),
         Some(&[right]) if right > 0 => Some([right, 0]),
         Some(&[right, left]) if right > 0 || left > 0 => Some([right, left]),
         _ => None,
@@ -383,17 +383,23 @@ const PIECES: &str = " x × pc pcs piece pieces pièce pièces st stk stck styck
                       peça peças szt sztuk sztuki ks db buc adet шт штук штуки дет 片 件 枚 张 張 个 個 장 매 \
                       self main shell lining fabric contrast interfacing ";
 
-/// The number of a text that has a word for pieces behind it, something in parentheses, or both.
-fn worded(text: &str) -> Option<u32> {
+/// Words for a right piece and a left one, likewise.
+const PAIRS: &str = " pair pairs pr prs paar paare paire paires paio paia par pares ";
+
+/// How often a text wants a block right and left that has a number and behind it a word for pieces or pairs, something in
+/// parentheses, or both.
+fn worded(text: &str) -> Option<[u32; 2]> {
     let text = text.trim().to_lowercase();
     let (number, rest) = text.split_at(text.find(|letter: char| !letter.is_ascii_digit())?);
     let (word, aside) = rest.split_at(rest.find('(').unwrap_or(rest.len()));
     let is_aside = aside.ends_with(')') && aside.matches(['(', ')']).count() == 2;
     let word = word.trim().trim_end_matches('.');
-    let is_piece = |word: &str| !word.contains(' ') && PIECES.contains(&format!(" {word} "));
-    let is_word = word.is_empty() || is_piece(word) || ["on fold", "on the fold"].contains(&word);
+    let is_one_of = |words: &str| !word.is_empty() && !word.contains(' ') && words.contains(&format!(" {word} "));
+    let is_pair = is_one_of(PAIRS);
+    let is_word = word.is_empty() || is_pair || is_one_of(PIECES) || ["on fold", "on the fold"].contains(&word);
     let is_clear = is_word && (is_aside || aside.is_empty() && !word.is_empty());
-    number.parse().ok().filter(|number| is_clear && *number > 0)
+    let number = number.parse().ok().filter(|number| is_clear && *number > 0)?;
+    Some([number, if is_pair { number } else { 0 }])
 }
 
 /// Whether a move leaves a block where it is drawn.

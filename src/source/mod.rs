@@ -3,7 +3,11 @@
 //! Input is read once into memory and never changed. A [`Span`] travels with everything that is made from the bytes,
 //! down to the emitted program; a [`Place`] is the same thing as people say it.
 
+mod csv;
+
 use thiserror::Error;
+
+pub use csv::{CsvFault, CsvLines, csv_fields, csv_number, csv_rows};
 
 /// The whole of one input: its name as the user gave it, and its bytes.
 #[derive(Debug)]
