@@ -185,6 +185,9 @@ fn a_map_lays_one_drawing_on_a_table() {
     room.write("marks.csv", file(&plain, 0.0).as_bytes());
     let said = room.says("compile printed.cut circle.cut --map marks.csv -o out/", USAGE);
     assert!(said.contains("marks of its own"), "{said}");
+    std::fs::create_dir(room.at("in")).expect("writable");
+    let said = room.says("watch in -o out/ --map marks.csv", USAGE);
+    assert!(said.contains("marks of its own"), "{said}");
     let said = room.says("flow printed.cut --map marks.csv -o plan/", USAGE);
     assert!(said.contains("on a table"), "{said}");
     let pattern = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/pictures/pattern.dxf");

@@ -33,15 +33,17 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
         return Err(failure("`--dump-after` looks into one file", "name one file, without --changed and --shard"));
     }
     if inputs.len() > 1 && arguments.making.choice.beside()[1].is_some() {
-        return Err(failure(
-            "`--map` lays one drawing by the marks of its cloth",
-            "name one file: every cloth has marks of its own",
-        ));
+        return Err(one_map());
     }
     if !arguments.messages.quiet {
         batch::tell_passed_over(&arguments.files, console);
     }
     many::run(arguments, &inputs, threads, console)
+}
+
+/// The refusal of `--map` for many files.
+pub(super) fn one_map() -> anyhow::Error {
+    failure("`--map` lays one drawing by the marks of its cloth", "name one file: every cloth has marks of its own")
 }
 
 /// What `--dump-after` prints.

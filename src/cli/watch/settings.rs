@@ -8,6 +8,7 @@ use clap::Parser;
 use super::arguments::Arguments;
 use super::settling::Stamp;
 use crate::back::Target;
+use crate::cli::compile::one_map;
 use crate::cli::destination::targets_of_many;
 use crate::cli::files;
 use crate::cli::finished::{Finished, failure};
@@ -16,7 +17,7 @@ use crate::machine::Job;
 /// The file with the options of a folder.
 pub(super) const NAME: &str = "cutc.toml";
 /// The options that name a file: in a folder it is meant from there.
-const FILES: [&str; 3] = ["profile", "centre", "map"];
+const FILES: [&str; 2] = ["profile", "centre"];
 
 /// What some files look like; `None` = not there.
 pub(super) type Stamps = Vec<Option<Stamp>>;
@@ -57,8 +58,12 @@ impl Settings {
             let from = if added { format!("`{}` and the command line: ", file.display()) } else { String::new() };
             failure(format!("{from}{message}"), "its keys are the long options of `cutc watch`, each given once")
         })?;
+        let [profile, centre, map] = arguments.making.beside();
+        if map.is_some() {
+            return Err(one_map());
+        }
         let targets = targets_of_many(arguments.making.place(), arguments.making.targets())?;
-        let named: Vec<PathBuf> = arguments.making.beside().into_iter().flatten().map(Path::to_owned).collect();
+        let named: Vec<PathBuf> = [profile, centre].into_iter().flatten().map(Path::to_owned).collect();
         let stamps = std::iter::once(stamp).chain(named.iter().map(|path| Stamp::at(path))).collect();
         let read = std::iter::once(file).chain(named).collect();
         Ok(arguments.making.job()?.map(|job| Self { arguments, targets, job, read, stamps }))
