@@ -272,7 +272,7 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, op
 struct Beside<'a> {
     /// The option that gives it.
     option: &'a str,
-    /// What a program does that was made with another one.
+    /// Fault of a program that was made with another one, as a predicate.
     fault: &'a str,
     source: Option<&'a Source>,
 }

@@ -28,7 +28,7 @@ pub(super) struct Setup {
 #[derive(Debug, Serialize)]
 struct Map {
     marks: usize,
-    /// The greatest distance of a mark from where the map has it.
+    /// Greatest distance of a mark from its place by the map of the others.
     worst_mm: f64,
     turned_deg: f64,
     skewed_deg: f64,

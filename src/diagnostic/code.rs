@@ -552,7 +552,7 @@ codes! {
     MARKS_ROW = error(Text, "marks/row", "A row of a file of registration marks (`--map`) cannot be read, or the first one is not `x_mm,y_mm,found_x_mm,found_y_mm`.", "Guessing a place would move every part. The first two numbers are where the mark stands in the drawing, the others where it lies on the table.\n  120.5,80,1322.4,96.2");
     /// Marks that give no map.
     MARKS_FIT = error(Shape, "marks/fit", "Registration marks do not say where the drawing lies: they are fewer than four, lie on a line or mirrored, stretch it as no cloth is, or do not fit each other within `map.max_mm`.", "A mark that was read wrongly would spoil every part. Find the marks again that the message names; six marks or more tell well which one is wrong.");
-    /// A map that no cloth needs.
+    /// An unlikely map.
     MARKS_ODD = warning(Spoils, Shape, "marks/odd", "The map of the registration marks turns or skews the drawing by more than 5 degrees or stretches it by more than a twentieth, or the marker reaches far beyond the marks.", "It fits the marks all the same: they may be in another unit, or of another drawing. Far beyond the marks their errors grow. Compare one part with a ruler before the first cut.");
     /// A map, and something else that moves the drawing.
     MARKS_SHEET = error(Shape, "marks/sheet", "`--map` says where the drawing lies, and a key of `sheet`, the file or the row of a pattern set lays it as well.", "Two answers to where the cloth lies would cut beside it. Leave the keys of `sheet` out.\n  cutc compile marker.cut --map marks.csv");

@@ -1,8 +1,7 @@
-//! Files of registration marks: CSV with the header `x_mm,y_mm,found_x_mm,found_y_mm`, a row a mark.
+//! Files of registration marks: CSV with the header `x_mm,y_mm,found_x_mm,found_y_mm` and one row for each mark.
 //!
-//! What is read is sound: four marks at the least, not on a line, each within `map.max_mm` of where the map of the others has it,
-//! and a map that some cloth needs.
-//! Every fault of a file is found in one run.
+//! Marks that are read are sound: at least four, not on a line, each within `map.max_mm` of where the map of the others has it,
+//! with a map that stretches and skews no more than cloth is worked on. Every fault of a row is found in one run.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;

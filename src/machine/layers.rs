@@ -149,8 +149,8 @@ fn by_name(name: &str) -> Option<PenUse> {
 
 /// Whether all words for a knife in a name are words for holes.
 fn names_holes_alone(name: &str) -> bool {
-    let (_, knives) = WORDS[2];
-    words(name).iter().filter(|word| knives.contains(&&***word)).all(|word| HOLES.contains(&&**word))
+    let is_knife = |word: &str| WORDS.iter().any(|(used, known)| *used == PenUse::Knife && known.contains(&word));
+    words(name).iter().filter(|word| is_knife(word)).all(|word| HOLES.contains(&&**word))
 }
 
 /// Whether one of some words, in capitals, is a word of a name.

@@ -110,7 +110,7 @@ fn a_compiler_that_takes_another_map_or_marks_that_give_none_is_refused() {
         let [_, wrong] = both(&job(&file(&AffineMap { by, ..map }, 0.0)));
         assert!(!Drawn::of(&drawn).laid(&wrong, &right).holds());
     }
-    // What no reader should have let pass, whatever the map of the compiler.
+    // Files without a sound map: the verifier refuses them, whatever map the compiler took.
     let text = file(&map, 0.0);
     let rows: Vec<&str> = text.lines().collect();
     let mirrored = file(&AffineMap { axes: [map.axes[0], map.axes[1].map(|way| -way)], ..map }, 0.0);

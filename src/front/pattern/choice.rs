@@ -197,7 +197,7 @@ const PAIRS: [&str; 12] =
 pub(super) struct Wanted {
     /// As it is drawn, and mirrored: `1,1` is right and left.
     pub(super) times: [u32; 2],
-    /// What is told of words behind the number.
+    /// Finding on words behind the number.
     words: Option<Thing>,
 }
 

@@ -95,7 +95,7 @@ fn by_marks(marker: &mut Marker, marks: &Marks, sheet: &Sheet, diagnostics: &mut
     marker.unit *= marks.map().growth();
 }
 
-/// Tells of a map that no cloth needs, and of a marker far beyond its marks.
+/// Warns of an unlikely map, and of a marker far beyond its marks.
 fn odd(marks: &Marks, drawn: &Extent, diagnostics: &mut Diagnostics) {
     let mut warn =
         |message: String, hint: &str| diagnostics.push(Diagnostic::new(&code::MARKS_ODD, message).hint(hint));

@@ -320,7 +320,8 @@ struct Stands {
 
 impl Stands {
     /// Adds the next piece of a cut.
-    fn add(&mut self, Beside { over, cut, aside, at, round }: Beside) {
+    fn add(&mut self, piece: Beside) {
+        let Beside { over, cut, aside, at, round } = piece;
         self.covered.push(over);
         let off = aside[0].abs().max(aside[1].abs());
         if off > self.shift.0 {

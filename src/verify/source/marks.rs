@@ -17,7 +17,7 @@ pub(super) struct ByMarks {
     pub(super) axes: [[f64; 2]; 2],
     /// Where the origin goes, mm.
     pub(super) by: [f64; 2],
-    /// The greatest distance of a mark from where the map of the others has it, mm; infinite where there is none.
+    /// Greatest deleted residual, mm: distance of a mark from its place by the map of the others; infinite without a map.
     pub(super) off: f64,
 }
 
@@ -53,7 +53,7 @@ impl ByMarks {
         let [of_x, of_y] = [part(2), part(3)];
         let axes = [[of_x[0], of_y[0]], [of_x[1], of_y[1]]];
         let by = [0, 1].map(|k| means[2 + k] - axes[0][k] * means[0] - axes[1][k] * means[1]);
-        // What a mark adds to its own place: the rest of it shows.
+        // Leverage of a mark; one less that is the share of a wrong reading that its residual shows.
         let own =
             |k: usize| 1.0 / count + x[k] * x[k] / dot(&x, &x) + upright[k] * upright[k] / dot(&upright, &upright);
         let off = |(k, row): (usize, &[f64; 4])| {

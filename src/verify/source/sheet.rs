@@ -114,7 +114,7 @@ struct Lay<'a> {
 impl Lay<'_> {
     fn of(drawn: &Marker, profile: &MachineProfile) -> Self {
         let sheet = &profile.sheet;
-        // What X and Y are multiplied by behind the turn.
+        // Factors of X and Y behind the turn.
         let mut factors = [sheet.scale_x, sheet.scale_y];
         if sheet.mirror == Mirror::Ends {
             factors[0] *= -1.0;
