@@ -247,6 +247,15 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
         hints: &["if it divides a part in two, let the CAD draw both parts; `--cut-all` cuts every line but a frame"],
     },
     EdgeDoubt {
+        lie: Lie::Outside,
+        code: &code::DRAWING_OPEN_OUTLINES,
+        does: ["one open line goes outside from edge to edge", "open lines go outside from edge to edge"],
+        hints: &[
+            "if it is a part that has an edge in common, let the CAD draw it as one closed line",
+            "`--cut-all` cuts every line but a frame",
+        ],
+    },
+    EdgeDoubt {
         lie: Lie::Wide,
         code: &code::DRAWING_LINE_FROM_EDGE,
         does: ["one stroke above 12 mm wide", "strokes above 12 mm wide"],

@@ -255,6 +255,8 @@ pub(super) enum Lie {
     Divides,
     /// The same, between places where strokes of the outline meet: it may be the common edge of two parts.
     Between,
+    /// An open line goes from it to itself outside, longer than a notch: it may bound a part that has an edge in common.
+    Outside,
     /// An open line goes along it.
     Along,
     /// A small closed line has an edge on it.
@@ -306,7 +308,7 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
         let [starts, ends] = [of(&on[0]), of(&on[1])];
         let both = starts.iter().find(|outline| ends.contains(outline));
         let outline = *both.or(starts.first()).or(ends.first())?;
-        let lie = if both.is_some() { lie(*line, outline, search, work)? } else { Lie::Ends };
+        let lie = if both.is_some() { lie(*line, outline, search, work) } else { Lie::Ends };
         Some(EdgeLine { line: *line, outline, lie })
     };
     let mut found: Vec<EdgeLine> = candidates.iter().filter_map(&mut edge_line).collect();
@@ -353,25 +355,29 @@ fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Bu
     found
 }
 
-/// How a line lies whose ends both lie on an outline; `None` when it goes around outside.
-fn lie(line: usize, outline: usize, Search { lines, vertices, unit, .. }: Search, work: &mut Budget) -> Option<Lie> {
+/// Lie of a line whose ends both lie on an outline.
+fn lie(line: usize, outline: usize, Search { lines, vertices, unit, .. }: Search, work: &mut Budget) -> Lie {
     let places = lines[line].points(vertices);
     let longest = if is_straight(lines[line].vertices(vertices)) { Notch::LONGEST } else { Notch::LONGEST_STROKE };
     let outline = lines[outline].points(vertices);
     if lines[line].length <= longest {
-        return Some(as_notch(&places));
+        return as_notch(&places);
     }
     if !work.spend(2 * PROBES.len() * outline.len()) {
-        return Some(Lie::Ends);
+        return Lie::Ends;
     }
     let stations = polyline::stations(&places);
     let probes = PROBES.map(|share| polyline::place(&places, &stations, share * lines[line].length));
     let is_off = |at: &Point| polyline::distance(*at, &outline) > TOUCH + ROUNDING * unit;
-    if probes.iter().any(is_off) {
-        let divides = if lines[line].is_between { Lie::Between } else { Lie::Divides };
-        probes.iter().any(|at| is_off(at) && ring::contains(&outline, *at)).then_some(divides)
+    let mut off = probes.iter().filter(|at| is_off(at)).peekable();
+    if off.peek().is_none() {
+        Lie::Along
+    } else if !off.any(|at| ring::contains(&outline, *at)) {
+        Lie::Outside
+    } else if lines[line].is_between {
+        Lie::Between
     } else {
-        Some(Lie::Along)
+        Lie::Divides
     }
 }
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::doubts::{self, finding};
 use super::frame;
 use super::line::{Class, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
-use super::marks::Lie;
+use super::marks::{EdgeLine, Lie};
 use super::nest::middle;
 use super::pens::Use;
 use super::sheet::{self, Sheet};
@@ -258,10 +258,15 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
         out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
     }
-    // An outline with a gap around closed lines is told for itself, and an edge that is drawn once more is cut.
+    // An outline with a gap around closed lines and a line on an outline are told by piece; an edge drawn once more is cut.
     let [mut told, broken] = doubts::doubtful_outlines(sheet);
     told.extend(broken);
-    told.extend(sheet.from_edges.iter().filter(|edge| edge.lie == Lie::Along).map(|edge| edge.line));
+    let is_told = |edge: &&EdgeLine| match edge.lie {
+        Lie::Along => true,
+        Lie::Outside => sheet.lines[edge.outline].is_cut,
+        _ => false,
+    };
+    told.extend(sheet.from_edges.iter().filter(is_told).map(|edge| edge.line));
     let is_long = |line: &Line| {
         let is_open = matches!(line.class, Class::Other | Class::FromEdge);
         is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED

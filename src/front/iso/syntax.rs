@@ -167,10 +167,11 @@ const PLAIN_BYTES: usize = 40;
 /// says of it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
 #[inline] // most of a file is read here, and from one place only: from more the compiler would not inline it
 pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
+    let [b'X', rest @ ..] = i else { return None };
     // First as if there were no signs, as there mostly are none.
-    let digits = i[1..].first_chunk()?;
+    let digits = rest.first_chunk()?;
     match digits::pair(digits) {
-        Some(([x, y], [middle, end])) if i[0] == b'X' && digits[middle] == b'Y' && digits[end] == b'*' => {
+        Some(([x, y], [middle, end])) if digits[middle] == b'Y' && digits[end] == b'*' => {
             Some((end + 2, x.cast_signed(), y.cast_signed()))
         }
         _ => signed_block(i),

@@ -170,6 +170,23 @@ fn what_lies_in_no_part_and_is_not_cut_is_named() {
     check(&divided, "1 part*, 1 line from edge", &["drawing/divided-part"]);
 }
 
+/// Two parts with an edge in common, which is drawn once: the second one has three sides, or begins and ends amid the edge.
+#[test]
+fn a_line_that_stands_on_an_edge_from_outside_is_named_by_the_part_that_it_stands_on() {
+    let parts = rectangle(40_000, 4000, 8000, 8000) + &part();
+    for open in
+        ["PU16000,4000;PD24000,4000,24000,16000,16000,16000;", "PU16000,6000;PD20000,6000,20000,14000,16000,14000;"]
+    {
+        let (classes, _) = found(&(parts.clone() + open), &Job::default());
+        assert_eq!(classes, "2 part*, 1 line from edge", "{open}");
+        let source = source(format!("IN;SP1;{parts}{open}PU;SP0;"));
+        let mut said = Diagnostics::default();
+        pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, &Job::default(), &mut said);
+        let told: Vec<_> = said.iter().map(|finding| (finding.code.name, finding.pieces.to_vec())).collect();
+        assert_eq!(told, [("drawing/open-outlines", vec![2])], "{open}");
+    }
+}
+
 #[test]
 fn a_seam_line_that_leaves_its_part_at_a_corner_is_its_seam_line() {
     let seam = "PU4400,6000;PD16040,6000,15600,15600,4400,15600,4400,6000;";

@@ -60,7 +60,7 @@ pub(super) struct Mouth {
     pub(super) deepest: usize,
     /// Whether it lies to the left of the outline.
     pub(super) is_left: bool,
-    /// How far the outline beside it is turned from the direction of the mouth, rad.
+    /// Tangent of the angle from its direction to that of the outline beside it.
     pub(super) askew: f64,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     let mut see = |i: usize, from: Point| {
         let (before, after) = (points[i] - from, points[i + 1] - points[i]);
         if is_turn(before, after) {
-            found.extend(ring.begun(i, cross(before, after) > 0.0));
+            ring.begun(i, cross(before, after) > 0.0).into_iter().for_each(|mouth| found.push(mouth));
         }
     };
     see(0, points[count - 1]);
@@ -222,9 +222,9 @@ impl Ring<'_> {
         })
     }
 
-    /// How far the outline that comes to a mouth, or leaves it, is turned from its direction, rad; `None` when that is too
-    /// far. Near the mouth it may have very short segments, whose direction is that of the grid; a stretch as long as the
-    /// mouth is wide has its own.
+    /// Tangent of the angle from the direction of a mouth to that of the outline that comes to it, or leaves it; `None` when
+    /// that is too far. Near the mouth the outline may have very short segments, whose direction is that of the grid; a
+    /// stretch as long as the mouth is wide has its own.
     fn askew(&self, i: usize, is_end: bool, steps: usize, mouth: Vector) -> Option<f64> {
         let count = self.points.len();
         let beside = |k: usize| {
@@ -232,7 +232,7 @@ impl Ring<'_> {
         };
         let width = mouth.norm();
         let turn = |way: Vector| angle::turn(way, mouth).abs();
-        // The one that turns least has the greatest cosine; angles take much longer.
+        // The one that turns least has the greatest cosine.
         let (mut straightest, mut cosine, mut is_next) = (None, f64::NEG_INFINITY, None);
         for k in 1..(count - steps).min(MOST_STEPS) {
             let way = beside(k);
@@ -249,8 +249,10 @@ impl Ring<'_> {
                 break;
             }
         }
-        let least = straightest.map_or(f64::INFINITY, turn);
-        let is_along = least <= MOUTH_TURN || least <= MOUTH_TURN + self.slack.atan2(width);
+        let tangent =
+            |way: Vector| if cosine > 0.0 { cross(way, mouth).abs() / way.dot(&mouth) } else { f64::INFINITY };
+        let least = straightest.map_or(f64::INFINITY, tangent);
+        let is_along = least <= MOUTH_TURN.tan() || least.atan() <= MOUTH_TURN + self.slack.atan2(width);
         (is_along && is_next.unwrap_or(true)).then_some(least)
     }
 }
