@@ -4,6 +4,7 @@
 //! X, Y, C, outputs, block. A count is the absolute position times the scale, plus the offset, rounded: nothing adds up,
 //! so nothing drifts. Counts wrap as the 32-bit registers of drives do. C is that of the controller (`c.offset_deg`,
 //! `c.reverse`). In the outputs bit 0 is the knife, bits 4 to 6 are the drill (0 to 4), bits 8 and 9 the event.
+//! On a conveyor a sixth number is the way of the cloth so far, mm.
 //!
 //! `numpy.memmap(file, "<i4", "r", 1024).reshape(-1, 5)` opens a program of any length at once.
 
@@ -24,8 +25,14 @@ pub(super) const TARGET: Target = Target {
 
 /// Bytes before the first record.
 const HEADER_BYTES: usize = 1024;
+/// Bytes of a number.
+const NUMBER_BYTES: usize = 4;
+
 /// Bytes of a record.
-const RECORD_BYTES: usize = 5 * 4;
+fn record_bytes(context: &Context) -> usize {
+    NUMBER_BYTES * if context.has_bites() { 6 } else { 5 }
+}
+
 /// Where drill and event begin in the outputs.
 const DRILL_BIT: u32 = 4;
 const EVENT_BIT: u32 = 8;
@@ -60,9 +67,10 @@ fn header(context: &Context, count: u64) -> Vec<u8> {
     let [x, y] = [&profile.counts.x, &profile.counts.y]
         .map(|axis| format!("{{\"per_mm\": {}, \"offset\": {}}}", exact(axis.per_mm), exact(axis.offset)));
     let c = &profile.counts.c;
+    let advance = if context.has_bites() { ", \"advance_mm\"" } else { "" };
     let text = format!(
         "{{\"format\": \"cutc-counts\", \"version\": 1, \"rows\": {count}, \"period_s\": {}, \"type\": \"<i4\", \
-         \"columns\": [\"x\", \"y\", \"c\", \"outputs\", \"block\"], \"x\": {x}, \"y\": {y}, \
+         \"columns\": [\"x\", \"y\", \"c\", \"outputs\", \"block\"{advance}], \"x\": {x}, \"y\": {y}, \
          \"c\": {{\"per_deg\": {}, \"offset\": {}, \"zero_deg\": {}, \"reverse\": {}}}, \
          \"outputs\": {{\"knife_bit\": 0, \"drill_bit\": {DRILL_BIT}, \"drill_bits\": 3, \"event_bit\": {EVENT_BIT}, \
          \"event_bits\": 2}}}}",
@@ -86,7 +94,8 @@ fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
 fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
     let profile = &context.job.profile;
     let (scales, turn) = (&profile.counts, &profile.c);
-    let mut records = Vec::with_capacity(RECORD_BYTES * motion.ticks() as usize);
+    let has_bites = context.has_bites();
+    let mut records = Vec::with_capacity(record_bytes(context) * motion.ticks() as usize);
     for phase in &motion.phases {
         let outputs = u32::from(phase.kind.knife_down())
             | u32::from(phase.kind.drill()) << DRILL_BIT
@@ -102,6 +111,9 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
             }
             records.extend_from_slice(&outputs.to_le_bytes());
             records.extend_from_slice(&block.to_le_bytes());
+            if has_bites {
+                records.extend_from_slice(&phase.station.to_le_bytes());
+            }
         }
     }
     out.write_all(&records)
@@ -115,7 +127,7 @@ fn wrapped(counts: f64) -> i32 {
 /// Fills in the number of records that were written.
 fn tail(context: &Context, _: Outcome, out: &mut dyn Output) -> io::Result<()> {
     let end = out.stream_position()?;
-    let count = (end - HEADER_BYTES as u64) / RECORD_BYTES as u64;
+    let count = (end - HEADER_BYTES as u64) / record_bytes(context) as u64;
     out.seek(SeekFrom::Start(0))?;
     out.write_all(&header(context, count))?;
     out.seek(SeekFrom::Start(end))?;

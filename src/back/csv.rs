@@ -3,6 +3,9 @@
 //! `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`: x, y the C axis, c unwrapped, block the number of the source block
 //! being cut. Six decimals: with four, a jerk limit could not be judged (a jerk of 2e5 mm/s3 moves 2e-4 mm in a
 //! millisecond).
+//!
+//! On a conveyor (`bite.length_mm`) a last field, `advance_mm`, has the way of the cloth so far, whole mm: x is a place of the
+//! table, x and the way that of the cloth. The row that tells the event has the new way.
 
 use std::io;
 
@@ -25,12 +28,13 @@ const POSITION_DECIMALS: u32 = 6;
 /// Decimals of the time, in s: a hundredth of the shortest legal period.
 const TIME_DECIMALS: u32 = 6;
 
-fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
-    out.write_all(b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n")
+fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let advance = if context.has_bites() { ",advance_mm" } else { "" };
+    writeln!(out, "t_s,x_mm,y_mm,c_deg,knife,drill,event,block{advance}")
 }
 
 fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
-    let period = context.job.profile.time.period();
+    let (period, has_bites) = (context.job.profile.time.period(), context.has_bites());
     let mut rows = Vec::new();
     let mut tick = motion.first_tick;
     for phase in &motion.phases {
@@ -45,6 +49,10 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
             for output in outputs.map(u64::from).into_iter().chain([u64::from(block)]) {
                 rows.push(b',');
                 number::push_integer(&mut rows, output);
+            }
+            if has_bites {
+                rows.push(b',');
+                number::push_integer(&mut rows, phase.station.into());
             }
             rows.push(b'\n');
             tick += 1;

@@ -2,6 +2,7 @@
 //!
 //! `x_mm y_mm c_deg knife drill event block`, for `loadrt streamer cfg=fffbuuu`. C is that of the controller
 //! (`c.offset_deg`, `c.reverse`). Nine decimals: with three, an axis that keeps its limits lags by micrometres.
+//! On a conveyor an eighth field, `advance_mm`, has the way of the cloth so far, for `cfg=fffbuuuu`.
 //! halstreamer skips a bad row in silence and loses a last one without its line feed; a comment stands in column 0.
 //!
 //! Target [`halrun`](super::halrun) is the `.hal` file that plays it.
@@ -23,12 +24,13 @@ pub(super) const TARGET: Target = Target {
 /// Decimals of positions, in mm and degrees.
 const DECIMALS: u32 = 9;
 
-fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
-    out.write_all(b"# cutc hal: x_mm y_mm c_deg knife drill event block\n")
+fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let advance = if context.has_bites() { " advance_mm" } else { "" };
+    writeln!(out, "# cutc hal: x_mm y_mm c_deg knife drill event block{advance}")
 }
 
 fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
-    let turn = &context.job.profile.c;
+    let (turn, has_bites) = (&context.job.profile.c, context.has_bites());
     let mut rows = Vec::new();
     for phase in &motion.phases {
         rows.clear();
@@ -43,6 +45,10 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
                 rows.push(b' ');
             }
             number::push_integer(&mut rows, u64::from(block));
+            if has_bites {
+                rows.push(b' ');
+                number::push_integer(&mut rows, phase.station.into());
+            }
             rows.push(b'\n');
         }
         out.write_all(&rows)?;

@@ -1,7 +1,7 @@
 //! Target `halrun`: the `.hal` file that plays the rows of the target `hal` on `LinuxCNC`'s real-time layer.
 //!
 //! It expects the rows beside it under the name that they have by default. The signals `x-pos`, `y-pos`, `c-pos`,
-//! `knife`, `drill`, `event` and `block` are what the file of the machine connects to its drives and outputs.
+//! `knife`, `drill`, `event` and `block`, on a conveyor `advance-mm`, are what the file of the machine connects to its drives and outputs.
 
 use std::io;
 use std::path::Path;
@@ -40,11 +40,13 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     let stem = Path::new(context.source.name()).file_stem().map_or("program".into(), |stem| stem.to_string_lossy());
     // With -w all rows are in the streamer before the first is played.
     let wait = if rows <= depth { "-w " } else { "" };
+    let [also, config, net] =
+        if context.has_bites() { [", advance-mm", "u", "net advance-mm streamer.0.pin.7\n"] } else { [""; 3] };
     let text = format!(
         "# Plays the {rows} rows of `{stem}.hal.txt`, one every {period} ns: `halrun -I {stem}.hal` in its folder.\n\
-         # Connect x-pos, y-pos, c-pos (mm, degrees), knife, drill, event and block to the machine before `start`.\n\
+         # Connect x-pos, y-pos, c-pos (mm, degrees), knife, drill, event and block{also} to the machine before `start`.\n\
          loadrt threads name1=servo period1={period}\n\
-         loadrt streamer depth={depth} cfg=fffbuuu\n\
+         loadrt streamer depth={depth} cfg=fffbuuu{config}\n\
          addf streamer.0 servo\n\
          net x-pos streamer.0.pin.0\n\
          net y-pos streamer.0.pin.1\n\
@@ -53,6 +55,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
          net drill streamer.0.pin.4\n\
          net event streamer.0.pin.5\n\
          net block streamer.0.pin.6\n\
+         {net}\
          setp streamer.0.enable 0\n\
          start\n\
          loadusr {wait}halstreamer {stem}.hal.txt\n\

@@ -141,7 +141,8 @@ impl<'a> File<'a> {
     fn event(&mut self, event: &Event) {
         self.block(match event.kind {
             toolpath::Event::Stop => "M01",
-            toolpath::Event::Advance => "M69",
+            // Coordinates stay those of the marker: whoever reads the file counts the bites.
+            toolpath::Event::Advance | toolpath::Event::Bite(_) => "M69",
         });
     }
 

@@ -11,6 +11,8 @@
 //! the blade of a plunge cut cuts into parts because nothing else holds what it is longer by, `neighbour_overcut_mm`
 //! how much of either lies in another part than its own, at the most.
 //!
+//! On a conveyor `advance_mm` has the way of the cloth so far: poses are those over the table.
+//!
 //! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
 //! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
 //! each motion and each rest is stretched to the next one, and at least one: `ticks` says how many a run really takes, and
@@ -48,6 +50,8 @@ struct Run {
     ticks: u64,
     start: Pose,
     end: Pose,
+    /// How far the cloth was moved on, mm; `None` where it lies still.
+    advance: Option<u32>,
 }
 
 fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
@@ -72,7 +76,8 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
         let more = rest[lead + begins..].iter().take_while(goes_on).count();
         let (phases, next) = rest.split_at(lead + begins + more);
         text.push_str(if index == 0 { "\n" } else { ",\n" });
-        text.push_str(&object(&run(phases, next.first(), &mut tasks), index, motion.piece));
+        let advance = context.has_bites().then(|| phases[phases.len() - 1].station);
+        text.push_str(&object(&Run { advance, ..run(phases, next.first(), &mut tasks) }, index, motion.piece));
         index += 1;
         rest = next;
     }
@@ -94,6 +99,7 @@ fn run(phases: &[Phase], next: Option<&Phase>, tasks: &mut impl Iterator<Item = 
         ticks: 0,
         start: phases[0].pose(0),
         end: next.unwrap_or(&phases[phases.len() - 1]).pose(0),
+        advance: None,
     };
     for phase in phases {
         run.ticks += u64::from(phase.ticks);
@@ -132,7 +138,7 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
          \"length_mm\": {}, \"duration_s\": {}, \"dwell_s\": {}, \"ticks\": {}, \"start\": {}, \"end\": {}, \
          \"front_overlap_mm\": {}, \"heel_overlap_mm\": {}, \"front_side\": \"{}\", \"heel_side\": \"{}\", \
          \"turned\": {turned}, \"edge\": \"{}\", \"front_overcut_mm\": {}, \"heel_overcut_mm\": {}, \
-         \"neighbour_overcut_mm\": {}, \"follow\": {}}}",
+         \"neighbour_overcut_mm\": {}, \"follow\": {}{}}}",
         run.kind,
         mm(run.length),
         exact(run.duration),
@@ -149,6 +155,7 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         mm(overcut[0].deepest()),
         mm(overcut[0].other.max(overcut[1].other)),
         follow(orientation),
+        run.advance.map_or_else(String::new, |mm| format!(", \"advance_mm\": {mm}")),
     )
 }
 

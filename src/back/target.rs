@@ -25,6 +25,13 @@ pub struct Context<'a> {
     pub marker: &'a Marker,
 }
 
+impl Context<'_> {
+    /// Whether a conveyor moves the cloth on: then setpoints tell how far.
+    pub fn has_bites(&self) -> bool {
+        self.job.profile.bite.length_mm.is_some()
+    }
+}
+
 /// An output format: a row of [`TARGETS`](crate::back::TARGETS).
 #[derive(Debug)]
 pub struct Target {

@@ -4,6 +4,7 @@
 //! exits. Help texts, flag values and names come from the tables of the stages.
 
 mod batch;
+mod bites;
 mod check;
 mod choices;
 mod compile;

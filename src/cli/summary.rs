@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::edges;
 use super::options::{counted, typed};
+use super::{bites, edges};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
 use crate::machine::patterns::Patterns;
@@ -61,10 +61,16 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(near) = report.near_m {
         line("near", format!("{} m beside edges of other parts, a thin strip between two cuts", fixed(near, 3)));
     }
+    if let Some(windows) = bites::line(&report.bites) {
+        line("bites", windows);
+    }
     of_program(report, &mut line);
     line("warnings", diagnostics.count(Severity::Warning).to_string());
     if let Some(edges) = &report.edges {
         out.push_str(&edges::table(edges));
+    }
+    if !report.bites.is_empty() {
+        out.push_str(&bites::table(&report.bites));
     }
     if let Some(axes) = &report.program.axes {
         peaks(&mut out, axes);

@@ -92,7 +92,7 @@ pub(super) fn text(pieces: &[Timed]) -> String {
 fn asked_for(event: Event) -> &'static str {
     match event {
         Event::Stop => "stop",
-        Event::Advance => "advance",
+        Event::Advance | Event::Bite(_) => "advance",
     }
 }
 

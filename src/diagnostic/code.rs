@@ -8,14 +8,6 @@ pub use super::telling::{Fault, Harm, Severity, Telling};
 use Fault::{Shape, Text};
 use Harm::{Spares, Spoils};
 
-impl Code {
-    /// Its place among all codes, the worst first: errors, then what may spoil parts, then the rest, each by stages.
-    pub fn rank(&self) -> (Severity, Harm, usize) {
-        let row = ALL.iter().position(|code| code.name == self.name).unwrap_or(ALL.len());
-        (self.severity, self.harm, row)
-    }
-}
-
 /// Declares each code, and the table of all of them in the order of the manual.
 macro_rules! codes {
     ($($(#[$about:meta])* $name:ident = $code:expr;)*) => {
@@ -424,6 +416,8 @@ codes! {
     PATH_C_RANGE = error(Shape, "path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.", "The cables of the blade's axis would be torn. Runs are lifted on the way and C unwound, but this one cannot be parted so: widen c.range_deg if the machine can turn farther.");
     /// Off the table, by a hair.
     MARKER_OVER_EDGE = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.", "A hand puts a marker down no better than to a millimetre, so this is only said, in one line. Move the marker a little, or correct `table` in the profile.");
+    /// In no window of a conveyor.
+    MARKER_BITE = error(Shape, "marker/bite", "A piece does not fit into the window of a conveyor (`bite.length_mm`), or lies before the one that the file has come to.", "A conveyor cuts a window, moves the cloth on and cuts the next; each piece is cut whole in one window, with all that the blade reaches beyond its lines. Turn the marker so that its pieces are shorter along X, or leave the piece out with --skip and cut it on a longer table. A conveyor does not run back: what the file has behind a stop or an advance must lie behind it.");
     /// Off the table.
     MARKER_OFF_TABLE = error(Shape, "marker/off-table", "The marker, the blade beyond the end of a line, or a head that follows edges leaves the table of the profile by more than a millimetre; the hint says how to move the marker.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
 

@@ -160,7 +160,7 @@ impl Diagnostics {
     /// How many of each code were found, kept or not, the worst code first.
     pub fn tally(&self) -> Vec<(&'static Code, usize)> {
         let mut tally: Vec<_> = self.counts.iter().copied().filter(|&(_, count)| count > 0).collect();
-        tally.sort_by_key(|(code, _)| code.rank());
+        tally.sort_by_key(|(code, _)| rank(code));
         tally
     }
 
@@ -182,6 +182,12 @@ impl<'a> IntoIterator for &'a Diagnostics {
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
     }
+}
+
+/// Place of a code among all, the worst first: errors, then what may spoil parts, then the rest, each by stages.
+fn rank(code: &Code) -> (Severity, Harm, usize) {
+    let row = code::ALL.iter().position(|other| other.name == code.name).unwrap_or(code::ALL.len());
+    (code.severity, code.harm, row)
 }
 
 #[cfg(test)]

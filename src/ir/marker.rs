@@ -375,19 +375,49 @@ impl Marker {
         contours + notches
     }
 
+    /// Length of the contours and slits of a piece as they are drawn, mm.
+    pub fn length_of(&self, piece: &Piece) -> f64 {
+        let slits: f64 = piece.notches.iter().flat_map(Notch::strokes).map(|stroke| stroke.length()).sum();
+        self.length(piece.contours.iter().map(|contour| contour.range)) + slits
+    }
+
     /// The box around everything that is cut or drilled.
     pub fn extent(&self) -> Extent {
+        self.extent_at(|_| Vector::zeros())
+    }
+
+    /// The box around all that is cut and drilled, as it comes to lie on the table: a conveyor moves the cloth on.
+    pub fn extent_on_table(&self) -> Extent {
+        let stations = self.stations();
+        self.extent_at(|part| Vector::new(-f64::from(stations[part]), 0.0))
+    }
+
+    /// How far a conveyor has moved the cloth on when each piece is cut, mm.
+    pub fn stations(&self) -> Vec<u32> {
+        let mut station = 0;
+        let bites = self.pieces.iter().map(|piece| piece.events.iter().map(|event| event.kind.bite()).sum::<u32>());
+        bites
+            .map(|by| {
+                station += by;
+                station
+            })
+            .collect()
+    }
+
+    /// The box around all pieces, each moved by that much.
+    fn extent_at(&self, by: impl Fn(usize) -> Vector) -> Extent {
         let mut extent = Extent::EMPTY;
-        for piece in &self.pieces {
+        for (part, piece) in self.pieces.iter().enumerate() {
+            let by = by(part);
             for contour in &piece.contours {
-                self.list.points(contour.range).iter().for_each(|&point| extent.add(point));
+                self.list.points(contour.range).iter().for_each(|&point| extent.add(point + by));
             }
             for stroke in piece.notches.iter().flat_map(Notch::strokes) {
-                extent.add(stroke.from);
-                extent.add(stroke.to);
+                extent.add(stroke.from + by);
+                extent.add(stroke.to + by);
             }
             for drill in &piece.drills {
-                extent.add(drill.at);
+                extent.add(drill.at + by);
             }
         }
         extent

@@ -64,6 +64,8 @@ pub struct Phase {
     pub duration: f64,
     /// Way of the tip in a cut, of the C axis in the air, mm.
     pub length: f64,
+    /// How far the cloth was moved on by its conveyor so far, mm: by so much a place lies farther on the cloth than on the table.
+    pub station: u32,
 }
 
 /// The ticks of a phase in which one source block is being cut: from its first one until the next spell begins.
@@ -135,7 +137,7 @@ impl Kind {
     pub fn event(self) -> u8 {
         match self {
             Self::Event(Event::Stop) => 1,
-            Self::Event(Event::Advance) => 2,
+            Self::Event(Event::Advance | Event::Bite(_)) => 2,
             Self::Rest
             | Self::Wait
             | Self::Travel

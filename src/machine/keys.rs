@@ -10,7 +10,7 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drawings, drill, flow, gcode, knife, labels, layers, marks, nest, notches, order, path,
+    axes, bite, common, counts, drawings, drill, flow, gcode, knife, labels, layers, marks, nest, notches, order, path,
     patterns, sewing, sheet, table, time, tool, tracking, verify,
 };
 
@@ -28,6 +28,7 @@ const SECTIONS: &[&[Key]] = &[
     path::KEYS,
     axes::KEYS,
     table::KEYS,
+    bite::KEYS,
     time::KEYS,
     counts::KEYS,
     gcode::KEYS,

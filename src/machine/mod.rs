@@ -5,6 +5,7 @@
 //! the schema, the help and the manual.
 
 pub mod axes;
+mod bite;
 mod centre;
 mod codes;
 pub mod common;

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::axes::{Axes, CAxis};
+use super::bite::Bite;
 pub use super::codes::CodeUse;
 use super::common::{Common, CommonLines, Lines};
 use super::counts::Counts;
@@ -90,6 +91,8 @@ pub struct MachineProfile {
     pub c: CAxis,
     /// The table.
     pub table: Table,
+    /// The conveyor under the table.
+    pub bite: Bite,
     /// The clock of the controller.
     pub time: Time,
     /// The encoders of the drives.
@@ -171,6 +174,7 @@ impl Default for MachineProfile {
             axes: Axes::default(),
             c: CAxis::default(),
             table: Table::default(),
+            bite: Bite::default(),
             time: Time::default(),
             counts: Counts::default(),
             gcode: Gcode::default(),

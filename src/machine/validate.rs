@@ -8,6 +8,7 @@ use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
+use super::tool::ToolKind;
 use super::{sewing, tool, tracking};
 use crate::diagnostic::code;
 
@@ -61,7 +62,23 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults.extend(tracking::faults(&profile.track));
     faults.extend(flow::faults(&profile.flow));
     faults.extend(tool::faults(&profile.tool, &profile.knife, is_given));
+    faults.extend(bites(profile));
     faults
+}
+
+/// The window of a conveyor beside the tool and the table.
+fn bites(profile: &MachineProfile) -> Option<Fault> {
+    let length = profile.bite.length_mm?;
+    if profile.tool.kind == ToolKind::Spray {
+        let message =
+            "`bite.length_mm` is given, and `tool.kind` is \"spray\": a spray head goes over cloth that lies still";
+        return Some(Fault::of_range(&["bite.length_mm"], message.to_owned(), "leave `bite.length_mm` out"));
+    }
+    let [start, end] = profile.table.x_mm?;
+    (length > end - start).then(|| {
+        let message = format!("`bite.length_mm` is {length} mm, more than `table.x_mm` has, {} mm", end - start);
+        Fault::of_range(&["bite.length_mm", "table.x_mm"], message, "a bite is what lies on the table")
+    })
 }
 
 /// The lengths of the blade.

@@ -4,6 +4,7 @@
 //! nothing about the cut.
 
 mod advance;
+mod bites;
 mod head;
 mod input;
 mod judge;
@@ -23,6 +24,7 @@ mod told;
 mod toolpaths;
 
 pub use self::advance::Advance;
+pub use self::bites::Bite;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
@@ -157,8 +159,7 @@ pub fn compile_all(
         });
         write(&context, products, (proofs.beside.then_some(&mut scratch), advance), diagnostics)
     })?;
-    let mut report = Report::of(&input.marker, input.dialect.name);
-    report.program = written.program;
+    let mut report = Report::of(&input.marker, input.dialect.name).planned(written.program, &input.marker);
     report.declared = declare::totals(&written.declared, &input.marker);
     report.controller = written.estimate.map(Controller::from);
     let mut verdict: Option<Verdict> = None;

@@ -20,7 +20,7 @@ struct Tight {
 /// How to move the marker away from the edges of the table, as far as the blade may reach beyond its lines there; along both axes
 /// at once, so that nothing is left to be told after that.
 pub(super) fn advice(marker: &Marker, job: &Job) -> String {
-    let (reach, table, extent) = (job.profile.knife.reach(), &job.profile.table, marker.extent());
+    let (reach, table, extent) = (job.profile.knife.reach(), &job.profile.table, marker.extent_on_table());
     let axes = [("X", table.x_mm, [extent.min.x, extent.max.x]), ("Y", table.y_mm, [extent.min.y, extent.max.y])];
     let tight = axes.map(|(name, ends, lies)| {
         let [before, behind] = ends.map(|[least, most]| [lies[0] - least, most - lies[1]])?;

@@ -6,7 +6,7 @@
 use super::toolpaths::Toolpaths;
 use super::{off_table, place};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
+use crate::geom::{Point, Vector};
 use crate::ir::Marker;
 use crate::ir::toolpath::{Shape, Step, Toolpath};
 use crate::machine::{Job, Table};
@@ -33,11 +33,13 @@ pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &m
     let mut toolpaths = Toolpaths::new(marker, job);
     let (mut drawing, mut linking) = toolpaths.stages();
     let mut worst: Option<Farthest> = None;
+    let stations = marker.stations();
     while let Some(window) = drawing.next() {
         for toolpath in linking.link(window).toolpaths {
+            let station = stations.get(toolpath.part as usize).copied().unwrap_or(0);
             // The planner moves an end by up to the tolerance.
             let least = Table::EDGE_MM + toolpath.tolerance;
-            for end in ends(&toolpath, &profile.table).filter(|end| end.off > least) {
+            for end in ends(&toolpath, station, &profile.table).filter(|end| end.off > least) {
                 if worst.as_ref().is_none_or(|worst| end.off > worst.off) {
                     worst = Some(end);
                 }
@@ -59,13 +61,15 @@ pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &m
 
 /// Whether an end of the blade could be off the table anywhere: in most jobs the table ends far from the marker.
 fn may_leave(marker: &Marker, job: &Job) -> bool {
-    let (table, extent) = (&job.profile.table, marker.extent());
+    let (table, extent) = (&job.profile.table, marker.extent_on_table());
     let off = table.off(extent.min.into()).max(table.off(extent.max.into()));
     !extent.is_empty() && off + job.profile.knife.reach() > Table::EDGE_MM
 }
 
-/// Both ends of the blade's reach in each open cut and each plunge, as far as they are off the table.
-fn ends<'a>(toolpath: &'a Toolpath, table: &'a Table) -> impl Iterator<Item = Farthest> + 'a {
+/// Both ends of the blade's reach in each open cut and each plunge, as far as they are off the table when the cloth was moved on
+/// by that, mm.
+fn ends<'a>(toolpath: &'a Toolpath, station: u32, table: &'a Table) -> impl Iterator<Item = Farthest> + 'a {
+    let moved_on = Vector::new(f64::from(station), 0.0);
     let reached = |step: &Step| -> Option<([Point; 2], [Span; 2])> {
         match step {
             Step::Run(run) if run.shape == Shape::Open => {
@@ -80,7 +84,7 @@ fn ends<'a>(toolpath: &'a Toolpath, table: &'a Table) -> impl Iterator<Item = Fa
             _ => None,
         }
     };
-    toolpath.steps.iter().filter_map(reached).flat_map(|(ends, spans)| {
-        ends.into_iter().zip(spans).map(|(at, span)| Farthest { off: table.off(at.into()), at, span })
+    toolpath.steps.iter().filter_map(reached).flat_map(move |(ends, spans)| {
+        ends.into_iter().zip(spans).map(move |(at, span)| Farthest { off: table.off((at - moved_on).into()), at, span })
     })
 }

@@ -5,6 +5,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::bites::{self, Bite};
 use super::rounded::{micro, micro_known, significant, to_millionths};
 use super::savings::Savings;
 use super::spent::Spent;
@@ -54,6 +55,9 @@ pub struct Report {
     /// where nothing is.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "micro_known")]
     pub near_m: Option<f64>,
+    /// Windows of a conveyor, in order; not there where the cloth lies still.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bites: Vec<Bite>,
     /// Of a plot: what its lines were taken for.
     #[serde(flatten)]
     pub drawn: Option<Drawn>,
@@ -389,6 +393,12 @@ impl Report {
         self.program.time_s.or(self.controller.map(|controller| controller.time_s))
     }
 
+    /// The report with what planning found of its marker.
+    #[must_use]
+    pub fn planned(self, program: Program, marker: &Marker) -> Self {
+        Self { bites: bites::of(marker, &program), program, ..self }
+    }
+
     /// What is in a marker, before any planning.
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();
@@ -405,6 +415,7 @@ impl Report {
             cut_m: marker.cut_length() / MM_PER_M,
             common: Common::of(marker),
             near_m: Some(marker.near_length() / MM_PER_M).filter(|&length| length > 0.0),
+            bites: bites::of(marker, &Program::default()),
             drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
             declared: Vec::new(),

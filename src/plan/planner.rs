@@ -4,7 +4,7 @@ use super::certify::{Allowed, Differences, EXCESS_EPSILON, Peaks, Regime};
 use super::rapid;
 use super::run::{Cut, whole_periods};
 use crate::diagnostic::{Diagnostic, code};
-use crate::geom::Rotation;
+use crate::geom::{Rotation, Vector};
 use crate::ir::motion::{Kind, Motion, Phase, Poses, Spell, Task};
 use crate::ir::toolpath::{Drill, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::machine::Job;
@@ -24,6 +24,8 @@ pub struct Planner<'a> {
     /// Time that the blade still needs until it is all the way up, s: it may be clear of the cloth before.
     rising: f64,
     differences: Differences,
+    /// How far the cloth was moved on, mm: runs have their places on the cloth, the axes theirs over the table.
+    station: u32,
 }
 
 impl<'a> Planner<'a> {
@@ -33,7 +35,7 @@ impl<'a> Planner<'a> {
         let allowed = Allowed { cut: job.profile.axes.limits(), rapid: job.profile.axes.travel_limits() };
         let mut differences = Differences::new(job.profile.time.period(), &allowed);
         differences.push(pose, Regime::Rapid);
-        Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences }
+        Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences, station: 0 }
     }
 
     /// The timed motion of a toolpath whose runs were solved.
@@ -47,7 +49,7 @@ impl<'a> Planner<'a> {
                     kind = if matches!(step, Step::Turn(_)) { Kind::Turn } else { Kind::Travel };
                     // What follows a move decides where it ends; one that nothing follows ends where it says.
                     if next.is_none_or(|next| matches!(next, Step::Turn(_) | Step::Travel(_))) {
-                        self.go(kind, rapid.to, &mut motion);
+                        self.go(kind, self.on_table(rapid.to), &mut motion);
                     }
                 }
                 Step::Run(run) => {
@@ -64,6 +66,7 @@ impl<'a> Planner<'a> {
                 }
                 Step::Event(event) => {
                     self.rise(&mut motion);
+                    self.station += event.bite();
                     self.hold(Kind::Event(*event), 0.0, 0, &mut motion);
                 }
             }
@@ -101,6 +104,16 @@ impl<'a> Planner<'a> {
         ))
     }
 
+    /// The way of the cloth so far, mm.
+    fn moved_on(&self) -> Vector {
+        Vector::new(f64::from(self.station), 0.0)
+    }
+
+    /// A pose over a place of the cloth.
+    fn on_table(&self, pose: Pose) -> Pose {
+        Pose { centre: pose.centre - self.moved_on(), ..pose }
+    }
+
     /// A motion that begins now.
     fn begin(&self, [piece, part]: [u32; 2]) -> Motion {
         let (first_tick, first_step, first_time) = (self.tick, self.steps, self.time);
@@ -110,6 +123,7 @@ impl<'a> Planner<'a> {
     /// To the start of a run, down, along it and up; `kind` is that of the rapid before it.
     fn run(&mut self, kind: Kind, mut cut: Cut, motion: &mut Motion) {
         cut.turn(self.job.profile.knife.yaw());
+        cut.shift(-self.moved_on());
         self.go(kind, cut.start(), motion);
         self.plunge(cut.spells[0].block, motion);
         self.cut(cut, motion);
@@ -118,7 +132,7 @@ impl<'a> Planner<'a> {
 
     /// To a plunge cut, down and up.
     fn plunge_cut(&mut self, kind: Kind, plunge_cut: &PlungeCut, motion: &mut Motion) {
-        self.go(kind, yawed(plunge_cut.pose, self.job), motion);
+        self.go(kind, yawed(self.on_table(plunge_cut.pose), self.job), motion);
         let block = plunge_cut.spans.last().map_or(0, |span| span.block);
         self.plunge(block, motion);
         self.lift(motion);
@@ -128,7 +142,7 @@ impl<'a> Planner<'a> {
     fn drill(&mut self, kind: Kind, drill: &Drill, motion: &mut Motion) {
         let keys = &self.job.profile.drill;
         let [x, y] = keys.offset_mm;
-        let there = Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0);
+        let there = self.on_table(Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0));
         if there == self.pose {
             // The drill goes up for a period at least, so that two holes at one place are two.
             self.hold(Kind::Travel, 0.0, 0, motion);
@@ -146,7 +160,11 @@ impl<'a> Planner<'a> {
         let glide = rapid::glide(self.pose, to, &self.allowed.rapid);
         let (duration, length) = (glide.duration(), glide.length());
         let ticks = whole_periods(duration, self.job.profile.time.period());
-        self.emit(Phase { kind, ticks, poses: Poses::Glide(glide), spells: Vec::new(), duration, length }, to, motion);
+        self.emit(
+            Phase { kind, ticks, poses: Poses::Glide(glide), spells: Vec::new(), duration, length, station: 0 },
+            to,
+            motion,
+        );
     }
 
     /// Down, once the blade is all the way up.
@@ -173,7 +191,7 @@ impl<'a> Planner<'a> {
     fn hold(&mut self, kind: Kind, duration: f64, block: u32, motion: &mut Motion) {
         let ticks = whole_periods(duration, self.job.profile.time.period());
         let spells = vec![Spell { first: 0, block }];
-        let phase = Phase { kind, ticks, poses: Poses::Still(self.pose), spells, duration, length: 0.0 };
+        let phase = Phase { kind, ticks, poses: Poses::Still(self.pose), spells, duration, length: 0.0, station: 0 };
         self.emit(phase, self.pose, motion);
     }
 
@@ -188,6 +206,7 @@ impl<'a> Planner<'a> {
         if !self.job.mode.cuts() {
             phase = Phase { kind: phase.kind.raised(), spells: Vec::new(), ..phase };
         }
+        phase.station = self.station;
         let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Rapid };
         self.differences.pass(&phase, regime);
         // What lasts longer than its due in whole periods lets the blade rise farther.

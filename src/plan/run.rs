@@ -72,6 +72,12 @@ impl Cut {
         if self.ticks == 0 { self.end } else { self.poses.at(0, self.ticks) }
     }
 
+    /// Moves it beside its place, mm.
+    pub(super) fn shift(&mut self, by: Vector) {
+        self.poses.shift(by);
+        self.end.centre += by;
+    }
+
     /// Turns C by an angle all along, rad.
     pub(super) fn turn(&mut self, by: f64) {
         self.poses.turn(by);
@@ -81,7 +87,7 @@ impl Cut {
     /// The phase of it, and the pose at its end; none when it has no way.
     pub(super) fn phase(self) -> Option<(Phase, Pose)> {
         let Self { poses, ticks, end, spells, duration, length, .. } = self;
-        (ticks > 0).then_some((Phase { kind: Kind::Cut, ticks, poses, spells, duration, length }, end))
+        (ticks > 0).then_some((Phase { kind: Kind::Cut, ticks, poses, spells, duration, length, station: 0 }, end))
     }
 
     fn plunge_only(pose: Pose, block: u32) -> Self {

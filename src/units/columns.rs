@@ -86,6 +86,15 @@ impl Lines {
 ///
 /// Errors of the disk; a file that is no array, or one with other fields.
 pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
+    records_of(input, &[fields]).map(|(count, _)| count)
+}
+
+/// The same of records with the fields of one of some lists: which list that is, too.
+///
+/// # Errors
+///
+/// Those of [`records`].
+pub fn records_of(input: &mut dyn BufRead, lists: &[&str]) -> Result<(u64, usize), Unread> {
     let mut start = [0; 8];
     fill(input, &mut start, "its header is cut off")?;
     if !start.starts_with(MAGIC) {
@@ -98,13 +107,16 @@ pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
     let mut text = vec![0; usize::from(size)];
     fill(input, &mut text, "its header is cut off")?;
     text.retain(|byte| !byte.is_ascii_whitespace());
-    let before = format!("{{'descr':[{fields}],'fortran_order':False,'shape':(");
-    let rest = text.strip_prefix(before.as_bytes()).ok_or_else(|| Unread::array("its records have other fields"))?;
+    let behind =
+        |fields: &&str| text.strip_prefix(format!("{{'descr':[{fields}],'fortran_order':False,'shape':(").as_bytes());
+    let found = lists.iter().enumerate().find_map(|(list, fields)| Some((list, behind(fields)?)));
+    let (list, rest) = found.ok_or_else(|| Unread::array("its records have other fields"))?;
     let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
     let (count, end) = rest.split_at(digits);
     let count = std::str::from_utf8(count).ok().filter(|_| matches!(end, b",),}" | b",)}"));
     let count = count.and_then(|count| count.parse().ok());
-    count.ok_or_else(|| Unread::array("its header does not tell how many records it has"))
+    let count = count.ok_or_else(|| Unread::array("its header does not tell how many records it has"))?;
+    Ok((count, list))
 }
 
 /// Reads the next record, of which `left` are to come; `false` at the end of the program, which is that of the file.

@@ -58,7 +58,7 @@ impl Watch<'_> {
             self.events.see(&row, &mut self.told);
             if row.knife || strokes.are_open() {
                 // The row of the lift command still holds the pose at the end of the cut.
-                strokes.push(&blade, going);
+                strokes.push(&blade.on_cloth(), going);
             }
             if !row.knife && strokes.are_open() {
                 strokes.end();
@@ -132,7 +132,7 @@ pub(super) fn simulate(
         limits: Limits::new(profile, rounding),
         rest: Rest::new(reference, profile, rounding),
         table: Table::new(profile, rounding),
-        events: Events::new(reference),
+        events: Events::new(reference, profile),
         told: Vec::new(),
         block: judge.worsts().block,
         yaw_deg: profile.knife.yaw_deg,

@@ -9,6 +9,7 @@ const ONE_IN: usize = 10;
 
 mod architecture;
 mod batch;
+mod bites;
 mod chord;
 mod cli;
 mod coarse;

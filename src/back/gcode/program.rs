@@ -30,6 +30,11 @@ fn comment(text: &str) -> String {
     name.chars().take(NAME_CHARS).map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
+/// Steps with a number where they leave one open.
+fn filled(steps: &[Step], blank: f64) -> Vec<Step> {
+    steps.iter().map(|step| step.filled(blank)).collect()
+}
+
 /// A program in the making.
 pub(super) struct Program<'a> {
     job: &'a Job,
@@ -37,8 +42,10 @@ pub(super) struct Program<'a> {
     source: &'a str,
     /// The lines that were not written yet.
     text: Vec<u8>,
-    /// Where the axes stand.
+    /// Where the axes stand over the cloth.
     pose: Pose,
+    /// How far the cloth was moved on, mm.
+    station: u32,
     /// Numbers of lines that were given.
     lines: u64,
     /// Moves with the knife down.
@@ -51,7 +58,7 @@ impl<'a> Program<'a> {
         let job = context.job;
         let [x, y, c] = job.profile.home;
         let (pose, source) = (Pose::new(x, y, rad(c)), context.source.name());
-        Self { job, source, text: Vec::new(), pose, lines: 0, moves: 0, pace: Pace::new(job) }
+        Self { job, source, text: Vec::new(), pose, station: 0, lines: 0, moves: 0, pace: Pace::new(job) }
     }
 
     /// What comes before the first move.
@@ -81,7 +88,7 @@ impl<'a> Program<'a> {
     /// What comes behind the last one; the time of the program, s.
     pub(super) fn finish(&mut self) -> f64 {
         if let Some([x, y, c]) = self.job.profile.park {
-            self.rapid(Pose::new(x, y, rad(c)));
+            self.rapid(Pose::new(x + f64::from(self.station), y, rad(c)));
         }
         self.say(&self.job.profile.gcode.footer);
         std::mem::replace(&mut self.pace, Pace::new(self.job)).finish()
@@ -97,7 +104,15 @@ impl<'a> Program<'a> {
     /// What the controller or the operator is asked for.
     pub(super) fn event(&mut self, event: Event) {
         let keys = &self.job.profile.gcode;
-        self.order(if event == Event::Stop { &keys.stop } else { &keys.advance }, 0.0);
+        match event {
+            Event::Stop => self.order(&keys.stop, 0.0),
+            Event::Advance => self.order(&keys.advance, 0.0),
+            Event::Bite(mm) => {
+                self.order(&filled(&keys.advance, mm.into()), 0.0);
+                self.station += mm;
+                self.pose.centre.x += f64::from(mm);
+            }
+        }
     }
 
     /// Which piece and block comes.
@@ -138,9 +153,9 @@ impl<'a> Program<'a> {
         let [x, y] = job.profile.drill.offset_mm;
         self.rapid(Pose { centre: drill.at - Vector::new(x, y), c: self.pose.c });
         if job.mode.cuts() {
-            let with_drill = |steps: &[Step]| steps.iter().map(|step| step.with_drill(drill.tool)).collect::<Vec<_>>();
-            self.order(&with_drill(&keys.drill_down), job.profile.drill.dwell());
-            self.order(&with_drill(&keys.drill_up), 0.0);
+            let number = drill.tool.into();
+            self.order(&filled(&keys.drill_down, number), job.profile.drill.dwell());
+            self.order(&filled(&keys.drill_up, number), 0.0);
         }
     }
 
@@ -315,7 +330,7 @@ impl<'a> Program<'a> {
     }
 
     fn place(&mut self, to: Pose) {
-        self.word(b'X', to.centre.x);
+        self.word(b'X', to.centre.x - f64::from(self.station));
         self.word(b'Y', to.centre.y);
     }
 

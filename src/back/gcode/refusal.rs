@@ -61,7 +61,7 @@ fn unsaid_drill(drill: &Drill, job: &Job) -> Option<Diagnostic> {
         }
     }
     let tool = drill.tool;
-    if tool != ONLY_DRILL && !keys.drill_down.iter().any(gcode::Step::names_drill) {
+    if tool != ONLY_DRILL && !keys.drill_down.iter().any(gcode::Step::has_blank) {
         let message = format!("`gcode.drill_down` tells no drills apart, but the file asks for drill {tool}");
         return refused(message, "put # where the number of the drill belongs, as in M64 P#");
     }
@@ -73,7 +73,21 @@ fn unsaid_event(event: Event, job: &Job) -> Option<Diagnostic> {
     let keys = &job.profile.gcode;
     let (key, steps, asks, hint) = match event {
         Event::Stop => ("gcode.stop", &keys.stop, "stops for the operator", "give its steps, such as [\"M0\"]"),
+        Event::Advance if keys.advance.iter().any(gcode::Step::has_blank) => {
+            let message = "`gcode.advance` says how far, and the file does not";
+            let hint = "say what the table holds, so that its windows are laid: `bite.length_mm`";
+            return Some(Diagnostic::new(&code::TARGET_REFUSED, message).hint(hint));
+        }
         Event::Advance => ("gcode.advance", &keys.advance, "advances the cloth", "give its steps, such as [\"M1\"]"),
+        Event::Bite(_) if keys.advance.first().is_some_and(|step| !step.has_blank()) => {
+            let message = "`gcode.advance` does not say how far, but the marker is cut in bites";
+            let hint = "put # where the mm belong, as in [\"M68 E0 Q#\", \"M64 P1\", \"M66 P1 L3 Q60\"]";
+            return Some(Diagnostic::new(&code::TARGET_REFUSED, message).hint(hint));
+        }
+        Event::Bite(_) => {
+            let hint = "give its steps, such as [\"M68 E0 Q#\", \"M64 P1\", \"M66 P1 L3 Q60\"]";
+            ("gcode.advance", &keys.advance, "is cut in bites", hint)
+        }
     };
     let message = || format!("`{key}` has no step, but the file {asks}");
     steps.is_empty().then(|| Diagnostic::new(&code::TARGET_REFUSED, message()).hint(hint))

@@ -124,10 +124,11 @@ impl Group<'_> {
                 let mut data = PathData::default();
                 data.polygon([(r, 0.0), (0.0, r), (-r, 0.0), (0.0, -r)].map(|(x, y)| at + Vector::new(x, y)));
                 let title = match event {
-                    Event::Stop => "stop: wait for the operator",
-                    Event::Advance => "advance the cloth",
+                    Event::Stop => "stop: wait for the operator".to_owned(),
+                    Event::Advance => "advance the cloth".to_owned(),
+                    Event::Bite(mm) => format!("advance the cloth by {mm} mm"),
                 };
-                self.cuts.push_str(&data.titled("event", title));
+                self.cuts.push_str(&data.titled("event", &title));
             }
         }
     }

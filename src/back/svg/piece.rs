@@ -33,6 +33,8 @@ pub(super) struct Shape {
     number: u32,
     /// The same, with its copy if there are several.
     name: String,
+    /// The window of a conveyor that it is cut in, from 0; `None` where the cloth lies still.
+    bite: Option<usize>,
     /// Its contours.
     pub(super) contours: Vec<Contour>,
     /// Places that its number keeps off: its drills and labels.
@@ -86,7 +88,11 @@ impl Shape {
 /// The shapes of all pieces, in cut order.
 pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
     let mut shapes = Vec::with_capacity(marker.pieces.len());
-    for piece in &marker.pieces {
+    let stations = marker.stations();
+    let has_bites = stations.iter().any(|&station| station > 0);
+    let mut windows = stations.clone();
+    windows.dedup();
+    for (piece, station) in marker.pieces.iter().zip(&stations) {
         let contours: Vec<Contour> =
             piece.contours.iter().map(|c| Contour { points: marker.points(c), closed: c.closed }).collect();
         let drills: Vec<Point> = piece.drills.iter().map(|drill| drill.at).collect();
@@ -107,8 +113,10 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
         let (number, name) = (piece.number, piece.name());
         let place = shapes.len() + 1;
-        let title = format!("piece {name}, {place} of {} in cut order{}", marker.pieces.len(), blocks(spans));
-        shapes.push(Shape { number, name, extent, title, contours, taken: drills, notches: notches(piece) });
+        let bite = windows.iter().position(|window| window == station).filter(|_| has_bites);
+        let window = bite.map_or_else(String::new, |bite| format!(", bite {}", bite + 1));
+        let title = format!("piece {name}{window}, {place} of {} in cut order{}", marker.pieces.len(), blocks(spans));
+        shapes.push(Shape { number, name, bite, extent, title, contours, taken: drills, notches: notches(piece) });
     }
     shapes
 }
@@ -157,10 +165,14 @@ pub(super) fn colour_rules(shapes: &[Shape]) -> String {
     rules
 }
 
-/// An index into the palette for each piece: the next one that no neighbour has.
+/// An index into the palette for each piece: that of its window on a conveyor, else the next one that no neighbour has.
 fn colours(shapes: &[Shape]) -> Vec<usize> {
     let mut colours: Vec<usize> = Vec::with_capacity(shapes.len());
     for (i, shape) in shapes.iter().enumerate() {
+        if let Some(bite) = shape.bite {
+            colours.push(bite % PALETTE.len());
+            continue;
+        }
         let mut taken = [false; PALETTE.len()];
         for k in i.saturating_sub(NEIGHBOUR_WINDOW)..i {
             taken[colours[k]] |= are_near(&shape.extent, &shapes[k].extent);

@@ -89,6 +89,12 @@ fn refuse_others(job: &Job) -> anyhow::Result<()> {
             "leave `--map` out; `--centre` follows cloth that wanders",
         ));
     }
+    if job.profile.bite.length_mm.is_some() {
+        return Err(failure(
+            "`bite.length_mm` has the cloth lie still while it is cut, and heads over a conveyor cut it as it moves",
+            "leave `bite.length_mm` out",
+        ));
+    }
     if job.profile.tool.kind == ToolKind::Spray {
         return Err(failure(
             "`tool.kind` is \"spray\", and heads over a conveyor follow lines with a tool that touches the cloth",

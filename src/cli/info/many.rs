@@ -45,7 +45,7 @@ impl Arguments {
         if let Some(mut read) = read.filter(|_| !diagnostics.has_errors()) {
             pipeline::make_cuts(&mut read, &source, job, &mut diagnostics);
             let program = pipeline::estimate(&mut read, &source, job, &mut diagnostics)?;
-            let report = Report { program, ..Report::of(&read.marker, read.dialect.name) };
+            let report = Report::of(&read.marker, read.dialect.name).planned(program, &read.marker);
             if !diagnostics.has_errors() {
                 row.state = State::Done;
                 row.pieces = Some(report.pieces);

@@ -44,6 +44,17 @@ impl Poses {
         }
     }
 
+    /// The same beside their places, mm.
+    pub fn shift(&mut self, by: Vector) {
+        let shifted = |pose: &mut Pose| pose.centre += by;
+        match self {
+            Self::Still(pose) => shifted(pose),
+            Self::Samples(poses) => poses.iter_mut().for_each(shifted),
+            Self::StraightCut(stroke) => stroke.from += by,
+            Self::Glide(glide) => [&mut glide.from, &mut glide.to].into_iter().for_each(shifted),
+        }
+    }
+
     /// The same with C turned by an angle, rad.
     pub fn turn(&mut self, by: f64) {
         let turned = |pose: &mut Pose| pose.c = Rotation(pose.c.0 + by);

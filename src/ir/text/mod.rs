@@ -66,6 +66,7 @@
 //! - How much less is cut for all common edges, a mere figure, is not printed.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.
+//! - An `event bite` has how far the cloth is moved on behind it, whole mm.
 //! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the
 //!   same past the end.
 //! - `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
@@ -115,7 +116,9 @@ const ENDS: [(&str, End); 4] = [
 const SIDES: [(&str, Side); 4] =
     [("waste", Side::Waste), ("part", Side::Part), ("gap", Side::Gap), ("contour", Side::Contour)];
 
+/// Those that say no more; a bite has its length behind the word.
 const EVENTS: [(&str, Event); 2] = [("stop", Event::Stop), ("advance", Event::Advance)];
+const BITE: &str = "bite";
 
 #[cfg(test)]
 mod tests;

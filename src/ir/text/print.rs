@@ -2,11 +2,11 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
+use super::{BITE, ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{CommonEdge, Cut, Label, Marker, NearEdge, NotchKind, OutlineNotch, Piece};
-use crate::ir::toolpath::{Edge, End, Overcut, PlungeCut, Pose, Run, Side, Step, Toolpath};
+use crate::ir::toolpath::{Edge, End, Event, Overcut, PlungeCut, Pose, Run, Side, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
 
@@ -18,7 +18,7 @@ pub fn print_marker(marker: &Marker) -> String {
         print_piece(&mut out, marker, piece);
     }
     for event in &marker.closing {
-        line(&mut out, format_args!("closing {}{}", word(&EVENTS, event.kind), At(event.span)));
+        line(&mut out, format_args!("closing {}{}", asked(event.kind), At(event.span)));
     }
     for cut in &marker.cuts {
         print_cut(&mut out, marker, cut);
@@ -40,7 +40,7 @@ pub fn print_marker(marker: &Marker) -> String {
 fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     line(out, format_args!("piece {}{}{}", piece.number, OfCopy(piece.copy), At(piece.span)));
     for event in &piece.events {
-        line(out, format_args!("event {}{}", word(&EVENTS, event.kind), At(event.span)));
+        line(out, format_args!("event {}{}", asked(event.kind), At(event.span)));
     }
     if let Some(feed) = piece.feed {
         line(out, format_args!("feed-mm-s {}", exact(feed)));
@@ -143,7 +143,7 @@ pub fn print_toolpath(toolpath: &Toolpath) -> String {
             Step::Drill(drill) => {
                 line(&mut out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
             }
-            Step::Event(event) => line(&mut out, format_args!("event {}", word(&EVENTS, *event))),
+            Step::Event(event) => line(&mut out, format_args!("event {}", asked(*event))),
         }
     }
     out
@@ -275,5 +275,13 @@ impl Display for Asked {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut joint = self.0;
         JOINTS.iter().filter(|(_, flag)| *flag(&mut joint)).try_for_each(|(word, _)| write!(f, " {word}"))
+    }
+}
+
+/// The words of an event.
+fn asked(event: Event) -> String {
+    match event {
+        Event::Bite(mm) => format!("{BITE} {mm}"),
+        Event::Stop | Event::Advance => word(&EVENTS, event).to_owned(),
     }
 }

@@ -4,7 +4,7 @@ use std::str::{FromStr, SplitWhitespace};
 
 use thiserror::Error;
 
-use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
+use super::{BITE, ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{
@@ -155,8 +155,16 @@ fn range(line: &Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<Ra
     marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))
 }
 
+/// What is asked for.
+fn asked(line: &mut Line<'_>) -> Read<toolpath::Event> {
+    if line.has(BITE) {
+        return Ok(toolpath::Event::Bite(line.whole("how far the cloth is moved on, mm")?));
+    }
+    line.choice(&EVENTS)
+}
+
 fn event(line: &mut Line<'_>) -> Read<Event> {
-    Ok(Event { kind: line.choice(&EVENTS)?, span: line.span()? })
+    Ok(Event { kind: asked(line)?, span: line.span()? })
 }
 
 fn outline_notch(line: &mut Line<'_>) -> Read<OutlineNotch> {
@@ -227,7 +235,7 @@ pub fn read_toolpath(text: &str) -> Read<Toolpath> {
                 let (at, tool, span) = drill(&mut line)?;
                 Step::Drill(toolpath::Drill { at, tool, span })
             }
-            "event" => Step::Event(line.choice(&EVENTS)?),
+            "event" => Step::Event(asked(&mut line)?),
             _ => return Err(line.error("run, stab, turn, travel, drill or event")),
         };
         line.end()?;

@@ -124,8 +124,8 @@ impl Default for Gcode {
             footer: "M2".to_owned(),
             knife_down: vec![Step::Output { pin: Number::Plain(0.0), on: true }],
             knife_up: vec![Step::Output { pin: Number::Plain(0.0), on: false }],
-            drill_down: vec![Step::Output { pin: Number::Drill, on: true }],
-            drill_up: vec![Step::Output { pin: Number::Drill, on: false }],
+            drill_down: vec![Step::Output { pin: Number::Blank, on: true }],
+            drill_up: vec![Step::Output { pin: Number::Blank, on: false }],
             stop: vec![Step::Code { m: 0, parameters: Vec::new() }],
             advance: vec![Step::Code { m: 1, parameters: Vec::new() }],
         }

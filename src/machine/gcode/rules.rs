@@ -79,9 +79,15 @@ fn flaw_of(list: &List) -> Option<Flaw> {
     let is_wait = |step: &&Step| matches!(step, Step::Code { m, .. } if WAITS.contains(m));
     let is_needed = matches!(list.key, "gcode.knife_down" | "gcode.knife_up");
     match list.of {
-        Of::Tool { is_drill: false, .. } | Of::Pause if list.steps.iter().any(Step::names_drill) => {
-            Some(Flaw::new("#, but means no drill", "# stands in `gcode.drill_down` and `gcode.drill_up`"))
+        // The first step of an advance may tell how far; those behind it start and wait for it.
+        Of::Pause if list.key == "gcode.advance" && !list.steps.iter().skip(1).any(Step::has_blank) => None,
+        Of::Pause if list.key == "gcode.advance" => {
+            Some(Flaw::new("# behind its first step", "the first one tells how far, as in [\"M68 E0 Q#\", \"M64 P1\"]"))
         }
+        Of::Tool { is_drill: false, .. } | Of::Pause if list.steps.iter().any(Step::has_blank) => Some(Flaw::new(
+            "#, but means no drill",
+            "# stands in `gcode.drill_down`, `gcode.drill_up` and `gcode.advance`",
+        )),
         Of::Pause => None,
         Of::Tool { .. } if list.steps.is_empty() => {
             let hint = "give what puts the knife down and lifts it, such as [\"M3\"] and [\"M5\"]";
@@ -120,12 +126,12 @@ enum Actuator {
 /// What a step moves or switches, `#` being no drill; `None` when it rests or waits.
 fn what(step: &Step) -> Option<Actuator> {
     match step {
-        Step::Output { pin, .. } => Some(Actuator::Output(pin.of(0))),
+        Step::Output { pin, .. } => Some(Actuator::Output(pin.of(0.0))),
         Step::Z { .. } => Some(Actuator::Z),
         Step::Code { m: 3..=5, .. } => Some(Actuator::Spindle),
         Step::Code { m: 7..=9, .. } => Some(Actuator::Coolant),
         Step::Code { m: 68, parameters } => {
-            parameters.iter().find(|word| word.letter == 'E').map(|word| Actuator::Analog(word.number.of(0)))
+            parameters.iter().find(|word| word.letter == 'E').map(|word| Actuator::Analog(word.number.of(0.0)))
         }
         Step::Dwell { .. } | Step::Code { .. } => None,
     }
@@ -143,10 +149,10 @@ impl Order {
     fn all(list: &List) -> Vec<Self> {
         let order = |drill: Option<u8>| {
             let steps =
-                list.steps.iter().map(|step| drill.map_or_else(|| step.clone(), |drill| step.with_drill(drill)));
+                list.steps.iter().map(|step| drill.map_or_else(|| step.clone(), |drill| step.filled(drill.into())));
             Self { key: list.key, drill, steps: steps.collect() }
         };
-        if list.steps.iter().any(Step::names_drill) { DRILLS.map(Some).map(order).collect() } else { vec![order(None)] }
+        if list.steps.iter().any(Step::has_blank) { DRILLS.map(Some).map(order).collect() } else { vec![order(None)] }
     }
 
     fn lifts(&self) -> bool {
@@ -209,7 +215,7 @@ fn lasting(lists: &[List]) -> Vec<Fault> {
         let has_both = !list.steps.is_empty() && !other.steps.is_empty();
         let drills = if list.key == drill_down.key { DRILLS } else { 1..=1 };
         let kept = drills.filter(|_| has_both).find_map(|drill| {
-            let told = |list: &List| list.steps.iter().map(|step| step.with_drill(drill)).collect::<Vec<_>>();
+            let told = |list: &List| list.steps.iter().map(|step| step.filled(drill.into())).collect::<Vec<_>>();
             left_on(&told(list), &told(other)).map(|step| (drill, step))
         });
         if let Some((drill, step)) = kept {

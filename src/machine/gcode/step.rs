@@ -103,10 +103,10 @@ const WAIT_MAX: f64 = 4.0;
 const NUMBER_MAX: f64 = 1e6;
 
 impl Step {
-    /// The same with the number of a drill in place of `#`.
+    /// The same with a number in place of `#`: that of a drill, or how far the cloth is moved on, mm.
     #[must_use]
-    pub fn with_drill(&self, drill: u8) -> Self {
-        let number = |number: Number| Number::Plain(number.of(drill));
+    pub fn filled(&self, blank: f64) -> Self {
+        let number = |number: Number| Number::Plain(number.of(blank));
         match self {
             Self::Output { pin, on } => Self::Output { pin: number(*pin), on: *on },
             Self::Z { .. } | Self::Dwell { .. } => self.clone(),
@@ -117,9 +117,9 @@ impl Step {
         }
     }
 
-    /// Whether the number of the drill stands in it.
-    pub fn names_drill(&self) -> bool {
-        self.with_drill(1) != self.with_drill(2)
+    /// Whether a number is left open in it.
+    pub fn has_blank(&self) -> bool {
+        self.filled(1.0) != self.filled(2.0)
     }
 
     /// Reads a line that is one step.
@@ -148,9 +148,9 @@ impl Step {
     fn of(code: Word, others: &[Word]) -> Self {
         let find = |letter: char| others.iter().find(|word| word.letter == letter).map(|word| word.number);
         // Only P, S, E, L and Q may stand for the drill, and those of G codes may not.
-        let plain = |letter: char| find(letter).map(|number| number.of(0));
+        let plain = |letter: char| find(letter).map(|number| number.of(0.0));
         let needed = "a form says what a code needs";
-        match (code.letter, code.number.of(0) as u8) {
+        match (code.letter, code.number.of(0.0) as u8) {
             ('G', 4) => Self::Dwell { time: plain('P').expect(needed) },
             ('G', _) => Self::Z { to_mm: plain('Z').expect(needed), feed_mm_min: plain('F') },
             (_, m @ (64 | 65)) => Self::Output { pin: find('P').expect(needed), on: m == 64 },
@@ -211,7 +211,7 @@ fn unknown(code: Word) -> Flaw {
         let hint = "M64, M65 and M68 act at once, before the rest that the knife is given";
         return Flaw::new(format!("{code}, which acts only where the next move begins"), hint);
     }
-    if code.letter == 'M' && OWN.contains(&code.number.of(0)) {
+    if code.letter == 'M' && OWN.contains(&code.number.of(0.0)) {
         let hint =
             "the interpreter knows none of those by itself, nor what they do: M64 P0 and M65 P0 switch an output";
         return Flaw::new(format!("{code}, which runs a program of the controller's own"), hint);

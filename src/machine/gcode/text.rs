@@ -104,7 +104,7 @@ fn chosen(tool: Word, place: ProgramEnd) -> Result<Line, Flaw> {
             Err(Flaw::new(format!("{tool}, which chooses a tool"), "only `gcode.header` may choose one"))
         }
         Number::Plain(number) if is_tool(number) => Ok(Line::Choice),
-        Number::Plain(_) | Number::Drill => {
+        Number::Plain(_) | Number::Blank => {
             Err(Flaw::new(format!("{tool}, which is no tool"), "T is a whole number from 0 on"))
         }
     }
@@ -134,7 +134,7 @@ fn switched(words: &[Word], bare: &str) -> Result<Line, Flaw> {
         return Err(Flaw::new(format!("{word}, which moves an axis"), hint));
     }
     match Step::read(bare) {
-        Ok(step) if step.names_drill() => Err(Flaw::new(
+        Ok(step) if step.has_blank() => Err(Flaw::new(
             format!("{step}, in which no drill is meant"),
             "# stands in `gcode.drill_down` and `gcode.drill_up`",
         )),

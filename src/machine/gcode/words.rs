@@ -9,8 +9,8 @@ use crate::units::number::exact;
 
 /// Longest number that is read, characters: more digits say nothing.
 const NUMBER_CHARS: usize = 16;
-/// What stands for the number of the drill.
-const DRILL: &str = "#";
+/// What stands for the number of the drill, or the way of the cloth.
+const BLANK: &str = "#";
 
 /// What is wrong with a line or a step.
 #[derive(Debug, PartialEq)]
@@ -32,16 +32,16 @@ impl Flaw {
 pub enum Number {
     /// As it is written.
     Plain(f64),
-    /// That of the drill which is used, written `#`.
-    Drill,
+    /// That of the drill which is used, or of mm that the cloth is moved on, written `#`.
+    Blank,
 }
 
 impl Number {
-    /// The number, where `drill` is the one in use.
-    pub fn of(self, drill: u8) -> f64 {
+    /// The number, where `blank` stands for what is left open.
+    pub fn of(self, blank: f64) -> f64 {
         match self {
             Self::Plain(number) => number,
-            Self::Drill => drill.into(),
+            Self::Blank => blank,
         }
     }
 }
@@ -50,7 +50,7 @@ impl fmt::Display for Number {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Plain(number) => out.write_str(&exact(*number)),
-            Self::Drill => out.write_str(DRILL),
+            Self::Blank => out.write_str(BLANK),
         }
     }
 }
@@ -106,8 +106,8 @@ pub(super) fn words(line: &str) -> Result<Vec<Word>, Flaw> {
 
 /// A number as words have it: digits, perhaps a point, perhaps a sign before them; or the drill's.
 fn number(text: &str) -> Option<Number> {
-    if text == DRILL {
-        return Some(Number::Drill);
+    if text == BLANK {
+        return Some(Number::Blank);
     }
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     let is_plain = digits.len() <= NUMBER_CHARS

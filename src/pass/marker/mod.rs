@@ -3,6 +3,7 @@
 //! Receives a marker as it was read, promises one whose cuts are made, in cut order; what is doubtful is reported. Never knows
 //! how the blade moves.
 
+mod bite;
 mod centre;
 mod cut;
 mod inspect;
@@ -42,6 +43,7 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     sanity::PASS,
     sheet::PASS,
     centre::PASS,
+    bite::PASS,
     route::PASS,
     select::PASS,
     table::PASS,

@@ -5,7 +5,8 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::ir::marker::{Marker, Piece};
+use crate::ir::marker::{Event, Marker, Piece};
+use crate::ir::toolpath;
 use crate::machine::{Job, Numbers, Start};
 
 pub(super) const PASS: MarkerPass =
@@ -52,7 +53,17 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let first = resumed.unwrap_or(0);
     let all = marker.pieces.len();
     let mut place = 0..;
-    marker.pieces.retain(|piece| place.next().is_some_and(|i| i >= first) && selection.has(piece.number));
+    // The cloth is moved on as far before the pieces that are left.
+    let mut moved = 0;
+    marker.pieces.retain_mut(|piece| {
+        let is_kept = place.next().is_some_and(|i| i >= first) && selection.has(piece.number);
+        moved += piece.events.iter().map(|event| event.kind.bite()).sum::<u32>();
+        if is_kept && moved > 0 {
+            piece.events.retain(|event| event.kind.bite() == 0);
+            piece.events.insert(0, Event { kind: toolpath::Event::Bite(std::mem::take(&mut moved)), span: piece.span });
+        }
+        is_kept
+    });
     if !marker.pieces.iter().any(cuts) {
         let message = format!("none of the {all} pieces is left to cut");
         diagnostics.push(

@@ -130,7 +130,9 @@ fn in_corner(profile: &MachineProfile, size: [f64; 2]) -> Point {
     let along = |ends: Option<[f64; 2]>, size: f64| {
         ends.map_or(0.0, |[least, most]| least + profile.knife.reach().min((most - least - size) / 2.0).max(0.0))
     };
-    Point::new(along(profile.table.x_mm, size[0]), along(profile.table.y_mm, size[1]))
+    // A conveyor brings the rest of it onto the table.
+    let long = profile.bite.length_mm.map_or(size[0], |_| 0.0);
+    Point::new(along(profile.table.x_mm, long), along(profile.table.y_mm, size[1]))
 }
 
 /// Where places come to lie.

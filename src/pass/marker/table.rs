@@ -5,7 +5,7 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, Point};
+use crate::geom::{Extent, Point, Vector};
 use crate::ir::marker::{Marker, Notch};
 use crate::machine::{Job, Knife, Table};
 use crate::source::Span;
@@ -27,7 +27,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     if table.x_mm.is_none() && table.y_mm.is_none() {
         return;
     }
-    let extent = marker.extent();
+    let extent = marker.extent_on_table();
     let off = table.off(extent.min.into()).max(table.off(extent.max.into()));
     if extent.is_empty() || off <= OFF_EPSILON {
         return;
@@ -150,13 +150,14 @@ impl Advice {
 /// The place of the marker that is the farthest off, with its source.
 fn farthest(marker: &Marker, table: &Table) -> Option<(Point, Span)> {
     let mut worst = (0.0, None);
-    let mut see = |point: Point, span: Span| {
-        let off = table.off(point.into());
+    let mut see = |point: Point, on_table: Point, span: Span| {
+        let off = table.off(on_table.into());
         if off > worst.0 {
             worst = (off, Some((point, span)));
         }
     };
-    for piece in &marker.pieces {
+    for (piece, station) in marker.pieces.iter().zip(marker.stations()) {
+        let mut see = |point: Point, span: Span| see(point, point - Vector::new(f64::from(station), 0.0), span);
         for contour in &piece.contours {
             for (_, segment) in marker.list.walk(contour.range) {
                 see(segment.to, segment.span);

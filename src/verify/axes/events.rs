@@ -1,10 +1,14 @@
 //! Events: what the controller or the operator is asked for comes as often, of the kind and in the order that the marker
 //! has it, with the knife up.
+//!
+//! A conveyor moves the cloth on as often as it likes: no drawing asks for that, and where the cloth then lies is judged by what
+//! is cut. It runs forwards, only at a row that tells the event, and only where the profile has one.
 
 use crate::geom::Point;
 use crate::ir::toolpath::Event;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::ir::{Finding, Marker};
+use crate::machine::MachineProfile;
 use crate::verify::program::row::Row;
 use crate::verify::reference::lines::Reference;
 use crate::verify::reference::order::Seen;
@@ -26,21 +30,35 @@ pub(in crate::verify) struct Events {
     asked: Vec<Asked>,
     /// How many of them were told.
     told: usize,
+    /// How far the cloth was moved on so far, mm; `None` where the machine has no conveyor.
+    station: Option<u32>,
     wrong: f64,
     worst: Worst,
 }
 
 impl Events {
-    pub(in crate::verify) fn new(reference: &Reference) -> Self {
+    pub(in crate::verify) fn new(reference: &Reference, profile: &MachineProfile) -> Self {
         let asked = asked(reference.marker).zip(&reference.events);
-        let asked = asked.map(|((number, block), &rank)| Asked { number, block, rank }).collect();
-        Self { asked, told: 0, wrong: 0.0, worst: Worst::new(&rules::EVENTS, Some(0.0)) }
+        let asked = asked.map(|((number, block), &rank)| Asked { number, block, rank });
+        let asked = asked.filter(|asked| asked.number > 0).collect();
+        let station = profile.bite.length_mm.map(|_| 0);
+        Self { asked, told: 0, station, wrong: 0.0, worst: Worst::new(&rules::EVENTS, Some(0.0)) }
     }
 
     /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is
     /// one too many.
     pub(in crate::verify) fn see(&mut self, row: &Row, told: &mut Vec<Seen>) {
-        if row.event == 0 {
+        let moved = row.station.wrapping_sub(self.station.unwrap_or(0));
+        let is_forwards = self.station.is_some_and(|station| row.station > station);
+        if self.station.is_some() {
+            self.station = Some(row.station);
+        }
+        if moved != 0 && !(is_forwards && row.event == ADVANCE && !row.knife && row.drill == 0) {
+            self.wrong += 1.0;
+            self.worst.see(self.wrong, || row.sighting());
+            return;
+        }
+        if row.event == 0 || moved != 0 {
             return;
         }
         if let Some(asked) = self.asked.get(self.told).filter(|asked| asked.number == row.event && !row.knife) {
@@ -62,13 +80,17 @@ impl Events {
     }
 }
 
-/// The events of a marker in order, by their numbers in rows, and their blocks.
+/// Number of an advance in rows.
+const ADVANCE: u8 = 2;
+
+/// The events of a marker in order, by their numbers in rows, and their blocks; 0 of those that no drawing asks for.
 fn asked(marker: &Marker) -> impl Iterator<Item = (u8, u32)> {
     let events = marker.pieces.iter().flat_map(|piece| &piece.events).chain(&marker.closing);
     events.map(|event| {
         let number = match event.kind {
             Event::Stop => 1,
-            Event::Advance => 2,
+            Event::Advance => ADVANCE,
+            Event::Bite(_) => 0,
         };
         (number, event.span.block)
     })

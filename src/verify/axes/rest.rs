@@ -78,7 +78,7 @@ impl<'a> Rest<'a> {
             }
             if row.drill != 0 {
                 self.begin(row, self.drill);
-                self.drilled.push((row.centre + self.offset, row.drill, *row));
+                self.drilled.push((row.on_cloth().centre + self.offset, row.drill, *row));
             }
             if row.event != 0 {
                 self.begin(row, 1);
@@ -99,7 +99,7 @@ impl<'a> Rest<'a> {
             let ticks = if row.drill == 0 { 0 } else { self.drill };
             self.begin(row, ticks);
             if row.drill != 0 {
-                self.drilled.push((row.centre + self.offset, row.drill, *row));
+                self.drilled.push((row.on_cloth().centre + self.offset, row.drill, *row));
             }
         }
         if row.event != 0 {

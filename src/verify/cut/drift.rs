@@ -126,6 +126,7 @@ mod tests {
                 drill: 0,
                 event: 0,
                 block: 0,
+                station: 0,
                 line: 0,
             });
             tips.push(rounded);

@@ -1,4 +1,5 @@
-//! Reads timed setpoints from encoder counts: a JSON header of the scales, then records of five little-endian `i32`.
+//! Reads timed setpoints from encoder counts: a JSON header of the scales, then records of five little-endian `i32`, of six
+//! where a conveyor moves the cloth on.
 
 use std::io::{BufRead, Read as _};
 
@@ -12,8 +13,12 @@ use crate::machine::MachineProfile;
 const MAGIC: &[u8] = b"{\"format\": \"cutc-counts\"";
 /// Bytes of the header, its line feed included.
 const HEADER: u64 = 1024;
-/// Bytes of a record.
-const RECORD: usize = 20;
+/// Bytes of a number.
+const NUMBER: usize = 4;
+/// Names of the numbers of a record, and how many there are: the last one on a conveyor alone.
+const NAMES: [&str; 6] = ["x", "y", "c", "outputs", "block", "advance_mm"];
+const LEAST: usize = 5;
+const COLUMNS: [usize; 2] = [LEAST, NAMES.len()];
 /// A register of 32 bits has so many values.
 const TURN: i64 = 1 << 32;
 
@@ -31,6 +36,8 @@ pub(in crate::verify) struct Counts {
     zero_deg: f64,
     sign: f64,
     period: f64,
+    /// Numbers of a record.
+    columns: usize,
     /// The last counts, unwrapped.
     last: Option<[i64; 3]>,
 }
@@ -51,6 +58,7 @@ impl Counts {
             zero_deg: number("/c/zero_deg")?,
             sign: if told.pointer("/c/reverse")?.as_bool()? { -1.0 } else { 1.0 },
             period: number("/period_s")?,
+            columns: told["columns"].as_array()?.len(),
             last: None,
         };
         let (keys, c) = (&profile.counts, &profile.c);
@@ -62,7 +70,8 @@ impl Counts {
             && counts.period == profile.time.period()
             && told["version"] == 1
             && told["type"] == "<i4"
-            && told["columns"] == serde_json::json!(["x", "y", "c", "outputs", "block"])
+            && COLUMNS.contains(&counts.columns)
+            && told["columns"] == serde_json::json!(NAMES[..counts.columns])
             && bits.iter().all(|(name, bit)| told["outputs"][name] == *bit);
         let rows = told["rows"].as_u64()?;
         as_asked.then_some((counts, rows))
@@ -75,12 +84,17 @@ impl Counts {
 
     /// Reads the next record into `bytes`, of which `left` are to come; `Some(false)` at the end of the program, `None`
     /// when it ends too early or has bytes left over.
-    pub(in crate::verify) fn record(input: &mut dyn BufRead, left: &mut u64, bytes: &mut Vec<u8>) -> Option<bool> {
+    pub(in crate::verify) fn record(
+        &self,
+        input: &mut dyn BufRead,
+        left: &mut u64,
+        bytes: &mut Vec<u8>,
+    ) -> Option<bool> {
         if *left == 0 {
             return input.fill_buf().ok()?.is_empty().then_some(false);
         }
         *left -= 1;
-        bytes.resize(RECORD, 0);
+        bytes.resize(NUMBER * self.columns, 0);
         input.read_exact(bytes).ok()?;
         Some(true)
     }
@@ -111,6 +125,7 @@ impl Counts {
             drill: drill as u8,
             event: event as u8,
             block: word(4)? as u32,
+            station: if self.columns > LEAST { word(LEAST)? as u32 } else { 0 },
             line: tick,
         })
     }

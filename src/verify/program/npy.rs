@@ -10,23 +10,27 @@ use crate::units::columns::{self, MAGIC, float};
 /// The fields of a record, blanks left out.
 const FIELDS: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
     ('knife','|u1'),('drill','|u1'),('event','|u1'),('block','<u4')";
-/// Bytes of a record.
-const RECORD: usize = 39;
+/// The same on a conveyor: the last one is the way of the cloth.
+const FIELDS_OF_BITES: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
+    ('knife','|u1'),('drill','|u1'),('event','|u1'),('block','<u4'),('advance_mm','<u4')";
+/// Bytes of a record of either.
+const RECORDS: [usize; 2] = [39, 43];
 
 /// Whether a program is one of these, by its first byte: a text never begins with that one.
 pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
     input.fill_buf().is_ok_and(|bytes| bytes.first() == MAGIC.first())
 }
 
-/// Reads the header; gives the number of records, `None` when it is no header of setpoints.
-pub(in crate::verify) fn header(input: &mut dyn BufRead) -> Option<u64> {
-    columns::records(input, FIELDS).ok()
+/// Reads the header; gives the number of records and the bytes of each, `None` when it is no header of setpoints.
+pub(in crate::verify) fn header(input: &mut dyn BufRead) -> Option<(u64, usize)> {
+    let (count, list) = columns::records_of(input, &[FIELDS, FIELDS_OF_BITES]).ok()?;
+    Some((count, RECORDS[list]))
 }
 
-/// Reads the next record, of which `left` are to come; `Some(false)` at the end of the program, `None` when it ends too
-/// early, cannot be read, or has bytes left over.
-pub(super) fn record(input: &mut dyn BufRead, left: &mut u64, bytes: &mut Vec<u8>) -> Option<bool> {
-    bytes.resize(RECORD, 0);
+/// Reads the next record of so many bytes, of which `left` are to come; `Some(false)` at the end of the program, `None` when it
+/// ends too early, cannot be read, or has bytes left over.
+pub(super) fn record(input: &mut dyn BufRead, left: &mut u64, size: usize, bytes: &mut Vec<u8>) -> Option<bool> {
+    bytes.resize(size, 0);
     columns::record(input, left, bytes).ok()
 }
 
@@ -34,8 +38,12 @@ pub(super) fn record(input: &mut dyn BufRead, left: &mut u64, bytes: &mut Vec<u8
 pub(in crate::verify) fn row(record: &[u8], tick: u64) -> Option<Row> {
     let number = |place: usize| float(record, 8 * place);
     let (t, x, y, c_deg) = (number(0)?, number(1)?, number(2)?, number(3)?);
-    let &[knife, drill, event, b0, b1, b2, b3] = record.get(32..)? else { return None };
-    let block = u32::from_le_bytes([b0, b1, b2, b3]);
+    let (outputs, whole) = record.get(32..)?.split_at_checked(3)?;
+    let &[knife, drill, event] = outputs else { return None };
+    let (numbers, []) = whole.as_chunks() else { return None };
+    let mut numbers = numbers.iter().map(|bytes| u32::from_le_bytes(*bytes));
+    let (block, station) = (numbers.next()?, numbers.next().unwrap_or(0));
     let legal = knife <= 1 && drill <= 4 && event <= 2;
-    legal.then(|| Row { tick, t, centre: Point::new(x, y), c_deg, knife: knife == 1, drill, event, block, line: tick })
+    let (centre, knife) = (Point::new(x, y), knife == 1);
+    legal.then_some(Row { tick, t, centre, c_deg, knife, drill, event, block, station, line: tick })
 }

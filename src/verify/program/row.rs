@@ -33,11 +33,23 @@ pub(in crate::verify) struct Row {
     pub(in crate::verify) event: u8,
     /// The source block, 0 = none.
     pub(in crate::verify) block: u32,
+    /// How far the cloth was moved on so far, mm.
+    pub(in crate::verify) station: u32,
     /// Its line in the program, the first being 1, or its record, from 0, where there are no lines.
     pub(in crate::verify) line: u64,
 }
 
 impl Row {
+    /// The row with its place on the cloth instead of the table.
+    pub(in crate::verify) fn on_cloth(&self) -> Self {
+        Self { centre: self.centre + self.moved_on(), station: 0, ..*self }
+    }
+
+    /// The way of the cloth so far, mm.
+    pub(in crate::verify) fn moved_on(&self) -> Vector {
+        Vector::new(f64::from(self.station), 0.0)
+    }
+
     /// Unit vector from heel to tip.
     pub(in crate::verify) fn along(&self) -> Vector {
         let (sin, cos) = self.c_deg.to_radians().sin_cos();
@@ -49,9 +61,9 @@ impl Row {
         Sighting { line: Some(self.line), ..Sighting::at(self.t, point, self.block) }
     }
 
-    /// The row as a place.
+    /// The row as a place of the cloth.
     pub(in crate::verify) fn sighting(&self) -> Sighting {
-        self.seen_at(self.centre)
+        self.seen_at(self.centre + self.moved_on())
     }
 }
 

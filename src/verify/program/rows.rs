@@ -1,4 +1,5 @@
-//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records.
+//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records. Where a conveyor
+//! moves the cloth on, `advance_mm` stands behind: its way so far.
 
 use std::io::{BufRead, Read as _};
 
@@ -16,22 +17,26 @@ use crate::verify::rules;
 const LINE_MAX: u64 = 1024;
 /// The first line of a text: the names of its fields.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
+/// What a conveyor adds to it.
+const ADVANCE: &str = ",advance_mm";
 /// The same, one by one.
-const FIELDS: [&str; 8] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block"];
+const FIELDS: [&str; 9] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block", "advance_mm"];
+/// Fields without that of a conveyor.
+const PLAIN_FIELDS: usize = FIELDS.len() - 1;
 /// The greatest values of knife, drill, event and block.
 const GREATEST: [u32; 4] = [1, 4, 2, u32::MAX];
 
 /// How rows are written.
 #[derive(Debug)]
 enum Form<'a> {
-    /// Lines of fields between commas.
-    Table,
-    /// Records, so many of which are still to come.
-    Array(u64),
+    /// Lines of so many fields between commas.
+    Table(usize),
+    /// Records, so many of which are still to come, and their bytes.
+    Array(u64, usize),
     /// Records of encoder counts, likewise.
     Counts(Counts, u64),
-    /// Lines of fields between blanks, for this machine.
-    Stream(&'a MachineProfile),
+    /// Lines of fields between blanks, for this machine, and whether a conveyor adds one.
+    Stream(&'a MachineProfile, bool),
 }
 
 /// The rows of a program. What cannot be read is left out and counted.
@@ -63,11 +68,12 @@ enum Fetched {
 
 impl<'a> Rows<'a> {
     pub(in crate::verify) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
-        let (form, bad) = (Form::Table, Bad::default());
+        let (form, bad) = (Form::Table(PLAIN_FIELDS), Bad::default());
         let mut rows = Self { input, form, line: Vec::new(), tick: 0, last: None, bad, ended: false };
         if npy::begins(rows.input) {
             let told = npy::header(rows.input);
-            rows.form = Form::Array(told.unwrap_or(0));
+            let (count, bytes) = told.unwrap_or_default();
+            rows.form = Form::Array(count, bytes);
             if told.is_none() {
                 rows.end("the header is none of setpoints");
             }
@@ -78,11 +84,18 @@ impl<'a> Rows<'a> {
             }
         } else {
             let is_stream = hal::begins(rows.input);
-            if is_stream {
-                rows.form = Form::Stream(profile);
-            }
-            let header = if is_stream { hal::HEADER } else { HEADER.as_bytes() };
-            if !matches!(rows.fetch(), Fetched::Row) || rows.line != header {
+            let [header, advance] =
+                if is_stream { [hal::HEADER, hal::ADVANCE] } else { [HEADER.as_bytes(), ADVANCE.as_bytes()] };
+            let is_row = matches!(rows.fetch(), Fetched::Row);
+            let behind = rows.line.strip_prefix(header);
+            let has_advance = behind == Some(advance);
+            let is_header = is_row && (has_advance || behind == Some(&[]));
+            rows.form = match (is_stream, has_advance) {
+                (true, _) => Form::Stream(profile, has_advance),
+                (false, true) => Form::Table(FIELDS.len()),
+                (false, false) => Form::Table(PLAIN_FIELDS),
+            };
+            if !is_header {
                 rows.end(&format!("line 1 is not the header `{}`", String::from_utf8_lossy(header)));
             }
         }
@@ -93,7 +106,7 @@ impl<'a> Rows<'a> {
     pub(in crate::verify) fn rounding(&self) -> Rounding {
         let axes = match &self.form {
             Form::Counts(counts, _) => counts.rounding(),
-            Form::Table | Form::Array(_) | Form::Stream(_) => [ROUNDING; 3],
+            Form::Table(_) | Form::Array(..) | Form::Stream(..) => [ROUNDING; 3],
         };
         Rounding { axes }
     }
@@ -126,10 +139,10 @@ impl<'a> Rows<'a> {
     /// The row of the line or record that was read last, or why there is none.
     fn parsed(&mut self) -> Result<Row, String> {
         let row = match &mut self.form {
-            Form::Table => return parse(&self.line, self.tick),
-            Form::Array(_) => npy::row(&self.line, self.tick),
+            Form::Table(count) => return parse(&self.line, self.tick, *count),
+            Form::Array(..) => npy::row(&self.line, self.tick),
             Form::Counts(counts, _) => counts.row(&self.line, self.tick),
-            Form::Stream(profile) => hal::row(&self.line, self.tick, profile),
+            Form::Stream(profile, has_advance) => hal::row(&self.line, self.tick, *has_advance, profile),
         };
         row.ok_or_else(|| "holds no finite numbers and legal outputs".to_owned())
     }
@@ -151,7 +164,7 @@ impl<'a> Rows<'a> {
 
     /// The line or record that was read last, as people find it: lines count from 1, the first is the header.
     fn place(&self) -> String {
-        let what = if matches!(self.form, Form::Table | Form::Stream(_)) { "line" } else { "record" };
+        let what = if matches!(self.form, Form::Table(_) | Form::Stream(..)) { "line" } else { "record" };
         format!("{what} {}", self.number())
     }
 
@@ -159,9 +172,9 @@ impl<'a> Rows<'a> {
     fn fetch(&mut self) -> Fetched {
         self.line.clear();
         let record = match &mut self.form {
-            Form::Array(left) => Some(npy::record(self.input, left, &mut self.line)),
-            Form::Counts(_, left) => Some(Counts::record(self.input, left, &mut self.line)),
-            Form::Table | Form::Stream(_) => None,
+            Form::Array(left, bytes) => Some(npy::record(self.input, left, *bytes, &mut self.line)),
+            Form::Counts(counts, left) => Some(counts.record(self.input, left, &mut self.line)),
+            Form::Table(_) | Form::Stream(..) => None,
         };
         if let Some(record) = record {
             return match record {
@@ -192,8 +205,8 @@ impl<'a> Rows<'a> {
     /// The number of the line or record that was read last.
     fn number(&self) -> u64 {
         match self.form {
-            Form::Table | Form::Stream(_) => self.tick + FIRST_LINE,
-            Form::Array(_) | Form::Counts(..) => self.tick,
+            Form::Table(_) | Form::Stream(..) => self.tick + FIRST_LINE,
+            Form::Array(..) | Form::Counts(..) => self.tick,
         }
     }
 
@@ -222,7 +235,7 @@ pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
 pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     let first = bytes.split(|&b| b == b'\n').next().unwrap_or_default();
     let first = first.strip_suffix(b"\r").unwrap_or(first);
-    if first == HEADER.as_bytes() {
+    if first.strip_prefix(HEADER.as_bytes()).is_some_and(|behind| behind.is_empty() || behind == ADVANCE.as_bytes()) {
         return None;
     }
     let says = |what: &str, hint: &str| Some([what.to_owned(), hint.to_owned()]);
@@ -243,37 +256,45 @@ pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
             return says(&message, "save it with commas between the fields and points in the numbers");
         }
     }
-    if parse(first, 0).is_ok() {
+    if parse(first, 0, PLAIN_FIELDS).is_ok() {
         return says("its header is missing: it begins with a row", &as_compiled);
     }
     let names: Vec<&str> = text.split(',').collect();
     let known = names.iter().filter(|name| FIELDS.contains(name)).count();
-    if 2 * known < FIELDS.len() {
+    if 2 * known < PLAIN_FIELDS {
         return says("it does not begin as timed setpoints do", &as_compiled);
     }
-    let wrong = names.iter().zip(&FIELDS).find(|(name, expected)| name != expected);
+    let wrong = names.iter().zip(&FIELDS[..PLAIN_FIELDS]).find(|(name, expected)| name != expected);
     let message = match wrong {
         Some((name, expected)) => format!("its header says {} where `{expected}` belongs", quoted(name.as_bytes())),
-        None => format!("its header has {} fields, not {}", names.len(), FIELDS.len()),
+        None => format!("its header has {} fields, not {PLAIN_FIELDS}", names.len()),
     };
     says(&message, &as_compiled)
 }
 
-/// Reads a line; why it is no row is said as it goes on behind its number.
-fn parse(line: &[u8], tick: u64) -> Result<Row, String> {
+/// Reads a line of so many fields; why it is no row is said as it goes on behind its number.
+fn parse(line: &[u8], tick: u64, fields: usize) -> Result<Row, String> {
     let count = || line.split(|&b| b == b',').count();
-    row(line, tick).map_err(|why| match count() {
+    row(line, tick, fields > PLAIN_FIELDS).map_err(|why| match count() {
         _ if line.is_empty() => "is blank".to_owned(),
-        8 => why,
-        1 => "has 1 field, not 8".to_owned(),
-        count => format!("has {count} fields, not 8"),
+        count if count == fields => why,
+        1 => format!("has 1 field, not {fields}"),
+        count => format!("has {count} fields, not {fields}"),
     })
 }
 
 /// The fields of a row: numbers, then outputs.
 type Fields = ([f64; 4], [u32; 4]);
 
-fn row(line: &[u8], tick: u64) -> Result<Row, String> {
+fn row(mut line: &[u8], tick: u64, has_advance: bool) -> Result<Row, String> {
+    let mut station = 0;
+    if has_advance {
+        let comma = line.iter().rposition(|&byte| byte == b',').ok_or_else(String::new)?;
+        let told = &line[comma + 1..];
+        station =
+            whole(told).ok_or_else(|| format!("has {} as advance_mm, which is no way in whole mm", quoted(told)))?;
+        line = &line[..comma];
+    }
     let ([t, x, y, c_deg], [knife, drill, event, block]) = plain(line).map_or_else(|| fields(line), Ok)?;
     Ok(Row {
         tick,
@@ -284,6 +305,7 @@ fn row(line: &[u8], tick: u64) -> Result<Row, String> {
         drill: drill as u8,
         event: event as u8,
         block,
+        station,
         line: tick + FIRST_LINE,
     })
 }
@@ -332,7 +354,7 @@ mod tests {
 
     #[test]
     fn the_header_names_the_fields() {
-        assert_eq!(FIELDS.join(","), HEADER);
+        assert_eq!(FIELDS.join(","), format!("{HEADER}{ADVANCE}"));
     }
 
     #[test]

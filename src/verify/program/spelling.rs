@@ -147,16 +147,16 @@ impl Expected {
         Self { text: text.to_owned(), plain: plain(text.as_bytes()).filter(|plain| !plain.is_empty()) }
     }
 
-    /// A step of the profile, with the number of a drill where it names one.
-    pub(in crate::verify) fn of_step(step: &Step, drill: u8) -> Self {
+    /// A step of the profile, with a number where it leaves one open.
+    pub(in crate::verify) fn of_step(step: &Step, blank: f64) -> Self {
         let word = |letter: char, number: f64| format!(" {letter}{}", exact(number));
         let text = match step {
-            Step::Output { pin, on } => format!("M{}{}", if *on { 64 } else { 65 }, word('P', pin.of(drill))),
+            Step::Output { pin, on } => format!("M{}{}", if *on { 64 } else { 65 }, word('P', pin.of(blank))),
             Step::Z { to_mm, feed_mm_min: None } => format!("G0{}", word('Z', *to_mm)),
             Step::Z { to_mm, feed_mm_min: Some(feed) } => format!("G1{}{}", word('Z', *to_mm), word('F', *feed)),
             Step::Dwell { time } => format!("G4{}", word('P', *time)),
             Step::Code { m, parameters } => {
-                let words = parameters.iter().map(|parameter| word(parameter.letter, parameter.number.of(drill)));
+                let words = parameters.iter().map(|parameter| word(parameter.letter, parameter.number.of(blank)));
                 format!("M{m}{}", words.collect::<String>())
             }
         };

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use crate::geom::{Extent, Heading, Point, Rotation};
 use crate::ir::list::Segment;
 use crate::ir::marker::{Contour, Drill, Event, Label, Notch, OutlineNotch, Piece};
+use crate::ir::toolpath;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Flip, Job, MachineProfile, Mirror};
@@ -68,16 +69,28 @@ impl Drawn {
             worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), extra.span.block));
         }
         let unit = drawn.unit * table.growth;
+        // Where a conveyor moves the cloth on, windows come as they come.
+        let has_bites = has_bites(&job.profile);
+        let is_asked = |event: &Event| match event.kind {
+            toolpath::Event::Stop => true,
+            toolpath::Event::Advance | toolpath::Event::Bite(_) => !has_bites,
+        };
         let told = |marker: &Marker, times: u32| -> Vec<Event> {
-            let events = marker.pieces.iter().flat_map(|piece| &piece.events).copied();
+            let events = marker.pieces.iter().flat_map(|piece| &piece.events).copied().filter(is_asked);
             std::iter::repeat_n(events.collect::<Vec<_>>(), times as usize).flatten().collect()
         };
         let is_told = !job.selection.is_all() || told(drawn, copies) == told(marker, 1);
-        if !is_told || drawn.closing != marker.closing || (marker.unit - unit).abs() > SAME_EPSILON * unit {
+        let closing = |marker: &Marker| marker.closing.iter().copied().filter(is_asked).collect::<Vec<_>>();
+        if !is_told || closing(drawn) != closing(marker) || (marker.unit - unit).abs() > SAME_EPSILON * unit {
             worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), 0));
         }
         worst.finding()
     }
+}
+
+/// Whether a conveyor moves the cloth on.
+fn has_bites(profile: &MachineProfile) -> bool {
+    profile.bite.length_mm.is_some()
 }
 
 /// Where what is so long begins in the corner of the table, along one of its axes, mm: away from the edge by a blade and its
@@ -145,7 +158,8 @@ impl Lay<'_> {
         let corner = match sheet.origin {
             Some([x, y]) => [before.min.x + x, before.min.y + y],
             None => [
-                in_corner(profile, profile.table.x_mm, far_end - behind.min.x),
+                // A conveyor brings all that is beyond its first window onto the table later.
+                in_corner(profile, profile.table.x_mm, if has_bites(profile) { 0.0 } else { far_end - behind.min.x }),
                 in_corner(profile, profile.table.y_mm, behind.max.y - behind.min.y),
             ],
         };

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use crate::geom::{Heading, Point, angle};
 use crate::ir::Marker;
 use crate::ir::list::Joint;
-use crate::ir::marker::{NotchKind, Piece};
-use crate::ir::toolpath::Event;
+use crate::ir::marker::{Event, NotchKind, Piece};
+use crate::ir::toolpath;
 use crate::ir::verdict::Sighting;
 use crate::source::Source;
 
@@ -19,7 +19,7 @@ const FEED_EPSILON: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Said {
     Piece(u32),
-    Event(Event),
+    Event(toolpath::Event),
     Hole(Point, u8),
     Label { text: Vec<u8>, mirrored: Option<Vec<u8>>, at: Option<Point>, direction: Option<f64> },
     Slit(Cut),
@@ -91,7 +91,7 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
     let last = marker.pieces.iter().rposition(is_cut);
     for (index, piece) in marker.pieces.iter().enumerate() {
         // What a piece without a cut has is the next one's; behind the last, texts are the last one's.
-        waiting.0.extend(piece.events.iter().map(|event| Said::Event(event.kind)));
+        waiting.0.extend(piece.events.iter().map(|event| told(event)));
         let labels = piece
             .labels
             .iter()
@@ -136,9 +136,17 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
         }
     }
     said.extend(waiting.0);
-    said.extend(marker.closing.iter().map(|event| Said::Event(event.kind)));
+    said.extend(marker.closing.iter().map(|event| told(event)));
     fields.sort_by_key(|(named, _)| *named); // stable: those without a name first
     let values = fields.iter().flat_map(|(_, piece)| &piece.fields);
     said.extend(values.map(|field| Said::Field(field.letter, source.slice(field.span).to_vec())));
     said
+}
+
+/// What is asked for between pieces: a cutter file does not tell how far a bite is.
+fn told(event: &Event) -> Said {
+    Said::Event(match event.kind {
+        toolpath::Event::Bite(_) => toolpath::Event::Advance,
+        asked => asked,
+    })
 }

@@ -13,7 +13,7 @@ use std::io::{BufRead, Read as _};
 use std::rc::Rc;
 
 use self::arc::Arc;
-use self::texts::{HEAD, Meaning, Text, texts};
+use self::texts::{HEAD, Meaning, Text, bite, texts};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
@@ -117,6 +117,7 @@ impl<'a> Places<'a> {
             drill: 0,
             event: 0,
             block: 0,
+            station: 0,
             line: 1,
         };
         let texts = texts(profile);
@@ -237,6 +238,13 @@ impl<'a> Places<'a> {
         }
         if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
             return self.go(&Words::of(line, self.profile)?);
+        }
+        if let Some((mm, others)) = bite(line, &self.profile.gcode.advance) {
+            self.now.station =
+                self.now.station.checked_add(mm).ok_or("moves the cloth on farther than there is any")?;
+            self.obey(Meaning::Event(2))?;
+            self.due.extend(others);
+            return Ok(());
         }
         if let Some(text) = self.text(line) {
             let (meaning, rest) = (text.meaning, text.lines[1..].to_vec());

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use crate::machine::MachineProfile;
 use crate::machine::gcode::Step;
 use crate::units::number::exact;
+use crate::verify::program::number::whole;
 use crate::verify::program::spelling::Expected;
 
 /// How every such program begins, behind the number of its line.
@@ -38,7 +39,7 @@ pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(HEAD), keys.header, keys.feed_mode.code());
     let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning };
     let steps = |steps: &[Step], drill: u8, meaning| {
-        let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill))).collect();
+        let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill.into()))).collect();
         Text { lines, meaning }
     };
     let drills = DRILLS.flat_map(|tool| {
@@ -47,7 +48,10 @@ pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     let mut texts = vec![text(&head, Meaning::Head)];
     texts.extend([steps(&keys.knife_down, 0, Meaning::Down), steps(&keys.knife_up, 0, Meaning::Up)]);
     texts.extend(drills);
-    texts.extend([steps(&keys.stop, 0, Meaning::Event(1)), steps(&keys.advance, 0, Meaning::Event(2))]);
+    texts.push(steps(&keys.stop, 0, Meaning::Event(1)));
+    if !keys.advance.iter().any(Step::has_blank) {
+        texts.push(steps(&keys.advance, 0, Meaning::Event(2)));
+    }
     texts.push(text(&keys.footer, Meaning::End));
     texts.retain(|text| !text.lines.is_empty());
     texts
@@ -57,4 +61,15 @@ pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
 pub(super) fn lines_of(text: &str) -> Vec<Rc<Expected>> {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     lines.map(|line| Rc::new(Expected::new(line))).collect()
+}
+
+/// How far a line moves the cloth on that begins the steps of a bite, mm, and the lines that must follow it.
+pub(super) fn bite(line: &[u8], steps: &[Step]) -> Option<(u32, Vec<Rc<Expected>>)> {
+    let (first, others) = steps.split_first().filter(|(first, _)| first.has_blank())?;
+    let text = first.to_string();
+    let (before, behind) = text.split_once('#')?;
+    let told = line.strip_prefix(before.as_bytes())?.strip_suffix(behind.as_bytes())?;
+    let mm = whole(told)?;
+    let of_step = |step: &Step| Rc::new(Expected::of_step(step, mm.into()));
+    of_step(first).is(line).then(|| (mm, others.iter().map(of_step).collect()))
 }

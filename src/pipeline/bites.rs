@@ -1,0 +1,48 @@
+//! Windows of a conveyor that a marker is cut in.
+
+use serde::Serialize;
+
+use super::report::Program;
+use super::rounded::{micro, micro_known};
+use crate::ir::Marker;
+use crate::units::MM_PER_M;
+
+/// A window of a conveyor: what is cut while the cloth lies still.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Bite {
+    /// How far the cloth has been moved on by then, mm.
+    pub advance_mm: u32,
+    /// Pieces that are cut.
+    pub pieces: usize,
+    /// Length of what is cut of them, m; what two windows have in common counts in both.
+    #[serde(serialize_with = "micro")]
+    pub cut_m: f64,
+    /// How long it takes, s; not known where nothing was planned.
+    #[serde(serialize_with = "micro_known")]
+    pub time_s: Option<f64>,
+}
+
+/// The windows of a marker, in order, with the times of its program; none where the cloth lies still.
+pub(super) fn of(marker: &Marker, program: &Program) -> Vec<Bite> {
+    let stations = marker.stations();
+    if stations.last().is_none_or(|&last| last == 0) {
+        return Vec::new();
+    }
+    let mut bites: Vec<Bite> = Vec::new();
+    // Of a part the place of its window.
+    let mut of_part = Vec::with_capacity(stations.len());
+    for (piece, &advance_mm) in marker.pieces.iter().zip(&stations) {
+        if bites.last().is_none_or(|last| last.advance_mm != advance_mm) {
+            bites.push(Bite { advance_mm, pieces: 0, cut_m: 0.0, time_s: None });
+        }
+        of_part.push(bites.len() - 1);
+        let bite = &mut bites[of_part[of_part.len() - 1]];
+        bite.pieces += 1;
+        bite.cut_m += marker.length_of(piece) / MM_PER_M;
+    }
+    for ([_, part], spent) in &program.by_piece {
+        let Some(&window) = of_part.get(*part as usize) else { continue };
+        *bites[window].time_s.get_or_insert(0.0) += spent.total();
+    }
+    bites
+}

@@ -1,0 +1,223 @@
+//! Windows of a conveyor: a marker that is longer than the table is cut bite by bite, and a program that moves the cloth on
+//! otherwise than it tells is refused.
+
+use cutc::diagnostic::Diagnostics;
+use cutc::ir::Marker;
+use cutc::machine::Job;
+use cutc::pipeline;
+use cutc::source::Source;
+
+use crate::support::nests::{Recipe, compiled};
+use crate::support::room::{DONE, FAULTY, Room, USAGE};
+
+/// Three squares of 300 mm in a row, the middle one with a hole and a slit.
+const ROW: &str = "H1*G71*N1*X0Y0*M14*X3000Y0*X3000Y3000*X0Y3000*X0Y0*M15*\
+    N2*X4500Y1500M43*X3500Y0*M19*X3500Y0*M14*X3500Y50*M15*X3100Y0*M14*X6100Y0*X6100Y3000*X3100Y3000*X3100Y0*M15*\
+    N3*X6200Y0*M14*X9200Y0*X9200Y3000*X6200Y3000*X6200Y0*M15*M0*";
+/// Options with which they take three windows.
+const BITES: &str = "--set bite.length_mm=400";
+/// A machine whose controller is told how far.
+const MACHINE: &str = "bite.length_mm = 400\ngcode.advance = [\"M68 E0 Q#\", \"M64 P1\", \"M66 P1 L3 Q60\"]\n";
+/// The column of the way of the cloth.
+const ADVANCE: usize = 8;
+
+/// What must lie in a window for each piece, mm along X.
+fn reaches(marker: &Marker, job: &Job) -> Vec<[f64; 2]> {
+    let reach = job.profile.knife.reach();
+    let of = |piece: &cutc::ir::marker::Piece| {
+        let places = piece.contours.iter().flat_map(|contour| marker.points(contour)).map(|at| at.x);
+        let strokes = piece.notches.iter().flat_map(|notch| notch.strokes()).flat_map(|s| [s.from.x, s.to.x]);
+        let all = places.chain(strokes).chain(piece.drills.iter().map(|drill| drill.at.x));
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x - reach), b.max(x + reach)])
+    };
+    marker.pieces.iter().map(of).collect()
+}
+
+/// The fewest windows in which all pieces lie whole: places of windows that stab the stretch of places of each piece.
+fn fewest(reaches: &[[f64; 2]], length: f64) -> usize {
+    let mut stretches: Vec<[f64; 2]> = reaches.iter().map(|[from, to]| [to - length, *from]).collect();
+    stretches.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    let mut windows: Vec<f64> = Vec::new();
+    for [least, most] in stretches {
+        if windows.last().is_none_or(|&window| window < least) {
+            windows.push(most);
+        }
+    }
+    windows.len()
+}
+
+/// The rows of a program, field by field.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    text.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().expect("a number")).collect()).collect()
+}
+
+#[test]
+fn nests_are_cut_in_the_fewest_windows_and_the_knife_stays_in_each() {
+    for seed in [2, 5, 11, 13, 17, 25] {
+        let recipe = Recipe::of(seed, 14, 6);
+        let text = recipe.nest().text;
+        let source = Source::new("nest.cut", text.as_bytes().to_vec()).expect("small");
+        let input = pipeline::read(&source, None, &Job::default(), &mut Diagnostics::default()).expect("a nest");
+        let reaches = reaches(&input.marker, &Job::default());
+        let longest = reaches.iter().map(|[from, to]| to - from).fold(0.0, f64::max);
+        for times in [1.05, 1.7] {
+            let mut job = Job::default();
+            let length = (longest * times).ceil();
+            job.profile.bite.length_mm = Some(length);
+            let (compiled, bytes) =
+                compiled(&text, "csv", &job).unwrap_or_else(|why| panic!("{recipe:?}, windows of {length}: {why}"));
+            let windows = compiled.report.bites.len().max(1);
+            // Ways of the cloth are whole mm: so much of a window may be lost.
+            let least = fewest(&reaches, length);
+            assert!((least..=fewest(&reaches, length - 1.0)).contains(&windows), "{recipe:?}: {windows}, not {least}");
+            let start = reaches.iter().map(|[from, _]| *from).fold(f64::INFINITY, f64::min);
+            let rows = rows(std::str::from_utf8(&bytes).expect("text"));
+            for row in rows.iter().filter(|row| row[4] == 1.0) {
+                let place = row[1] - start;
+                assert!((-1e-6..=length + 1e-6).contains(&place), "{recipe:?}, windows of {length}: {row:?}");
+            }
+            let mut ways: Vec<u32> = rows.iter().map(|row| row[ADVANCE] as u32).collect();
+            ways.dedup();
+            let told: Vec<u32> = compiled.report.bites.iter().map(|bite| bite.advance_mm).collect();
+            assert_eq!(ways, if told.is_empty() { vec![0] } else { told }, "{recipe:?}");
+        }
+    }
+}
+
+#[test]
+fn every_target_tells_how_far_the_cloth_is_moved_on_and_is_judged_by_it() {
+    let room = Room::with("row.cut", ROW);
+    room.write("machine.toml", MACHINE.as_bytes());
+    for (target, extension) in
+        [("csv", "csv"), ("npy", "npy"), ("counts", "counts"), ("hal", "hal.txt"), ("gcode", "ngc"), ("iso", "cut")]
+    {
+        let out = format!("out.{extension}");
+        let said = room.says(&format!("compile row.cut -t {target} -o {out} -p machine.toml"), DONE);
+        assert!(said.contains("bites      3 windows of a conveyor, which moves the cloth on by 620 mm"), "{said}");
+        let said = room.says(&format!("verify {out} --source row.cut -p machine.toml"), DONE);
+        assert!(said.contains("\nPASS  `out"), "{target}: {said}");
+    }
+    let text = room.text("out.ngc");
+    assert_eq!(text.lines().filter(|line| line.starts_with("M68")).collect::<Vec<_>>(), ["M68 E0 Q310"; 2]);
+    // Places are those over the table: each square lies where the first does.
+    let places = text.lines().filter_map(|line| line.split(" X").nth(1)?.split(' ').next()?.parse::<f64>().ok());
+    assert!(places.fold(0.0, f64::max) < 320.0, "{text}");
+    let listed = room.text("out.cut").matches("M69*").count();
+    assert_eq!(listed, 2, "the controller of a cut file moves the cloth on by itself");
+    let told = room.says(&format!("info row.cut {BITES} --time"), DONE);
+    assert!(told.contains("  bite    at mm  pieces    cut m   time s\n     1        0       1    1.200"), "{told}");
+    room.says(&format!("compile row.cut -t halrun,json,svg -o side/ {BITES}"), DONE);
+    let hal = room.text("side/row.hal");
+    assert!(hal.contains("cfg=fffbuuuu\n") && hal.contains("net advance-mm streamer.0.pin.7\n"), "{hal}");
+    assert!(room.text("side/row.json").contains("\"advance_mm\": 620}"));
+    assert!(room.text("side/row.svg").contains("<title>piece 3, bite 3, "));
+}
+
+/// Damages of the rows of three windows.
+type Damage = fn(&mut Vec<Vec<f64>>);
+
+#[test]
+fn a_program_that_moves_the_cloth_on_otherwise_is_refused() {
+    let room = Room::with("row.cut", ROW);
+    room.says(&format!("compile row.cut {BITES} -o right.csv"), DONE);
+    let text = room.text("right.csv");
+    let head = text.lines().next().expect("a header").to_owned();
+    let damages: [(&str, &str, Damage); 9] = [
+        ("the last window a millimetre farther", "verify/", |rows| {
+            rows.iter_mut().filter(|row| row[ADVANCE] == 620.0).for_each(|row| row[ADVANCE] += 1.0);
+        }),
+        ("the second window a millimetre less far", "verify/", |rows| {
+            rows.iter_mut().filter(|row| row[ADVANCE] == 310.0).for_each(|row| row[ADVANCE] -= 1.0);
+        }),
+        ("two windows exchanged", "verify/events", |rows| {
+            let other = |way: f64| [0.0, 620.0, 310.0][(way / 310.0) as usize];
+            rows.iter_mut().for_each(|row| row[ADVANCE] = other(row[ADVANCE]));
+        }),
+        ("a way without its event", "verify/events", |rows| rows.iter_mut().for_each(|row| row[6] = 0.0)),
+        ("a way amid a cut", "verify/events", |rows| {
+            let at = rows.iter().rposition(|row| row[4] == 1.0).expect("a cut");
+            rows[at][ADVANCE] += 1.0;
+        }),
+        ("a conveyor that runs back", "verify/events", |rows| {
+            let last = rows.len() - 1;
+            rows[last][ADVANCE] = 310.0;
+        }),
+        ("an event that moves nothing", "verify/events", |rows| {
+            let last = rows.len() - 1;
+            rows[last][6] = 2.0;
+        }),
+        ("all ways told as none", "verify/", |rows| rows.iter_mut().for_each(|row| row[ADVANCE] = 0.0)),
+        ("an advance with the knife down", "verify/events", |rows| {
+            let at = rows.iter().position(|row| row[6] == 2.0).expect("an advance");
+            rows[at][4] = 1.0;
+        }),
+    ];
+    for (name, rule, damage) in damages {
+        let mut damaged = rows(&text);
+        damage(&mut damaged);
+        let lines = damaged.iter().map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
+        let lines: Vec<String> = std::iter::once(head.clone()).chain(lines).collect();
+        room.write("wrong.csv", (lines.join("\n") + "\n").as_bytes());
+        let said = room.says(&format!("verify wrong.csv --source row.cut {BITES}"), FAULTY);
+        assert!(said.contains(&format!("FAIL  {rule}")), "{name}: {said}");
+    }
+    // A machine without a conveyor does not move the cloth, and one with a conveyor must be told.
+    room.says("verify right.csv --source row.cut", FAULTY);
+    room.says("compile row.cut -o plain.csv", DONE);
+    room.says(&format!("verify plain.csv --source row.cut {BITES} --set table.x_mm=[-20,400]"), FAULTY);
+}
+
+#[test]
+fn steps_of_a_controller_tell_how_far_or_are_refused() {
+    let room = Room::with("row.cut", ROW);
+    let said = room.says(&format!("compile row.cut -t gcode {BITES}"), FAULTY);
+    assert!(said.contains("`gcode.advance` does not say how far, but the marker is cut in bites"), "{said}");
+    room.write("machine.toml", MACHINE.as_bytes());
+    room.says("compile row.cut -t gcode -o right.ngc -p machine.toml", DONE);
+    let text = room.text("right.ngc");
+    let verify = "verify wrong.ngc --source row.cut -p machine.toml";
+    for (right, wrong) in
+        [("Q310", "Q311"), ("Q310", "Q-310"), ("Q310", "Q309.5"), ("M64 P1\n", ""), ("Q310", "Q99999999999")]
+    {
+        room.write("wrong.ngc", text.replacen(right, wrong, 1).as_bytes());
+        let said = room.says(verify, FAULTY);
+        assert!(said.contains("FAIL"), "{right} {wrong}: {said}");
+    }
+    room.write("wrong.ngc", text.replace("M68 E0 Q310", "m68 E0 Q310.0 (on)").as_bytes());
+    room.says(verify, DONE);
+    room.write("wrong.toml", b"gcode.advance = [\"M64 P1\", \"M68 E0 Q#\"]\n");
+    let said = room.says("compile row.cut -t gcode -p wrong.toml", FAULTY);
+    assert!(said.contains("# behind its first step"), "{said}");
+    // A file that moves the cloth on, and does not say how far.
+    room.write("file.cut", ROW.replace("N2*", "N2*M69*").as_bytes());
+    room.write("still.toml", MACHINE.replace("400", "\"off\"").as_bytes());
+    let said = room.says("compile file.cut -t gcode -p still.toml", FAULTY);
+    assert!(said.contains("says how far, and the file does not"), "{said}");
+    room.says("compile file.cut -t gcode -p machine.toml", DONE);
+}
+
+#[test]
+fn pieces_that_are_left_are_cut_where_they_lie() {
+    let room = Room::with("row.cut", ROW);
+    for choice in ["--pieces 3", "--skip 1", "--resume-from 2"] {
+        room.says(&format!("compile row.cut --force -o some.csv {BITES} {choice}"), DONE);
+        room.says(&format!("verify some.csv --source row.cut {BITES} {choice}"), DONE);
+        assert_eq!(rows(&room.text("some.csv")).last().expect("rows")[ADVANCE], 620.0, "{choice}");
+    }
+}
+
+#[test]
+fn a_table_and_a_conveyor_agree_and_other_machines_have_none() {
+    let room = Room::with("row.cut", ROW);
+    let corner = r#"--set table.x_mm=[0,400] --set sheet.origin="corner""#;
+    room.says(&format!("compile row.cut {BITES} {corner}"), DONE);
+    room.says(&format!("verify row.csv --source row.cut {BITES} {corner}"), DONE);
+    let said = room.says("compile row.cut --set bite.length_mm=500 --set table.x_mm=[0,400]", USAGE);
+    assert!(said.contains("`bite.length_mm` is 500 mm, more than `table.x_mm` has, 400 mm"), "{said}");
+    let said = room.says("compile row.cut --set bite.length_mm=310", FAULTY);
+    assert!(said.contains("error[marker/bite]: piece 1 takes 314.8 mm along X"), "{said}");
+    let said = room.says(&format!("compile row.cut {BITES} --set tool.kind=spray"), USAGE);
+    assert!(said.contains("`tool.kind` is \"spray\""), "{said}");
+    let said = room.says(&format!("flow row.cut -o plan {BITES}"), USAGE);
+    assert!(said.contains("leave `bite.length_mm` out"), "{said}");
+}
