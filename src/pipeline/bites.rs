@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::report::Program;
 use super::rounded::{micro, micro_known};
+use super::spent::Spent;
 use crate::ir::Marker;
 use crate::units::MM_PER_M;
 
@@ -22,8 +22,8 @@ pub struct Bite {
     pub time_s: Option<f64>,
 }
 
-/// The windows of a marker, in order, with the times of its program; none where the cloth lies still.
-pub(super) fn of(marker: &Marker, program: &Program) -> Vec<Bite> {
+/// The windows of a marker, in order, with the times of its pieces where they were planned; none where the cloth lies still.
+pub(super) fn of(marker: &Marker, by_piece: &[([u32; 2], Spent)]) -> Vec<Bite> {
     let stations = marker.stations();
     if stations.last().is_none_or(|&last| last == 0) {
         return Vec::new();
@@ -40,7 +40,7 @@ pub(super) fn of(marker: &Marker, program: &Program) -> Vec<Bite> {
         bite.pieces += 1;
         bite.cut_m += marker.length_of(piece) / MM_PER_M;
     }
-    for ([_, part], spent) in &program.by_piece {
+    for ([_, part], spent) in by_piece {
         let Some(&window) = of_part.get(*part as usize) else { continue };
         *bites[window].time_s.get_or_insert(0.0) += spent.total();
     }

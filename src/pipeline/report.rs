@@ -396,7 +396,7 @@ impl Report {
     /// The report with what planning found of its marker.
     #[must_use]
     pub fn planned(self, program: Program, marker: &Marker) -> Self {
-        Self { bites: bites::of(marker, &program), program, ..self }
+        Self { bites: bites::of(marker, &program.by_piece), program, ..self }
     }
 
     /// What is in a marker, before any planning.
@@ -415,7 +415,7 @@ impl Report {
             cut_m: marker.cut_length() / MM_PER_M,
             common: Common::of(marker),
             near_m: Some(marker.near_length() / MM_PER_M).filter(|&length| length > 0.0),
-            bites: bites::of(marker, &Program::default()),
+            bites: bites::of(marker, &[]),
             drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
             declared: Vec::new(),

@@ -81,6 +81,27 @@ fn canon(text: &str) -> Vec<(&str, Vec<f64>)> {
     commands.collect()
 }
 
+/// Two squares in windows of a conveyor: the analog output that it reads tells it how far, and each square lies in the first
+/// window when it is cut.
+#[test]
+fn the_interpreter_of_linuxcnc_moves_the_cloth_on_between_the_bites_of_a_conveyor() {
+    if !is_there("rs274", Command::new("sh").args(["-c", "command -v rs274"])) {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a directory");
+    let cut = "H1*G71*N1*X0Y0*M14*X3000Y0*X3000Y3000*X0Y0*M15*N2*X3500Y0*M14*X6500Y0*X6500Y3000*X3500Y0*M15*M0*";
+    std::fs::write(folder.path().join("row.cut"), cut).expect("a file");
+    let machine = "bite.length_mm = 400\ngcode.advance = [\"M68 E0 Q#\", \"M64 P1\", \"M66 P1 L3 Q60\"]\n";
+    std::fs::write(folder.path().join("machine.toml"), machine).expect("a file");
+    let mut compile = Command::new(env!("CARGO_BIN_EXE_cutc"));
+    compile.args(["compile", "row.cut", "-p", "machine.toml", "-o", "program.ngc"]).current_dir(folder.path());
+    assert!(compile.status().expect("the program starts").success());
+    let text = interpret("program.ngc", folder.path()).expect("a program that the interpreter takes");
+    assert_eq!(text.matches("SET_AUX_OUTPUT_VALUE(0,350.000000)").count(), 1, "{text}");
+    let farthest = canon(&text).iter().map(|(_, numbers)| numbers[0]).fold(0.0, f64::max);
+    assert!((300.0..310.0).contains(&farthest), "{farthest}");
+}
+
 #[test]
 fn the_interpreter_of_linuxcnc_takes_every_program_and_means_the_same_places() {
     if !is_there("rs274", Command::new("sh").args(["-c", "command -v rs274"])) {
