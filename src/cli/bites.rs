@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::options::counted;
 use crate::pipeline::Bite;
 use crate::units::number::fixed;
 
@@ -23,7 +24,8 @@ pub(super) fn table(bites: &[Bite]) -> String {
 
 /// The windows in a line.
 pub(super) fn line(bites: &[Bite]) -> Option<String> {
-    let last = bites.last()?;
-    let windows = bites.len();
-    Some(format!("{windows} windows of a conveyor, which moves the cloth on by {} mm in all", last.advance_mm))
+    let [first, last] = [bites.first()?, bites.last()?];
+    let windows = counted(bites.len(), "window");
+    let way = last.advance_mm - first.advance_mm;
+    Some(format!("{windows} of a conveyor, which moves the cloth on by {way} mm in all"))
 }

@@ -31,6 +31,8 @@ pub struct Marker {
     pub junctions: Vec<[Point; 2]>,
     /// The grid to which the file rounds, mm, as large as it lies on the table; 0 when there is none.
     pub unit: f64,
+    /// How far a conveyor has moved the cloth on when a program begins, mm.
+    pub moved_on: u32,
     /// What happens behind the last piece.
     pub closing: Vec<Event>,
     /// How its texts are encoded, where the file says so; `None` = as the profile has it.
@@ -394,7 +396,7 @@ impl Marker {
 
     /// How far a conveyor has moved the cloth on when each piece is cut, mm.
     pub fn stations(&self) -> Vec<u32> {
-        let mut station = 0;
+        let mut station = self.moved_on;
         let bites = self.pieces.iter().map(|piece| piece.events.iter().map(|event| event.kind.bite()).sum::<u32>());
         bites
             .map(|by| {

@@ -11,7 +11,7 @@ pub struct Selection {
     pub pieces: Option<Numbers>,
     /// Not these.
     pub skip: Option<Numbers>,
-    /// Only this piece and those behind it in cut order.
+    /// Only what is cut from there on.
     pub resume_from: Option<Start>,
 }
 
@@ -28,21 +28,33 @@ impl Selection {
     }
 }
 
-/// The piece that a run begins with, as in `3`, or `3/2` for that of the second copy.
+/// The place that a run begins with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Start {
-    /// Its number; the first piece that has it.
-    pub number: u32,
-    /// The copy of the marker that it is of, from 1.
-    pub copy: u32,
+pub enum Start {
+    /// A piece, as in `3`, or `3/2` for that of the second copy.
+    Piece {
+        /// Its number; the first piece that has it.
+        number: u32,
+        /// The copy of the marker that it is of, from 1.
+        copy: u32,
+    },
+    /// A window of a conveyor, from 1, as in `bite:3`.
+    Bite(u32),
 }
 
+/// What stands before the number of a window.
+const BITE: &str = "bite:";
+
 impl Start {
-    /// Reads a number, or a number and a copy.
+    /// Reads a number, a number and a copy, or the number of a window.
     pub fn parse(text: &str) -> Result<Self, NotStart> {
+        if let Some(number) = text.strip_prefix(BITE) {
+            let number = Numbers::parse(number).ok().and_then(|numbers| numbers.only()).filter(|&number| number > 0);
+            return number.map(Self::Bite).ok_or_else(|| NotStart(text.to_owned()));
+        }
         let (number, copy) = text.split_once('/').unwrap_or((text, "1"));
         let whole = |word: &str| Numbers::parse(word).ok()?.only();
-        let start = whole(number).zip(whole(copy)).map(|(number, copy)| Self { number, copy });
+        let start = whole(number).zip(whole(copy)).map(|(number, copy)| Self::Piece { number, copy });
         start.ok_or_else(|| NotStart(text.to_owned()))
     }
 }
@@ -50,15 +62,18 @@ impl Start {
 /// As it is typed.
 impl fmt::Display for Start {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { number, copy } = self;
-        if *copy == 1 { write!(out, "{number}") } else { write!(out, "{number}/{copy}") }
+        match self {
+            Self::Piece { number, copy: 1 } => write!(out, "{number}"),
+            Self::Piece { number, copy } => write!(out, "{number}/{copy}"),
+            Self::Bite(number) => write!(out, "{BITE}{number}"),
+        }
     }
 }
 
 /// What names no piece to begin with.
 #[derive(Debug, Error, PartialEq, Eq)]
 #[error(
-    "`{0}` names no piece; give its number, and that of its copy behind a stroke if there are several, as in 3 or 3/2"
+    "`{0}` names no piece; give its number, and its copy behind a stroke if there are several, as in 3 or 3/2, or bite:3"
 )]
 pub struct NotStart(String);
 
@@ -178,10 +193,14 @@ mod tests {
     fn a_run_begins_with_a_piece_of_a_copy() {
         for (text, number, copy) in [("3", 3, 1), ("3/2", 3, 2), ("0/1", 0, 1)] {
             let start = Start::parse(text).expect("a piece");
-            assert_eq!(start, Start { number, copy });
+            assert_eq!(start, Start::Piece { number, copy });
             assert_eq!(start.to_string(), text.trim_end_matches("/1"));
         }
-        assert!(["", "3/", "/2", "3-4", "3,4", "3/2/1", "x", "-1"].iter().all(|text| Start::parse(text).is_err()));
+        let bite = Start::parse("bite:2").expect("a window");
+        assert_eq!((bite, bite.to_string().as_str()), (Start::Bite(2), "bite:2"));
+        let others =
+            ["", "3/", "/2", "3-4", "3,4", "3/2/1", "x", "-1", "bite:", "bite:0", "bite:1-2", "bite:x", "bite"];
+        assert!(others.iter().all(|text| Start::parse(text).is_err()));
     }
 
     #[test]

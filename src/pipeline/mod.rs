@@ -345,7 +345,7 @@ pub fn dump(
     let last = TOOLPATH_PASSES.iter().position(|p| p.name == pass)?;
     let mut text = String::new();
     let scene = Scene::new(&input.marker, job);
-    let mut pose = plan::home(job);
+    let mut pose = plan::home_over(input.marker.moved_on, job);
     for mut toolpath in trace(&input.marker, job) {
         toolpath.entry = pose;
         for toolpath_pass in &TOOLPATH_PASSES[..=last] {

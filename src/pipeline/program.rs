@@ -177,7 +177,7 @@ pub(super) fn write(
             Form::Arcs(_, writer) => writer.head(out)?,
         }
     }
-    let (planner, tally) = (Planner::new(job), Tally::default());
+    let (planner, tally) = (Planner::new(job).over(context.marker.moved_on), Tally::default());
     let mut savings = None;
     let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();

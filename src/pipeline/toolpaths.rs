@@ -50,7 +50,7 @@ pub(super) struct Linking<'t, 'a> {
 impl<'a> Toolpaths<'a> {
     /// Those of a job over a marker; none is made yet.
     pub(super) fn new(marker: &'a Marker, job: &'a Job) -> Self {
-        let home = plan::home(job);
+        let home = plan::home_over(marker.moved_on, job);
         if job.mode == Mode::Frame {
             let frame = frame(marker, home, job);
             assert_sound("frame", || check::toolpath(&frame));

@@ -19,7 +19,7 @@ mod spline;
 mod timing;
 
 pub use certify::{Peak, Peaks};
-pub use planner::{Planner, home};
+pub use planner::{Planner, home, home_over};
 pub use run::Cut;
 
 use crate::diagnostic::Diagnostic;

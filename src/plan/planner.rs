@@ -38,6 +38,12 @@ impl<'a> Planner<'a> {
         Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences, station: 0 }
     }
 
+    /// The same over cloth that was moved on before, mm.
+    #[must_use]
+    pub fn over(self, moved_on: u32) -> Self {
+        Self { station: moved_on, ..self }
+    }
+
     /// The timed motion of a toolpath whose runs were solved.
     pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
         let mut motion = self.begin([toolpath.piece, toolpath.part]);
@@ -252,8 +258,13 @@ fn yawed(pose: Pose, job: &Job) -> Pose {
     Pose { c: Rotation(pose.c.0 + job.profile.knife.yaw()), ..pose }
 }
 
-/// The pose at which programs start.
-pub fn home(job: &Job) -> Pose {
+/// The pose at which programs start, over cloth that was moved on by so many mm before.
+pub fn home_over(moved_on: u32, job: &Job) -> Pose {
     let [x, y, c] = job.profile.home;
-    Pose::new(x, y, rad(c))
+    Pose::new(x + f64::from(moved_on), y, rad(c))
+}
+
+/// The same over cloth that lies still.
+pub fn home(job: &Job) -> Pose {
+    home_over(0, job)
 }

@@ -100,7 +100,7 @@ pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
 
 /// Judges positions without time, as the target `gcode` writes them, against what must be cut.
 pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground: &Ground, job: &Job) -> Verdict {
-    let mut places = Places::new(program, &job.profile);
+    let mut places = Places::new(program, ground.reference.marker.moved_on, &job.profile);
     let rounding = Places::rounding(&job.profile);
     let judge = Judge::new(ground, declared, &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));

@@ -196,13 +196,52 @@ fn steps_of_a_controller_tell_how_far_or_are_refused() {
     room.says("compile file.cut -t gcode -p machine.toml", DONE);
 }
 
+/// The ways of the cloth at the start and at the end of a program.
+fn ways(room: &Room) -> [f64; 2] {
+    let rows = rows(&room.text("some.csv"));
+    [rows[0][ADVANCE], rows[rows.len() - 1][ADVANCE]]
+}
+
 #[test]
-fn pieces_that_are_left_are_cut_where_they_lie() {
+fn pieces_that_are_chosen_are_cut_on_cloth_that_lies_as_at_the_start() {
     let room = Room::with("row.cut", ROW);
-    for choice in ["--pieces 3", "--skip 1", "--resume-from 2"] {
+    for (choice, expected) in [("--pieces 3", [620.0; 2]), ("--skip 1", [310.0, 620.0]), ("--skip 2,3", [0.0; 2])] {
         room.says(&format!("compile row.cut --force -o some.csv {BITES} {choice}"), DONE);
         room.says(&format!("verify some.csv --source row.cut {BITES} {choice}"), DONE);
-        assert_eq!(rows(&room.text("some.csv")).last().expect("rows")[ADVANCE], 620.0, "{choice}");
+        assert_eq!(ways(&room), expected, "{choice}");
+        // At the start the first row tells the advance.
+        assert_eq!(rows(&room.text("some.csv"))[0][6], if expected[0] > 0.0 { 2.0 } else { 0.0 }, "{choice}");
+    }
+}
+
+#[test]
+fn a_run_goes_on_with_the_cloth_where_it_stopped() {
+    let room = Room::with("row.cut", ROW);
+    room.write("machine.toml", MACHINE.as_bytes());
+    for (start, expected) in
+        [("bite:1", [0.0, 620.0]), ("2", [310.0, 620.0]), ("bite:2", [310.0, 620.0]), ("bite:3", [620.0; 2])]
+    {
+        let options = format!("-p machine.toml --resume-from {start}");
+        for program in ["some.csv", "some.ngc"] {
+            room.says(&format!("compile row.cut --force -o {program} {options}"), DONE);
+            room.says(&format!("verify {program} --source row.cut {options}"), DONE);
+        }
+        assert_eq!(ways(&room), expected, "{start}");
+        let advances = rows(&room.text("some.csv")).iter().filter(|row| row[6] == 2.0).count();
+        assert_eq!(advances, ((expected[1] - expected[0]) / 310.0) as usize, "{start}: it stands where it begins");
+    }
+    // The cloth stands elsewhere than the program begins.
+    room.says("verify some.ngc --source row.cut -p machine.toml --resume-from bite:2", FAULTY);
+    let said = room.says(&format!("compile row.cut {BITES} --resume-from bite:4"), FAULTY);
+    assert!(said.contains("there is no bite 4") && said.contains("the marker is cut in 3 windows"), "{said}");
+    let said = room.says("compile row.cut --resume-from bite:1 -o whole.csv", DONE);
+    assert!(!said.contains("bites  "), "{said}");
+    let said = room.says("compile row.cut --resume-from bite:2", FAULTY);
+    assert!(said.contains("the cloth lies still: bite.length_mm"), "{said}");
+    for mode in ["--frame", "--dry-run"] {
+        room.says(&format!("compile row.cut --force -o some.csv {BITES} {mode}"), DONE);
+        let farthest = rows(&room.text("some.csv")).iter().map(|row| row[1]).fold(0.0, f64::max);
+        assert!(farthest < 320.0, "{mode}: {farthest}");
     }
 }
 

@@ -56,9 +56,9 @@ pub(super) struct Program<'a> {
 impl<'a> Program<'a> {
     pub(super) fn new(context: &Context<'a>) -> Self {
         let job = context.job;
-        let [x, y, c] = job.profile.home;
-        let (pose, source) = (Pose::new(x, y, rad(c)), context.source.name());
-        Self { job, source, text: Vec::new(), pose, station: 0, lines: 0, moves: 0, pace: Pace::new(job) }
+        let ([x, y, c], station) = (job.profile.home, context.marker.moved_on);
+        let (pose, source) = (Pose::new(x + f64::from(station), y, rad(c)), context.source.name());
+        Self { job, source, text: Vec::new(), pose, station, lines: 0, moves: 0, pace: Pace::new(job) }
     }
 
     /// What comes before the first move.

@@ -63,6 +63,7 @@
 //! - A `junction` is a short way about which cuts of several parts cross; in a toolpath the word stands behind the end of a
 //!   chord about which that is so.
 //! - `near` is a stretch of a cut of that piece beside which one around another part runs.
+//! - `moved-on` behind the unit of a marker is how far a conveyor has moved the cloth on before, mm.
 //! - How much less is cut for all common edges, a mere figure, is not printed.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.

@@ -13,7 +13,8 @@ use crate::units::number::exact;
 /// The text of a marker; [`read_marker`](super::read_marker) reads it back.
 pub fn print_marker(marker: &Marker) -> String {
     let mut out = String::new();
-    line(&mut out, format_args!("marker unit-mm {}", exact(marker.unit)));
+    let moved = if marker.moved_on > 0 { format!(" moved-on {}", marker.moved_on) } else { String::new() };
+    line(&mut out, format_args!("marker unit-mm {}{moved}", exact(marker.unit)));
     for piece in &marker.pieces {
         print_piece(&mut out, marker, piece);
     }

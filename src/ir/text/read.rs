@@ -38,6 +38,9 @@ pub fn read_marker(text: &str) -> Read<Marker> {
     head.expect("marker")?;
     head.expect("unit-mm")?;
     marker.unit = head.number()?;
+    if head.has("moved-on") {
+        marker.moved_on = head.whole("how far the cloth was moved on, mm")?;
+    }
     head.end()?;
     while let Some(mut line) = lines.take() {
         match line.word(LINES)? {

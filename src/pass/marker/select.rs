@@ -18,11 +18,12 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     let written = |numbers: &Option<Numbers>| numbers.iter().flat_map(Numbers::written).collect::<Vec<_>>();
-    let flags = [
-        ("--pieces", written(&selection.pieces)),
-        ("--skip", written(&selection.skip)),
-        ("--resume-from", selection.resume_from.iter().map(|start| start.number).collect()),
-    ];
+    let begun = match selection.resume_from {
+        Some(Start::Piece { number, .. }) => vec![number],
+        Some(Start::Bite(_)) | None => Vec::new(),
+    };
+    let flags =
+        [("--pieces", written(&selection.pieces)), ("--skip", written(&selection.skip)), ("--resume-from", begun)];
     let mut unknown = false;
     for (flag, numbers) in flags {
         for number in numbers {
@@ -38,32 +39,15 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     if unknown {
         return;
     }
-    let resumed = selection.resume_from.map(|Start { number, copy }| {
-        marker.pieces.iter().position(|piece| piece.number == number && piece.copy.max(1) == copy).ok_or(copy)
-    });
-    let resumed = match resumed.transpose() {
-        Ok(resumed) => resumed,
-        Err(copy) => {
-            let message = format!("--resume-from: there is no copy {copy}");
-            let hint = format!("the marker is cut {} times: sheet.copies", job.profile.sheet.copies);
-            diagnostics.push(Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, message).hint(hint));
+    let first = match selection.resume_from.map(|start| place(start, marker, job)).transpose() {
+        Ok(first) => first.unwrap_or(0),
+        Err(finding) => {
+            diagnostics.push(finding);
             return;
         }
     };
-    let first = resumed.unwrap_or(0);
     let all = marker.pieces.len();
-    let mut place = 0..;
-    // The cloth is moved on as far before the pieces that are left.
-    let mut moved = 0;
-    marker.pieces.retain_mut(|piece| {
-        let is_kept = place.next().is_some_and(|i| i >= first) && selection.has(piece.number);
-        moved += piece.events.iter().map(|event| event.kind.bite()).sum::<u32>();
-        if is_kept && moved > 0 {
-            piece.events.retain(|event| event.kind.bite() == 0);
-            piece.events.insert(0, Event { kind: toolpath::Event::Bite(std::mem::take(&mut moved)), span: piece.span });
-        }
-        is_kept
-    });
+    keep(marker, first, job);
     if !marker.pieces.iter().any(cuts) {
         let message = format!("none of the {all} pieces is left to cut");
         diagnostics.push(
@@ -71,6 +55,55 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
                 .hint("--pieces, --skip and --resume-from act together: leave one out, or change its numbers"),
         );
     }
+}
+
+/// The piece that a run begins with.
+fn place(start: Start, marker: &Marker, job: &Job) -> Result<usize, Diagnostic> {
+    let refused = |message: String, hint: String| Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, message).hint(hint);
+    match start {
+        Start::Piece { number, copy } => {
+            let found = marker.pieces.iter().position(|p| p.number == number && p.copy.max(1) == copy);
+            found.ok_or_else(|| {
+                let hint = format!("the marker is cut {} times: sheet.copies", job.profile.sheet.copies);
+                refused(format!("--resume-from: there is no copy {copy}"), hint)
+            })
+        }
+        Start::Bite(number) => {
+            let stations = marker.stations();
+            let begins = |&i: &usize| i == 0 || stations[i] != stations[i - 1];
+            let windows: Vec<usize> = (0..stations.len()).filter(begins).collect();
+            windows.get(number as usize - 1).copied().ok_or_else(|| {
+                let hint = match job.profile.bite.length_mm {
+                    Some(_) => format!("the marker is cut in {} windows", windows.len()),
+                    None => "the cloth lies still: bite.length_mm".to_owned(),
+                };
+                refused(format!("--resume-from: there is no bite {number}"), hint)
+            })
+        }
+    }
+}
+
+/// Keeps the pieces from the `first` one on that are chosen. When a run goes on, the cloth lies as it does when its first piece is
+/// cut; else it is moved on before the pieces that are left by all that lies before them.
+fn keep(marker: &mut Marker, first: usize, job: &Job) {
+    let Marker { pieces, moved_on, .. } = marker;
+    let (mut place, mut moved) = (0.., 0);
+    pieces.retain_mut(|piece| {
+        let i = place.next().unwrap_or(0);
+        moved += piece.events.iter().map(|event| event.kind.bite()).sum::<u32>();
+        if i == first && job.selection.resume_from.is_some() {
+            *moved_on = std::mem::take(&mut moved);
+        }
+        let is_kept = i >= first && job.selection.has(piece.number);
+        if is_kept {
+            piece.events.retain(|event| event.kind.bite() == 0);
+            if moved > 0 {
+                let kind = toolpath::Event::Bite(std::mem::take(&mut moved));
+                piece.events.insert(0, Event { kind, span: piece.span });
+            }
+        }
+        is_kept
+    });
 }
 
 /// Whether anything of a piece is cut or drilled.

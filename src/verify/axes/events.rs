@@ -30,8 +30,9 @@ pub(in crate::verify) struct Events {
     asked: Vec<Asked>,
     /// How many of them were told.
     told: usize,
-    /// How far the cloth was moved on so far, mm; `None` where the machine has no conveyor.
-    station: Option<u32>,
+    /// How far the cloth was moved on so far, mm.
+    station: u32,
+    has_conveyor: bool,
     wrong: f64,
     worst: Worst,
 }
@@ -41,27 +42,23 @@ impl Events {
         let asked = asked(reference.marker).zip(&reference.events);
         let asked = asked.map(|((number, block), &rank)| Asked { number, block, rank });
         let asked = asked.filter(|asked| asked.number > 0).collect();
-        let station = profile.bite.length_mm.map(|_| 0);
-        Self { asked, told: 0, station, wrong: 0.0, worst: Worst::new(&rules::EVENTS, Some(0.0)) }
+        let (station, has_conveyor) = (reference.marker.moved_on, profile.bite.length_mm.is_some());
+        Self { asked, told: 0, station, has_conveyor, wrong: 0.0, worst: Worst::new(&rules::EVENTS, Some(0.0)) }
     }
 
     /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is
     /// one too many.
     pub(in crate::verify) fn see(&mut self, row: &Row, told: &mut Vec<Seen>) {
-        let moved = row.station.wrapping_sub(self.station.unwrap_or(0));
-        let is_forwards = self.station.is_some_and(|station| row.station > station);
-        if self.station.is_some() {
-            self.station = Some(row.station);
+        let before = std::mem::replace(&mut self.station, row.station);
+        if row.event == 0 && row.station == before {
+            return; // as nearly all
         }
-        if moved != 0 && !(is_forwards && row.event == ADVANCE && !row.knife && row.drill == 0) {
-            self.wrong += 1.0;
-            self.worst.see(self.wrong, || row.sighting());
+        let is_up = !row.knife && row.drill == 0;
+        let asked = self.asked.get(self.told).filter(|asked| asked.number == row.event && !row.knife);
+        if self.has_conveyor && row.event == ADVANCE && row.station > before && is_up {
             return;
         }
-        if row.event == 0 || moved != 0 {
-            return;
-        }
-        if let Some(asked) = self.asked.get(self.told).filter(|asked| asked.number == row.event && !row.knife) {
+        if let Some(asked) = asked.filter(|_| row.station == before) {
             self.told += 1;
             told.push(Seen { tick: row.tick, rank: asked.rank, place: row.sighting() });
         } else {

@@ -19,7 +19,7 @@ pub(crate) fn setpoints(marker: &Marker, job: &Job) -> Vec<u8> {
     let source = Source::new("none", Vec::new()).expect("small");
     let context = Context { source: &source, job, marker };
     let mut out = Cursor::new(Vec::new());
-    let mut planner = Planner::new(job);
+    let mut planner = Planner::new(job).over(marker.moved_on);
     (SETPOINTS.head)(&context, &mut out).expect("memory takes it");
     for toolpath in super::toolpaths(marker, job) {
         let cuts = plan::solve(&toolpath, job).unwrap_or_else(|refused| panic!("{refused:?}"));

@@ -106,7 +106,8 @@ pub(in crate::verify) struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
-    pub(in crate::verify) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
+    /// Those of a program over cloth that was moved on before, mm.
+    pub(in crate::verify) fn new(input: &'a mut dyn BufRead, moved_on: u32, profile: &'a MachineProfile) -> Self {
         let [x, y, c_deg] = profile.home;
         let now = Row {
             tick: 0,
@@ -117,7 +118,7 @@ impl<'a> Places<'a> {
             drill: 0,
             event: 0,
             block: 0,
-            station: 0,
+            station: moved_on,
             line: 1,
         };
         let texts = texts(profile);
