@@ -1,7 +1,8 @@
 //! Target `halrun`: the `.hal` file that plays the rows of the target `hal` on `LinuxCNC`'s real-time layer.
 //!
 //! It expects the rows beside it under the name that they have by default. The signals `x-pos`, `y-pos`, `c-pos`,
-//! `knife`, `drill`, `event` and `block`, on a conveyor `advance-mm`, are what the file of the machine connects to its drives and outputs.
+//! `knife`, `drill`, `event` and `block`, and `advance-mm` on a conveyor, are what the file of the machine connects to
+//! its drives and outputs.
 
 use std::io;
 use std::path::Path;

@@ -142,7 +142,7 @@ impl<'a> File<'a> {
         self.block(match event.kind {
             toolpath::Event::Stop => "M01",
             // Coordinates stay those of the marker: whoever reads the file counts the bites.
-            toolpath::Event::Advance | toolpath::Event::Bite(_) => "M69",
+            toolpath::Event::Advance | toolpath::Event::AdvanceBy(_) => "M69",
         });
     }
 

@@ -28,7 +28,7 @@ const ADVANCE_BYTES: usize = 4;
 const FIELDS: &str = "('t_s', '<f8'), ('x_mm', '<f8'), ('y_mm', '<f8'), ('c_deg', '<f8'), \
                       ('knife', '|u1'), ('drill', '|u1'), ('event', '|u1'), ('block', '<u4')";
 
-/// The same of a way of the cloth.
+/// Field of the way of the cloth.
 const ADVANCE_FIELD: &str = ", ('advance_mm', '<u4')";
 
 /// Names and types of the fields of a program, and the bytes of its records.

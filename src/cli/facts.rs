@@ -144,7 +144,7 @@ fn events(marker: &Marker) -> Vec<Event> {
 fn name(event: toolpath::Event) -> &'static str {
     match event {
         toolpath::Event::Stop => "stop",
-        toolpath::Event::Advance | toolpath::Event::Bite(_) => "advance",
+        toolpath::Event::Advance | toolpath::Event::AdvanceBy(_) => "advance",
     }
 }
 

@@ -92,7 +92,7 @@ pub(super) fn text(pieces: &[Timed]) -> String {
 fn asked_for(event: Event) -> &'static str {
     match event {
         Event::Stop => "stop",
-        Event::Advance | Event::Bite(_) => "advance",
+        Event::Advance | Event::AdvanceBy(_) => "advance",
     }
 }
 

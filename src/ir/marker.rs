@@ -31,7 +31,7 @@ pub struct Marker {
     pub junctions: Vec<[Point; 2]>,
     /// The grid to which the file rounds, mm, as large as it lies on the table; 0 when there is none.
     pub unit: f64,
-    /// How far a conveyor has moved the cloth on when a program begins, mm.
+    /// Way of the cloth before a program begins, mm.
     pub moved_on: u32,
     /// What happens behind the last piece.
     pub closing: Vec<Event>,
@@ -394,10 +394,11 @@ impl Marker {
         self.extent_at(|part| Vector::new(-f64::from(stations[part]), 0.0))
     }
 
-    /// How far a conveyor has moved the cloth on when each piece is cut, mm.
+    /// Way of the cloth by the time that each piece is cut, mm.
     pub fn stations(&self) -> Vec<u32> {
         let mut station = self.moved_on;
-        let bites = self.pieces.iter().map(|piece| piece.events.iter().map(|event| event.kind.bite()).sum::<u32>());
+        let bites =
+            self.pieces.iter().map(|piece| piece.events.iter().map(|event| event.kind.advance_mm()).sum::<u32>());
         bites
             .map(|by| {
                 station += by;
@@ -406,7 +407,7 @@ impl Marker {
             .collect()
     }
 
-    /// The box around all pieces, each moved by that much.
+    /// Box around all pieces, each moved by a vector of its own.
     fn extent_at(&self, by: impl Fn(usize) -> Vector) -> Extent {
         let mut extent = Extent::EMPTY;
         for (part, piece) in self.pieces.iter().enumerate() {

@@ -64,7 +64,7 @@ pub struct Phase {
     pub duration: f64,
     /// Way of the tip in a cut, of the C axis in the air, mm.
     pub length: f64,
-    /// How far the cloth was moved on by its conveyor so far, mm: by so much a place lies farther on the cloth than on the table.
+    /// Way of the cloth so far, mm: X on the cloth less X on the table.
     pub station: u32,
 }
 
@@ -137,7 +137,7 @@ impl Kind {
     pub fn event(self) -> u8 {
         match self {
             Self::Event(Event::Stop) => 1,
-            Self::Event(Event::Advance | Event::Bite(_)) => 2,
+            Self::Event(Event::Advance | Event::AdvanceBy(_)) => 2,
             Self::Rest
             | Self::Wait
             | Self::Travel

@@ -53,16 +53,19 @@ impl Toolpath {
     /// Where the axes stand behind the last step over the cloth, as far as it is known before planning: where that is moved
     /// on, they come to stand as much farther on it.
     pub fn exit(&self) -> Pose {
-        let bites = self.steps.iter().map(|step| if let Step::Event(event) = step { event.bite() } else { 0 });
-        let moved = Vector::new(f64::from(bites.sum::<u32>()), 0.0);
+        let mut advance = 0;
         let end = |step: &Step| match step {
             Step::Run(run) => Some(run.end),
             Step::PlungeCut(plunge_cut) => Some(plunge_cut.pose),
             Step::Turn(air) | Step::Travel(air) => Some(air.to),
-            Step::Drill(_) | Step::Event(_) => None,
+            Step::Event(event) => {
+                advance += event.advance_mm();
+                None
+            }
+            Step::Drill(_) => None,
         };
         let pose = self.steps.iter().rev().find_map(end).unwrap_or(self.entry);
-        Pose { centre: pose.centre + moved, ..pose }
+        Pose { centre: pose.centre + Vector::new(f64::from(advance), 0.0), ..pose }
     }
 
     /// Its runs, in order.
@@ -295,12 +298,12 @@ pub enum Event {
     /// Advance the cloth, as far as the controller knows.
     Advance,
     /// Advance the cloth by so many mm: what comes behind it lies in the next bite of a conveyor.
-    Bite(u32),
+    AdvanceBy(u32),
 }
 
 impl Event {
-    /// How far it moves the cloth on, mm; 0 where nothing says so.
-    pub fn bite(self) -> u32 {
-        if let Self::Bite(mm) = self { mm } else { 0 }
+    /// Way of the cloth that it tells, mm; 0 where it tells none.
+    pub fn advance_mm(self) -> u32 {
+        if let Self::AdvanceBy(mm) = self { mm } else { 0 }
     }
 }

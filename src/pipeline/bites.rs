@@ -10,14 +10,14 @@ use crate::units::MM_PER_M;
 /// A window of a conveyor: what is cut while the cloth lies still.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bite {
-    /// How far the cloth has been moved on by then, mm.
+    /// Way of the cloth before it, mm.
     pub advance_mm: u32,
     /// Pieces that are cut.
     pub pieces: usize,
     /// Length of what is cut of them, m; what two windows have in common counts in both.
     #[serde(serialize_with = "micro")]
     pub cut_m: f64,
-    /// How long it takes, s; not known where nothing was planned.
+    /// Time, s; unknown where nothing was planned.
     #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
 }
@@ -29,7 +29,7 @@ pub(super) fn of(marker: &Marker, by_piece: &[([u32; 2], Spent)]) -> Vec<Bite> {
         return Vec::new();
     }
     let mut bites: Vec<Bite> = Vec::new();
-    // Of a part the place of its window.
+    // Window of each part.
     let mut of_part = Vec::with_capacity(stations.len());
     for (piece, &advance_mm) in marker.pieces.iter().zip(&stations) {
         if bites.last().is_none_or(|last| last.advance_mm != advance_mm) {

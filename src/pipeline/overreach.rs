@@ -66,8 +66,8 @@ fn may_leave(marker: &Marker, job: &Job) -> bool {
     !extent.is_empty() && off + job.profile.knife.reach() > Table::EDGE_MM
 }
 
-/// Both ends of the blade's reach in each open cut and each plunge, as far as they are off the table when the cloth was moved on
-/// by that, mm.
+/// Both ends of the blade's reach in each open cut and each plunge, as far as they are off the table; `station` is the way of the
+/// cloth by then, mm.
 fn ends<'a>(toolpath: &'a Toolpath, station: u32, table: &'a Table) -> impl Iterator<Item = Farthest> + 'a {
     let moved_on = Vector::new(f64::from(station), 0.0);
     let reached = |step: &Step| -> Option<([Point; 2], [Span; 2])> {

@@ -24,7 +24,7 @@ pub struct Planner<'a> {
     /// Time that the blade still needs until it is all the way up, s: it may be clear of the cloth before.
     rising: f64,
     differences: Differences,
-    /// How far the cloth was moved on, mm: runs have their places on the cloth, the axes theirs over the table.
+    /// Way of the cloth so far, mm: runs have their places on the cloth, the axes theirs over the table.
     station: u32,
 }
 
@@ -72,7 +72,7 @@ impl<'a> Planner<'a> {
                 }
                 Step::Event(event) => {
                     self.rise(&mut motion);
-                    self.station += event.bite();
+                    self.station += event.advance_mm();
                     self.hold(Kind::Event(*event), 0.0, 0, &mut motion);
                 }
             }

@@ -72,7 +72,7 @@ impl Cut {
         if self.ticks == 0 { self.end } else { self.poses.at(0, self.ticks) }
     }
 
-    /// Moves it beside its place, mm.
+    /// Moves the cut by a vector, mm.
     pub(super) fn shift(&mut self, by: Vector) {
         self.poses.shift(by);
         self.end.centre += by;

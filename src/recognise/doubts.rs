@@ -16,6 +16,8 @@ use crate::units::number::fixed;
 
 /// Parts with a seam line for each part without one, at least, and in all: fewer say nothing about the others.
 const MANY: usize = 3;
+/// Shortest open line outside of parts that is named, mm: marks and letters are shorter.
+pub(super) const SHORTEST_NAMED: f64 = 100.0;
 /// Decimals of lengths, mm.
 const DECIMALS: u32 = 1;
 /// The step in which `drawing.close_mm` is named, mm, and the rounding of a gap that is a multiple of it, in steps.
@@ -249,7 +251,7 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
     EdgeDoubt {
         lie: Lie::Outside,
         code: &code::DRAWING_OPEN_OUTLINES,
-        does: ["one open line goes outside from edge to edge", "open lines go outside from edge to edge"],
+        does: ["one open line outside joins two places of the edge", "open lines outside join two places of the edge"],
         hints: &[
             "if it is a part that has an edge in common, let the CAD draw it as one closed line",
             "`--cut-all` cuts every line but a frame",
@@ -311,7 +313,8 @@ fn from_edges(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics)
         lie => lie,
     };
     for &EdgeDoubt { lie, code, does, hints } in EDGE_DOUBTS {
-        let of_kind = |edge: &&EdgeLine| lie_of(edge) == lie && is_left(edge.line, edge.outline);
+        let is_named = |edge: &EdgeLine| lie != Lie::Outside || sheet.lines[edge.line].length >= SHORTEST_NAMED;
+        let of_kind = |edge: &&EdgeLine| lie_of(edge) == lie && is_left(edge.line, edge.outline) && is_named(edge);
         let edges: Vec<&EdgeLine> = sheet.from_edges.iter().filter(of_kind).collect();
         let Some(first) = edges.first() else { continue };
         let (begin, longest) = match edges.len() {

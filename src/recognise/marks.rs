@@ -255,7 +255,7 @@ pub(super) enum Lie {
     Divides,
     /// The same, between places where strokes of the outline meet: it may be the common edge of two parts.
     Between,
-    /// An open line goes from it to itself outside, longer than a notch: it may bound a part that has an edge in common.
+    /// An open line outside joins two places of it and is longer than a notch: it may bound a part that has an edge in common.
     Outside,
     /// An open line goes along it.
     Along,
@@ -306,9 +306,13 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
             on.iter().map(|&(_, outline)| outline).collect::<ArrayVec<_, MEETING>>()
         };
         let [starts, ends] = [of(&on[0]), of(&on[1])];
-        let both = starts.iter().find(|outline| ends.contains(outline));
-        let outline = *both.or(starts.first()).or(ends.first())?;
-        let lie = if both.is_some() { lie(*line, outline, search, work) } else { Lie::Ends };
+        let both = starts.iter().filter(|outline| ends.contains(outline));
+        let lies: ArrayVec<(usize, Lie), MEETING> =
+            both.map(|&outline| (outline, lie(*line, outline, search, work))).collect();
+        // Beside one of two parts that touch it may divide the other.
+        let inside = lies.iter().find(|(_, lie)| *lie != Lie::Outside);
+        let alone = || Some((*starts.first().or(ends.first())?, Lie::Ends));
+        let (outline, lie) = inside.or(lies.first()).copied().or_else(alone)?;
         Some(EdgeLine { line: *line, outline, lie })
     };
     let mut found: Vec<EdgeLine> = candidates.iter().filter_map(&mut edge_line).collect();

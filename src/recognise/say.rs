@@ -3,7 +3,7 @@
 use std::cell::{LazyCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::doubts::{self, finding};
+use super::doubts::{self, SHORTEST_NAMED, finding};
 use super::frame;
 use super::line::{Class, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::marks::{EdgeLine, Lie};
@@ -21,8 +21,6 @@ use crate::machine::plot::{Inner, PenUse};
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
-/// Shortest line outside all parts that is named, mm: shorter ones are letters and signs.
-const SHORTEST_NAMED: f64 = 100.0;
 /// Shortest line that may be an outline which the end of the file has cut short, mm.
 const SHORTEST_CUT_SHORT: f64 = 25.0;
 /// Closed lines in a part that make one doubt whether it is one.
@@ -264,7 +262,8 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     let is_told = |edge: &&EdgeLine| match edge.lie {
         Lie::Along => true,
         Lie::Outside => sheet.lines[edge.outline].is_cut,
-        _ => false,
+        Lie::Ends | Lie::Wide | Lie::Deep | Lie::Divides | Lie::Between => false,
+        Lie::Stands | Lie::Crosses | Lie::Letters | Lie::Sign => false,
     };
     told.extend(sheet.from_edges.iter().filter(is_told).map(|edge| edge.line));
     let is_long = |line: &Line| {

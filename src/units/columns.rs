@@ -89,7 +89,7 @@ pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
     records_of(input, &[fields]).map(|(count, _)| count)
 }
 
-/// The same of records with the fields of one of some lists: which list that is, too.
+/// Number of records of an array, and the index of the list of fields that its header has.
 ///
 /// # Errors
 ///

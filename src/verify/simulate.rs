@@ -132,7 +132,7 @@ pub(super) fn simulate(
         limits: Limits::new(profile, rounding),
         rest: Rest::new(reference, profile, rounding),
         table: Table::new(profile, rounding),
-        events: Events::new(reference, profile),
+        events: Events::new(reference),
         told: Vec::new(),
         block: judge.worsts().block,
         yaw_deg: profile.knife.yaw_deg,

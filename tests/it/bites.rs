@@ -72,9 +72,12 @@ fn nests_are_cut_in_the_fewest_windows_and_the_knife_stays_in_each() {
             assert!((least..=fewest(&reaches, length - 1.0)).contains(&windows), "{recipe:?}: {windows}, not {least}");
             let start = reaches.iter().map(|[from, _]| *from).fold(f64::INFINITY, f64::min);
             let rows = rows(std::str::from_utf8(&bytes).expect("text"));
+            let knife = &job.profile.knife;
             for row in rows.iter().filter(|row| row[4] == 1.0) {
-                let place = row[1] - start;
-                assert!((-1e-6..=length + 1e-6).contains(&place), "{recipe:?}, windows of {length}: {row:?}");
+                for reach in [knife.radius(), -knife.back()] {
+                    let place = row[1] + reach * row[3].to_radians().cos() - start;
+                    assert!((-1e-6..=length + 1e-6).contains(&place), "{recipe:?}, windows of {length}: {row:?}");
+                }
             }
             let mut ways: Vec<u32> = rows.iter().map(|row| row[ADVANCE] as u32).collect();
             ways.dedup();
@@ -122,11 +125,11 @@ fn a_program_that_moves_the_cloth_on_otherwise_is_refused() {
     room.says(&format!("compile row.cut {BITES} -o right.csv"), DONE);
     let text = room.text("right.csv");
     let head = text.lines().next().expect("a header").to_owned();
-    let damages: [(&str, &str, Damage); 9] = [
-        ("the last window a millimetre farther", "verify/", |rows| {
+    let damages: [(&str, &str, Damage); 11] = [
+        ("the last window a millimetre farther", "verify/events", |rows| {
             rows.iter_mut().filter(|row| row[ADVANCE] == 620.0).for_each(|row| row[ADVANCE] += 1.0);
         }),
-        ("the second window a millimetre less far", "verify/", |rows| {
+        ("the second window a millimetre less far", "verify/complete", |rows| {
             rows.iter_mut().filter(|row| row[ADVANCE] == 310.0).for_each(|row| row[ADVANCE] -= 1.0);
         }),
         ("two windows exchanged", "verify/events", |rows| {
@@ -146,7 +149,16 @@ fn a_program_that_moves_the_cloth_on_otherwise_is_refused() {
             let last = rows.len() - 1;
             rows[last][6] = 2.0;
         }),
-        ("all ways told as none", "verify/", |rows| rows.iter_mut().for_each(|row| row[ADVANCE] = 0.0)),
+        ("all ways told as none", "verify/complete", |rows| rows.iter_mut().for_each(|row| row[ADVANCE] = 0.0)),
+        ("all places on the cloth", "verify/table", |rows| {
+            for row in rows {
+                (row[1], row[ADVANCE]) = (row[1] + row[ADVANCE], 0.0);
+            }
+        }),
+        ("an advance behind the last cut", "verify/events", |rows| {
+            let last = rows.len() - 1;
+            (rows[last][6], rows[last][ADVANCE]) = (2.0, 4e6);
+        }),
         ("an advance with the knife down", "verify/events", |rows| {
             let at = rows.iter().position(|row| row[6] == 2.0).expect("an advance");
             rows[at][4] = 1.0;
@@ -162,9 +174,70 @@ fn a_program_that_moves_the_cloth_on_otherwise_is_refused() {
         assert!(said.contains(&format!("FAIL  {rule}")), "{name}: {said}");
     }
     // A machine without a conveyor does not move the cloth, and one with a conveyor must be told.
-    room.says("verify right.csv --source row.cut", FAULTY);
+    let said = room.says("verify right.csv --source row.cut", FAULTY);
+    assert!(said.contains("FAIL  verify/events"), "{said}");
     room.says("compile row.cut -o plain.csv", DONE);
-    room.says(&format!("verify plain.csv --source row.cut {BITES} --set table.x_mm=[-20,400]"), FAULTY);
+    let said = room.says(&format!("verify plain.csv --source row.cut {BITES}"), FAULTY);
+    assert!(said.contains("FAIL  verify/events") && said.contains("FAIL  verify/table"), "{said}");
+}
+
+/// One number of a record of three windows, wherever a target has the way of the cloth.
+#[test]
+fn records_that_tell_another_way_are_refused() {
+    let room = Room::with("row.cut", ROW);
+    for (program, head, size) in [("some.npy", 0, 43), ("some.counts", 1024, 24)] {
+        room.says(&format!("compile row.cut --force -o {program} {BITES}"), DONE);
+        let bytes = room.read(program);
+        let last = bytes.len() - size;
+        assert_eq!((last - head) % size, if head > 0 { 0 } else { (last - head) % size });
+        for at in [last, bytes.len() / 2 / size * size] {
+            let way = (at + size - 4)..(at + size);
+            // The middle of a file is amid a record of the array, whose head has another length.
+            let record = bytes.len() - (bytes.len() - way.end).div_ceil(size) * size;
+            let mut wrong = bytes.clone();
+            let told = u32::from_le_bytes(wrong[record - 4..record].try_into().expect("four bytes"));
+            assert!([0, 310, 620].contains(&told), "{program}: {told}");
+            for other in [told + 1, u32::MAX] {
+                wrong[record - 4..record].copy_from_slice(&other.to_le_bytes());
+                room.write("wrong.bin", &wrong);
+                let said = room.says(&format!("verify wrong.bin --source row.cut {BITES}"), FAULTY);
+                assert!(said.contains("FAIL  verify/events"), "{program}: {said}");
+            }
+        }
+    }
+}
+
+/// What a file asks for between its pieces is asked for in a conveyor's windows as well.
+#[test]
+fn stops_and_advances_of_a_file_keep_their_say() {
+    let room = Room::new();
+    let square = |number: u32, x: u32| {
+        let (a, b) = (x * 10, x * 10 + 1000);
+        format!("X{a}Y0*M14*X{b}Y0*X{b}Y1000*X{a}Y1000*X{a}Y0*M15*").replace("N*", &format!("N{number}*"))
+    };
+    let file = |middle: &str, end: &str| {
+        format!("H1*G71*N1*{}N2*{middle}{}N3*{}{end}M0*", square(1, 0), square(2, 360), square(3, 150))
+    };
+    for (middle, end, events, last) in [
+        ("M01*", "", "1,2", 360.0),
+        ("M01*M69*", "", "1,2", 150.0),
+        ("M69*", "M69*", "2,2", 475.0),
+        ("M69*M69*", "M69*M01*M69*", "2,2,1", 475.0),
+    ] {
+        room.write("file.cut", file(middle, end).as_bytes());
+        room.says("compile file.cut --force -o some.csv --set bite.length_mm=340", DONE);
+        room.says("verify some.csv --source file.cut --set bite.length_mm=340", DONE);
+        let rows = rows(&room.text("some.csv"));
+        let told: Vec<String> = rows.iter().filter(|row| row[6] > 0.0).map(|row| row[6].to_string()).collect();
+        assert_eq!((told.join(",").as_str(), rows[rows.len() - 1][ADVANCE]), (events, last), "{middle} {end}");
+    }
+    // What is left out needs no window, and what a file has at its end moves all off the table still.
+    room.says("compile file.cut --force -o some.csv --set bite.length_mm=340 --pieces 1", DONE);
+    assert_eq!(rows(&room.text("some.csv")).last().expect("rows")[ADVANCE], 475.0);
+    room.write("long.cut", ROW.replace("X9200", "X12200").as_bytes());
+    let said = room.says(&format!("compile long.cut {BITES}"), FAULTY);
+    assert!(said.contains("error[marker/bite]: piece 3 takes 614.9 mm"), "{said}");
+    room.says(&format!("compile long.cut {BITES} --skip 3"), DONE);
 }
 
 #[test]
@@ -185,9 +258,19 @@ fn steps_of_a_controller_tell_how_far_or_are_refused() {
     }
     room.write("wrong.ngc", text.replace("M68 E0 Q310", "m68 E0 Q310.0 (on)").as_bytes());
     room.says(verify, DONE);
-    room.write("wrong.toml", b"gcode.advance = [\"M64 P1\", \"M68 E0 Q#\"]\n");
-    let said = room.says("compile row.cut -t gcode -p wrong.toml", FAULTY);
-    assert!(said.contains("# behind its first step"), "{said}");
+    for (keys, expected) in [
+        (r#"gcode.advance = ["M64 P1", "M68 E0 Q#"]"#, "# behind its first step"),
+        (r#"gcode.advance = ["M64 P#"]"#, "M64 P#, where # is no value of an output"),
+        (r#"gcode.advance = ["M68 E# Q5"]"#, "where # is no value of an output"),
+        (
+            "gcode.advance = [\"M68 E0 Q#\"]\ngcode.knife_down = [\"M68 E0 Q5\"]\ngcode.knife_up = [\"M68 E0 Q0\"]",
+            "`gcode.knife_down` sets the output by which `gcode.advance` tells the way of the cloth",
+        ),
+    ] {
+        room.write("wrong.toml", keys.as_bytes());
+        let said = room.says("compile row.cut -t gcode -p wrong.toml", FAULTY);
+        assert!(said.contains(expected), "{said}");
+    }
     // A file that moves the cloth on, and does not say how far.
     room.write("file.cut", ROW.replace("N2*", "N2*M69*").as_bytes());
     room.write("still.toml", MACHINE.replace("400", "\"off\"").as_bytes());
@@ -257,6 +340,9 @@ fn a_table_and_a_conveyor_agree_and_other_machines_have_none() {
     assert!(said.contains("error[marker/bite]: piece 1 takes 314.8 mm along X"), "{said}");
     let said = room.says(&format!("compile row.cut {BITES} --set tool.kind=spray"), USAGE);
     assert!(said.contains("`tool.kind` is \"spray\""), "{said}");
+    room.write("marks.csv", b"x_mm,y_mm,found_x_mm,found_y_mm\n0,0,0,0\n900,0,900,0\n900,300,900,300\n0,300,0,300\n");
+    let said = room.says(&format!("compile row.cut {BITES} --map marks.csv"), FAULTY);
+    assert!(said.contains("error[marks/sheet]") && said.contains("moves it away from there"), "{said}");
     let said = room.says(&format!("flow row.cut -o plan {BITES}"), USAGE);
     assert!(said.contains("leave `bite.length_mm` out"), "{said}");
 }

@@ -165,7 +165,7 @@ fn a_resumed_program_cuts_the_parts_that_are_left_whole() {
     let parts = [[100, 100, 1000, 1000], [1000, 100, 2000, 1000], [100, 1000, 1000, 1900], [1000, 1000, 2000, 1900]];
     let source = rectangles(&parts, "");
     let all = made(&source, &Job::default()).report;
-    let selection = Selection { resume_from: Some(Start { number: 3, copy: 1 }), ..Selection::default() };
+    let selection = Selection { resume_from: Some(Start::Piece { number: 3, copy: 1 }), ..Selection::default() };
     let rest = made(&source, &Job { selection, ..Job::default() });
     assert!(rest.verdict.is_some_and(|verdict| verdict.passes()));
     let length = |report: &pipeline::Report| report.common.as_ref().map_or(0.0, |common| common.length_m);

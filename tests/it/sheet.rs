@@ -372,10 +372,10 @@ fn pieces_are_chosen_in_every_copy_and_stay_where_they_lie() {
     };
     assert_eq!(text(&some, 1), text(&all, 3));
     let mut resumed = job(&sheet);
-    resumed.selection.resume_from = Some(Start { number: 7, copy: 2 });
+    resumed.selection.resume_from = Some(Start::Piece { number: 7, copy: 2 });
     assert_eq!(of(&laid(&marker, &resumed).expect("sound")), [(7, 2), (3, 3), (7, 3)]);
     compiled(&marker, &resumed, "csv");
-    resumed.selection.resume_from = Some(Start { number: 7, copy: 4 });
+    resumed.selection.resume_from = Some(Start::Piece { number: 7, copy: 4 });
     assert!(laid(&marker, &resumed).is_none());
     for mode in [Mode::Dry, Mode::Frame] {
         compiled(&marker, &Job { mode, ..chosen.clone() }, "csv");

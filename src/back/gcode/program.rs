@@ -30,7 +30,7 @@ fn comment(text: &str) -> String {
     name.chars().take(NAME_CHARS).map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
-/// Steps with a number where they leave one open.
+/// Steps with a number in place of `#`.
 fn filled(steps: &[Step], blank: f64) -> Vec<Step> {
     steps.iter().map(|step| step.filled(blank)).collect()
 }
@@ -44,7 +44,7 @@ pub(super) struct Program<'a> {
     text: Vec<u8>,
     /// Where the axes stand over the cloth.
     pose: Pose,
-    /// How far the cloth was moved on, mm.
+    /// Way of the cloth so far, mm.
     station: u32,
     /// Numbers of lines that were given.
     lines: u64,
@@ -107,7 +107,7 @@ impl<'a> Program<'a> {
         match event {
             Event::Stop => self.order(&keys.stop, 0.0),
             Event::Advance => self.order(&keys.advance, 0.0),
-            Event::Bite(mm) => {
+            Event::AdvanceBy(mm) => {
                 self.order(&filled(&keys.advance, mm.into()), 0.0);
                 self.station += mm;
                 self.pose.centre.x += f64::from(mm);

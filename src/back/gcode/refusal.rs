@@ -79,12 +79,12 @@ fn unsaid_event(event: Event, job: &Job) -> Option<Diagnostic> {
             return Some(Diagnostic::new(&code::TARGET_REFUSED, message).hint(hint));
         }
         Event::Advance => ("gcode.advance", &keys.advance, "advances the cloth", "give its steps, such as [\"M1\"]"),
-        Event::Bite(_) if keys.advance.first().is_some_and(|step| !step.has_blank()) => {
+        Event::AdvanceBy(_) if keys.advance.first().is_some_and(|step| !step.has_blank()) => {
             let message = "`gcode.advance` does not say how far, but the marker is cut in bites";
             let hint = "put # where the mm belong, as in [\"M68 E0 Q#\", \"M64 P1\", \"M66 P1 L3 Q60\"]";
             return Some(Diagnostic::new(&code::TARGET_REFUSED, message).hint(hint));
         }
-        Event::Bite(_) => {
+        Event::AdvanceBy(_) => {
             let hint = "give its steps, such as [\"M68 E0 Q#\", \"M64 P1\", \"M66 P1 L3 Q60\"]";
             ("gcode.advance", &keys.advance, "is cut in bites", hint)
         }

@@ -126,7 +126,7 @@ impl Group<'_> {
                 let title = match event {
                     Event::Stop => "stop: wait for the operator".to_owned(),
                     Event::Advance => "advance the cloth".to_owned(),
-                    Event::Bite(mm) => format!("advance the cloth by {mm} mm"),
+                    Event::AdvanceBy(mm) => format!("advance the cloth by {mm} mm"),
                 };
                 self.cuts.push_str(&data.titled("event", &title));
             }

@@ -91,7 +91,7 @@ fn refuse_others(job: &Job) -> anyhow::Result<()> {
     }
     if job.profile.bite.length_mm.is_some() {
         return Err(failure(
-            "`bite.length_mm` has the cloth lie still while it is cut, and heads over a conveyor cut it as it moves",
+            "`bite.length_mm` cuts cloth that lies still, and heads over a conveyor cut cloth that moves",
             "leave `bite.length_mm` out",
         ));
     }

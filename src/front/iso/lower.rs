@@ -176,6 +176,7 @@ impl Lowering<'_> {
         }
         if let Some((code, size, span)) = self.bite
             && size * self.unit.mm() < extent.max.x
+            && self.job.profile.bite.length_mm.is_none()
         {
             self.tally.ignore(code, "bite size", span);
         }

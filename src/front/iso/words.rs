@@ -15,7 +15,7 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`M60` to `M67`", about: "the piece at 95, 90 ... 60 percent of the speed" },
     Word { words: "`M01`", about: "event 1 (stop), before the next piece" },
     Word { words: "`M69`", about: "event 2 (advance), before the next piece" },
-    Word { words: "`Z`", about: "bite size: no effect when it is longer than the marker, else reported" },
+    Word { words: "`Z`", about: "bite size: no effect when it is longer than the marker or `bite.length_mm` is given, else reported" },
     Word { words: "`M17`; `M18`", about: "next plunge without heel overlap; next lift without front overlap" },
     Word { words: "`M19`", about: "knife down: a slit; knife up: no overlaps at the next plunge and lift. A stroke of at most 15 mm that starts on an outline of its piece is a slit without it, too; one that the tip of a slit divides is the crossbar of a T" },
     Word { words: "`M46`", about: "lift and plunge at the next corner" },

@@ -44,7 +44,7 @@ impl Poses {
         }
     }
 
-    /// The same beside their places, mm.
+    /// Moves all poses by a vector, mm.
     pub fn shift(&mut self, by: Vector) {
         let shifted = |pose: &mut Pose| pose.centre += by;
         match self {

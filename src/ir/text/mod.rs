@@ -63,11 +63,11 @@
 //! - A `junction` is a short way about which cuts of several parts cross; in a toolpath the word stands behind the end of a
 //!   chord about which that is so.
 //! - `near` is a stretch of a cut of that piece beside which one around another part runs.
-//! - `moved-on` behind the unit of a marker is how far a conveyor has moved the cloth on before, mm.
+//! - `moved-on` behind the unit of a marker has the way of the cloth before the program, mm.
 //! - How much less is cut for all common edges, a mere figure, is not printed.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.
-//! - An `event bite` has how far the cloth is moved on behind it, whole mm.
+//! - `event advance-by` has the way of the cloth behind it, whole mm.
 //! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the
 //!   same past the end.
 //! - `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
@@ -117,9 +117,9 @@ const ENDS: [(&str, End); 4] = [
 const SIDES: [(&str, Side); 4] =
     [("waste", Side::Waste), ("part", Side::Part), ("gap", Side::Gap), ("contour", Side::Contour)];
 
-/// Those that say no more; a bite has its length behind the word.
+/// Events of one word; an advance by a way has that behind its word, mm.
 const EVENTS: [(&str, Event); 2] = [("stop", Event::Stop), ("advance", Event::Advance)];
-const BITE: &str = "bite";
+const ADVANCE_BY: &str = "advance-by";
 
 #[cfg(test)]
 mod tests;

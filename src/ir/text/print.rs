@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{BITE, ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
+use super::{ADVANCE_BY, ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{CommonEdge, Cut, Label, Marker, NearEdge, NotchKind, OutlineNotch, Piece};
@@ -19,7 +19,7 @@ pub fn print_marker(marker: &Marker) -> String {
         print_piece(&mut out, marker, piece);
     }
     for event in &marker.closing {
-        line(&mut out, format_args!("closing {}{}", asked(event.kind), At(event.span)));
+        line(&mut out, format_args!("closing {}{}", event_words(event.kind), At(event.span)));
     }
     for cut in &marker.cuts {
         print_cut(&mut out, marker, cut);
@@ -41,7 +41,7 @@ pub fn print_marker(marker: &Marker) -> String {
 fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     line(out, format_args!("piece {}{}{}", piece.number, OfCopy(piece.copy), At(piece.span)));
     for event in &piece.events {
-        line(out, format_args!("event {}{}", asked(event.kind), At(event.span)));
+        line(out, format_args!("event {}{}", event_words(event.kind), At(event.span)));
     }
     if let Some(feed) = piece.feed {
         line(out, format_args!("feed-mm-s {}", exact(feed)));
@@ -144,7 +144,7 @@ pub fn print_toolpath(toolpath: &Toolpath) -> String {
             Step::Drill(drill) => {
                 line(&mut out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
             }
-            Step::Event(event) => line(&mut out, format_args!("event {}", asked(*event))),
+            Step::Event(event) => line(&mut out, format_args!("event {}", event_words(*event))),
         }
     }
     out
@@ -279,10 +279,10 @@ impl Display for Asked {
     }
 }
 
-/// The words of an event.
-fn asked(event: Event) -> String {
+/// Words of an event.
+fn event_words(event: Event) -> String {
     match event {
-        Event::Bite(mm) => format!("{BITE} {mm}"),
+        Event::AdvanceBy(mm) => format!("{ADVANCE_BY} {mm}"),
         Event::Stop | Event::Advance => word(&EVENTS, event).to_owned(),
     }
 }

@@ -4,7 +4,7 @@ use std::str::{FromStr, SplitWhitespace};
 
 use thiserror::Error;
 
-use super::{BITE, ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
+use super::{ADVANCE_BY, ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{
@@ -39,7 +39,7 @@ pub fn read_marker(text: &str) -> Read<Marker> {
     head.expect("unit-mm")?;
     marker.unit = head.number()?;
     if head.has("moved-on") {
-        marker.moved_on = head.whole("how far the cloth was moved on, mm")?;
+        marker.moved_on = head.whole("the way of the cloth, mm")?;
     }
     head.end()?;
     while let Some(mut line) = lines.take() {
@@ -158,16 +158,16 @@ fn range(line: &Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<Ra
     marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))
 }
 
-/// What is asked for.
-fn asked(line: &mut Line<'_>) -> Read<toolpath::Event> {
-    if line.has(BITE) {
-        return Ok(toolpath::Event::Bite(line.whole("how far the cloth is moved on, mm")?));
+/// An event.
+fn event_kind(line: &mut Line<'_>) -> Read<toolpath::Event> {
+    if line.has(ADVANCE_BY) {
+        return Ok(toolpath::Event::AdvanceBy(line.whole("the way of the cloth, mm")?));
     }
     line.choice(&EVENTS)
 }
 
 fn event(line: &mut Line<'_>) -> Read<Event> {
-    Ok(Event { kind: asked(line)?, span: line.span()? })
+    Ok(Event { kind: event_kind(line)?, span: line.span()? })
 }
 
 fn outline_notch(line: &mut Line<'_>) -> Read<OutlineNotch> {
@@ -238,7 +238,7 @@ pub fn read_toolpath(text: &str) -> Read<Toolpath> {
                 let (at, tool, span) = drill(&mut line)?;
                 Step::Drill(toolpath::Drill { at, tool, span })
             }
-            "event" => Step::Event(asked(&mut line)?),
+            "event" => Step::Event(event_kind(&mut line)?),
             _ => return Err(line.error("run, stab, turn, travel, drill or event")),
         };
         line.end()?;

@@ -1,9 +1,9 @@
 //! What the steps of a profile may be, list by list and against each other: whoever reads a program must know what is
 //! down by the first step of each list, and what is put down must be lifted again.
 
-use super::step::{Step, WHAT_ACTS};
+use super::step::{Parameter, Step, WHAT_ACTS};
 use super::text::{self, Line, ProgramEnd};
-use super::words::Flaw;
+use super::words::{Flaw, Number};
 use crate::machine::MachineProfile;
 use crate::machine::fault::Fault;
 
@@ -39,7 +39,7 @@ fn lists(profile: &MachineProfile) -> [List<'_>; 6] {
         list("gcode.drill_down", &keys.drill_down, tool(true, profile.drill.dwell(), "drill.dwell_ms")),
         list("gcode.drill_up", &keys.drill_up, tool(true, knife.lift(), "knife.lift_ms")),
         list("gcode.stop", &keys.stop, Of::Pause),
-        list("gcode.advance", &keys.advance, Of::Pause),
+        list(ADVANCE, &keys.advance, Of::Pause),
     ]
 }
 
@@ -62,6 +62,7 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     if faults.is_empty() {
         faults = mixed_up(&lists, &footer);
         faults.extend(lasting(&lists));
+        faults.extend(shared_output(&lists));
         faults.extend(unasked(&lists, [("gcode.header", header), ("gcode.footer", footer)]));
         // Of what one key does wrong the first is enough.
         let mut told: Vec<String> = Vec::new();
@@ -79,11 +80,7 @@ fn flaw_of(list: &List) -> Option<Flaw> {
     let is_wait = |step: &&Step| matches!(step, Step::Code { m, .. } if WAITS.contains(m));
     let is_needed = matches!(list.key, "gcode.knife_down" | "gcode.knife_up");
     match list.of {
-        // The first step of an advance may tell how far; those behind it start and wait for it.
-        Of::Pause if list.key == "gcode.advance" && !list.steps.iter().skip(1).any(Step::has_blank) => None,
-        Of::Pause if list.key == "gcode.advance" => {
-            Some(Flaw::new("# behind its first step", "the first one tells how far, as in [\"M68 E0 Q#\", \"M64 P1\"]"))
-        }
+        Of::Pause if list.key == ADVANCE => way_of_cloth(list.steps),
         Of::Tool { is_drill: false, .. } | Of::Pause if list.steps.iter().any(Step::has_blank) => Some(Flaw::new(
             "#, but means no drill",
             "# stands in `gcode.drill_down`, `gcode.drill_up` and `gcode.advance`",
@@ -111,6 +108,34 @@ fn flaw_of(list: &List) -> Option<Flaw> {
             })
         }
     }
+}
+
+/// The list that may tell the way of the cloth.
+const ADVANCE: &str = "gcode.advance";
+
+/// A way of the cloth that is told otherwise than as the value of an analog output, by the first step: those behind it start
+/// the conveyor and wait for it.
+fn way_of_cloth(steps: &[Step]) -> Option<Flaw> {
+    let hint = "the first one tells the mm of an advance, as in [\"M68 E0 Q#\", \"M64 P1\"]";
+    let (first, others) = steps.split_first()?;
+    if others.iter().any(Step::has_blank) {
+        return Some(Flaw::new("# behind its first step", hint));
+    }
+    let is_value = |word: &Parameter| word.letter == 'Q' || word.number != Number::Blank;
+    let is_output = matches!(first, Step::Code { m: 68, parameters } if parameters.iter().all(is_value));
+    (first.has_blank() && !is_output).then(|| Flaw::new(format!("{first}, where # is no value of an output"), hint))
+}
+
+/// Lists that set the analog output by which the way of the cloth is told.
+fn shared_output(lists: &[List]) -> Vec<Fault> {
+    let [others @ .., advance] = lists else { return Vec::new() };
+    let Some(told) = advance.steps.first().filter(|step| step.has_blank()).and_then(what) else { return Vec::new() };
+    let sets = |list: &&List| list.steps.iter().any(|step| what(step) == Some(told));
+    let fault = |list: &List| {
+        let message = format!("`{}` sets the output by which `{ADVANCE}` tells the way of the cloth", list.key);
+        Fault::of_range(&[list.key, ADVANCE], message, "give the way of the cloth an analog output of its own")
+    };
+    others.iter().filter(sets).map(fault).collect()
 }
 
 /// What a step acts upon.

@@ -103,7 +103,7 @@ const WAIT_MAX: f64 = 4.0;
 const NUMBER_MAX: f64 = 1e6;
 
 impl Step {
-    /// The same with a number in place of `#`: that of a drill, or how far the cloth is moved on, mm.
+    /// The step with a number in place of `#`: that of a drill, or the way of the cloth in mm.
     #[must_use]
     pub fn filled(&self, blank: f64) -> Self {
         let number = |number: Number| Number::Plain(number.of(blank));

@@ -1,17 +1,19 @@
-//! Bite: windows of a conveyor, and how far the cloth is moved on between them.
+//! Bite: windows of a conveyor, and the ways of the cloth between them.
 //!
 //! Needs: the pieces on the table, what lies within a part before it. Leaves true: without `bite.length_mm` everything; else
 //! every piece lies in one window with all that the blade reaches beyond its lines, windows come in the order of their places
-//! along X, and the first piece of each but the first has the way of the cloth before it, in whole mm. Within a window pieces
-//! keep their order.
+//! along X, and before the first piece of each stands the way of the cloth, in whole mm. Within a window pieces keep their
+//! order. What is asked of the operator stays between the same pieces.
 //!
-//! A window takes every piece that ends in it, and the next one begins where the first of the others does. As no piece is
-//! split, no other choice needs fewer windows: one that begins farther back ends farther back. Where the file moves the cloth
-//! on by itself (M69) its own windows are kept, and so is the place of every stop.
+//! A window takes every piece that ends in it, and the next one begins where the first of the others does. As no piece is split,
+//! no other choice needs fewer windows where nothing is asked between pieces: one that begins farther back ends farther back.
+//! Where the file moves the cloth on by itself (M69) its own windows are kept.
+
+use std::ops::Range;
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Extent;
+use crate::geom::{Extent, Vector};
 use crate::ir::marker::{Event, Marker, Notch, Piece};
 use crate::ir::toolpath;
 use crate::machine::Job;
@@ -22,46 +24,59 @@ pub(super) const PASS: MarkerPass =
 
 /// Decimals of lengths in messages, mm.
 const DECIMALS: u32 = 1;
+/// Distance by which a piece may begin before its window, mm: rounding of the sum of a place and a way.
+const PLACE_EPSILON: f64 = 1e-6;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let Some(length) = job.profile.bite.length_mm else { return };
-    let reach = job.profile.knife.reach();
-    let spans: Vec<Option<Reached>> = marker.pieces.iter().map(|piece| reached(marker, piece, reach)).collect();
-    let Some(least) = spans.iter().flatten().map(|span| span.from).reduce(f64::min) else { return };
+    let stretches: Vec<Option<Stretch>> = marker.pieces.iter().map(|piece| stretch(marker, piece, job)).collect();
+    let Some(least) = stretches.iter().flatten().map(|stretch| stretch.from).reduce(f64::min) else { return };
     let start = job.profile.table.x_mm.map_or(least, |[start, _]| start);
-    let mut windows = Windows { length, start, by: 0, is_begun: false };
-    let mut order: Vec<(usize, u32)> = Vec::with_capacity(spans.len());
-    for block in blocks(&marker.pieces) {
-        let moves_on = marker.pieces[block.start].events.iter().any(|event| event.kind == toolpath::Event::Advance);
-        if let Err(finding) = windows.take(block.map(|i| (i, spans[i])).collect(), moves_on, &mut order) {
-            diagnostics.push(finding.told(marker, length));
+    let mut windows = Windows { length, start, advance: 0, is_begun: false };
+    let (mut order, blocks) = (Vec::with_capacity(stretches.len()), blocks(&marker.pieces));
+    for block in &blocks {
+        let moves_on = marker.pieces[block.start].events.iter().any(is_advance);
+        let later = stretches[block.end..].iter().flatten().map(|stretch| stretch.from).fold(f64::INFINITY, f64::min);
+        // A piece that is left out needs no window.
+        let is_cut = |&i: &usize| job.selection.has(marker.pieces[i].number);
+        let left = block.clone().map(|i| (i, stretches[i].filter(|_| is_cut(&i)))).collect();
+        if let Err(misfit) = windows.take(left, (moves_on, later), &mut order) {
+            diagnostics.push(misfit.told(marker, length));
             return;
         }
     }
-    let end = spans.iter().flatten().map(|span| span.to).fold(start, f64::max);
-    lay(marker, &order, windows.behind(end));
+    let end = stretches.iter().flatten().map(|stretch| stretch.to).fold(start, f64::max);
+    let end = (end - start).ceil().max(0.0) as u32;
+    lay(marker, &blocks, &order, end);
 }
 
-/// Where the blade may stand along X while it cuts a piece, mm.
+/// Whether the file moves the cloth on.
+fn is_advance(event: &Event) -> bool {
+    event.kind == toolpath::Event::Advance
+}
+
+/// Stretch along X that the blade, or the axis over a drill, may take for a piece, mm.
 #[derive(Debug, Clone, Copy)]
-struct Reached {
+struct Stretch {
     from: f64,
     to: f64,
 }
 
-/// Where the blade may stand for a piece; `None` where nothing of it is cut.
-fn reached(marker: &Marker, piece: &Piece, reach: f64) -> Option<Reached> {
+/// The stretch of a piece; `None` where nothing of it is cut.
+fn stretch(marker: &Marker, piece: &Piece, job: &Job) -> Option<Stretch> {
     let mut extent = Extent::EMPTY;
     piece.contours.iter().for_each(|contour| extent.join(&marker.list.extent(contour.range)));
     for stroke in piece.notches.iter().flat_map(Notch::strokes) {
         extent.join(&Extent::between(stroke.from, stroke.to));
     }
-    piece.drills.iter().for_each(|drill| extent.add(drill.at));
-    (!extent.is_empty()).then_some(Reached { from: extent.min.x - reach, to: extent.max.x + reach })
+    let [x, y] = job.profile.drill.offset_mm;
+    piece.drills.iter().flat_map(|drill| [drill.at, drill.at - Vector::new(x, y)]).for_each(|at| extent.add(at));
+    let reach = job.profile.knife.reach();
+    (!extent.is_empty()).then_some(Stretch { from: extent.min.x - reach, to: extent.max.x + reach })
 }
 
-/// Pieces between two places where something is asked for: no piece is brought past one.
-fn blocks(pieces: &[Piece]) -> Vec<std::ops::Range<usize>> {
+/// Pieces between two places where something is asked for.
+fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
     let mut starts: Vec<usize> = (0..pieces.len()).filter(|&i| i == 0 || !pieces[i].events.is_empty()).collect();
     starts.push(pieces.len());
     starts.windows(2).map(|ends| ends[0]..ends[1]).collect()
@@ -71,66 +86,70 @@ fn blocks(pieces: &[Piece]) -> Vec<std::ops::Range<usize>> {
 struct Windows {
     /// Length of each, mm.
     length: f64,
-    /// Where the first begins, mm.
+    /// Start of the first one, mm.
     start: f64,
-    /// How far the cloth has been moved on, whole mm.
-    by: u32,
+    /// Way of the cloth so far, whole mm.
+    advance: u32,
     /// Whether anything was cut so far.
     is_begun: bool,
 }
 
-/// Why a piece is in no window.
+/// Reason that a piece fits no window.
 enum Misfit {
-    /// It is longer than a window; its length with what the blade needs beside it, mm.
+    /// It is longer than a window: its length with what the blade needs beside it, mm.
     Long(usize, f64),
-    /// It begins before the window that the file has come to, by so much, mm.
+    /// It begins before a window that has passed, by so much, mm.
     Behind(usize, f64),
 }
 
 impl Windows {
+    /// Start of the present one, mm.
+    fn begins(&self) -> f64 {
+        self.start + f64::from(self.advance)
+    }
+
     /// Puts the pieces of a block into windows: the place of each, with the way of the cloth by then. Behind an advance of the
-    /// file a window begins.
+    /// file a window begins; `later` is where the first piece of later blocks begins.
     fn take(
         &mut self,
-        mut left: Vec<(usize, Option<Reached>)>,
-        moves_on: bool,
+        mut left: Vec<(usize, Option<Stretch>)>,
+        (moves_on, later): (bool, f64),
         order: &mut Vec<(usize, u32)>,
     ) -> Result<(), Misfit> {
         let mut is_next = moves_on && self.is_begun;
         while !left.is_empty() {
-            let cut = left.iter().filter_map(|&(i, span)| Some((i, span?)));
-            let first = cut.min_by(|(_, a), (_, b)| a.from.total_cmp(&b.from));
-            if let Some((i, Reached { from, .. })) = first {
-                let begins = self.start + f64::from(self.by);
+            let cut = left.iter().filter_map(|&(i, stretch)| Some((i, stretch?)));
+            if let Some((i, first)) = cut.min_by(|(_, a), (_, b)| a.from.total_cmp(&b.from)) {
                 // Of the first window the table is the judge.
-                if from < begins && self.by > 0 {
-                    return Err(Misfit::Behind(i, begins - from));
+                let behind = self.begins() - first.from;
+                if behind > PLACE_EPSILON && self.advance > 0 {
+                    return Err(Misfit::Behind(i, behind));
                 }
                 if is_next {
-                    self.by += (from - begins).floor() as u32;
+                    self.advance = self.next(first, later).ok_or(Misfit::Long(i, first.to - first.from))?;
                 }
             }
-            let end = self.start + f64::from(self.by) + self.length;
-            let count = left.len();
-            left.retain(|&(i, span)| {
-                let is_in = span.is_none_or(|span| span.to <= end);
+            let end = self.begins() + self.length + PLACE_EPSILON;
+            left.retain(|&(i, stretch)| {
+                let is_in = stretch.is_none_or(|stretch| stretch.to <= end);
                 if is_in {
-                    order.push((i, self.by));
-                    self.is_begun |= span.is_some();
+                    order.push((i, self.advance));
+                    self.is_begun |= stretch.is_some();
                 }
                 !is_in
             });
-            if let Some((i, span)) = first.filter(|_| is_next && left.len() == count) {
-                return Err(Misfit::Long(i, span.to - span.from));
-            }
             is_next = true;
         }
         Ok(())
     }
 
-    /// How far the cloth is moved on until a place is behind the windows, whole mm.
-    fn behind(&self, end: f64) -> u32 {
-        (end - self.start).ceil().max(0.0) as u32
+    /// Way of the cloth to the next window, which holds `first`: as far as that and what comes `later` allow. `None` where that
+    /// piece is too long.
+    fn next(&self, first: Stretch, later: f64) -> Option<u32> {
+        let most = (first.from - self.start + PLACE_EPSILON).floor();
+        let least = (first.to - self.length - self.start - PLACE_EPSILON).ceil();
+        let wanted = first.from.min(later) - self.start;
+        (least <= most).then(|| wanted.floor().max(least).min(most).max(f64::from(self.advance)) as u32)
     }
 }
 
@@ -140,14 +159,15 @@ impl Misfit {
         let (piece, message, hint) = match self {
             Self::Long(i, long) => {
                 let (number, long) = (marker.pieces[i].number, up(long, DECIMALS));
-                let message =
-                    format!("piece {number} takes {long} mm along X with its overlaps, and a bite has {has} mm");
+                let message = format!(
+                    "piece {number} takes {long} mm along X with its overlaps, more than a bite of {has} mm holds"
+                );
                 (i, message, "turn the marker, or leave the piece out (`--skip`) and cut it on a longer table")
             }
             Self::Behind(i, by) => {
                 let (number, by) = (marker.pieces[i].number, up(by, DECIMALS));
                 let message = format!("piece {number} begins {by} mm before the bite in which the file has it");
-                (i, message, "the file moves the cloth on, or stops, before it: a conveyor does not run back")
+                (i, message, "put it before the stop or the advance in the file, or leave it out (`--skip`)")
             }
         };
         let numbers = vec![marker.pieces[piece].number];
@@ -155,26 +175,36 @@ impl Misfit {
     }
 }
 
-/// Puts pieces in order, and the ways of the cloth before the first of each window; an advance of the file at the end moves all
-/// off the table.
-fn lay(marker: &mut Marker, order: &[(usize, u32)], end: u32) {
+/// Puts pieces in order, and the ways of the cloth before the first of each window. Events before a block stay before it; an
+/// advance at the end moves all off the table.
+fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[(usize, u32)], end: u32) {
+    let of_block = |block: &Range<usize>| (block.start, std::mem::take(&mut marker.pieces[block.start].events));
+    let mut asked = blocks.iter().map(of_block).collect::<Vec<_>>().into_iter().peekable();
     let mut pieces: Vec<Option<Piece>> = std::mem::take(&mut marker.pieces).into_iter().map(Some).collect();
-    let bite = |mm: u32, span| Event { kind: toolpath::Event::Bite(mm), span };
     let mut at = 0;
-    for &(i, by) in order {
+    for (place, &(i, advance)) in order.iter().enumerate() {
         let mut piece = pieces[i].take().expect("each piece is in one window");
-        let asked = piece.events.iter().find(|event| event.kind == toolpath::Event::Advance).map(|event| event.span);
-        piece.events.retain(|event| event.kind != toolpath::Event::Advance);
-        if by > at {
-            piece.events.insert(0, bite(by - at, asked.unwrap_or(piece.span)));
+        if let Some((_, events)) = asked.next_if(|&(start, _)| start == place) {
+            piece.events = events;
         }
-        at = by;
+        at += put(&mut piece.events, advance - at, Event { kind: toolpath::Event::Advance, span: piece.span });
         marker.pieces.push(piece);
     }
-    for event in &mut marker.closing {
-        if event.kind == toolpath::Event::Advance {
-            *event = bite(end.saturating_sub(at), event.span);
-            at = end;
-        }
+    if marker.closing.iter().any(is_advance) {
+        let span = marker.closing[0].span;
+        put(&mut marker.closing, end.saturating_sub(at), Event { kind: toolpath::Event::Advance, span });
     }
+}
+
+/// Puts a way of the cloth in place of the first advance among some events, or before all, and drops the others: the way.
+fn put(events: &mut Vec<Event>, way: u32, plain: Event) -> u32 {
+    if way > 0 {
+        if !events.iter().any(is_advance) {
+            events.insert(0, plain);
+        }
+        let first = events.iter_mut().find(|event| is_advance(event)).expect("it was put there");
+        first.kind = toolpath::Event::AdvanceBy(way);
+    }
+    events.retain(|event| !is_advance(event));
+    way
 }

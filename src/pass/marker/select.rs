@@ -6,7 +6,6 @@
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Event, Marker, Piece};
-use crate::ir::toolpath;
 use crate::machine::{Job, Numbers, Start};
 
 pub(super) const PASS: MarkerPass =
@@ -83,27 +82,27 @@ fn place(start: Start, marker: &Marker, job: &Job) -> Result<usize, Diagnostic> 
     }
 }
 
-/// Keeps the pieces from the `first` one on that are chosen. When a run goes on, the cloth lies as it does when its first piece is
-/// cut; else it is moved on before the pieces that are left by all that lies before them.
+/// Keeps the pieces from the `first` one on that are chosen. A run that goes on begins with the cloth as it lies when its first
+/// piece is cut. Else every advance before a piece that is left stays, and where the file has one at its end so do those
+/// behind the last piece.
 fn keep(marker: &mut Marker, first: usize, job: &Job) {
-    let Marker { pieces, moved_on, .. } = marker;
-    let (mut place, mut moved) = (0.., 0);
+    let Marker { pieces, moved_on, closing, .. } = marker;
+    let (mut place, mut left): (_, Vec<Event>) = (0.., Vec::new());
     pieces.retain_mut(|piece| {
         let i = place.next().unwrap_or(0);
-        moved += piece.events.iter().map(|event| event.kind.bite()).sum::<u32>();
+        left.extend(piece.events.extract_if(.., |event| event.kind.advance_mm() > 0));
         if i == first && job.selection.resume_from.is_some() {
-            *moved_on = std::mem::take(&mut moved);
+            *moved_on = left.drain(..).map(|event| event.kind.advance_mm()).sum();
         }
         let is_kept = i >= first && job.selection.has(piece.number);
         if is_kept {
-            piece.events.retain(|event| event.kind.bite() == 0);
-            if moved > 0 {
-                let kind = toolpath::Event::Bite(std::mem::take(&mut moved));
-                piece.events.insert(0, Event { kind, span: piece.span });
-            }
+            piece.events.splice(0..0, left.drain(..));
         }
         is_kept
     });
+    if let Some(at) = closing.iter().position(|event| event.kind.advance_mm() > 0) {
+        closing.splice(at..at, left);
+    }
 }
 
 /// Whether anything of a piece is cut or drilled.

@@ -33,7 +33,7 @@ const MOST_SEGMENTS: usize = 1 << 26;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     if let Some(marks) = &job.marks {
-        return by_marks(marker, marks, &job.profile.sheet, diagnostics);
+        return by_marks(marker, marks, job, diagnostics);
     }
     let sheet = &job.profile.sheet;
     if sheet.is_plain() {
@@ -75,7 +75,8 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 }
 
 /// Lays a marker where its registration marks were found.
-fn by_marks(marker: &mut Marker, marks: &Marks, sheet: &Sheet, diagnostics: &mut Diagnostics) {
+fn by_marks(marker: &mut Marker, marks: &Marks, job: &Job, diagnostics: &mut Diagnostics) {
+    let sheet = &job.profile.sheet;
     if !sheet.is_plain() {
         let message = format!("`--map` says where the drawing lies on the table, and so does `sheet`: {sheet}");
         diagnostics
@@ -85,6 +86,11 @@ fn by_marks(marker: &mut Marker, marks: &Marks, sheet: &Sheet, diagnostics: &mut
         let message = "the file moves the cloth on, so that marks that were found before do not say where it lies then";
         let hint = "cut it without `--map`, or switch the advance off: codes.M69 = \"ignore\"";
         diagnostics.push(Diagnostic::new(&code::MARKS_SHEET, message).at(advance.span).hint(hint));
+    }
+    if job.profile.bite.length_mm.is_some() {
+        let message = "`--map` says where the drawing lies, and a conveyor (`bite.length_mm`) moves it away from there";
+        let hint = "cut it without `--map`, or on a table that holds all of it";
+        diagnostics.push(Diagnostic::new(&code::MARKS_SHEET, message).hint(hint));
     }
     let drawn = marker.extent();
     if diagnostics.has_errors() || drawn.is_empty() {

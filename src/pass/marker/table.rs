@@ -50,7 +50,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         vec![moved(&moves, job)]
     } else {
         let alone = |(advice, name): (&Option<Advice>, &str)| Some(advice.as_ref()?.alone(name));
-        moves.iter().zip(["X", "Y"]).filter_map(alone).chain(fitting(marker, &extent, job)).collect()
+        moves.iter().zip(["X", "Y"]).filter_map(alone).chain(fitting(marker, &marker.extent(), job)).collect()
     };
     diagnostics.push(hints.into_iter().fold(finding, Diagnostic::hint));
 }
@@ -75,8 +75,9 @@ fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
         return None;
     }
     let (sheet, table) = (&job.profile.sheet, &job.profile.table);
-    let room =
-        [table.x_mm, table.y_mm].map(|ends| ends.map_or(f64::INFINITY, |[least, most]| most - least + OFF_EPSILON));
+    // A conveyor brings along X what a table does not hold.
+    let along = table.x_mm.filter(|_| job.profile.bite.length_mm.is_none());
+    let room = [along, table.y_mm].map(|ends| ends.map_or(f64::INFINITY, |[least, most]| most - least + OFF_EPSILON));
     let (width, height) = extent.size();
     if sheet.copies > 1 {
         if !job.selection.is_all() {

@@ -1,4 +1,4 @@
-//! Whether the machine stays over its table.
+//! The table, and the window of a conveyor: places that the machine must not leave.
 
 use crate::ir::Finding;
 use crate::ir::verdict::Worst;
@@ -14,6 +14,9 @@ pub(in crate::verify) struct Table {
     up: [Option<[f64; 2]>; 2],
     /// Distances of tip and heel from the C axis, along the blade.
     blade: [f64; 2],
+    /// Length of the window of a conveyor, and the least and the greatest X of the blade while it is down.
+    window: Option<f64>,
+    reached: [f64; 2],
     off: Worst,
 }
 
@@ -27,11 +30,12 @@ impl Table {
         });
         let blade = [profile.knife.radius(), -profile.knife.back()];
         let limit = machine::Table::EDGE_MM + rounding.place();
-        Self { down, up, blade, off: Worst::new(&rules::TABLE, Some(limit)) }
+        let (window, reached) = (profile.bite.length_mm, [f64::INFINITY, f64::NEG_INFINITY]);
+        Self { down, up, blade, window, reached, off: Worst::new(&rules::TABLE, Some(limit)) }
     }
 
     pub(in crate::verify) fn see(&mut self, row: &Row) {
-        if self.down == [None, None] {
+        if self.down == [None, None] && self.window.is_none() {
             return;
         }
         if !row.knife {
@@ -41,6 +45,10 @@ impl Table {
         let along = row.along();
         for reach in self.blade {
             let place = row.centre + along * reach;
+            if let Some(window) = self.window {
+                self.reached = [self.reached[0].min(place.x), self.reached[1].max(place.x)];
+                self.off.see(self.reached[1] - self.reached[0] - window, || row.sighting());
+            }
             self.check(row, [place.x, place.y], self.down);
         }
     }

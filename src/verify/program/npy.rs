@@ -10,7 +10,7 @@ use crate::units::columns::{self, MAGIC, float};
 /// The fields of a record, blanks left out.
 const FIELDS: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
     ('knife','|u1'),('drill','|u1'),('event','|u1'),('block','<u4')";
-/// The same on a conveyor: the last one is the way of the cloth.
+/// Fields on a conveyor; the last one is the way of the cloth.
 const FIELDS_OF_BITES: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
     ('knife','|u1'),('drill','|u1'),('event','|u1'),('block','<u4'),('advance_mm','<u4')";
 /// Bytes of a record of either.

@@ -33,7 +33,7 @@ pub(in crate::verify) struct Row {
     pub(in crate::verify) event: u8,
     /// The source block, 0 = none.
     pub(in crate::verify) block: u32,
-    /// How far the cloth was moved on so far, mm.
+    /// Way of the cloth so far, mm.
     pub(in crate::verify) station: u32,
     /// Its line in the program, the first being 1, or its record, from 0, where there are no lines.
     pub(in crate::verify) line: u64,

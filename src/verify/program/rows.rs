@@ -17,7 +17,7 @@ use crate::verify::rules;
 const LINE_MAX: u64 = 1024;
 /// The first line of a text: the names of its fields.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
-/// What a conveyor adds to it.
+/// Field that a conveyor adds.
 const ADVANCE: &str = ",advance_mm";
 /// The same, one by one.
 const FIELDS: [&str; 9] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block", "advance_mm"];
@@ -256,15 +256,16 @@ pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
             return says(&message, "save it with commas between the fields and points in the numbers");
         }
     }
-    if parse(first, 0, PLAIN_FIELDS).is_ok() {
+    if [PLAIN_FIELDS, FIELDS.len()].iter().any(|&count| parse(first, 0, count).is_ok()) {
         return says("its header is missing: it begins with a row", &as_compiled);
     }
     let names: Vec<&str> = text.split(',').collect();
+    let fields = if names.len() == FIELDS.len() { &FIELDS[..] } else { &FIELDS[..PLAIN_FIELDS] };
     let known = names.iter().filter(|name| FIELDS.contains(name)).count();
     if 2 * known < PLAIN_FIELDS {
         return says("it does not begin as timed setpoints do", &as_compiled);
     }
-    let wrong = names.iter().zip(&FIELDS[..PLAIN_FIELDS]).find(|(name, expected)| name != expected);
+    let wrong = names.iter().zip(fields).find(|(name, expected)| name != expected);
     let message = match wrong {
         Some((name, expected)) => format!("its header says {} where `{expected}` belongs", quoted(name.as_bytes())),
         None => format!("its header has {} fields, not {PLAIN_FIELDS}", names.len()),

@@ -69,11 +69,11 @@ impl Drawn {
             worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), extra.span.block));
         }
         let unit = drawn.unit * table.growth;
-        // Where a conveyor moves the cloth on, windows come as they come.
+        // On a conveyor the windows of the profile stand in the place of the file's.
         let has_bites = has_bites(&job.profile);
         let is_asked = |event: &Event| match event.kind {
             toolpath::Event::Stop => true,
-            toolpath::Event::Advance | toolpath::Event::Bite(_) => !has_bites,
+            toolpath::Event::Advance | toolpath::Event::AdvanceBy(_) => !has_bites,
         };
         let told = |marker: &Marker, times: u32| -> Vec<Event> {
             let events = marker.pieces.iter().flat_map(|piece| &piece.events).copied().filter(is_asked);

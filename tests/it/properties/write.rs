@@ -56,7 +56,7 @@ impl File {
         for event in events {
             self.block(match event {
                 Event::Stop => "M01",
-                Event::Advance | Event::Bite(_) => "M69",
+                Event::Advance | Event::AdvanceBy(_) => "M69",
             });
         }
     }

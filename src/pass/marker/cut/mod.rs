@@ -153,7 +153,8 @@ impl Cutting<'_> {
         let mut rings = Vec::new();
         let mut advances = 0;
         for (i, (piece, styled)) in pieces.iter().zip(&*styled).enumerate() {
-            advances += piece.events.iter().filter(|event| event.kind != Event::Stop).count();
+            advances +=
+                piece.events.iter().filter(|event| matches!(event.kind, Event::Advance | Event::AdvanceBy(_))).count();
             let of_piece = styled.outlines.iter().zip(self.nesting.of_group(i));
             for (&range, line) in of_piece.filter(|&(_, line)| self.nesting.lines()[line].is_closed && is_near(line)) {
                 lines.push(line);

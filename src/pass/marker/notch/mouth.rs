@@ -72,7 +72,7 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     let mut see = |i: usize, from: Point| {
         let (before, after) = (points[i] - from, points[i + 1] - points[i]);
         if is_turn(before, after) {
-            ring.begun(i, cross(before, after) > 0.0).into_iter().for_each(|mouth| found.push(mouth));
+            found.extend(ring.begun(i, cross(before, after) > 0.0));
         }
     };
     see(0, points[count - 1]);

@@ -91,7 +91,7 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
     let last = marker.pieces.iter().rposition(is_cut);
     for (index, piece) in marker.pieces.iter().enumerate() {
         // What a piece without a cut has is the next one's; behind the last, texts are the last one's.
-        waiting.0.extend(piece.events.iter().map(|event| told(event)));
+        waiting.0.extend(piece.events.iter().map(|event| said_event(event)));
         let labels = piece
             .labels
             .iter()
@@ -136,17 +136,17 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
         }
     }
     said.extend(waiting.0);
-    said.extend(marker.closing.iter().map(|event| told(event)));
+    said.extend(marker.closing.iter().map(|event| said_event(event)));
     fields.sort_by_key(|(named, _)| *named); // stable: those without a name first
     let values = fields.iter().flat_map(|(_, piece)| &piece.fields);
     said.extend(values.map(|field| Said::Field(field.letter, source.slice(field.span).to_vec())));
     said
 }
 
-/// What is asked for between pieces: a cutter file does not tell how far a bite is.
-fn told(event: &Event) -> Said {
+/// Event as a cutter file has it: M69 tells no length.
+fn said_event(event: &Event) -> Said {
     Said::Event(match event.kind {
-        toolpath::Event::Bite(_) => toolpath::Event::Advance,
-        asked => asked,
+        toolpath::Event::AdvanceBy(_) => toolpath::Event::Advance,
+        plain @ (toolpath::Event::Stop | toolpath::Event::Advance) => plain,
     })
 }

@@ -63,7 +63,7 @@ pub(super) fn lines_of(text: &str) -> Vec<Rc<Expected>> {
     lines.map(|line| Rc::new(Expected::new(line))).collect()
 }
 
-/// How far a line moves the cloth on that begins the steps of a bite, mm, and the lines that must follow it.
+/// Way of the cloth that a line tells which begins the steps of an advance, mm, and the lines due behind it.
 pub(super) fn bite(line: &[u8], steps: &[Step]) -> Option<(u32, Vec<Rc<Expected>>)> {
     let (first, others) = steps.split_first().filter(|(first, _)| first.has_blank())?;
     let text = first.to_string();
