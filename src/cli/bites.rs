@@ -27,5 +27,6 @@ pub(super) fn line(bites: &[Bite]) -> Option<String> {
     let [first, last] = [bites.first()?, bites.last()?];
     let windows = counted(bites.len(), "window");
     let way = last.advance_mm - first.advance_mm;
-    Some(format!("{windows} of a conveyor, which moves the cloth on by {way} mm in all"))
+    let ways = if way > 0 { format!(", {way} mm from the first to the last") } else { String::new() };
+    Some(format!("{windows} of a conveyor{ways}"))
 }

@@ -377,10 +377,14 @@ impl Marker {
         contours + notches
     }
 
-    /// Length of the contours and slits of a piece as they are drawn, mm.
-    pub fn length_of(&self, piece: &Piece) -> f64 {
-        let slits: f64 = piece.notches.iter().flat_map(Notch::strokes).map(|stroke| stroke.length()).sum();
-        self.length(piece.contours.iter().map(|contour| contour.range)) + slits
+    /// Length of all cuts of a piece by its place, mm, without overlaps; that of what is drawn as long as there are none.
+    pub fn cut_length_of(&self, part: u32) -> f64 {
+        if self.cuts.is_empty() {
+            let piece = &self.pieces[part as usize];
+            let slits: f64 = piece.notches.iter().flat_map(Notch::strokes).map(|stroke| stroke.length()).sum();
+            return self.length(piece.contours.iter().map(|contour| contour.range)) + slits;
+        }
+        self.length(self.cuts_of(part).iter().map(|cut| cut.range))
     }
 
     /// The box around everything that is cut or drilled.

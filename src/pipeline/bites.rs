@@ -14,7 +14,7 @@ pub struct Bite {
     pub advance_mm: u32,
     /// Pieces that are cut.
     pub pieces: usize,
-    /// Length of what is cut of them, m; what two windows have in common counts in both.
+    /// Length of their cuts, m.
     #[serde(serialize_with = "micro")]
     pub cut_m: f64,
     /// Time, s; unknown where nothing was planned.
@@ -31,14 +31,14 @@ pub(super) fn of(marker: &Marker, by_piece: &[([u32; 2], Spent)]) -> Vec<Bite> {
     let mut bites: Vec<Bite> = Vec::new();
     // Window of each part.
     let mut of_part = Vec::with_capacity(stations.len());
-    for (piece, &advance_mm) in marker.pieces.iter().zip(&stations) {
+    for (part, &advance_mm) in (0..).zip(&stations) {
         if bites.last().is_none_or(|last| last.advance_mm != advance_mm) {
             bites.push(Bite { advance_mm, pieces: 0, cut_m: 0.0, time_s: None });
         }
         of_part.push(bites.len() - 1);
         let bite = &mut bites[of_part[of_part.len() - 1]];
         bite.pieces += 1;
-        bite.cut_m += marker.length_of(piece) / MM_PER_M;
+        bite.cut_m += marker.cut_length_of(part) / MM_PER_M;
     }
     for ([_, part], spent) in by_piece {
         let Some(&window) = of_part.get(*part as usize) else { continue };

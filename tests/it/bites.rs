@@ -96,7 +96,7 @@ fn every_target_tells_how_far_the_cloth_is_moved_on_and_is_judged_by_it() {
     {
         let out = format!("out.{extension}");
         let said = room.says(&format!("compile row.cut -t {target} -o {out} -p machine.toml"), DONE);
-        assert!(said.contains("bites      3 windows of a conveyor, which moves the cloth on by 620 mm"), "{said}");
+        assert!(said.contains("bites      3 windows of a conveyor, 620 mm from the first to the last"), "{said}");
         let said = room.says(&format!("verify {out} --source row.cut -p machine.toml"), DONE);
         assert!(said.contains("\nPASS  `out"), "{target}: {said}");
     }
@@ -336,6 +336,10 @@ fn a_table_and_a_conveyor_agree_and_other_machines_have_none() {
     room.says(&format!("verify row.csv --source row.cut {BITES} {corner}"), DONE);
     let said = room.says("compile row.cut --set bite.length_mm=500 --set table.x_mm=[0,400]", USAGE);
     assert!(said.contains("`bite.length_mm` is 500 mm, more than `table.x_mm` has, 400 mm"), "{said}");
+    // A marker that begins before the table is not too long for a conveyor.
+    let said = room.says(&format!(r#"compile row.cut {BITES} --set table.x_mm=[100,500]"#), FAULTY);
+    assert!(said.contains("error[marker/off-table]") && said.contains("sheet.origin = [107.4, 0]"), "{said}");
+    assert!(!said.contains("does not fit"), "{said}");
     let said = room.says("compile row.cut --set bite.length_mm=310", FAULTY);
     assert!(said.contains("error[marker/bite]: piece 1 takes 314.8 mm along X"), "{said}");
     let said = room.says(&format!("compile row.cut {BITES} --set tool.kind=spray"), USAGE);

@@ -33,11 +33,15 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     let Some((place, span)) = farthest(marker, table) else { return };
-    let axes = [
+    let mut axes = [
         Axis { name: "X", lies: [extent.min.x, extent.max.x], table: table.x_mm, knife: &job.profile.knife },
         Axis { name: "Y", lies: [extent.min.y, extent.max.y], table: table.y_mm, knife: &job.profile.knife },
     ];
     let ways: Vec<String> = axes.iter().filter_map(Axis::over).collect();
+    if job.profile.bite.length_mm.is_some() {
+        // A conveyor brings the rest of the marker: where its first window lies decides.
+        axes[0].lies[1] = axes[0].lies[0];
+    }
     let (code, what) = if off > Table::EDGE_MM {
         (&code::MARKER_OFF_TABLE, "the marker leaves the table")
     } else {
