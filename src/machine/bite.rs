@@ -8,7 +8,7 @@ use super::word::{Off, OrWord, Word as _};
 /// The keys `bite.*`.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "bite.length_mm", takes: Takes::NumberOr(from(50.0, 1.0e5), Off::WORD), about: "Bite of a conveyor: length of the window along X in which the knife can cut. A longer marker is cut\nin windows, and the cloth is moved on between them; \"off\" = the cloth lies still." },
+    Key { name: "bite.length_mm", takes: Takes::NumberOr(from(50.0, 1.0e5), Off::WORD), about: "Bite of a conveyor: length along X of the window in which the knife cuts. A longer marker is\ncut in several, and the cloth is moved on between them; \"off\" = it lies still." },
 ];
 
 /// The conveyor under the table.

@@ -23,5 +23,5 @@ pub(in crate::machine) const KEYS: &[Key] = &[
     Key { name: "gcode.drill_down", takes: Takes::Steps, about: "Steps that put a drill down; # stands for its number, 1 to 4." },
     Key { name: "gcode.drill_up", takes: Takes::Steps, about: "Steps that lift it." },
     Key { name: "gcode.stop", takes: Takes::Steps, about: "Steps that wait for the operator (event 1): M0, M1 or M60." },
-    Key { name: "gcode.advance", takes: Takes::Steps, about: "Steps that advance the cloth (event 2); # in the first one stands for the mm of a bite (bite.length_mm)." },
+    Key { name: "gcode.advance", takes: Takes::Steps, about: "Steps that advance the cloth (event 2); # in the first one stands for the mm of an advance\nbetween two bites (bite.length_mm)." },
 ];

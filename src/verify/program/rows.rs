@@ -412,7 +412,10 @@ mod tests {
         check(&HEADER.replace(',', "\t"), Some("separated by `\\t`"));
         check("0.000,0,0,0,0,0,0,0\n", Some("header is missing"));
         check(&HEADER.replace("c_deg", "c_rad"), Some("says `c_rad` where `c_deg` belongs"));
-        check(&format!("{HEADER},more"), Some("has 9 fields"));
+        check(&format!("{HEADER}{ADVANCE}\n"), None);
+        check(&format!("{HEADER},more"), Some("says `more` where `advance_mm` belongs"));
+        check(&format!("{HEADER}{ADVANCE},more"), Some("has 10 fields"));
+        check("0.000,0,0,0,0,0,0,0,0\n", Some("header is missing"));
         check("M14*X0Y0*", Some("does not begin"));
         check("t\0_\0s\0", Some("not plain text"));
     }
