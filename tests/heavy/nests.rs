@@ -18,6 +18,10 @@ const LARGE_SEEDS: u64 = 4;
 /// Parts of each large nest.
 const LARGE: usize = 400;
 
+/// Nests that are cut in the windows of a conveyor, and the lengths of these, mm.
+const SEEDS_IN_BITES: u64 = 72;
+const BITES: [f64; 4] = [700.0, 850.0, 1100.0, 1600.0];
+
 /// One of so many has edges cut once that are up to 1 mm apart.
 const WIDE: u64 = 5;
 
@@ -60,6 +64,20 @@ fn no_nest_is_refused_whatever_notches_gaps_and_blades() {
     let found: Vec<String> =
         (0..SEEDS).into_par_iter().filter_map(|seed| wrong(seed, &Recipe::of(seed, 30, 20))).collect();
     assert!(found.is_empty(), "{} of {SEEDS} nests:\n{}", found.len(), found.join("\n\n"));
+}
+
+#[test]
+fn no_nest_is_refused_in_the_windows_of_a_conveyor() {
+    let wrong = |seed: u64| {
+        let recipe = Recipe::of(seed, 20, 20);
+        let mut job = Job::default();
+        let length = BITES[(seed / 3) as usize % BITES.len()];
+        job.profile.bite.length_mm = Some(length);
+        let compiled = compiled(&recipe.nest().text, if seed.is_multiple_of(2) { "csv" } else { "npy" }, &job);
+        compiled.err().map(|why| format!("{recipe:?} in windows of {length} mm: {why}"))
+    };
+    let found: Vec<String> = (0..SEEDS_IN_BITES).into_par_iter().filter_map(wrong).collect();
+    assert!(found.is_empty(), "{} of {SEEDS_IN_BITES} nests:\n{}", found.len(), found.join("\n\n"));
 }
 
 #[test]
