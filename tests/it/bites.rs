@@ -225,7 +225,13 @@ fn stops_and_advances_of_a_file_keep_their_say() {
         ("M69*M69*", "M69*M01*M69*", "2,2,1", 475.0),
     ] {
         room.write("file.cut", file(middle, end).as_bytes());
-        room.says("compile file.cut --force -o some.csv --set bite.length_mm=340", DONE);
+        let said = room.says("compile file.cut --force -o some.csv --set bite.length_mm=340", DONE);
+        let is_idle = middle == "M69*M69*";
+        assert_eq!(
+            said.contains("warning[marker/idle-advance]: 2 advances of the file move nothing"),
+            is_idle,
+            "{said}"
+        );
         room.says("verify some.csv --source file.cut --set bite.length_mm=340", DONE);
         let rows = rows(&room.text("some.csv"));
         let told: Vec<String> = rows.iter().filter(|row| row[6] > 0.0).map(|row| row[6].to_string()).collect();

@@ -47,7 +47,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
     let end = stretches.iter().flatten().map(|stretch| stretch.to).fold(start, f64::max);
     let end = (end - start).ceil().max(0.0) as u32;
-    lay(marker, &blocks, &order, end);
+    if let Some(idle) = lay(marker, &blocks, &order, end) {
+        diagnostics.push(idle);
+    }
 }
 
 /// Whether the file moves the cloth on.
@@ -176,28 +178,37 @@ impl Misfit {
 }
 
 /// Puts pieces in order, and the ways of the cloth before the first of each window. Events before a block stay before it; an
-/// advance at the end moves all off the table.
-fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[(usize, u32)], end: u32) {
+/// advance at the end moves all off the table. Advances of the file that move nothing are left out, and told.
+fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[(usize, u32)], end: u32) -> Option<Diagnostic> {
     let of_block = |block: &Range<usize>| (block.start, std::mem::take(&mut marker.pieces[block.start].events));
     let mut asked = blocks.iter().map(of_block).collect::<Vec<_>>().into_iter().peekable();
     let mut pieces: Vec<Option<Piece>> = std::mem::take(&mut marker.pieces).into_iter().map(Some).collect();
-    let mut at = 0;
+    let (mut at, mut idle) = (0, Vec::new());
     for (place, &(i, advance)) in order.iter().enumerate() {
         let mut piece = pieces[i].take().expect("each piece is in one window");
         if let Some((_, events)) = asked.next_if(|&(start, _)| start == place) {
             piece.events = events;
         }
-        at += put(&mut piece.events, advance - at, Event { kind: toolpath::Event::Advance, span: piece.span });
+        let plain = Event { kind: toolpath::Event::Advance, span: piece.span };
+        idle.extend(put(&mut piece.events, advance - at, plain));
+        at = advance;
         marker.pieces.push(piece);
     }
     if marker.closing.iter().any(is_advance) {
         let span = marker.closing[0].span;
-        put(&mut marker.closing, end.saturating_sub(at), Event { kind: toolpath::Event::Advance, span });
+        idle.extend(put(&mut marker.closing, end.saturating_sub(at), Event { kind: toolpath::Event::Advance, span }));
     }
+    let first = idle.first()?;
+    let message = match idle.len() {
+        1 => "an advance of the file moves nothing and is left out".to_owned(),
+        count => format!("{count} advances of the file move nothing and are left out"),
+    };
+    let hint = "what comes behind them lies in the window before them; `cutc info` lists the windows";
+    Some(Diagnostic::new(&code::MARKER_IDLE_ADVANCE, message).at(first.span).hint(hint))
 }
 
-/// Puts a way of the cloth in place of the first advance among some events, or before all, and drops the others: the way.
-fn put(events: &mut Vec<Event>, way: u32, plain: Event) -> u32 {
+/// Puts a way of the cloth in place of the first advance among some events, or before all: the other advances, taken out.
+fn put(events: &mut Vec<Event>, way: u32, plain: Event) -> Vec<Event> {
     if way > 0 {
         if !events.iter().any(is_advance) {
             events.insert(0, plain);
@@ -205,6 +216,5 @@ fn put(events: &mut Vec<Event>, way: u32, plain: Event) -> u32 {
         let first = events.iter_mut().find(|event| is_advance(event)).expect("it was put there");
         first.kind = toolpath::Event::AdvanceBy(way);
     }
-    events.retain(|event| !is_advance(event));
-    way
+    events.extract_if(.., |event| is_advance(event)).collect()
 }
