@@ -12,7 +12,9 @@
 use std::ops::Range;
 
 use super::pass::MarkerPass;
+use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Vector};
 use crate::ir::marker::{Event, Marker, Notch, Piece};
 use crate::ir::toolpath;
@@ -29,7 +31,8 @@ const PLACE_EPSILON: f64 = 1e-6;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let Some(length) = job.profile.bite.length_mm else { return };
-    let stretches: Vec<Option<Stretch>> = marker.pieces.iter().map(|piece| stretch(marker, piece, job)).collect();
+    let mut stretches: Vec<Option<Stretch>> = marker.pieces.iter().map(|piece| stretch(marker, piece, job)).collect();
+    wait_for_held(marker, &mut stretches, job);
     let Some(least) = stretches.iter().flatten().map(|stretch| stretch.from).reduce(f64::min) else { return };
     let start = job.profile.table.x_mm.map_or(least, |[start, _]| start);
     let mut windows = Windows { length, start, advance: 0, is_begun: false };
@@ -75,6 +78,32 @@ fn stretch(marker: &Marker, piece: &Piece, job: &Job) -> Option<Stretch> {
     piece.drills.iter().flat_map(|drill| [drill.at, drill.at - Vector::new(x, y)]).for_each(|at| extent.add(at));
     let reach = job.profile.knife.reach();
     (!extent.is_empty()).then_some(Stretch { from: extent.min.x - reach, to: extent.max.x + reach })
+}
+
+/// Has the stretch of each part reach as far as those of the pieces in it: they are cut before it is free. An axis that stands
+/// beside its drill reaches farther than the part around the hole, and a piece may stick out by the band of the nest.
+fn wait_for_held(marker: &Marker, stretches: &mut [Option<Stretch>], job: &Job) {
+    let nesting = Nesting::of(marker, job.profile.band(marker.unit));
+    let extent = |piece: &Piece| {
+        let mut extent = Extent::EMPTY;
+        piece.contours.iter().for_each(|contour| extent.join(&marker.list.extent(contour.range)));
+        extent
+    };
+    let boxes = Boxes::new(marker.pieces.iter().map(extent).collect());
+    for (i, piece) in marker.pieces.iter().enumerate() {
+        let Some(Stretch { to, .. }) = stretches[i] else { continue };
+        let holders = if piece.contours.is_empty() {
+            let around = piece.drills.iter().flat_map(|drill| boxes.at(drill.at));
+            around.filter(|&part| part > i).collect()
+        } else {
+            nesting.holders(i)
+        };
+        for part in holders {
+            if let Some(stretch) = &mut stretches[part] {
+                stretch.to = stretch.to.max(to);
+            }
+        }
+    }
 }
 
 /// Pieces between two places where something is asked for.
