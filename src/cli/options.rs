@@ -187,7 +187,7 @@ pub(super) struct Choice {
     /// Cut from the piece of this number on, in cut order: what an interrupted run has left
     ///
     /// Of several copies (sheet.copies) the first, or as in `--resume-from 3/2` the second. `--resume-from bite:3` begins
-    /// with the third window of a conveyor (bite.length_mm). The cloth lies then as it does when that is cut.
+    /// with the third window of a conveyor (`bite.length_mm`). The cloth lies then as it does when that is cut.
     #[arg(long, value_name = "NUMBER", value_parser = start)]
     resume_from: Option<Start>,
 

@@ -262,8 +262,15 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     let is_told = |edge: &&EdgeLine| match edge.lie {
         Lie::Along => true,
         Lie::Outside => sheet.lines[edge.outline].is_cut,
-        Lie::Ends | Lie::Wide | Lie::Deep | Lie::Divides | Lie::Between => false,
-        Lie::Stands | Lie::Crosses | Lie::Letters | Lie::Sign => false,
+        Lie::Ends
+        | Lie::Wide
+        | Lie::Deep
+        | Lie::Divides
+        | Lie::Between
+        | Lie::Stands
+        | Lie::Crosses
+        | Lie::Letters
+        | Lie::Sign => false,
     };
     told.extend(sheet.from_edges.iter().filter(is_told).map(|edge| edge.line));
     let is_long = |line: &Line| {

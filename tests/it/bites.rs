@@ -3,6 +3,7 @@
 
 use cutc::diagnostic::Diagnostics;
 use cutc::ir::Marker;
+use cutc::ir::marker::{Notch, Piece};
 use cutc::machine::Job;
 use cutc::pipeline;
 use cutc::source::Source;
@@ -24,9 +25,9 @@ const ADVANCE: usize = 8;
 /// What must lie in a window for each piece, mm along X.
 fn reaches(marker: &Marker, job: &Job) -> Vec<[f64; 2]> {
     let reach = job.profile.knife.reach();
-    let of = |piece: &cutc::ir::marker::Piece| {
+    let of = |piece: &Piece| {
         let places = piece.contours.iter().flat_map(|contour| marker.points(contour)).map(|at| at.x);
-        let strokes = piece.notches.iter().flat_map(|notch| notch.strokes()).flat_map(|s| [s.from.x, s.to.x]);
+        let strokes = piece.notches.iter().flat_map(Notch::strokes).flat_map(|s| [s.from.x, s.to.x]);
         let all = places.chain(strokes).chain(piece.drills.iter().map(|drill| drill.at.x));
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x - reach), b.max(x + reach)])
     };
@@ -134,7 +135,9 @@ fn a_program_that_moves_the_cloth_on_otherwise_is_refused() {
         }),
         ("two windows exchanged", "verify/events", |rows| {
             let other = |way: f64| [0.0, 620.0, 310.0][(way / 310.0) as usize];
-            rows.iter_mut().for_each(|row| row[ADVANCE] = other(row[ADVANCE]));
+            for row in rows {
+                row[ADVANCE] = other(row[ADVANCE]);
+            }
         }),
         ("a way without its event", "verify/events", |rows| rows.iter_mut().for_each(|row| row[6] = 0.0)),
         ("a way amid a cut", "verify/events", |rows| {
@@ -343,7 +346,7 @@ fn a_table_and_a_conveyor_agree_and_other_machines_have_none() {
     let said = room.says("compile row.cut --set bite.length_mm=500 --set table.x_mm=[0,400]", USAGE);
     assert!(said.contains("`bite.length_mm` is 500 mm, more than `table.x_mm` has, 400 mm"), "{said}");
     // A marker that begins before the table is not too long for a conveyor.
-    let said = room.says(&format!(r#"compile row.cut {BITES} --set table.x_mm=[100,500]"#), FAULTY);
+    let said = room.says(&format!("compile row.cut {BITES} --set table.x_mm=[100,500]"), FAULTY);
     assert!(said.contains("error[marker/off-table]") && said.contains("sheet.origin = [107.4, 0]"), "{said}");
     assert!(!said.contains("does not fit"), "{said}");
     let said = room.says("compile row.cut --set bite.length_mm=310", FAULTY);

@@ -91,7 +91,7 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
     let last = marker.pieces.iter().rposition(is_cut);
     for (index, piece) in marker.pieces.iter().enumerate() {
         // What a piece without a cut has is the next one's; behind the last, texts are the last one's.
-        waiting.0.extend(piece.events.iter().map(|event| said_event(event)));
+        waiting.0.extend(piece.events.iter().map(said_event));
         let labels = piece
             .labels
             .iter()
@@ -136,7 +136,7 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
         }
     }
     said.extend(waiting.0);
-    said.extend(marker.closing.iter().map(|event| said_event(event)));
+    said.extend(marker.closing.iter().map(said_event));
     fields.sort_by_key(|(named, _)| *named); // stable: those without a name first
     let values = fields.iter().flat_map(|(_, piece)| &piece.fields);
     said.extend(values.map(|field| Said::Field(field.letter, source.slice(field.span).to_vec())));
