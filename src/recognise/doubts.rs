@@ -50,9 +50,14 @@ fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
 /// Outlines with a gap around closed lines, each with how many of those it holds.
 fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     let is_held = |line: &Line| line.is_closed && line.size() >= SIGN && !line.is_set_aside();
-    let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i);
-    let is_told = |&i: &usize| sheet.lines[i].usage != Use::Drawn && sheet.lines[i].class != Class::Frame;
-    let holders = sheet.indices(is_held).into_iter().filter_map(outer).filter(is_told);
+    // Of an outline that is only drawn it matters where a pen that is a knife draws the line in it.
+    let is_told = |outer: usize, inner: usize| {
+        let [outer, inner] = [outer, inner].map(|i| &sheet.lines[i]);
+        let is_lost = inner.usage.is_knife() && !inner.is_cut;
+        (outer.usage != Use::Drawn || is_lost) && outer.class != Class::Frame
+    };
+    let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i && is_told(outer, i));
+    let holders = sheet.indices(is_held).into_iter().filter_map(outer);
     // A part is missing where one was taken for a seam line, whatever the pen of the line around it.
     let remains = sheet.remains.iter().filter(|remains| remains.lines.len() == 1).map(|remains| remains.lines[0]);
     let mut held = BTreeMap::new();

@@ -187,6 +187,16 @@ fn a_line_that_stands_on_an_edge_from_outside_is_named_by_the_part_that_it_stand
     }
 }
 
+/// The line that the knife's pen draws is the seam line of the open one, whose pen only draws: neither is cut, and that is said.
+#[test]
+fn a_line_of_the_knife_in_an_open_outline_of_another_pen_is_never_lost_in_silence() {
+    let outline = "SP2;PU0,0;PD8000,0,8000,6000,0,6000,0,100;SP1;";
+    let seam = rectangle(400, 400, 7200, 5200);
+    let job = Job { lines: Lines { pens: Numbers::parse("1").ok(), ..Lines::default() }, ..Job::default() };
+    let (classes, codes) = found(&format!("{outline}{seam}{}", rectangle(12_000, 0, 8000, 6000)), &job);
+    assert_eq!((classes.as_str(), &codes[..]), ("1 part*, 1 seam line, 1 open outline", &["drawing/open-part"][..]));
+}
+
 #[test]
 fn a_seam_line_that_leaves_its_part_at_a_corner_is_its_seam_line() {
     let seam = "PU4400,6000;PD16040,6000,15600,15600,4400,15600,4400,6000;";
