@@ -20,8 +20,10 @@ pub(super) struct Format {
 }
 
 const EXPORT_CUT: &str = "let the CAD export an ISO cut file for a knife cutter";
-const EXPORT_PLOT: &str = "let the program that drew it export an HPGL plot, or let the CAD export an ISO cut file";
+const EXPORT_PLOT: &str = "let the program that drew it export SVG, DXF or an HPGL plot, or the CAD an ISO cut file";
 const EXPORT_PATTERN: &str = "open it in its CAD and export an ISO cut file, an HPGL plot, or pattern DXF (AAMA, ASTM)";
+const EXPORT_DRAWING: &str = "let the CAD export the flat drawing as DXF or SVG";
+const TABLE: &str = "save a list of points as CSV: `x_mm,y_mm`; let the CAD export all else";
 const UNPACK: &str = "unpack it and give cutc the files inside";
 const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
 const OTHER_STITCHES: &str = "let the embroidery program save it as DST or EXP: `cutc sew` reads those";
@@ -44,12 +46,13 @@ const FORMATS: &[Format] = &[
     known("a stitch queue of a sewing machine", SEW, sewn::is_queue),
     known("an embroidery file (PES)", OTHER_STITCHES, |b| b.starts_with(b"#PES") || b.starts_with(b"#PEC")),
     known("an embroidery file (VP3)", OTHER_STITCHES, |b| b.starts_with(b"%vsm%")),
+    known("a document of an office program (XLSX, DOCX)", TABLE, is_office),
     vague("a zip archive", UNPACK, |b| b.starts_with(b"PK")),
     known("a 7z archive", UNPACK, |b| b.starts_with(b"7z\xbc\xaf\x27\x1c")),
     known("a RAR archive", UNPACK, |b| b.starts_with(b"Rar!")),
     vague("a gzip archive", UNPACK, |b| b.starts_with(b"\x1f\x8b")),
     known("a drawing of Adobe Illustrator (AI)", EXPORT_PLOT, is_illustrator),
-    known("a PDF document", EXPORT_CUT, |b| b.starts_with(b"%PDF")),
+    known("a PDF document", EXPORT_CUT, is_pdf),
     known("a PostScript file (EPS)", EXPORT_PLOT, |b| b.starts_with(b"%!PS") || b.starts_with(b"\xc5\xd0\xd3\xc6")),
     known("a PNG picture", PICTURE, |b| b.starts_with(b"\x89PNG")),
     known("a JPEG picture", PICTURE, |b| b.starts_with(b"\xff\xd8\xff")),
@@ -57,6 +60,16 @@ const FORMATS: &[Format] = &[
     known("a TIFF picture", PICTURE, |b| b.starts_with(b"II*\0") || b.starts_with(b"MM\0*")),
     known("a WebP picture", PICTURE, |b| b.starts_with(b"RIFF") && b.get(8..12) == Some(b"WEBP")),
     known("a BMP picture", PICTURE, |b| b.starts_with(b"BM") && b.get(6..10) == Some(&[0; 4])),
+    known("a Photoshop picture (PSD)", PICTURE, |b| b.starts_with(b"8BPS")),
+    known("an icon (ICO)", PICTURE, |b| b.starts_with(&[0, 0, 1, 0])),
+    known("a HEIC or AVIF picture", PICTURE, |b| b.get(4..8) == Some(b"ftyp")),
+    known("a Windows metafile (WMF)", EXPORT_PLOT, |b| b.starts_with(b"\xd7\xcd\xc6\x9a")),
+    known("an enhanced metafile (EMF)", EXPORT_PLOT, |b| b.get(40..44) == Some(b" EMF")),
+    known("a tar archive", UNPACK, |b| b.get(257..262) == Some(b"ustar")),
+    known("a text document (RTF)", TABLE, |b| b.starts_with(b"{\\rtf")),
+    known("a STEP model", EXPORT_DRAWING, |b| b.starts_with(b"ISO-10303-21")),
+    known("an IGES model", EXPORT_DRAWING, is_iges),
+    known("JSON data", EXPORT_CUT, is_json),
     known("a web page (HTML)", "the download gave a page in its stead: sign in and fetch the file itself", is_web_page),
     known("a pointer of Git LFS", "the file itself is stored elsewhere: fetch it with `git lfs pull`", |b| b.starts_with(b"version https://git-lfs")),
     known("text in UTF-16", "save it as plain text: one byte a character", is_utf16),
@@ -122,6 +135,30 @@ fn has(bytes: &[u8], text: &[u8]) -> bool {
 
 fn is_illustrator(bytes: &[u8]) -> bool {
     (bytes.starts_with(b"%!PS") || bytes.starts_with(b"%PDF")) && has(bytes, b"Adobe Illustrator")
+}
+
+/// A PDF document, be it behind lines of a printer (PJL) or a mark of its encoding.
+fn is_pdf(bytes: &[u8]) -> bool {
+    let is_printed = bytes.starts_with(b"\x1b%-12345X") || bytes.starts_with(b"\xef\xbb\xbf");
+    bytes.starts_with(b"%PDF") || is_printed && has(bytes, b"%PDF-")
+}
+
+/// A zip archive of parts that their first one lists, as office programs write them.
+fn is_office(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK") && has(bytes, b"[Content_Types].xml")
+}
+
+/// A first line of 80 characters whose 73rd one names the start section.
+fn is_iges(bytes: &[u8]) -> bool {
+    bytes.get(72) == Some(&b'S')
+        && bytes.get(73..80).is_some_and(|number| number.trim_ascii() == b"1" || number == b"0000001")
+}
+
+/// An object or a list of JSON: a bracket with a quoted key, or with another bracket behind it.
+fn is_json(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let behind = |open: u8| bytes.strip_prefix(&[open]).map(<[u8]>::trim_ascii_start).and_then(<[u8]>::first);
+    behind(b'{') == Some(&b'"') || matches!(behind(b'['), Some(b'{' | b'['))
 }
 
 /// A page of HTML, behind a mark of its encoding.
@@ -286,6 +323,20 @@ mod tests {
         check(b"x_mm,y_mm,element\n0,0,\n", Some("a pattern for a sewing machine"));
         check(b"op,dx_mm,dy_mm,value\nEND,,,\n", Some("a stitch queue of a sewing machine"));
         check(b"PK\x03\x04\x14\0", Some("a zip archive"));
+        check(b"PK\x03\x04\x14\0\x06\0[Content_Types].xml", Some("a document of an office program (XLSX, DOCX)"));
+        check(b"\x1b%-12345X@PJL JOB\r\n%PDF-1.7\n", Some("a PDF document"));
+        check(b"8BPS\0\x01", Some("a Photoshop picture (PSD)"));
+        check(b"\0\0\x01\0\x01\0\x20\x20", Some("an icon (ICO)"));
+        check(b"\0\0\0\x18ftypheic", Some("a HEIC or AVIF picture"));
+        check(b"\xd7\xcd\xc6\x9a\0\0", Some("a Windows metafile (WMF)"));
+        check(&[&[1, 0, 0, 0][..], &[0; 36], b" EMF"].concat(), Some("an enhanced metafile (EMF)"));
+        check(&[&b"marker.plt"[..], &[0; 247], b"ustar"].concat(), Some("a tar archive"));
+        check(b"{\\rtf1\\ansi", Some("a text document (RTF)"));
+        check(b"ISO-10303-21;\nHEADER;", Some("a STEP model"));
+        check(format!("{:72}S      1\n", "a body").as_bytes(), Some("an IGES model"));
+        check(b"{\n  \"pieces\": []}", Some("JSON data"));
+        check(b"[[0, 1], [2, 3]]", Some("JSON data"));
+        check(b"{1,2}", None);
         check(b"G04 comment*\n%FSLAX24Y24*%\n%MOIN*%\nX0Y0D02*", Some("a Gerber file for circuit boards"));
         check(b"%\nG21\nG0 X1 Y2\nM30\n", Some("G-code for a machine tool"));
         check(b"AutoCAD Binary DXF\r\n\x1a\0\0\0SECTION", Some("a binary DXF drawing"));
