@@ -19,7 +19,7 @@ const LARGE_SEEDS: u64 = 4;
 const LARGE: usize = 400;
 
 /// Nests that are cut in the windows of a conveyor, and the lengths of these, mm.
-const SEEDS_IN_BITES: u64 = 72;
+const SEEDS_IN_BITES: u64 = 48;
 const BITES: [f64; 4] = [700.0, 850.0, 1100.0, 1600.0];
 
 /// One of so many has edges cut once that are up to 1 mm apart.
@@ -69,7 +69,7 @@ fn no_nest_is_refused_whatever_notches_gaps_and_blades() {
 #[test]
 fn no_nest_is_refused_in_the_windows_of_a_conveyor() {
     let wrong = |seed: u64| {
-        let recipe = Recipe::of(seed, 20, 20);
+        let recipe = Recipe::of(seed, 30, 20);
         let mut job = Job::default();
         let length = BITES[(seed / 3) as usize % BITES.len()];
         job.profile.bite.length_mm = Some(length);
