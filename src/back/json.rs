@@ -50,7 +50,7 @@ struct Run {
     ticks: u64,
     start: Pose,
     end: Pose,
-    /// How far the cloth was moved on, mm; `None` where it lies still.
+    /// Way of the cloth so far, mm; `None` where it lies still.
     advance: Option<u32>,
 }
 

@@ -42,7 +42,7 @@ pub enum Start {
     Bite(u32),
 }
 
-/// What stands before the number of a window.
+/// Prefix of the number of a window.
 const BITE: &str = "bite:";
 
 impl Start {

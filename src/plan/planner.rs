@@ -38,7 +38,7 @@ impl<'a> Planner<'a> {
         Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences, station: 0 }
     }
 
-    /// The same over cloth that was moved on before, mm.
+    /// The program over cloth that was moved on before, by so many mm.
     #[must_use]
     pub fn over(self, moved_on: u32) -> Self {
         Self { station: moved_on, ..self }
@@ -264,7 +264,7 @@ pub fn home_over(moved_on: u32, job: &Job) -> Pose {
     Pose::new(x + f64::from(moved_on), y, rad(c))
 }
 
-/// The same over cloth that lies still.
+/// The pose at which programs start over cloth that lies still.
 pub fn home(job: &Job) -> Pose {
     home_over(0, job)
 }

@@ -50,7 +50,7 @@ fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
 /// Outlines with a gap around closed lines, each with how many of those it holds.
 fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     let is_held = |line: &Line| line.is_closed && line.size() >= SIGN && !line.is_set_aside();
-    // Of an outline that is only drawn it matters where a pen that is a knife draws the line in it.
+    // An outline that is only drawn matters where a pen that is a knife draws the line in it.
     let is_told = |outer: usize, inner: usize| {
         let [outer, inner] = [outer, inner].map(|i| &sheet.lines[i]);
         let is_lost = inner.usage.is_knife() && !inner.is_cut;

@@ -22,7 +22,7 @@ const MACHINE: &str = "bite.length_mm = 400\ngcode.advance = [\"M68 E0 Q#\", \"M
 /// The column of the way of the cloth.
 const ADVANCE: usize = 8;
 
-/// What must lie in a window for each piece, mm along X.
+/// Stretches along X that must lie in a window, a piece each, mm.
 fn reaches(marker: &Marker, job: &Job) -> Vec<[f64; 2]> {
     let reach = job.profile.knife.reach();
     let of = |piece: &Piece| {
@@ -210,7 +210,7 @@ fn records_that_tell_another_way_are_refused() {
     }
 }
 
-/// What a file asks for between its pieces is asked for in a conveyor's windows as well.
+/// Stops and advances of a file come between the same pieces in a conveyor's windows as well.
 #[test]
 fn stops_and_advances_of_a_file_keep_their_say() {
     let room = Room::new();

@@ -42,7 +42,7 @@ pub(super) struct Program<'a> {
     source: &'a str,
     /// The lines that were not written yet.
     text: Vec<u8>,
-    /// Where the axes stand over the cloth.
+    /// Pose of the axes over the cloth.
     pose: Pose,
     /// Way of the cloth so far, mm.
     station: u32,

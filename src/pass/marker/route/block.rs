@@ -28,7 +28,7 @@ pub(super) fn order(marker: &mut Marker, job: &Job, cuts: &dyn Fn(usize, &Marker
     let Marker { pieces, list, .. } = marker;
     let mut home = routing.home;
     for block in blocks(pieces) {
-        // On the cloth the axes come to stand as much farther as a conveyor moves that on.
+        // A conveyor moves the cloth on under the axes: on it they come to stand as much farther.
         let advances = pieces[block.start].events.iter().map(|event| event.kind.advance_mm());
         home.at.x += f64::from(advances.sum::<u32>());
         let lay = Lay { cuts: &cuts[block.clone()], first: block.start, pieces, list };
