@@ -297,7 +297,7 @@ pub enum Event {
     Stop,
     /// Advance the cloth, as far as the controller knows.
     Advance,
-    /// Advance the cloth by so many mm: what comes behind it lies in the next bite of a conveyor.
+    /// Advance of the cloth by a length in mm, to the next bite of a conveyor.
     AdvanceBy(u32),
 }
 

@@ -38,7 +38,7 @@ impl<'a> Planner<'a> {
         Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences, station: 0 }
     }
 
-    /// The program over cloth that was moved on before, by so many mm.
+    /// A program that begins over cloth with a way of `moved_on` mm behind it.
     #[must_use]
     pub fn over(self, moved_on: u32) -> Self {
         Self { station: moved_on, ..self }
@@ -258,13 +258,13 @@ fn yawed(pose: Pose, job: &Job) -> Pose {
     Pose { c: Rotation(pose.c.0 + job.profile.knife.yaw()), ..pose }
 }
 
-/// The pose at which programs start, over cloth that was moved on by so many mm before.
+/// Pose at which programs start, over cloth with a way of `moved_on` mm behind it.
 pub fn home_over(moved_on: u32, job: &Job) -> Pose {
     let [x, y, c] = job.profile.home;
     Pose::new(x + f64::from(moved_on), y, rad(c))
 }
 
-/// The pose at which programs start over cloth that lies still.
+/// Pose at which programs start, over cloth that lies still.
 pub fn home(job: &Job) -> Pose {
     home_over(0, job)
 }

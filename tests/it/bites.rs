@@ -240,7 +240,7 @@ fn stops_and_advances_of_a_file_keep_their_say() {
         let told: Vec<String> = rows.iter().filter(|row| row[6] > 0.0).map(|row| row[6].to_string()).collect();
         assert_eq!((told.join(",").as_str(), rows[rows.len() - 1][ADVANCE]), (events, last), "{middle} {end}");
     }
-    // What is left out needs no window, and what a file has at its end moves all off the table still.
+    // A piece that is left out needs no window, and an advance at the end moves all off the table still.
     room.says("compile file.cut --force -o some.csv --set bite.length_mm=340 --pieces 1", DONE);
     assert_eq!(rows(&room.text("some.csv")).last().expect("rows")[ADVANCE], 475.0);
     room.write("long.cut", ROW.replace("X9200", "X12200").as_bytes());

@@ -9,7 +9,7 @@ use crate::units::number::exact;
 
 /// Longest number that is read, characters: more digits say nothing.
 const NUMBER_CHARS: usize = 16;
-/// Placeholder of the number of a drill, or of the way of the cloth.
+/// Sign in the place of a number that is not known yet: that of a drill, or the way of the cloth.
 const BLANK: &str = "#";
 
 /// What is wrong with a line or a step.

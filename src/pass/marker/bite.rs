@@ -37,9 +37,10 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let start = job.profile.table.x_mm.map_or(least, |[start, _]| start);
     let mut windows = Windows { length, start, advance: 0, is_begun: false };
     let (mut order, blocks) = (Vec::with_capacity(stretches.len()), blocks(&marker.pieces));
+    let firsts = firsts(&stretches);
     for block in &blocks {
         let moves_on = marker.pieces[block.start].events.iter().any(is_advance);
-        let later = stretches[block.end..].iter().flatten().map(|stretch| stretch.from).fold(f64::INFINITY, f64::min);
+        let later = firsts[block.end];
         // A piece that is left out needs no window.
         let is_cut = |&i: &usize| job.selection.has(marker.pieces[i].number);
         let left = block.clone().map(|i| (i, stretches[i].filter(|_| is_cut(&i)))).collect();
@@ -53,6 +54,15 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     if let Some(idle) = lay(marker, &blocks, &order, end) {
         diagnostics.push(idle);
     }
+}
+
+/// Least start of the stretches from each place on, and behind the last.
+fn firsts(stretches: &[Option<Stretch>]) -> Vec<f64> {
+    let mut firsts = vec![f64::INFINITY; stretches.len() + 1];
+    for (i, stretch) in stretches.iter().enumerate().rev() {
+        firsts[i] = stretch.map_or(firsts[i + 1], |stretch| stretch.from.min(firsts[i + 1]));
+    }
+    firsts
 }
 
 /// Whether the file moves the cloth on.

@@ -27,8 +27,8 @@ pub(in crate::verify) fn header(input: &mut dyn BufRead) -> Option<(u64, usize)>
     Some((count, RECORDS[list]))
 }
 
-/// Reads the next record of so many bytes, of which `left` are to come; `Some(false)` at the end of the program, `None` when it
-/// ends too early, cannot be read, or has bytes left over.
+/// Reads the next record, of `size` bytes, where `left` are to come; `Some(false)` at the end of the program, `None` when it ends
+/// too early, cannot be read, or has bytes left over.
 pub(super) fn record(input: &mut dyn BufRead, left: &mut u64, size: usize, bytes: &mut Vec<u8>) -> Option<bool> {
     bytes.resize(size, 0);
     columns::record(input, left, bytes).ok()

@@ -29,9 +29,9 @@ const GREATEST: [u32; 4] = [1, 4, 2, u32::MAX];
 /// How rows are written.
 #[derive(Debug)]
 enum Form<'a> {
-    /// Lines of so many fields between commas.
+    /// Lines of fields between commas, and the number of the fields.
     Table(usize),
-    /// Records, so many of which are still to come, and their bytes.
+    /// Records: the number of those to come, and the bytes of each.
     Array(u64, usize),
     /// Records of encoder counts, likewise.
     Counts(Counts, u64),
@@ -273,7 +273,7 @@ pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     says(&message, &as_compiled)
 }
 
-/// Reads a line of so many fields; why it is no row is said as it goes on behind its number.
+/// Row of a line with that number of fields, or a message that goes on behind the number of the line.
 fn parse(line: &[u8], tick: u64, fields: usize) -> Result<Row, String> {
     let count = || line.split(|&b| b == b',').count();
     row(line, tick, fields > PLAIN_FIELDS).map_err(|why| match count() {
