@@ -364,8 +364,8 @@ struct Graph<'a, 'b> {
     chains: Chains,
     /// Strokes that lead nowhere.
     is_dead: Vec<bool>,
-    /// Places where a notch and a slit meet on an edge of another line.
-    on_edge: BTreeSet<usize>,
+    /// Ends of notches on an edge of another line, where they meet other strokes.
+    on_edge: BTreeSet<End>,
 }
 
 impl<'a, 'b> Graph<'a, 'b> {
@@ -470,7 +470,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         self.find_edges();
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open_but_slits(k)[..]
-                && !self.are_notches(k, [a, b])
+                && !self.are_notches([a, b])
             {
                 self.chains.join([a, b]);
             }
@@ -486,35 +486,44 @@ impl<'a, 'b> Graph<'a, 'b> {
         is_pair && is_one(tips) && [a, b].iter().all(|end| self.joining.is_notch(end / 2))
     }
 
-    /// Whether two strokes are two notches: their mouths touch, or one is a slit that begins at the mouth of the other,
-    /// on the edge of a part.
-    fn are_notches(&self, node: usize, ends: [End; 2]) -> bool {
+    /// Whether one of two strokes is a notch that the other has no part in: the other is a notch, too, or begins at its mouth,
+    /// on the edge of a part. A slit may begin so at the mouth of a notch that misses the edge with its other end.
+    fn are_notches(&self, ends: [End; 2]) -> bool {
+        let is_apart = |[notch, beside]: [End; 2]| {
+            let is_slit = self.joining.is_slit(beside / 2);
+            self.on_edge.contains(&notch) && (is_slit || self.on_edge.contains(&other(notch)))
+        };
         match ends.map(|end| self.joining.is_notch(end / 2)) {
             [true, true] => true,
             [false, false] => false,
-            [true, false] => self.joining.is_slit(ends[1] / 2) && self.on_edge.contains(&node),
-            [false, true] => self.joining.is_slit(ends[0] / 2) && self.on_edge.contains(&node),
+            [true, false] => is_apart(ends),
+            [false, true] => is_apart([ends[1], ends[0]]),
         }
     }
 
-    /// Finds the places where a notch and a slit meet on an edge of another line.
+    /// Finds the ends of notches on an edge of another line, of those that meet other strokes.
     fn find_edges(&mut self) {
         let joining = self.joining;
-        let is_short = |end: &End| joining.is_notch(end / 2) || joining.is_slit(end / 2);
-        let may_be = |node: &[End]| node.iter().all(is_short) && node.iter().any(|end| joining.is_notch(end / 2));
-        let found: Vec<usize> = (0..self.nodes.len()).filter(|&k| may_be(&self.open(k, true))).collect();
+        let notches = |k: usize| self.open(k, true).into_iter().filter(|end| joining.is_notch(end / 2));
+        let found = (0..self.nodes.len()).flat_map(notches).flat_map(|end| [end, other(end)]);
+        let found: Vec<End> = found.collect::<BTreeSet<End>>().into_iter().collect();
         if found.is_empty() {
             return;
         }
-        let at = |k: &usize| place(joining.drawing, self.nodes[*k][0]);
-        let boxes = Boxes::new(found.iter().map(|k| Extent::between(at(k), at(k)).grown(Notch::MISS)).collect());
+        let at = |end: End| place(joining.drawing, end);
+        let boxes = found.iter().map(|&end| Extent::between(at(end), at(end)).grown(Notch::MISS));
+        let boxes = Boxes::new(boxes.collect());
+        let meets = |end: End, stroke: usize| {
+            let node = self.node[end];
+            node.is_some() && [2 * stroke, 2 * stroke + 1].iter().any(|&end| self.node[end] == node)
+        };
         let strokes = (0..joining.drawing.strokes.len()).filter(|&k| !joining.is_notch(k) && !joining.is_slit(k));
         for stroke in strokes {
             for ends in joining.drawing.vertices[joining.drawing.strokes[stroke].range()].windows(2) {
                 let [a, b] = [ends[0].at, ends[1].at];
                 let near = boxes.near(Extent::between(a, b)).map(|k| found[k]);
-                let on = near.filter(|k| polyline::distance_to_segment(at(k), a, b) <= Notch::MISS);
-                self.on_edge.extend(on);
+                let on = near.filter(|&end| polyline::distance_to_segment(at(end), a, b) <= Notch::MISS);
+                self.on_edge.extend(on.filter(|&end| !meets(end, stroke)));
             }
         }
     }

@@ -147,7 +147,7 @@ impl Judge<'_> {
 }
 
 /// How far a blade points away from its line under it, rad: no farther to either side than one of its chords there.
-fn askew(line: &Line, cut: &Cut, trial: &Trial) -> f64 {
+pub(super) fn askew(line: &Line, cut: &Cut, trial: &Trial) -> f64 {
     let [first, last] = trial.reach;
     let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
     // A chord that begins or ends where the cut does is none of its own.

@@ -91,8 +91,6 @@ pub(in crate::verify) struct Judge<'a> {
     /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
     way_min: f64,
     noise_deg: f64,
-    /// Greatest angle between the blade and its way, rad.
-    max_heading: f64,
     pub(super) tracer: Tracer<'a>,
     /// Greatest overlap at one end, and of both ends together.
     pub(super) overlap: f64,
@@ -124,6 +122,7 @@ impl<'a> Judge<'a> {
             width: knife.width_mm,
             allowed: tolerance + place,
             max_uncut: profile.verify.max_uncut_mm,
+            max_heading: profile.verify.max_heading_deg.to_radians(),
             slack: overlaps + knife.width_mm + 2.0 * tolerance,
         };
         Self {
@@ -138,7 +137,6 @@ impl<'a> Judge<'a> {
             rounding: place,
             way_min: heading::way_min(rounding),
             noise_deg: heading::noise_deg(rounding),
-            max_heading: profile.verify.max_heading_deg.to_radians(),
             tracer,
             overlap: front.max(heel),
             overlaps,
@@ -318,7 +316,7 @@ impl<'a> Judge<'a> {
         if moving.ways.is_empty() && self.noise_deg > 0.0 {
             let [x, y, c] = self.rows_rounding.axes;
             let rounding = x.hypot(y) + c.to_radians() * self.knife.width_mm;
-            drift::check(moving, [rounding, self.max_heading], heading);
+            drift::check(moving, [rounding, self.tracer.max_heading], heading);
         } else {
             moving.check(heading);
         }

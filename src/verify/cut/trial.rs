@@ -8,6 +8,7 @@ use super::covered::{Near, covered};
 use super::follow::{Follower, Foot};
 use super::heading::on_lap;
 use super::passing::{longest, passed, skipped};
+use super::plunge_cut::askew;
 use super::plunged::Plunged;
 use crate::geom::Point;
 use crate::ir::declaration::{Kind, Which};
@@ -109,6 +110,8 @@ pub(in crate::verify) struct Tracer<'a> {
     pub(in crate::verify) allowed: f64,
     /// Longest stretch that may be left uncut, mm.
     pub(in crate::verify) max_uncut: f64,
+    /// Greatest angle between the blade and its line or way, rad.
+    pub(in crate::verify) max_heading: f64,
     /// How much a stroke may cut that is not of its line, mm: overlaps, and the surplus of the blade.
     pub(in crate::verify) slack: f64,
 }
@@ -144,8 +147,8 @@ impl Tracer<'_> {
 
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
     /// blade, which may lie on a neighbour, the one that its row names as the block being cut, else the one that it
-    /// completes best; one that a plunged blade only crosses if there is no other. The name decides between equals only: what
-    /// is cut is seen on the cloth.
+    /// completes best; one that a plunged blade only crosses, or lies askew to, if there is no other. The name decides between
+    /// equals only: what is cut is seen on the cloth.
     pub(in crate::verify) fn choose(&self, trace: &mut Trace, cut: &Cut, coverage: &Coverage) -> Option<Trial> {
         let tolerance = self.reference.tolerance;
         let mut trials = std::mem::take(&mut trace.trials);
@@ -170,6 +173,10 @@ impl Tracer<'_> {
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
+        let points_along = |trial: &Trial| askew(&self.reference.lines[trial.line], cut, trial) <= self.max_heading;
+        if cut.is_plunge_cut() && trials.len() > 1 && trials.iter().any(points_along) {
+            trials.retain(points_along);
+        }
         trials.into_iter().min_by(|a, b| {
             let by_name = self.is_named(b.line, trace.block).cmp(&self.is_named(a.line, trace.block));
             by_name

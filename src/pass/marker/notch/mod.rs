@@ -5,6 +5,7 @@
 //!
 //! - it is a V (mouth 1 to 12 mm), a castle or a U (mouth 1.5 to 12 mm), 1.5 to 15 mm deep along its axis;
 //! - the axis of a V or castle, from the middle of the mouth to that of the bottom, leans up to 60 degrees from the square;
+//! - the bottom of a castle and the legs of a U are up to 10 degrees askew to the mouth and to the square;
 //! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction;
 //! - it is none of four or more in a row whose next is nearer than their mouths are wide: the teeth of a pinked hem;
 //! - three vertices at least belong to none of the contour's notches.

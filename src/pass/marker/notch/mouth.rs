@@ -23,6 +23,9 @@ const LEG_RATIO: f64 = 1.25;
 const AXIS_LEAN: f64 = 1.733;
 /// How far the sides of a castle may lean from its axis, of its depth.
 const LEAN: f64 = 0.2;
+/// Tangent of how far the bottom of a castle may be askew to its mouth, and a leg of a U to the square: 10 degrees. A notch is
+/// laid square to the seam, and the edge that it stands on is not quite parallel to that.
+const TILT: f64 = 0.176;
 /// Least turn at the bottom of a castle, rad: it is round where the turn is spread.
 const CORNER: f64 = 65.0 * PI / 180.0;
 /// Least area of a U, of the rectangle around it: a semicircle has 0.785, a V 0.5.
@@ -208,7 +211,7 @@ impl Ring<'_> {
             (apex, self.at(i + apex))
         } else {
             let across = Vector::new(-along.y, along.x) * side;
-            let (deepest, _) = way.bottom(0..steps + 1, self.slack)?;
+            let (deepest, _) = way.bottom(0..steps + 1, 2.0 * self.slack)?;
             (deepest, self.points[i] + along * tip[0] + across * tip[1])
         };
         Some(Mouth {
@@ -272,7 +275,7 @@ impl Way<'_> {
     /// A part of a round bottom may look like a U that leans, so that only a V and a castle may.
     fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
         let last = self.points.len() - 1;
-        let (left, right) = self.bottom(0..last + 1, slack)?;
+        let (left, right) = self.bottom(0..last + 1, self.tilted(slack))?;
         // Shearing keeps straight sides straight, so that a way with curved ones is neither a V nor a castle.
         if !self.is_straight([0, left], slack) || !self.is_straight([right, last], slack) {
             return None;
@@ -309,10 +312,15 @@ impl Way<'_> {
         (0..self.points.len()).max_by(|&a, &b| self.points[a][1].total_cmp(&self.points[b][1])).unwrap_or(0)
     }
 
-    /// First and last of some vertices within two slacks of the greatest depth: rounding moves a vertex by one slack and the
-    /// mouth, from which depth is measured, by another.
-    fn bottom(&self, mut among: Range<usize>, slack: f64) -> Option<(usize, usize)> {
-        let is_low = |k: &usize| self.points[*k][1] >= self.depth - 2.0 * slack;
+    /// Greatest difference of depth at the bottom of a castle, mm: rounding moves a vertex by one slack and the mouth, from
+    /// which depth is measured, by another.
+    fn tilted(&self, slack: f64) -> f64 {
+        2.0 * slack + TILT * self.width
+    }
+
+    /// First and last of some vertices that are so much less deep than the deepest, mm, or deeper.
+    fn bottom(&self, mut among: Range<usize>, most: f64) -> Option<(usize, usize)> {
+        let is_low = |k: &usize| self.points[*k][1] >= self.depth - most;
         let left = among.find(is_low)?;
         Some((left, among.rfind(is_low).unwrap_or(left)))
     }
@@ -340,7 +348,7 @@ impl Way<'_> {
     /// The middle of the bottom, if it is a rectangle.
     fn castle(&self, slack: f64) -> Option<[f64; 2]> {
         let last = self.points.len() - 1;
-        let (left, right) = self.bottom(1..last, slack)?;
+        let (left, right) = self.bottom(1..last, self.tilted(slack))?;
         let most = slack + LEAN * self.depth.min(self.width);
         let leans = [self.points[left][0].abs(), (self.points[right][0] - self.width).abs()];
         let is_castle = leans.into_iter().all(|lean| lean <= most)
@@ -366,12 +374,15 @@ impl Way<'_> {
     /// A way down, across and up again that fills most of the rectangle around it.
     fn is_u(&self, slack: f64) -> bool {
         let (apex, last) = (self.apex(), self.points.len() - 1);
-        let (left, right) = (-slack - LEAN * self.width, self.width * (1.0 + LEAN) + slack);
+        let beside = LEAN * self.width + TILT * self.depth + slack;
+        let (left, right) = (-beside, self.width + beside);
         let steps = || self.points.windows(2);
+        // Whether a step leads on by one measure, or back no more than its tilt has it do by the way along the other.
+        let leads_on = |on: f64, along: f64| on >= -2.0 * slack - TILT * along.abs();
         let is_round = self.points.iter().all(|point| (left..=right).contains(&point[0]))
-            && steps().all(|ends| ends[1][0] >= ends[0][0] - 2.0 * slack)
-            && steps().take(apex).all(|ends| ends[1][1] >= ends[0][1] - 2.0 * slack)
-            && steps().skip(apex).all(|ends| ends[1][1] <= ends[0][1] + 2.0 * slack);
+            && steps().all(|ends| leads_on(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
+            && steps().take(apex).all(|ends| leads_on(ends[1][1] - ends[0][1], ends[1][0] - ends[0][0]))
+            && steps().skip(apex).all(|ends| leads_on(ends[0][1] - ends[1][1], ends[1][0] - ends[0][0]));
         let doubled: f64 = steps().map(|ends| (ends[1][0] - ends[0][0]) * (ends[1][1] + ends[0][1])).sum();
         last > 3 && is_round && doubled / 2.0 >= U_AREA * self.width * self.depth
     }
