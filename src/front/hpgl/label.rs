@@ -76,7 +76,8 @@ pub(super) fn quoted(bytes: &[u8], at: usize) -> usize {
     })
 }
 
-/// Where the file goes on behind a text in quotes: a quote within it stands twice. `None` without both of its quotes.
+/// Where the file goes on behind a text in quotes: a quote within it stands twice. `None` without both of its quotes, and
+/// where an outline stands between them: then one is lost.
 pub(super) fn in_quotes(bytes: &[u8], at: usize) -> Option<usize> {
     let at = at + bytes[at..].iter().take_while(|byte| **byte == b' ').count();
     if bytes.get(at) != Some(&b'"') {
@@ -87,7 +88,7 @@ pub(super) fn in_quotes(bytes: &[u8], at: usize) -> Option<usize> {
     while let Some(length) = memchr::memchr(b'"', &bytes[next.min(end)..end]) {
         next += length + 1;
         if bytes.get(next) != Some(&b'"') {
-            return Some(next);
+            return Some(next).filter(|_| !holds_outline(&bytes[at + 1..next - 1]));
         }
         next += 1;
     }

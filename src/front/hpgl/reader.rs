@@ -85,7 +85,9 @@ impl<'a> Reader<'a> {
                 passed_over = sequence == Escape::Other;
                 (Statement::Reset, rest)
             } else {
-                let length = 1 + i[1..].iter().position(|&byte| begins(byte)).unwrap_or(i.len() - 1);
+                let begun = || i[1..].iter().position(|&byte| begins(byte)).unwrap_or(i.len() - 1);
+                // Words of a text run nothing, whatever it stands behind.
+                let length = label::in_quotes(i, 0).unwrap_or_else(|| 1 + begun());
                 (Statement::Junk, &i[length..])
             };
             self.at = self.bytes.len() - next.len();
@@ -229,17 +231,21 @@ impl<'a> Reader<'a> {
         self.at += usize::from(self.bytes.get(self.at).is_some_and(|byte| *byte != b';'));
     }
 
-    /// BP: numbers and quoted texts.
+    /// BP: numbers and texts, in quotes or up to the end of the instruction.
     fn texts_among_values(&mut self) {
         loop {
             while let Ok((rest, _)) = syntax::parameter(&self.bytes[self.at..]) {
                 self.at = self.bytes.len() - rest.len();
             }
-            let blanks = syntax::separators(&self.bytes[self.at..]);
-            if self.bytes.get(self.at + blanks) != Some(&b'"') {
-                return;
+            let separators = syntax::separators(&self.bytes[self.at..]);
+            let is_value = self.bytes[self.at..][..separators].contains(&b',');
+            match self.bytes.get(self.at + separators) {
+                Some(b'"') => {}
+                // A title without quotes: its words run nothing.
+                Some(byte) if is_value && byte.is_ascii_alphabetic() => {}
+                Some(_) | None => return,
             }
-            self.at += blanks;
+            self.at += separators;
             self.quoted();
         }
     }
@@ -378,6 +384,7 @@ mod tests {
         check(b"@PJL ENTER LANGUAGE=HPGL2\nIN;", "IN");
         check(b"P;PU3;", "!|PU 3");
         check(b"MG\"SPORT\";BP1,\"PRESS\",5,1;SMP;PU3;SM;PU4", "MG|BP|SM|PU 3|SM|PU 4");
+        check(b"BP1,RO 90;PU3;BP5,1PU4;MT\"RO 90\";PU5;\"PU6;", "BP|PU 3|BP|PU 4|MT|!|PU 5|!|PU 6");
         check(
             b"DT#;LBa#IN;LBb#\x03PU;",
             "DT|LB[Span { start: 6, end: 7, block: 2 }]|IN|LB[Span { start: 13, end: 15, block: 4 }]|PU",
