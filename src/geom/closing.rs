@@ -6,8 +6,6 @@
 
 use crate::geom::{Point, cross, polyline, ring};
 
-/// Longest stretch that counts as an overcut of other software, mm, as the crow flies: longer ones are lines of their own.
-pub const LONGEST_PAST: f64 = 100.0;
 /// Longest overcut that goes straight on from the start of an outline, where that turns, mm.
 pub const LONGEST_STRAIGHT: f64 = 10.0;
 /// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
@@ -43,19 +41,15 @@ pub fn reach(unit: f64) -> f64 {
     (DIAGONAL * unit).max(LEAST_REACH)
 }
 
-/// How a line of `count` places runs past its start or goes round again; `None` for every other line. A line whose ends
-/// are one place, or far apart, costs a few comparisons.
+/// How a line of `count` places runs past its start or goes round again; `None` for every other line. A line that comes near
+/// its start at its end alone costs a few comparisons a place.
 pub fn retrace(count: usize, at: impl Fn(usize) -> Point, reach: f64) -> Option<Retrace> {
     if count <= LEAST_SEGMENTS {
         return None;
     }
     let line = Line { count, at, reach };
-    let (first, end) = ((line.at)(0), (line.at)(count - 1));
-    if first == end {
+    if (line.at)(0) == (line.at)(count - 1) {
         return line.whole_rounds();
-    }
-    if (end - first).amax() > LONGEST_PAST {
-        return None;
     }
     line.returns().take(MOST_RETURNS).find_map(|last| line.followed(last).or_else(|| line.straight_on(last)))
 }

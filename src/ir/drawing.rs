@@ -223,6 +223,8 @@ pub struct Aside {
     pub moved: Moved,
 }
 
+/// Class of a long open line in no part, which may be an outline with a gap.
+pub const OPEN_LINE: &str = "open line";
 /// Class of an open line around a closed line: an outline with a gap.
 pub const OPEN_OUTLINE: &str = "open outline";
 /// Class of the open lines that together make an outline around a closed line.

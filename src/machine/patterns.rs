@@ -46,11 +46,9 @@ impl Dxf {
     pub const CURVE_OFF: f64 = 0.5;
     /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
     pub const NOTCH_OFF: f64 = 1.0;
-    /// Longest stretch that an outline runs past its own start, mm, as the crow flies: the overcut of another cutter.
-    pub const OVERRUN: f64 = 100.0;
-    /// Longest such stretch that goes straight on where the outline turns at its start, mm.
+    /// Longest stretch that goes straight on where an outline turns at its start, mm: the overcut of another cutter.
     pub const PAST_CORNER: f64 = 10.0;
-    /// Farthest that such a stretch, or another round, lies from the first round, mm.
+    /// Farthest that such a stretch, one along the outline, or another round lies from the first round, mm.
     pub const RETRACE_OFF: f64 = 0.2;
 }
 

@@ -20,9 +20,10 @@ pub(super) fn errors(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
     diagnostics.iter().filter(is_error).take(MOST).collect()
 }
 
-/// The warnings that are about some of the pieces, or about outlines that are not cut.
+/// The warnings that are about some of the pieces, or about lines that are not cut and may be outlines.
 pub(super) fn doubts(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
-    let is_of_some = |d: &Diagnostic| !d.pieces.is_empty() || *d.code == code::DRAWING_OPEN_PART;
+    let is_uncut = |d: &Diagnostic| *d.code == code::DRAWING_OPEN_PART || *d.code == code::DRAWING_OPEN_OUTLINES;
+    let is_of_some = |d: &Diagnostic| !d.pieces.is_empty() || is_uncut(d);
     let is_doubt = |d: &&Diagnostic| d.code.severity == Severity::Warning && is_of_some(d);
     diagnostics.iter().filter(is_doubt).take(MOST).collect()
 }

@@ -28,6 +28,7 @@ const CLOSE_EPSILON: f64 = 1e-6;
 pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let owners = owners(sheet);
     open_parts(sheet, out);
+    maybe_seams(sheet, &owners, out);
     without_seam(sheet, &owners, out);
     closed(sheet, &owners, out);
     from_edges(sheet, &owners, job, out);
@@ -59,7 +60,8 @@ fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i && is_told(outer, i));
     let holders = sheet.indices(is_held).into_iter().filter_map(outer);
     // A part is missing where one was taken for a seam line, whatever the pen of the line around it.
-    let remains = sheet.remains.iter().filter(|remains| remains.lines.len() == 1).map(|remains| remains.lines[0]);
+    let single = |remains: &&Remains| remains.is_sure && remains.lines.len() == 1;
+    let remains = sheet.remains.iter().filter(single).map(|remains| remains.lines[0]);
     let mut held = BTreeMap::new();
     for outline in holders.chain(remains) {
         *held.entry(outline).or_insert(0) += 1;
@@ -70,7 +72,8 @@ fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
 
 /// Outlines of several strokes that are not whole.
 fn broken_outlines(sheet: &Sheet) -> impl Iterator<Item = &Remains> {
-    let is_left = |remains: &&Remains| remains.lines.len() > 1 && !sheet.lines[remains.inner].is_cut;
+    let is_left =
+        |remains: &&Remains| remains.is_sure && remains.lines.len() > 1 && !sheet.lines[remains.inner].is_cut;
     sheet.remains.iter().filter(is_left)
 }
 
@@ -112,14 +115,37 @@ fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
     let lines = if lines == 1 { "is the closed line".to_owned() } else { format!("are the {lines} closed lines") };
     let message = format!("{outlines}: not cut, and neither {lines} {around}");
     let found = finding(&code::DRAWING_OPEN_PART, message, &sheet.lines[first], sheet);
+    let beyond = || "let the CAD close it; if it is the edge of the cloth, leave its pen out (`--cut-pens`)".to_owned();
+    out.push(found.hint(how_to_close(widest).unwrap_or_else(beyond)));
+}
+
+/// Hint with the key that closes a gap, mm; `None` for one that no key closes.
+pub(super) fn how_to_close(gap: f64) -> Option<String> {
     // Rounded up: the gap itself must be within it.
-    let close = (widest / CLOSE_STEP - CLOSE_EPSILON).ceil() * CLOSE_STEP;
-    out.push(found.hint(if close <= CLOSE_MOST_MM {
-        let close = fixed(close, DECIMALS);
-        format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={close}`")
-    } else {
-        "let the CAD close it; if it is the edge of the cloth, leave its pen out (`--cut-pens`)".to_owned()
-    }));
+    let close = (gap / CLOSE_STEP - CLOSE_EPSILON).ceil() * CLOSE_STEP;
+    let close = Some(close).filter(|close| *close <= CLOSE_MOST_MM)?;
+    let close = fixed(close, DECIMALS);
+    Some(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={close}`"))
+}
+
+/// Parts that open lines run beside from outside: each may be the seam line of an outline that is not whole.
+fn maybe_seams(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
+    let is_doubtful = |remains: &&Remains| {
+        let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
+        !remains.is_sure && sheet.lines[remains.inner].is_cut && remains.lines.iter().any(is_left)
+    };
+    let doubtful: Vec<&Remains> = sheet.remains.iter().filter(is_doubtful).collect();
+    let Some(first) = doubtful.first() else { return };
+    let parts: Vec<usize> = doubtful.iter().map(|remains| remains.inner).collect();
+    let numbers = numbers(owners, &parts);
+    let (may_be, it) = match doubtful.len() {
+        1 => ("may be a seam line".to_owned(), "it"),
+        _ => ("may be seam lines".to_owned(), "them"),
+    };
+    let message = format!("{} {may_be}: open lines run beside {it} from outside", pieces::listed(&numbers));
+    let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first.lines[0]], sheet);
+    let found = found.about(numbers).hint("if those lines are its outline, let the CAD close it: else the part is too small");
+    out.push(found.hint("if they are none, `--cut-pens` leaves their pen out"));
 }
 
 /// Parts without a seam line where many have one.
@@ -299,6 +325,15 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
         hints: &[NOTCHES],
     },
     EdgeDoubt {
+        lie: Lie::Joins,
+        code: &code::DRAWING_LINE_FROM_EDGE,
+        does: ["one open line leads from outline to outline", "open lines lead from outline to outline"],
+        hints: &[
+            "if two parts have it in common, let the CAD draw each as one closed line",
+            "`--cut-all` cuts every line but a frame",
+        ],
+    },
+    EdgeDoubt {
         lie: Lie::Stands,
         code: &code::DRAWING_LINE_FROM_EDGE,
         does: ["one small closed line stands on the outline", "small closed lines stand on the outline"],
@@ -308,9 +343,9 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
 
 /// Lines that begin on the outline of a part and are not cut, and small closed ones that stand on it.
 fn from_edges(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
-    let is_left = |line: usize, outline: usize| {
+    let is_left = |&EdgeLine { line, outline, other, .. }: &EdgeLine| {
         let Line { is_cut, usage, .. } = sheet.lines[line];
-        !is_cut && usage != Use::Drawn && sheet.lines[outline].is_cut
+        !is_cut && usage != Use::Drawn && [Some(outline), other].iter().flatten().any(|&on| sheet.lines[on].is_cut)
     };
     // Somebody who says what becomes of lines in parts has looked at them.
     let lie_of = |edge: &EdgeLine| match edge.lie {
@@ -319,7 +354,7 @@ fn from_edges(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics)
     };
     for &EdgeDoubt { lie, code, does, hints } in EDGE_DOUBTS {
         let is_named = |edge: &EdgeLine| lie != Lie::Outside || sheet.lines[edge.line].length >= SHORTEST_NAMED;
-        let of_kind = |edge: &&EdgeLine| lie_of(edge) == lie && is_left(edge.line, edge.outline) && is_named(edge);
+        let of_kind = |edge: &&EdgeLine| lie_of(edge) == lie && is_left(edge) && is_named(edge);
         let edges: Vec<&EdgeLine> = sheet.from_edges.iter().filter(of_kind).collect();
         let Some(first) = edges.first() else { continue };
         let (begin, longest) = match edges.len() {
@@ -327,7 +362,7 @@ fn from_edges(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics)
             n => (format!("{n} {}", does[1]), "the longest is"),
         };
         let length = fixed(edges.iter().map(|edge| sheet.lines[edge.line].length).fold(0.0, f64::max), DECIMALS);
-        let parts: Vec<usize> = edges.iter().map(|edge| edge.outline).collect();
+        let parts: Vec<usize> = edges.iter().flat_map(|edge| [edge.outline].into_iter().chain(edge.other)).collect();
         let numbers = numbers(owners, &parts);
         let message = format!("not cut: {begin} of {}; {longest} {length} mm long", pieces::listed(&numbers));
         let found = finding(code, message, &sheet.lines[first.line], sheet).about(numbers);

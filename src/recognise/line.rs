@@ -2,7 +2,7 @@
 
 use super::pens::Use;
 use crate::geom::{Extent, Point, cross};
-use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_OUTLINE, Vertex};
+use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_LINE, OPEN_OUTLINE, Vertex};
 use crate::source::Span;
 
 /// What a line is taken for.
@@ -17,6 +17,7 @@ pub(super) enum Class {
     SmallOutline,
     Outside,
     FromEdge,
+    OpenLine,
     OpenOutline,
     BrokenOutline,
     Letter,
@@ -57,7 +58,7 @@ pub(super) struct Rule {
 /// Classes of lines in the order in which they are shown, and whether their lines are cut: a wrong cut inside a part
 /// cannot be mended, one that is missing can.
 #[rustfmt::skip] // a table: one row a class
-pub(super) const RULES: [Rule; 16] = [
+pub(super) const RULES: [Rule; 17] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
     Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards, or from edge to edge", cut: Cut::Always },
     Rule { class: Class::Hole, name: "hole", about: "a closed square or circle up to hpgl.drill_max_mm, drilled", cut: Cut::Always },
@@ -67,6 +68,7 @@ pub(super) const RULES: [Rule; 16] = [
     Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
     Rule { class: Class::Outside, name: "outside line", about: "a closed line outside the frame", cut: Cut::Every },
     Rule { class: Class::FromEdge, name: "line from edge", about: "an open line from the edge of a part that is no notch", cut: Cut::Every },
+    Rule { class: Class::OpenLine, name: OPEN_LINE, about: "an open line of 100 mm or more in no part, which may be an outline", cut: Cut::Every },
     Rule { class: Class::OpenOutline, name: OPEN_OUTLINE, about: "an open line around a closed one, which is no part", cut: Cut::Every },
     Rule { class: Class::BrokenOutline, name: BROKEN_OUTLINE, about: "one of some open lines around a closed one, which is no part", cut: Cut::Every },
     Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Every },

@@ -257,6 +257,8 @@ pub(super) enum Lie {
     Between,
     /// An open line outside joins two places of it and is longer than a notch: it may bound a part that has an edge in common.
     Outside,
+    /// An open line leads from it to another outline.
+    Joins,
     /// An open line goes along it.
     Along,
     /// A small closed line has an edge on it.
@@ -274,6 +276,8 @@ pub(super) enum Lie {
 pub(super) struct EdgeLine {
     pub(super) line: usize,
     pub(super) outline: usize,
+    /// The outline that it leads to.
+    pub(super) other: Option<usize>,
     pub(super) lie: Lie,
 }
 
@@ -311,9 +315,18 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
             both.map(|&outline| (outline, lie(*line, outline, search, work))).collect();
         // Beside one of two parts that touch it may divide the other.
         let inside = lies.iter().find(|(_, lie)| *lie != Lie::Outside);
-        let alone = || Some((*starts.first().or(ends.first())?, Lie::Ends));
-        let (outline, lie) = inside.or(lies.first()).copied().or_else(alone)?;
-        Some(EdgeLine { line: *line, outline, lie })
+        if let Some(&(outline, lie)) = inside.or(lies.first()) {
+            return Some(EdgeLine { line: *line, outline, other: None, lie });
+        }
+        match (starts.first(), ends.first()) {
+            (Some(&outline), other @ Some(_)) => {
+                Some(EdgeLine { line: *line, outline, other: other.copied(), lie: Lie::Joins })
+            }
+            (Some(&outline), None) | (None, Some(&outline)) => {
+                Some(EdgeLine { line: *line, outline, other: None, lie: Lie::Ends })
+            }
+            (None, None) => None,
+        }
     };
     let mut found: Vec<EdgeLine> = candidates.iter().filter_map(&mut edge_line).collect();
     let free = candidates.iter().filter(|candidate| candidate.on.iter().all(ArrayVec::is_empty));
@@ -352,7 +365,7 @@ fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Bu
         }
     }
     let crossing = |(k, outline): (usize, Option<usize>)| {
-        Some(EdgeLine { line: strokes[k].0, outline: outline?, lie: Lie::Crosses })
+        Some(EdgeLine { line: strokes[k].0, outline: outline?, other: None, lie: Lie::Crosses })
     };
     let mut found: Vec<EdgeLine> = crossed.into_iter().enumerate().filter_map(crossing).collect();
     found.sort_by_key(|edge| edge.line);
@@ -417,7 +430,7 @@ fn standing(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
     let stands = |Candidate { line, on, .. }: &Candidate| {
         let (_, outline) = *on[0].iter().find(|(_, outline)| on[1].iter().any(|(_, other)| other == outline))?;
-        Some(EdgeLine { line: *line, outline, lie: Lie::Stands })
+        Some(EdgeLine { line: *line, outline, other: None, lie: Lie::Stands })
     };
     let mut found: Vec<EdgeLine> = candidates.iter().filter_map(stands).collect();
     found.dedup_by_key(|edge| edge.line);

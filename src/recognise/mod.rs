@@ -42,6 +42,7 @@ mod strokes;
 mod succession;
 mod twins;
 
+use self::line::Class;
 use self::sheet::Sheet;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
@@ -86,7 +87,11 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     sheet.sort_out(job);
     sheet.decide(job);
     shared::refuse(&shared, &sheet.lines, &sheet.vertices, diagnostics);
-    sheet.set_open_outlines(doubts::doubtful_outlines(&sheet));
+    let [open, broken] = doubts::doubtful_outlines(&sheet);
+    sheet.set_class(broken, Class::BrokenOutline);
+    sheet.set_class(open, Class::OpenOutline);
+    let open = say::open_lines(&sheet);
+    sheet.set_class(open, Class::OpenLine);
     say::all(&sheet, job, diagnostics);
     piece::marker(sheet, of_layers, diagnostics)
 }

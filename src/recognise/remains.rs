@@ -12,6 +12,8 @@ use crate::ir::drawing::Vertex;
 
 /// Share of a closed line that open ones together run beside: that of two sides of four, less what its corners take.
 const BESIDE: f64 = 0.45;
+/// Share of a closed line that open ones run beside where one doubts whether it is a part.
+const DOUBTFUL: f64 = 0.1;
 /// Share of a closed line that open lines must run beside where some of them go far beyond it, as two outlines drawn
 /// without a lift do.
 const SURELY: f64 = 0.75;
@@ -25,14 +27,16 @@ const LEAST_OFF: f64 = 1.0;
 const SQUARE: f64 = 0.7;
 /// Largest line that may be a letter, mm; a dash is straight.
 const LETTER: f64 = 15.0;
-/// Share of its length that lines must have around a closed one to be looked at: dashes draw half of the way.
-const LEAST_DRAWN: f64 = 0.2;
+/// Share of its length that lines must have around a closed one to be looked at.
+const LEAST_DRAWN: f64 = 0.1;
 
 /// Open lines, and the closed line that they go around.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Remains {
     pub(super) lines: Vec<usize>,
     pub(super) inner: usize,
+    /// Whether they are so many that the closed line is no part; with fewer it is doubtful.
+    pub(super) is_sure: bool,
 }
 
 /// The lines of a drawing, and what lies in what.
@@ -87,9 +91,7 @@ pub(super) fn find(all: Drawn, work: &mut Budget) -> Vec<Remains> {
     }
     let near = Near { cloth, open: &open, open_boxes: extents(&open), parts: &parts, part_boxes: extents(&parts) };
     for &part in parts.iter().filter(|&&part| !is_found[part]) {
-        if let Some(lines) = all.several(part, &near, work) {
-            found.push(Remains { lines, inner: part });
-        }
+        found.extend(all.several(part, &near, work));
     }
     found
 }
@@ -131,15 +133,15 @@ impl Drawn<'_> {
             for part in near.into_iter().filter(|&part| !self.is_named_knife(part, line)) {
                 let places = self.points(part);
                 if !work.spend(seam::COST * (outline.len() + places.len())) || seam::is_left_of(&outline, &places) {
-                    found.push(Remains { lines: vec![line], inner: part });
+                    found.push(Remains { lines: vec![line], inner: part, is_sure: true });
                 }
             }
         }
         found
     }
 
-    /// Several open lines that together go around a part without a seam line.
-    fn several(&self, part: usize, near: &Near, work: &mut Budget) -> Option<Vec<usize>> {
+    /// Open lines that go around a part without a seam line, or around some of it.
+    fn several(&self, part: usize, near: &Near, work: &mut Budget) -> Option<Remains> {
         let extent = self.lines[part].extent;
         let reach = extent.grown(seam::FARTHEST);
         let is_beside = |&open: &usize| {
@@ -160,13 +162,21 @@ impl Drawn<'_> {
         open.sort_unstable();
         let places = self.points(part);
         let mut edges = Edges::new(self.edges(part, &places, &open, work));
-        if edges.around(&places, work)?.is_none() {
-            return Some(open);
+        let unsearched = |lines| Some(Remains { lines, inner: part, is_sure: true });
+        match edges.around(&places, work) {
+            Around::Unsearched => return unsearched(open),
+            Around::No => return None,
+            Around::Some(_) | Around::Much(_) => {}
         }
         // Few parts come so far: nothing closed may stand between, and a part with a seam line is an outline.
         edges.walls = Walls::new(self.walls(part, near, work));
-        let lines = edges.around(&places, work)?.unwrap_or(open);
-        (!self.has_seam(part, &places, work)).then_some(lines)
+        let remains = match edges.around(&places, work) {
+            Around::Unsearched => unsearched(open)?,
+            Around::No => return None,
+            Around::Some(lines) => Remains { lines, inner: part, is_sure: false },
+            Around::Much(lines) => Remains { lines, inner: part, is_sure: true },
+        };
+        (!self.has_seam(part, &places, work)).then_some(remains)
     }
 
     /// The edges of open lines near a part.
@@ -243,6 +253,17 @@ impl Walls {
     }
 }
 
+/// Lines that go around a closed one.
+enum Around {
+    /// The budget does not last to find them.
+    Unsearched,
+    No,
+    /// They run beside some of it.
+    Some(Vec<usize>),
+    /// They run beside so much of it that it is no part.
+    Much(Vec<usize>),
+}
+
 /// The edges of open lines near a closed one, by their boxes.
 struct Edges {
     list: Vec<Edge>,
@@ -256,18 +277,19 @@ impl Edges {
         Self { list, boxes, walls: Walls::default() }
     }
 
-    /// The lines that go around a closed line: `None` when they do not, and `Some(None)` when the budget does not last.
-    #[expect(clippy::option_option, reason = "the search may find nothing, or end before its time")]
-    fn around(&self, places: &[Point], work: &mut Budget) -> Option<Option<Vec<usize>>> {
-        let Some(any) = self.beside(places, false, work) else { return Some(None) };
-        if any.share < BESIDE {
-            return None; // the usual case
+    /// The lines that go around a closed line.
+    fn around(&self, places: &[Point], work: &mut Budget) -> Around {
+        let Some(any) = self.beside(places, false, work) else { return Around::Unsearched };
+        if any.share < DOUBTFUL {
+            return Around::No; // the usual case
         }
-        let Some(own) = self.beside(places, true, work) else { return Some(None) };
-        if own.share >= BESIDE {
-            return Some(Some(own.lines));
+        let Some(own) = self.beside(places, true, work) else { return Around::Unsearched };
+        match (any, own) {
+            (_, own) if own.share >= BESIDE => Around::Much(own.lines),
+            (any, _) if any.share >= SURELY && any.sides >= LEAST_SIDES => Around::Much(any.lines),
+            (_, own) if own.share >= DOUBTFUL => Around::Some(own.lines),
+            _ => Around::No,
         }
-        (any.share >= SURELY && any.sides >= LEAST_SIDES).then_some(Some(any.lines))
     }
 
     /// The lines beside a closed line from outside: all open ones, or those that stay near it. `None` when the budget
@@ -280,7 +302,7 @@ impl Edges {
         let mut beside = 0_usize;
         for (k, (at, way)) in samples.iter().enumerate() {
             // The samples that are left are too few to reach the share.
-            if ((beside + samples.len() - k) as f64) < BESIDE * samples.len() as f64 {
+            if ((beside + samples.len() - k) as f64) < DOUBTFUL * samples.len() as f64 {
                 break;
             }
             let outward = -left(*way) * (turn / way.norm());

@@ -61,6 +61,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding);
     }
     doubts::all(sheet, job, out);
+    seams_of_knives(sheet, out);
     if !sheet.lines.iter().any(|line| line.is_cut) {
         out.push(nothing(sheet, job));
         return;
@@ -162,6 +163,25 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     }
 }
 
+/// Seam lines of a pen that is a knife, in outlines that are only drawn: neither is cut.
+fn seams_of_knives(sheet: &Sheet, out: &mut Diagnostics) {
+    let is_left = |&i: &usize| {
+        let line = &sheet.lines[i];
+        let is_drawn = |part: usize| sheet.lines[part].usage == Use::Drawn;
+        line.class == Class::Seam
+            && line.usage.is_knife()
+            && !line.is_cut
+            && sheet.nest.outermost(i).is_some_and(is_drawn)
+    };
+    let left: Vec<&Line> = (0..sheet.lines.len()).filter(is_left).map(|i| &sheet.lines[i]).collect();
+    let Some(first) = left.first() else { return };
+    let lines = counted(&left, "seam line");
+    let message = format!("not cut: {lines} of a knife's pen in outlines that are only drawn");
+    let found = finding(&code::DRAWING_INNER_LINES, message, first, sheet);
+    let found = found.hint("`--cut-pens` with the pen of the outlines cuts these, with the allowance of the seam");
+    out.push(found.hint("`--inner all` cuts seam lines: parts without an allowance"));
+}
+
 /// Small circles that stand alone in parts, where nobody has said up to which size circles are holes.
 fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     if job.profile.hpgl.drill_max_mm.is_some() {
@@ -256,30 +276,7 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
         out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
     }
-    // An outline with a gap around closed lines and a line on an outline are told by piece; an edge drawn once more is cut.
-    let [mut told, broken] = doubts::doubtful_outlines(sheet);
-    told.extend(broken);
-    let is_told = |edge: &&EdgeLine| match edge.lie {
-        Lie::Along => true,
-        Lie::Outside => sheet.lines[edge.outline].is_cut,
-        Lie::Ends
-        | Lie::Wide
-        | Lie::Deep
-        | Lie::Divides
-        | Lie::Between
-        | Lie::Stands
-        | Lie::Crosses
-        | Lie::Letters
-        | Lie::Sign => false,
-    };
-    told.extend(sheet.from_edges.iter().filter(is_told).map(|edge| edge.line));
-    let is_long = |line: &Line| {
-        let is_open = matches!(line.class, Class::Other | Class::FromEdge);
-        is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
-    };
-    let parts = LazyCell::new(|| Parts::of(sheet));
-    let open = (0..sheet.lines.len()).filter(|i| !told.contains(i)).map(|i| &sheet.lines[i]);
-    let open: Vec<&Line> = open.filter(|line| is_long(line) && !parts.hold(line)).collect();
+    let open: Vec<&Line> = sheet.lines.iter().filter(|line| line.class == Class::OpenLine).collect();
     if let Some(first) = open.first() {
         let places = first.as_drawn(&sheet.vertices);
         let gap = (places[places.len() - 1].at - places[0].at).norm();
@@ -290,8 +287,37 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
         let first_one = if open.len() == 1 { "it" } else { "the first one" };
         let message = format!("not cut: {} in no part; {first_one} {ends}", counted(&open, "open line"));
         let found = finding(&code::DRAWING_OPEN_OUTLINES, message, first, sheet);
-        out.push(found.hint("if they are outlines, let the CAD close them; `--cut-all` cuts every line but a frame"));
+        let how = doubts::how_to_close(gap).filter(|_| gap > 0.0);
+        let found = found.hint(how.unwrap_or_else(|| "if they are outlines, let the CAD close them".to_owned()));
+        out.push(found.hint("`--cut-all` cuts every line but a frame"));
     }
+}
+
+/// Long open lines in no part that are not cut.
+pub(super) fn open_lines(sheet: &Sheet) -> Vec<usize> {
+    // An outline with a gap around closed lines and a line on an outline are told by piece; an edge drawn once more is cut.
+    let is_told = |edge: &&EdgeLine| match edge.lie {
+        Lie::Along => true,
+        Lie::Outside => sheet.lines[edge.outline].is_cut,
+        Lie::Joins => [Some(edge.outline), edge.other].iter().flatten().any(|&outline| sheet.lines[outline].is_cut),
+        Lie::Ends
+        | Lie::Wide
+        | Lie::Deep
+        | Lie::Divides
+        | Lie::Between
+        | Lie::Stands
+        | Lie::Crosses
+        | Lie::Letters
+        | Lie::Sign => false,
+    };
+    let told: BTreeSet<usize> = sheet.from_edges.iter().filter(is_told).map(|edge| edge.line).collect();
+    let is_long = |line: &Line| {
+        let is_open = matches!(line.class, Class::Other | Class::FromEdge);
+        is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
+    };
+    let parts = LazyCell::new(|| Parts::of(sheet));
+    let is_open = |&i: &usize| !told.contains(&i) && is_long(&sheet.lines[i]) && !parts.hold(&sheet.lines[i]);
+    (0..sheet.lines.len()).filter(is_open).collect()
 }
 
 /// A rectangle that may be a frame or a part, where nobody has said what becomes of the lines in it.
@@ -502,7 +528,7 @@ fn unclosed(sheet: &Sheet) -> (String, Option<&Line>) {
     let open = sheet.lines.iter().filter(|line| !line.is_closed && !line.is_set_aside());
     let longest = open.max_by(|a, b| a.length.total_cmp(&b.length));
     match longest {
-        _ if !sheet.remains.is_empty() => ("its closed lines lie in outlines that are open".to_owned(), None),
+        _ if sheet.remains.iter().any(|remains| remains.is_sure) => ("its closed lines lie in outlines that are open".to_owned(), None),
         _ if sheet.lines.iter().any(|line| line.is_closed) => ("no closed line is a part".to_owned(), None),
         None => ("no line closes".to_owned(), None),
         Some(line) => match ends(line) {

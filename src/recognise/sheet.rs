@@ -143,7 +143,7 @@ impl Sheet {
     fn find_remains(&mut self, work: &mut Budget) {
         let all = remains::Drawn { lines: &self.lines, vertices: &self.vertices, nest: &self.nest };
         self.remains = remains::find(all, work);
-        for remains in &self.remains {
+        for remains in self.remains.iter().filter(|remains| remains.is_sure) {
             self.lines[remains.inner].class = Class::Seam;
         }
     }
@@ -170,7 +170,7 @@ impl Sheet {
         let signs = signs::among(&marks, self.search(parts), touch, work);
         for &Mark { line, outline, .. } in marks.iter().filter(|mark| signs.contains(&mark.line)) {
             self.lines[line].class = Class::FromEdge;
-            self.from_edges.push(EdgeLine { line, outline, lie: Lie::Sign });
+            self.from_edges.push(EdgeLine { line, outline, other: None, lie: Lie::Sign });
         }
         marks.retain(|mark| !signs.contains(&mark.line));
         for mark in &marks {
@@ -197,7 +197,7 @@ impl Sheet {
             // Of two legs the other one has told it.
             if self.lines[line].class != Class::FromEdge {
                 self.lines[line].class = Class::FromEdge;
-                self.from_edges.push(EdgeLine { line, outline, lie: Lie::Letters });
+                self.from_edges.push(EdgeLine { line, outline, other: None, lie: Lie::Letters });
             }
         }
         letters
@@ -299,12 +299,10 @@ impl Sheet {
         }
     }
 
-    /// Sets the open lines apart that are outlines around closed lines, alone or together, and are not cut.
-    pub(super) fn set_open_outlines(&mut self, [open, broken]: [BTreeSet<usize>; 2]) {
-        for (lines, class) in [(broken, Class::BrokenOutline), (open, Class::OpenOutline)] {
-            for line in lines {
-                self.lines[line].class = class;
-            }
+    /// Takes some lines for a class.
+    pub(super) fn set_class(&mut self, lines: impl IntoIterator<Item = usize>, class: Class) {
+        for line in lines {
+            self.lines[line].class = class;
         }
     }
 

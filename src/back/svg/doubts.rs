@@ -8,7 +8,7 @@ use super::sheet::{LINE_PX, Sheet};
 use crate::back::target::Context;
 use crate::diagnostic::Diagnostic;
 use crate::geom::{Extent, Point};
-use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_OUTLINE, Vertex};
+use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_LINE, OPEN_OUTLINE, Vertex};
 use crate::ir::marker::Piece;
 
 /// Height of the sign of a doubt, nominal pixels.
@@ -49,13 +49,16 @@ impl Band {
     }
 }
 
-/// Bands along uncut outlines of the class that a doubt is about. Each open outline has a band; all broken outlines share
-/// one, whose sign stands at the outline that the doubt names.
+/// Classes of lines that are no parts and may be outlines.
+const UNCUT: [&str; 3] = [OPEN_LINE, OPEN_OUTLINE, BROKEN_OUTLINE];
+
+/// Bands along uncut lines of the class that a doubt is about. Each open line has a band; all broken outlines share one,
+/// whose sign stands at the outline that the doubt names.
 fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Band> {
     let aside = context.marker.drawing.iter().flat_map(|account| account.aside.each());
     let outlines: Vec<(&str, &[Vertex])> = aside
         .filter_map(|(class, line)| {
-            Some((class.filter(|&class| class == OPEN_OUTLINE || class == BROKEN_OUTLINE)?, line))
+            Some((class.filter(|class| UNCUT.contains(class))?, line))
         })
         .collect();
     let is_at = |line: &[Vertex]| doubt.span.is_some_and(|span| line.iter().any(|vertex| vertex.span == span));
@@ -64,10 +67,10 @@ fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Band> {
     };
     let points = |line: &[Vertex]| line.iter().map(|vertex| vertex.at).collect::<Vec<Point>>();
     let alike = outlines.iter().filter(|(other, _)| *other == class).map(|(_, line)| points(line));
-    if class == OPEN_OUTLINE {
-        alike.map(|line| Band::new(vec![line.clone()], &line)).collect()
-    } else {
+    if class == BROKEN_OUTLINE {
         vec![Band::new(alike.collect(), &points(first))]
+    } else {
+        alike.map(|line| Band::new(vec![line.clone()], &line)).collect()
     }
 }
 

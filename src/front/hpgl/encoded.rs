@@ -31,7 +31,7 @@ pub(super) enum Ending {
     Done,
     /// With the file, between two numbers.
     Open,
-    /// Without a semicolon: the next instruction begins.
+    /// Without a semicolon: the next instruction begins, or another language.
     Next,
     /// Amid a number, or with a byte that cannot stand there.
     Damaged,
@@ -94,6 +94,11 @@ impl<'a> Body<'a> {
                     self.mode = SEVEN_BIT;
                     self.at += 1;
                     continue;
+                }
+                // A change of language, ESC %.
+                0x1b if self.bytes.get(self.at + 1) == Some(&b'%') => {
+                    self.ending = Ending::Next;
+                    return None;
                 }
                 // Controls and blanks are passed over.
                 0..=b' ' | 127 => {
@@ -204,8 +209,13 @@ mod tests {
 
     #[test]
     fn an_instruction_ends_a_body_that_has_no_semicolon() {
-        for (bytes, at) in [(b"?\xc0PUSP0;PG;".as_slice(), 2), (b"?\xc0PU400,400;", 2), (b"7?_PU", 3), (b"?\xc0PU;", 2)]
-        {
+        for (bytes, at) in [
+            (b"?\xc0PUSP0;PG;".as_slice(), 2),
+            (b"?\xc0PU400,400;", 2),
+            (b"7?_PU", 3),
+            (b"?\xc0PU;", 2),
+            (b"?\xc0\x1b%0A", 2),
+        ] {
             let mut body = Body::new(bytes, 0, false);
             while body.next().is_some() {}
             assert_eq!((body.ending, body.at), (Ending::Next, at), "{}", bytes.escape_ascii());

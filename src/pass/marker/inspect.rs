@@ -5,7 +5,8 @@
 //! - All contours together are smaller than any part.
 //! - Open contours of a file with a grid miss each other by a unit or two at their ends: sides of one outline.
 //! - A contour does not close. Where coordinates lie on a grid (a cutter file) contours outline parts, so every gap is
-//!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is.
+//!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is, or a contour
+//!   that comes by its start and goes on.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
@@ -19,7 +20,7 @@ use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::along::Lines;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, bits};
+use crate::geom::{Extent, Point, bits, polyline};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
@@ -115,9 +116,17 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     let [start, end] = marker.list.ends_of(contour.range);
     let gap = (end - start).norm();
     let length = || marker.list.walk(contour.range).map(|(_, segment)| segment.length()).sum::<f64>();
-    if marker.unit > 0.0 || gap < GAP_SHARE * length() {
+    let number = marker.pieces[piece].number;
+    let points = marker.list.points(contour.range);
+    if gap > NEAR_ENDS
+        && let Some(Passing { off, past }) = comes_by(&points)
+    {
+        let [off, past] = [off, past].map(|mm| number::fixed(mm, BESIDE_DECIMALS));
+        let message = format!("a contour of piece {number} passes its start at {off} mm and goes on for {past} mm");
+        let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
+        diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
+    } else if marker.unit > 0.0 || gap < GAP_SHARE * length() {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
-        let number = marker.pieces[piece].number;
         let message = format!("a contour of piece {number} ends {size} mm from where it starts");
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
         diagnostics.push(finding.hint(if gap <= NEAR_ENDS || gap < GAP_SHARE * length() {
@@ -126,6 +135,28 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
             "it is cut as an open line; sides of one outline must end where the next one starts"
         }));
     }
+}
+
+/// A line that comes by its start and goes on.
+struct Passing {
+    /// Distance from its start, mm.
+    off: f64,
+    /// Length that it has from there on, mm.
+    past: f64,
+}
+
+/// The last time that a line comes by its start, at the least distance; the line was farther off before.
+fn comes_by(points: &[Point]) -> Option<Passing> {
+    let first = points[0];
+    let away = points.iter().position(|at| (at - first).norm() > NEAR_ENDS)?;
+    let near = |k: &usize| polyline::distance_to_segment(first, points[*k], points[*k + 1]) <= NEAR_ENDS;
+    // The segment that leads away comes from the start itself.
+    let nearest = (away..points.len() - 1).filter(near).map(|k| {
+        let [a, b] = [points[k], points[k + 1]];
+        let at = a + (b - a) * polyline::foot(first, a, b).clamp(0.0, 1.0);
+        Passing { off: (at - first).norm(), past: (b - at).norm() + polyline::length(&points[k + 1..]) }
+    });
+    nearest.min_by(|a, b| a.off.total_cmp(&b.off)).filter(|passing| passing.past > NEAR_ENDS)
 }
 
 /// A contour: the place of its piece among all, and its own in that.

@@ -177,10 +177,6 @@ impl Legs {
     /// The stretch that closes the ring, if the walk goes along itself behind it.
     fn closing(&self) -> Option<usize> {
         let start = self.start();
-        let end = self.all.last()?.ends[1];
-        if (end - start).amax() > Dxf::OVERRUN {
-            return None;
-        }
         let comes_back = |k: &usize| self.all[*k].distance(start) <= Dxf::RETRACE_OFF;
         let returns = (1..self.all.len()).filter(comes_back).filter(|k| !self.is_flat(*k)).take(MOST_RETURNS);
         returns.into_iter().find(|&k| {
