@@ -28,6 +28,7 @@ const UNPACK: &str = "unpack it and give cutc the files inside";
 const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
 const OTHER_STITCHES: &str = "let the embroidery program save it as DST or EXP: `cutc sew` reads those";
 const PICTURE: &str = "pictures hold no lines: let the CAD export an ISO cut file or an HPGL plot";
+const RASTER: &str = "it holds no lines: let the driver send vectors (HP-GL/2), or the CAD write an HPGL plot";
 const OTHER_PLOTTER: &str = "let the driver of the plotter write HPGL instead";
 
 const fn known(what: &'static str, hint: &'static str, is: fn(&[u8]) -> bool) -> Format {
@@ -78,10 +79,13 @@ const FORMATS: &[Format] = &[
     known("a table of grading rules (RUL)", "give cutc the pattern DXF that lies beside it", is_rule_table),
     known("a GP-GL plot (Graphtec)", OTHER_PLOTTER, is_gp_gl),
     known("a DMPL plot (Houston Instruments)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
+    known("a raster page for a printer or an inkjet plotter (PCL, HP RTL)", RASTER, is_raster),
     vague("binary data", EXPORT_CUT, is_binary),
     known("a Gerber file for circuit boards", "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15", is_circuit_board),
     known("a CAMM-GL I plot (Roland)", OTHER_PLOTTER, is_camm_gl),
+    known("a drill file for circuit boards (Excellon)", "garment CAD writes ISO cut files with M14 and M15", is_excellon),
     known("a table of points with decimal commas", "write commas between the numbers and points for decimals: `x_mm,y_mm`", is_comma_table),
+    known("a table of points in another form", "begin with the row `x_mm,y_mm`, write commas between the numbers, no quotes and no remarks", is_other_table),
     known("an ISO cut file in small letters", "write its codes in capitals: X, Y, M14, M15", is_small_iso),
     known("G-code for a machine tool", "its blocks end with the line; cutter files end them with `*`", is_g_code),
 ];
@@ -179,24 +183,37 @@ fn is_rule_table(bytes: &[u8]) -> bool {
     keys.iter().filter(|key| lines().any(|line| starts(line, key))).count() >= 2
 }
 
-/// Rows of two numbers or more, with semicolons, tabs or blanks between them and commas in them. The first row may be a
-/// header.
+/// Rows of two numbers or more, with semicolons, tabs or blanks between them and commas in them.
 fn is_comma_table(bytes: &[u8]) -> bool {
-    let parts = |byte: &u8| b"; \t".contains(byte);
+    table(bytes, |byte| b"; \t".contains(byte)).iter().any(|row| row.contains(&b','))
+}
+
+/// Rows of two numbers or more, whatever stands between them.
+fn is_other_table(bytes: &[u8]) -> bool {
+    !table(bytes, |byte| b",; \t".contains(byte)).is_empty()
+}
+
+/// The rows of a table of numbers, in quotes or not; remarks are left out, and the first row may be a header. None where
+/// some row is of another kind.
+fn table(bytes: &[u8], parts: fn(&u8) -> bool) -> Vec<&[u8]> {
     let head = head(bytes);
     // The last number may be cut off.
     let end = if head.len() < bytes.len() { head.iter().rposition(|byte| parts(byte) || *byte == b'\n') } else { None };
     let head = &head[..end.unwrap_or(head.len())];
-    let mut rows = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !row.is_empty());
-    let fields =
-        |row: &[u8]| row.split(parts).map(<[u8]>::to_vec).filter(|field| !field.is_empty()).collect::<Vec<_>>();
+    let is_remark = |row: &[u8]| row.is_empty() || row.starts_with(b"#") || row.starts_with(b"//");
+    let mut rows = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !is_remark(row));
     let is_row = |row: &[u8]| {
-        let fields = fields(row);
-        fields.len() > 1 && fields.iter().all(|field| is_number(field))
+        let fields = row.split(parts).map(unquoted).filter(|field| !field.is_empty());
+        fields.clone().count() > 1 && fields.into_iter().all(is_number)
     };
-    let Some(first) = rows.next() else { return false };
+    let Some(first) = rows.next() else { return Vec::new() };
     let rows: Vec<&[u8]> = std::iter::once(first).filter(|row| is_row(row)).chain(rows.take(MOST_ROWS)).collect();
-    !rows.is_empty() && rows.iter().all(|row| is_row(row)) && rows.iter().any(|row| row.contains(&b','))
+    if rows.iter().all(|row| is_row(row)) { rows } else { Vec::new() }
+}
+
+/// A field without the quotes around it.
+fn unquoted(field: &[u8]) -> &[u8] {
+    field.strip_prefix(b"\"").and_then(|field| field.strip_suffix(b"\"")).unwrap_or(field)
 }
 
 /// Whether a field is a number, with a comma or a point for decimals.
@@ -261,6 +278,20 @@ fn is_binary(bytes: &[u8]) -> bool {
     let zeros = memchr::memchr_iter(0, head).count();
     let asterisks = memchr::memchr_iter(b'*', head).count();
     10 * head.iter().filter(control).count() > head.len() || (zeros > asterisks && 4 * zeros > head.len())
+}
+
+/// Sequences that begin, fill and end a raster: `ESC * r A`, `ESC * b W`.
+fn is_raster(bytes: &[u8]) -> bool {
+    let head = head(bytes);
+    let has = |text: &[u8]| memchr::memmem::find(head, text).is_some();
+    has(b"\x1b*r") && has(b"\x1b*b")
+}
+
+/// The header of a drill file: `M48`, up to a line with a per cent sign.
+fn is_excellon(bytes: &[u8]) -> bool {
+    let mut lines = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    let mut lines = lines.by_ref().skip_while(|line| line.is_empty() || line.starts_with(b";"));
+    lines.next() == Some(b"M48") && lines.any(|line| line == b"%" || line == b"M95")
 }
 
 /// Codes of the knife (M14, M15) in small letters.
@@ -365,6 +396,13 @@ mod tests {
 
     #[test]
     fn a_table_with_decimal_commas_is_known_however_it_is_laid_out() {
+        check(b"M48\nINCH,LZ\nT1C0.02\n%\nT1\nX12500Y10000\n", Some("a drill file for circuit boards (Excellon)"));
+        let raster = Some("a raster page for a printer or an inkjet plotter (PCL, HP RTL)");
+        check(b"\x1bE\x1b*t300R\x1b*r1A\x1b*b4Wabcd\x1b*rB", raster);
+        let other = Some("a table of points in another form");
+        check(b"# points\n1.0,2.0\n3.0,4.0\n", other);
+        check(b"\"x\",\"y\"\n\"1.0\",\"2.0\"\n", other);
+        check(b"x;y\n1.0;2.0\n", other);
         let table = Some("a table of points with decimal commas");
         for text in [
             "404,9;413,5",
