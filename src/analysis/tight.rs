@@ -116,7 +116,9 @@ pub fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64)
             (stations[to] - stations[from]) / bends.abs()
         })
     };
-    (0..count - 1).filter_map(of).fold(f64::INFINITY, f64::min)
+    let least = (0..count - 1).filter_map(of).fold(f64::INFINITY, f64::min);
+    // Turns to both sides may cancel each other; then the tightest vertex tells.
+    if least.is_finite() { least } else { (first..=last).map(|vertex| radius(path, vertex)).fold(least, f64::min) }
 }
 
 /// From the first to the last of some vertices that belong to curves tighter than the blade is wide, or of all when none

@@ -188,9 +188,11 @@ fn is_comma_table(bytes: &[u8]) -> bool {
     table(bytes, |byte| b"; \t".contains(byte)).iter().any(|row| row.contains(&b','))
 }
 
-/// Rows of two numbers or more, whatever stands between them.
+/// Rows of two numbers or more, with other signs between, around or before them than points in CSV have.
 fn is_other_table(bytes: &[u8]) -> bool {
-    !table(bytes, |byte| b",; \t".contains(byte)).is_empty()
+    let is_csv =
+        || !table(bytes, |byte| *byte == b',').is_empty() && !head(bytes).iter().any(|byte| b"\"#/".contains(byte));
+    !table(bytes, |byte| b",; \t".contains(byte)).is_empty() && !is_csv()
 }
 
 /// The rows of a table of numbers, in quotes or not; remarks are left out, and the first row may be a header. None where
@@ -203,7 +205,7 @@ fn table(bytes: &[u8], parts: fn(&u8) -> bool) -> Vec<&[u8]> {
     let is_remark = |row: &[u8]| row.is_empty() || row.starts_with(b"#") || row.starts_with(b"//");
     let mut rows = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !is_remark(row));
     let is_row = |row: &[u8]| {
-        let fields = row.split(parts).map(unquoted).filter(|field| !field.is_empty());
+        let fields = row.split(parts).map(|field| unquoted(field.trim_ascii())).filter(|field| !field.is_empty());
         fields.clone().count() > 1 && fields.into_iter().all(is_number)
     };
     let Some(first) = rows.next() else { return Vec::new() };
@@ -284,7 +286,7 @@ fn is_binary(bytes: &[u8]) -> bool {
 fn is_raster(bytes: &[u8]) -> bool {
     let head = head(bytes);
     let has = |text: &[u8]| memchr::memmem::find(head, text).is_some();
-    has(b"\x1b*r") && has(b"\x1b*b")
+    has(b"\x1b*r") && has(b"\x1b*b") && !has(b";PD") && !has(b"PD;")
 }
 
 /// The header of a drill file: `M48`, up to a line with a per cent sign.

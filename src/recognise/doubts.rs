@@ -72,8 +72,7 @@ fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
 
 /// Outlines of several strokes that are not whole.
 fn broken_outlines(sheet: &Sheet) -> impl Iterator<Item = &Remains> {
-    let is_left =
-        |remains: &&Remains| remains.is_sure && remains.lines.len() > 1 && !sheet.lines[remains.inner].is_cut;
+    let is_left = |remains: &&Remains| remains.is_sure && remains.lines.len() > 1 && !sheet.lines[remains.inner].is_cut;
     sheet.remains.iter().filter(is_left)
 }
 
@@ -144,7 +143,8 @@ fn maybe_seams(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
     };
     let message = format!("{} {may_be}: open lines run beside {it} from outside", pieces::listed(&numbers));
     let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first.lines[0]], sheet);
-    let found = found.about(numbers).hint("if those lines are its outline, let the CAD close it: else the part is too small");
+    let found =
+        found.about(numbers).hint("if those lines are its outline, let the CAD close it: else the part is too small");
     out.push(found.hint("if they are none, `--cut-pens` leaves their pen out"));
 }
 

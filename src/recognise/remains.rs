@@ -173,6 +173,8 @@ impl Drawn<'_> {
         let remains = match edges.around(&places, work) {
             Around::Unsearched => unsearched(open)?,
             Around::No => return None,
+            // A smaller part has no seam line.
+            Around::Some(_) if self.lines[part].size() <= SMALL_OUTLINE => return None,
             Around::Some(lines) => Remains { lines, inner: part, is_sure: false },
             Around::Much(lines) => Remains { lines, inner: part, is_sure: true },
         };

@@ -167,7 +167,7 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
 fn seams_of_knives(sheet: &Sheet, out: &mut Diagnostics) {
     let is_left = |&i: &usize| {
         let line = &sheet.lines[i];
-        let is_drawn = |part: usize| sheet.lines[part].usage == Use::Drawn;
+        let is_drawn = |part: usize| sheet.lines[part].usage == Use::Drawn && sheet.lines[part].is_closed;
         line.class == Class::Seam
             && line.usage.is_knife()
             && !line.is_cut
@@ -528,7 +528,9 @@ fn unclosed(sheet: &Sheet) -> (String, Option<&Line>) {
     let open = sheet.lines.iter().filter(|line| !line.is_closed && !line.is_set_aside());
     let longest = open.max_by(|a, b| a.length.total_cmp(&b.length));
     match longest {
-        _ if sheet.remains.iter().any(|remains| remains.is_sure) => ("its closed lines lie in outlines that are open".to_owned(), None),
+        _ if sheet.remains.iter().any(|remains| remains.is_sure) => {
+            ("its closed lines lie in outlines that are open".to_owned(), None)
+        }
         _ if sheet.lines.iter().any(|line| line.is_closed) => ("no closed line is a part".to_owned(), None),
         None => ("no line closes".to_owned(), None),
         Some(line) => match ends(line) {

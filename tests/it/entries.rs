@@ -51,6 +51,14 @@ fn source(points: &[[f64; 2]]) -> Source {
     Source::new("piece.cut", text.into_bytes()).expect("small")
 }
 
+/// A plot of the same, which draws it with one instruction: all its vertices are of one block.
+fn plot(points: &[[f64; 2]]) -> Source {
+    let place = |point: &[f64; 2]| point.map(|value| (value * 40.0).round().to_string()).join(",");
+    let places: Vec<String> = points[1..].iter().chain(points.first()).map(place).collect();
+    let text = format!("IN;SP1;PU{};PD{};PU;SP0;", place(&points[0]), places.join(","));
+    Source::new("piece.plt", text.into_bytes()).expect("small")
+}
+
 /// A program that is proven; else what was said.
 fn tried(source: &Source, job: &Job, target: &str) -> Result<(Compiled, Diagnostics), Diagnostics> {
     let target = TARGETS.iter().find(|known| known.name == target).expect("a target");
@@ -183,7 +191,8 @@ fn no_heel_leaves_its_line_by_more_than_the_profile_permits() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut lifted = 0;
     for case in 0..30 / ONE_IN {
-        let source = source(&rounded(&mut random));
+        let points = rounded(&mut random);
+        let source = if case % 2 == 0 { plot(&points) } else { source(&points) };
         for blade in BLADES {
             for (follow, target) in [(Follow::Tangent, "gcode"), (Follow::Tangent, "csv"), (Follow::Chord, "csv")] {
                 let limit = random.random_range(1.0..4.0);

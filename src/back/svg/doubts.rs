@@ -56,11 +56,8 @@ const UNCUT: [&str; 3] = [OPEN_LINE, OPEN_OUTLINE, BROKEN_OUTLINE];
 /// whose sign stands at the outline that the doubt names.
 fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Band> {
     let aside = context.marker.drawing.iter().flat_map(|account| account.aside.each());
-    let outlines: Vec<(&str, &[Vertex])> = aside
-        .filter_map(|(class, line)| {
-            Some((class.filter(|class| UNCUT.contains(class))?, line))
-        })
-        .collect();
+    let outlines: Vec<(&str, &[Vertex])> =
+        aside.filter_map(|(class, line)| Some((class.filter(|class| UNCUT.contains(class))?, line))).collect();
     let is_at = |line: &[Vertex]| doubt.span.is_some_and(|span| line.iter().any(|vertex| vertex.span == span));
     let Some(&(class, first)) = outlines.iter().find(|(_, line)| doubt.pieces.is_empty() && is_at(line)) else {
         return Vec::new();

@@ -271,6 +271,11 @@ impl<'a> Reader<'a> {
         span.start > 0 && self.bytes[span.start as usize - 1].is_ascii_digit()
     }
 
+    /// Whether some bytes are a text in quotes.
+    pub(super) fn is_quoted(&self, span: Span) -> bool {
+        label::in_quotes(self.bytes, span.start as usize) == Some(span.end as usize)
+    }
+
     /// Whether some bytes are what is left of PU or PD when a letter is lost.
     pub(super) fn is_torn_pen(&self, span: Span) -> bool {
         matches!(self.bytes[span.start as usize].to_ascii_uppercase(), b'P' | b'U' | b'D')

@@ -156,7 +156,7 @@ impl Tally {
             let message = format!("a line hangs on what cannot be read here; this happens {}", self.lost.times());
             let finding = self.lost.diagnostic(&code::HPGL_LOST, message);
             found.push(finding.hint(if self.odd.count > 0 {
-                "decimal commas, or a lost character: let the program write points, or transfer it again"
+                "decimal commas, exponents, or a lost character: write plain numbers, or transfer it again"
             } else {
                 "transfer the file again; a character is lost, and the outline would be another one"
             }));

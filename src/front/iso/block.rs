@@ -312,6 +312,7 @@ fn remedy(byte: Option<u8>) -> &'static str {
     match byte {
         None => "the file is most likely cut short; export it again",
         Some(b'A'..=b'Z') => "a block end `*` may be missing before it",
+        Some(b'e') => "if it is an exponent, write 1000 and not 1e3; codes are capital letters",
         Some(b'a'..=b'z') => "codes are capital letters; a text stands behind M31 or M20 in a block of its own",
         Some(b'0'..=b'9' | b'+' | b'-' | b'.') => "a letter may be missing before this number, or a digit was doubled",
         Some(b',') => "decimals stand behind a point, if a number has any: export the file so",

@@ -163,7 +163,7 @@ fn letters_are_told_by_the_row_that_they_stand_in() {
 #[test]
 fn what_lies_in_no_part_and_is_not_cut_is_named() {
     check(&(part() + &rectangle(20_000, 4000, 800, 800)), "1 part*, 1 small outline", &["drawing/small-outlines"]);
-    check(&(part() + "PU20000,4000;PD26000,4000,26000,8000;"), "1 part*, 1 other line", &["drawing/open-outlines"]);
+    check(&(part() + "PU20000,4000;PD26000,4000,26000,8000;"), "1 part*, 1 open line", &["drawing/open-outlines"]);
     check(&(part() + "PU20000,4000;PD21000,4000;"), "1 part*, 1 other line", &[]);
     // An edge that two parts share stands once in the plot: the line around both is one part.
     let divided = rectangle(4000, 4000, 16_000, 12_000) + "PU12000,4000;PD12000,16000;";

@@ -1,11 +1,12 @@
 //! Notches that a plot draws as strokes of their own: from the edge of a part inwards, of any pen that is not ignored.
 
 use cutc::ir::Marker;
-use cutc::ir::marker::NotchKind;
+use cutc::ir::marker::{NotchKind, OutlineNotch};
 use cutc::machine::plot::Inner;
 use cutc::machine::{Job, OrderPolicy};
 
 use super::audit::audit;
+use super::closing::found;
 use super::{as_read, key, read, rectangle, source};
 
 /// The slits of each piece of a plot behind the passes, root and tip in units; the account of the lines is whole.
@@ -207,4 +208,39 @@ fn strokes_across_an_edge_are_named_and_a_stroke_there_and_back_is_taken_once() 
     }
     let t = "PU8000,4000;PD8000,4240,7900,4240,8000,4240,8100,4240,8000,4240,8000,4000;";
     check(t, Some([[8000, 4000], [8000, 4240]]));
+}
+
+#[test]
+fn a_stroke_that_stands_askew_on_its_edge_is_the_notch_that_it_draws() {
+    let mut random = fastrand::Rng::with_seed(16);
+    for case in 0..240 {
+        let mut between = |least: f64, most: f64| least + (most - least) * random.f64();
+        let (half, depth) = (between(1.25, 3.0), between(2.0, 8.0));
+        let round = |k: i32| {
+            let angle = std::f64::consts::PI * f64::from(k) / 12.0;
+            [-half * angle.cos(), depth + half * angle.sin()]
+        };
+        let (word, places) = match case % 3 {
+            0 => ("v", vec![[-half, 0.0], [0.0, depth], [half, 0.0]]),
+            1 => ("castle", vec![[-half, 0.0], [-half, depth], [half, depth], [half, 0.0]]),
+            _ => ("u", [&[[-half, 0.0]][..], &(0..=12).map(round).collect::<Vec<_>>(), &[[half, 0.0]]].concat()),
+        };
+        // As a program lays it that knows the seam, on an edge that is not quite parallel to it; then all is turned.
+        let (askew, off) = (between(-0.14, 0.14), between(-0.05, 0.05));
+        let turn = between(-std::f64::consts::PI, std::f64::consts::PI);
+        let turned =
+            |[x, y]: [f64; 2], angle: f64| [x * angle.cos() - y * angle.sin(), x * angle.sin() + y * angle.cos()];
+        // In units of 0.025 mm, rounded as a file of 0.1 mm is in every other case.
+        let step = if case % 2 == 0 { 1.0 } else { 4.0 };
+        let place = |at: [f64; 2]| turned(at, turn).map(|mm| ((mm + 400.0) * 40.0 / step).round() * step);
+        let line = |places: &[[f64; 2]]| {
+            let all: Vec<String> = places.iter().map(|&at| place(at).map(|unit| unit.to_string()).join(",")).collect();
+            format!("PU{};PD{};", all[0], all[1..].join(","))
+        };
+        let stroke: Vec<[f64; 2]> = places.iter().map(|&at| turned(at, askew)).map(|[x, y]| [x, y + off]).collect();
+        let outline = [[-90.0, 0.0], [110.0, 0.0], [110.0, 120.0], [-90.0, 120.0], [-90.0, 0.0]];
+        let (marker, codes) = found(&format!("{}{}", line(&outline), line(&stroke)), &Job::default());
+        let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect();
+        assert_eq!((words, codes), (vec![word], vec![]), "case {case}: {stroke:?}");
+    }
 }

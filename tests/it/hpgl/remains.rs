@@ -289,6 +289,58 @@ fn a_slit_at_the_mouth_of_a_notch_is_one_of_its_own_and_a_notch_in_two_strokes_s
 }
 
 #[test]
+fn a_line_that_begins_at_the_foot_of_a_notch_is_none_of_it() {
+    let part = rectangle(400, 400, 8000, 4000);
+    let sides = "PU400,400;PD8400,400;PU8400,400;PD8400,4400;PU8400,4400;PD400,4400;PU400,4400;PD400,400;";
+    for (strokes, notch) in [
+        ("PU3000,400;PD3120,640,3240,400;", "v"),
+        ("PU3000,400;PD3000,600,3240,600,3240,400;", "castle"),
+        ("PU3240,400;PD3240,600,3180,660,3060,660,3000,600,3000,400;", "u"),
+    ] {
+        for line in
+            ["PU3000,400;PD3400,3600;", "PU3242,402;PD5000,2600;", "PU3000,400;PD2800,-1000;PU3240,400;PD3400,3600;"]
+        {
+            for text in [format!("{part}{strokes}{line}"), format!("{line}{sides}{strokes}")] {
+                let (marker, codes) = found(&text, &Job::default());
+                let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect();
+                assert_eq!((&words[..], codes), (&[notch][..], vec!["drawing/line-from-edge"]), "{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_part_beside_less_than_half_an_outline_is_cut_and_doubted() {
+    let seam = rectangle(800, 800, 6800, 2800);
+    let corners = "PU400,1200;PD400,400,1200,400;PU7200,400;PD8000,400,8000,1200;PU8000,3200;PD8000,4000,7200,4000;";
+    for (lines, others) in [
+        (corners, &[][..]),
+        ("PU400,400;PD400,4000;PU8000,400;PD8000,4000;", &[][..]),
+        ("PU400,400;PD8000,400;", &["drawing/open-outlines"][..]),
+    ] {
+        let (marker, codes) = found(&format!("{seam}{lines}"), &Job::default());
+        assert_eq!(
+            (areas(&marker), &codes[..1], &codes[1..]),
+            (vec![11_900.0], &["drawing/may-be-seam-line"][..], others),
+            "{lines}"
+        );
+    }
+    // Beside a grain line outside, and below a fold line of another part, nobody doubts it.
+    let (_, codes) = found(&format!("{seam}PU9000,800;PD9000,1600;"), &Job::default());
+    assert_eq!(codes, [""; 0]);
+}
+
+#[test]
+fn lines_between_two_parts_are_named_by_both() {
+    let parts = rectangle(400, 400, 4000, 4000) + &rectangle(8400, 400, 4000, 4000);
+    let one = source(format!("IN;SP1;{parts}PU4400,2000;PD8400,2000;PU4400,2400;PD6000,2500,8400,2400;PU;"));
+    let mut told = Diagnostics::default();
+    cutc::pipeline::marker_of(by_name("hpgl").expect("a dialect"), &one, &Job::default(), &mut told);
+    let told: Vec<_> = told.iter().map(|said| (said.code.name, said.pieces.to_vec())).collect();
+    assert_eq!(told, [("drawing/line-from-edge", vec![1, 2])]);
+}
+
+#[test]
 fn a_line_between_strokes_of_an_outline_is_refused_until_somebody_says_what_it_is() {
     let strokes = "PU0,0;PD4000,0;PU4000,0;PD8000,0,8000,4000,4000,4000;PU4000,4000;PD0,4000,0,0;PU4000,0;PD4000,4000;";
     let codes = |job: &Job| {

@@ -36,7 +36,7 @@ const fn carrier(before: &'static str, behind: &'static str) -> Carrier {
     Carrier { before, behind, ends_at_semicolon: false }
 }
 
-const CARRIERS: [Carrier; 11] = [
+const CARRIERS: [Carrier; 13] = [
     carrier("LB", "\x03"),
     carrier("BL", "\x03"),
     carrier("BL", "\x03PB;"),
@@ -46,6 +46,8 @@ const CARRIERS: [Carrier; 11] = [
     Carrier { before: "MG", behind: ";", ends_at_semicolon: true },
     carrier("CO\"", "\""),
     carrier("CO\"a \"\"quoted\"\" ", "\";"),
+    carrier("MT\"", "\";"),
+    carrier("PS \"", "\""),
     carrier("DT#,1;LB", "#DT;"),
     carrier("DT$;WD", "$DT;"),
 ];
@@ -83,6 +85,7 @@ fn words_in_texts_change_nothing_of_what_is_drawn() {
         let [one, other] = OUTLINES;
         check(format!("BP1,\"{word}\",5,1;SP1;{one}{other}SP0;"));
         check(format!("BP 1, \"{word};PD9,9;\" ,2,0,3,0;SP1;{one}{other}"));
+        check(format!("BP1,{word};SP1;{one}{other}"));
     }
     for symbol in ["SMP;", "SM*;", "SMR", "SM;"] {
         let [one, other] = OUTLINES;

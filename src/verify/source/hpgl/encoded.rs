@@ -29,6 +29,11 @@ impl Scan<'_> {
                     return;
                 }
                 b';' => return,
+                // A change of language.
+                0x1b if begun.is_none() && self.bytes.get(self.at) == Some(&b'%') => {
+                    self.at -= 1;
+                    return;
+                }
                 b'7' => (base, last_from) = (32.0, 95),
                 b'<' => is_up = true,
                 b'=' => is_absolute = true,

@@ -17,6 +17,8 @@ impl Scan<'_> {
                 self.escape();
             } else if self.bytes[self.at..].starts_with(b"@PJL") {
                 self.at += self.until(b"\n", usize::MAX);
+            } else if byte == b'"' && self.quote() {
+                // A text that no instruction asks for.
             } else if byte.is_ascii_alphabetic() && next.is_ascii_alphabetic() {
                 self.at += 2;
                 self.instruction([byte.to_ascii_uppercase(), next.to_ascii_uppercase()]);
@@ -136,7 +138,8 @@ impl Scan<'_> {
         is_alone
     }
 
-    /// A text between quotes, which stand twice within it; `false` where none stands, or only one quote.
+    /// A text between quotes, which stand twice within it; `false` where none stands, or only one quote, or an outline between
+    /// two.
     fn quote(&mut self) -> bool {
         let blanks = self.bytes[self.at..].iter().take_while(|&&byte| byte == b' ').count();
         let mut at = self.at + blanks;
@@ -148,23 +151,37 @@ impl Scan<'_> {
         while at < end {
             let is_quote = self.bytes[at] == b'"';
             if is_quote && self.bytes.get(at + 1) != Some(&b'"') {
-                self.at = at + 1;
-                return true;
+                let is_text = !draws(&self.bytes[self.at + blanks + 1..at]);
+                if is_text {
+                    self.at = at + 1;
+                }
+                return is_text;
             }
             at += 1 + usize::from(is_quote);
         }
         false
     }
 
-    /// BP: numbers with texts in quotes between them.
+    /// BP: numbers with texts between them. One without quotes, behind a comma, is all that stands before the semicolon.
     fn title(&mut self) {
         while self.number().is_some() || {
-            let next = self.at + self.bytes[self.at..].iter().take_while(|&&byte| matches!(byte, b',' | b' ')).count();
-            let is_text = self.bytes.get(next) == Some(&b'"');
-            if is_text {
-                self.at = next;
+            let before = self.bytes[self.at..].iter().take_while(|&&byte| matches!(byte, b',' | b' ')).count();
+            let next = self.at + before;
+            let has_comma = self.bytes[self.at..next].contains(&b',');
+            match self.bytes.get(next) {
+                Some(b'"') => {
+                    self.at = next;
+                    self.quote() || {
+                        self.at += self.until(b";\r\n", usize::MAX);
+                        true
+                    }
+                }
+                Some(byte) if has_comma && byte.is_ascii_alphabetic() => {
+                    self.at += self.until(b";\r\n", usize::MAX);
+                    true
+                }
+                _ => false,
             }
-            is_text && self.quote()
         } {}
     }
 
