@@ -346,6 +346,8 @@ codes! {
     // The marker, whatever the dialect.
     /// A contour that does not close.
     MARKER_OPEN = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
+    /// A point far off.
+    MARKER_SPIKE = warning(Spoils, Shape, "marker/spike", "A point of a contour stands 300 mm or more off, between two that lie near each other: a digit of it may be doubled or lost.", "A contour leads out to the point and straight back: no part looks so, unless a slash is drawn as a spike. The knife cuts there and back, through what lies on the way. Look at it in the picture (-t svg), and transfer or export the file again.");
     /// Nothing that a knife can cut.
     MARKER_TINY = error(Shape, "marker/tiny", "All contours of the file together are smaller than 1 mm: its unit is wrong, or it is damaged.", "No knife cuts a part of that size: it would stab the cloth in one place for each piece. Compare the extent that `cutc info` prints with the marker, and say the unit where the file has another one.\n  cutc compile marker.cut --set units=mm/10");
     /// Hardly anything that a knife can cut.

@@ -190,9 +190,11 @@ fn is_comma_table(bytes: &[u8]) -> bool {
 
 /// Rows of two numbers or more, with other signs between, around or before them than points in CSV have.
 fn is_other_table(bytes: &[u8]) -> bool {
-    let is_csv =
-        || !table(bytes, |byte| *byte == b',').is_empty() && !head(bytes).iter().any(|byte| b"\"#/".contains(byte));
-    !table(bytes, |byte| b",; \t".contains(byte)).is_empty() && !is_csv()
+    // Rows below the header of points in CSV have messages of their own.
+    let first: Vec<u8> = head(bytes).iter().copied().filter(|byte| !b" \t\r".contains(byte)).collect();
+    let is_csv = has(&first, b"x_mm,y_mm\n")
+        || !table(bytes, |byte| *byte == b',').is_empty() && !first.iter().any(|byte| b"\"#".contains(byte));
+    !is_csv && !table(bytes, |byte| b",; \t".contains(byte)).is_empty()
 }
 
 /// The rows of a table of numbers, in quotes or not; remarks are left out, and the first row may be a header. None where
@@ -405,6 +407,7 @@ mod tests {
         check(b"# points\n1.0,2.0\n3.0,4.0\n", other);
         check(b"\"x\",\"y\"\n\"1.0\",\"2.0\"\n", other);
         check(b"x;y\n1.0;2.0\n", other);
+        check(b"1;2\n3;4\n", other);
         let table = Some("a table of points with decimal commas");
         for text in [
             "404,9;413,5",
@@ -419,7 +422,7 @@ mod tests {
         ] {
             check(text.as_bytes(), table);
         }
-        for text in ["404,9", "1, 2\n3, 4\n", "1;2\n3;4\n", "x;y\n", "1,2;3,4;PU\n", "1,,2;3\n", ";PU7,4;PD8,4;"] {
+        for text in ["404,9", "1, 2\n3, 4\n", "x;y\n", "1,2;3,4;PU\n", "1,,2;3\n", ";PU7,4;PD8,4;"] {
             check(text.as_bytes(), None);
         }
     }

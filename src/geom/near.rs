@@ -25,7 +25,12 @@ pub struct Near {
 impl Near {
     /// For points on a grid of `unit` mm.
     pub fn on_grid(unit: f64) -> Self {
-        Self { slack: ROUNDING * unit, budget: Budget::of_a_marker() }
+        Self::within(ROUNDING * unit)
+    }
+
+    /// For points up to so far from their segments, mm.
+    pub fn within(slack: f64) -> Self {
+        Self { slack, budget: Budget::of_a_marker() }
     }
 
     /// Farthest that a point may lie from a segment that it is on, mm.

@@ -19,6 +19,7 @@ use super::line::{Class, Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::pens::{self, Use};
 use super::slits::Slits;
 use super::succession::Ends;
+use super::tails;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::closing;
@@ -59,8 +60,10 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job, work: &mut Budget) -> (Vec<
     let reach = reach(drawing.unit);
     let close = job.profile.drawing.close_mm;
     let again = again::take(drawing, &uses, close.max(reach));
-    let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
+    let mut joining = Joining { reach, close, strokes: 0, drawing, moved: Moved::default() };
+    tails::part(joining.drawing, reach);
     joining.close_alone();
+    joining.strokes = joining.drawing.strokes.len();
     let (chains, is_between) = joining.chains(work);
     let strokes = std::mem::take(&mut joining.drawing.strokes);
     let mut taken = vec![false; strokes.len()];
@@ -444,7 +447,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         for ring in (Ends { nodes: &self.nodes, node: &self.node, is_dead: &self.is_dead }).rings() {
             let [first, last] = [*ring.start(), *ring.end()];
             let closing = [2 * last + 1, 2 * first];
-            if !self.are_one_notch(closing) {
+            if !self.are_one_notch(closing) && !self.are_facing(closing) {
                 (first..last).for_each(|stroke| self.chains.join([2 * stroke + 1, 2 * stroke + 2]));
                 self.chains.join(closing);
             }
@@ -454,10 +457,12 @@ impl<'a, 'b> Graph<'a, 'b> {
     /// Decides at every place, first for rings, then where two lines meet, then where more do, then among those that lead
     /// nowhere.
     fn link(&mut self) {
+        self.find_edges();
         self.close_rings();
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open(k, false)[..]
                 && !self.are_one_notch([a, b])
+                && !self.are_facing([a, b])
             {
                 self.chains.join([a, b]);
             }
@@ -467,7 +472,6 @@ impl<'a, 'b> Graph<'a, 'b> {
                 self.chains.join(pair);
             }
         }
-        self.find_edges();
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open_but_slits(k)[..]
                 && !self.are_notches([a, b])
@@ -484,6 +488,17 @@ impl<'a, 'b> Graph<'a, 'b> {
         let tips = [a, b].map(|end| self.joining.tip(end / 2));
         let is_one = |[a, b]: [Option<Point>; 2]| a.zip(b).is_some_and(|(a, b)| (a - b).amax() <= self.joining.reach);
         is_pair && is_one(tips) && [a, b].iter().all(|end| self.joining.is_notch(end / 2))
+    }
+
+    /// Whether two strokes are notches of two parts at one place of their common edge: they meet at both ends, on an edge, and
+    /// lead to either side.
+    fn are_facing(&self, [a, b]: [End; 2]) -> bool {
+        let far = [a, b].map(|end| self.node[other(end)]);
+        let is_pair = a / 2 != b / 2 && far[0].is_some() && far[0] == far[1];
+        let is_notch_on_edge = |end: End| {
+            self.joining.is_notch(end / 2) && self.on_edge.contains(&end) && self.on_edge.contains(&other(end))
+        };
+        is_pair && [a, b].into_iter().all(is_notch_on_edge)
     }
 
     /// Whether one of two strokes is a notch that the other has no part in: the other is a notch, too, or begins at its mouth,
@@ -564,6 +579,7 @@ impl<'a, 'b> Graph<'a, 'b> {
             return None;
         }
         let pairs = || open.iter().enumerate().flat_map(|(i, &a)| open[i + 1..].iter().map(move |&b| [a, b]));
+        let pairs = || pairs().filter(|&pair| !self.are_facing(pair));
         let ring = pairs().find(|&[a, b]| self.chains.far(a) == b && self.joining.drawing.strokes.len() > 1);
         let turn = |[a, b]: [End; 2]| angle::turn(-self.joining.way(a), self.joining.way(b)).abs();
         ring.or_else(|| pairs().filter(|&pair| turn(pair) <= SHARPEST).min_by(|&a, &b| turn(a).total_cmp(&turn(b))))

@@ -218,7 +218,8 @@ fn goes_straight(places: &[Vertex]) -> bool {
 pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     let Search { lines, vertices, unit, .. } = search;
     let tips = sorted(marks.iter().map(|mark| mark.cut[1]));
-    let mut near = Near::on_grid(unit);
+    // A file may be rounded more than the units of its plotter tell.
+    let mut near = Near::within(TOUCH + ROUNDING * unit);
     let mut bars = Vec::new();
     let is_bar = |&i: &usize| {
         let line = &lines[i];

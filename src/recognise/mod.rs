@@ -8,7 +8,7 @@
 //!
 //! `faces` puts loose lines in the order of the parts that they bound, by the places of their ends that `meeting` finds; `again`
 //! puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, by their `succession` where parts touch,
-//! over the gaps that `bridge` finds and without the slits that `slits` finds, `close` closes them, `twins` puts those aside that
+//! over the gaps that `bridge` finds and without the slits that `slits` and `tails` find, `close` closes them, `twins` puts those aside that
 //! lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `remains`
 //! the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them, `letters` and
 //! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for, `layers`
@@ -40,6 +40,7 @@ mod signs;
 mod slits;
 mod strokes;
 mod succession;
+mod tails;
 mod twins;
 
 use self::line::Class;

@@ -13,7 +13,7 @@ use crate::ir::drawing::Vertex;
 /// Share of a closed line that open ones together run beside: that of two sides of four, less what its corners take.
 const BESIDE: f64 = 0.45;
 /// Share of a closed line that open ones run beside where one doubts whether it is a part.
-const DOUBTFUL: f64 = 0.1;
+const DOUBTFUL: f64 = 0.15;
 /// Share of a closed line that open lines must run beside where some of them go far beyond it, as two outlines drawn
 /// without a lift do.
 const SURELY: f64 = 0.75;

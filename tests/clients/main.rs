@@ -79,7 +79,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 29] = [
+const OTHERWISE: [(&str, &str); 31] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
@@ -91,6 +91,7 @@ const OTHERWISE: [(&str, &str); 29] = [
     ("encoded-and-saved-as-utf-8", "it repairs nothing"),
     ("encoded-fractions", "it reads no fraction bits"),
     ("encoded-fractions-of-both-signs", "it reads no fraction bits"),
+    ("encoded-up-to-another-language", "it reads a body up to a semicolon"),
     ("fills-left-out", "it fills"),
     ("junk-between", "it stops at junk"),
     ("odd-coordinate", "it stops at a coordinate without its partner"),
@@ -106,6 +107,7 @@ const OTHERWISE: [(&str, &str); 29] = [
     ("scaled-unequally-mirrored-and-turned", "its arcs by three points are not numbers, its chords are others"),
     ("scales-that-are-broken", "it stops at a scale that is broken"),
     ("text-on-the-display", "it draws what the display shows"),
+    ("title-without-quotes", "it runs the words of the title"),
     ("turned-amid", "it makes relative moves from a place that is not turned, its chords are others"),
     ("u-notch-of-an-arc-amid-an-outline", "its chords are others"),
     ("wedge-of-a-full-turn", "it draws the radii of a full turn as well"),

@@ -299,9 +299,11 @@ fn plot_statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
                 statements.push(("text", format!("{mnemonic}\"TEXT\";")));
                 rest = &behind[length + 2..];
             }
-            "BP" if behind.contains(&b'"') => {
+            "BP" if behind.starts_with(b"1,") => {
                 let Some(length) = behind.iter().position(|&byte| byte == b';') else { break };
-                statements.push(("text", "BP1,\"TEXT\",5,1;".to_owned()));
+                let has_quotes = behind[..length].contains(&b'"');
+                let text = if has_quotes { "BP1,\"TEXT\",5,1;" } else { "BP1,TEXT;" };
+                statements.push(("text", text.to_owned()));
                 rest = &behind[length + 1..];
             }
             // A semicolon leads an instruction, or is all that is left of a label or a comment.

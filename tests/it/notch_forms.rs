@@ -306,6 +306,25 @@ fn every_style_acts_on_every_form_whichever_way_it_goes() {
     }
 }
 
+#[test]
+fn notches_in_a_row_are_counted_and_the_strips_between_them_are_not() {
+    for style in [NotchStyle::AsDrawn, NotchStyle::Slit] {
+        let mut job = Job::default();
+        job.profile.notch.style = style;
+        for (form, word) in [(rectangle(5.0, 5.0), "castle"), (arc(2.5, 5.0), "u")] {
+            for (count, strip) in [(2, 4.0), (3, 3.0), (3, 8.0), (5, 6.0), (6, 10.0)] {
+                let place = |k: usize| (k as f64 - (count - 1) as f64 / 2.0) * (5.0 + strip);
+                let row: Vec<Place> =
+                    (0..count).flat_map(|k| form.iter().map(move |&(x, y)| (x + place(k), y))).collect();
+                let points = part(Edge { turn: 0.3, radius: 0.0 }, &row);
+                let (marker, is_kept, _) = passed(&[rounded(&ring(&points, 1, false), 0.025)], 0.025, &job);
+                let found: Vec<&str> = notches(&marker).into_iter().map(|(kind, ..)| kind).collect();
+                assert_eq!((found, is_kept), (vec![word; count], true), "{count} {strip} mm apart");
+            }
+        }
+    }
+}
+
 /// A form that leans: sheared along the edge, and as deep along its axis as before.
 fn leaning(drawn: &[Place], lean: f64) -> Vec<Place> {
     drawn.iter().map(|&(x, y)| (x + y * lean.sin(), y * lean.cos())).collect()

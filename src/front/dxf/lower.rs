@@ -60,6 +60,9 @@ const SILENT: [&str; 3] = ["SEQEND", "ATTDEF", "VERTEX"];
 const FARTHEST: f64 = 1e6;
 /// Sweep below which an arc is a whole circle, deg.
 const TURN_EPSILON_DEG: f64 = 1e-6;
+/// Difference of the angles of an arc from a whole turn, either way, with which it is a circle, deg: angles in rad are written
+/// with four decimals.
+const WHOLE_EPSILON_DEG: f64 = 0.012;
 /// Most places that a file draws: more come from damaged numbers, or from blocks in blocks in blocks.
 const MOST_PLACES: usize = 4_000_000;
 
@@ -439,10 +442,15 @@ fn round(entity: &Entity) -> Result<Conic, Diagnostic> {
     let (centre, radius) = (place(entity, [X, Y])?, entity.coordinate(RADIUS)?.abs());
     let [start, end] =
         if entity.is("CIRCLE") { [0.0, 360.0] } else { [entity.coordinate(ANGLE)?, entity.coordinate(END_ANGLE)?] };
-    let sweep = (end - start).rem_euclid(360.0);
-    let is_round = sweep <= TURN_EPSILON_DEG || 360.0 - sweep <= TURN_EPSILON_DEG;
-    let sweep = if is_round { TAU } else { rad(sweep) };
+    let sweep = sweep(rad(start), rad(end));
     Ok(Conic { centre, across: Vector::new(radius, 0.0), up: Vector::new(0.0, radius), start: rad(start), sweep })
+}
+
+/// Sweep from one angle to another, rad: a whole turn where they are one, or about a turn apart.
+fn sweep(start: f64, end: f64) -> f64 {
+    let (apart, sweep) = ((end - start).abs(), (end - start).rem_euclid(TAU));
+    let is_one = sweep.min(TAU - sweep) <= rad(TURN_EPSILON_DEG);
+    if is_one || (apart - TAU).abs() <= rad(WHOLE_EPSILON_DEG) { TAU } else { sweep }
 }
 
 /// An ellipse or an arc of one, in the units of the file: its second axis is the first turned left as it is seen from its
@@ -452,8 +460,7 @@ fn ellipse(entity: &Entity) -> Result<Conic, Diagnostic> {
     let ratio = entity.coordinate(RATIO)?.abs();
     let minor = crate::geom::left(major) * if is_from_below(entity)? { -ratio } else { ratio };
     let start = entity.number(START)?.unwrap_or(0.0);
-    let sweep = (entity.number(END)?.unwrap_or(TAU) - start).rem_euclid(TAU);
-    let sweep = if sweep <= rad(TURN_EPSILON_DEG) || TAU - sweep <= rad(TURN_EPSILON_DEG) { TAU } else { sweep };
+    let sweep = sweep(start, entity.number(END)?.unwrap_or(TAU));
     Ok(Conic { centre, across: major, up: minor, start, sweep })
 }
 

@@ -242,7 +242,7 @@ impl<'a> Reader<'a> {
             match self.bytes.get(self.at + separators) {
                 Some(b'"') => {}
                 // A title without quotes: its words run nothing.
-                Some(byte) if is_value && byte.is_ascii_alphabetic() => {}
+                Some(byte) if is_value && !matches!(*byte, b';' | ESCAPE) => {}
                 Some(_) | None => return,
             }
             self.at += separators;

@@ -46,7 +46,7 @@ pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Di
             None => (
                 &code::DXF_CURVE_GUESSED,
                 format!("cut along guessed curves: {pieces}, {off}"),
-                "no AUTHOR is known: compare a neck and an armhole, or export ASTM DXF with layer 84",
+                "its AUTHOR names no rule that is known: compare a neck and an armhole, or export layer 84",
             ),
         };
         out.push(Diagnostic::new(code, message).at(laid.first).hint(hint));

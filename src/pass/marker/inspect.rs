@@ -7,6 +7,7 @@
 //! - A contour does not close. Where coordinates lie on a grid (a cutter file) contours outline parts, so every gap is
 //!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is, or a contour
 //!   that comes by its start and goes on.
+//! - A point of a contour stands far off between two that lie near each other: a digit of it may be wrong.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
@@ -20,10 +21,11 @@ use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::along::Lines;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, bits, polyline};
+use crate::geom::{Extent, Point, bits, polyline, ring};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
+use crate::source::Span;
 use crate::units::number;
 
 pub(super) const PASS: MarkerPass =
@@ -31,8 +33,16 @@ pub(super) const PASS: MarkerPass =
 
 /// A gap below this share of the contour's length looks like a contour that was meant to close.
 const GAP_SHARE: f64 = 0.05;
+/// The same of a contour that goes around something: with a straight line over the gap it encloses so much, as a part of the
+/// square of its length. A rectangle ten times as long as wide does.
+const AROUND_SHARE: f64 = 0.25;
+const AROUND_AREA: f64 = 0.02;
 /// Gap below which the ends of a contour of any length are near, mm.
 const NEAR_ENDS: f64 = 5.0;
+/// Least distance of a point to both of its neighbours that may have a wrong digit, mm, and the greatest distance of these, as
+/// a share of that: a part of a garment has no spike so long.
+const SPIKE: f64 = 300.0;
+const SPIKE_SHARE: f64 = 0.1;
 /// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded for itself.
 const MISSES: f64 = 2.5;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
@@ -55,9 +65,41 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     for (&(piece, contour), _) in open.iter().zip(is_side).filter(|(_, is_side)| !is_side) {
         open_contour(marker, piece, contour, diagnostics);
     }
+    spikes(marker, diagnostics);
     let boxed = Boxed::of(marker);
     let repeats = twice(marker, &boxed, diagnostics);
     beside(marker, &boxed, &repeats, job.profile.band(marker.unit), diagnostics);
+}
+
+/// Says how many points stand far off between two that lie near each other, and which is the farthest.
+fn spikes(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let (mut count, mut worst): (usize, Option<(f64, u32, Span)>) = (0, None);
+    for (piece, contour) in marker.contours() {
+        let points = marker.list.points(contour.range);
+        let is_spike = |k: &usize| {
+            let [before, after] = [points[*k - 1] - points[*k], points[*k + 1] - points[*k]];
+            let least = before.norm_squared().min(after.norm_squared());
+            least >= SPIKE * SPIKE && (after - before).norm_squared() <= SPIKE_SHARE * SPIKE_SHARE * least
+        };
+        for k in (1..points.len() - 1).filter(is_spike) {
+            count += 1;
+            let off = (points[k] - points[k - 1]).norm();
+            if worst.is_none_or(|(most, ..)| off > most) {
+                let span = marker.list.spans(contour.range)[k - 1];
+                worst = Some((off, marker.pieces[piece].number, span));
+            }
+        }
+    }
+    let Some((off, number, span)) = worst else { return };
+    let off = number::fixed(off, 0);
+    let message = match count {
+        1 => format!("a point of piece {number} stands {off} mm off, between two that lie near each other"),
+        count => {
+            format!("{count} points stand far off between two that lie near each other, one of piece {number} {off} mm")
+        }
+    };
+    let finding = Diagnostic::new(&code::MARKER_SPIKE, message).at(span).about(vec![number]);
+    diagnostics.push(finding.hint("a digit may be doubled or lost: look at the picture (`-t svg`), export it again"));
 }
 
 /// Says so where all contours together are smaller than a part. Readers of files with a grid doubt their unit themselves.
@@ -125,7 +167,10 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         let message = format!("a contour of piece {number} passes its start at {off} mm and goes on for {past} mm");
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
-    } else if marker.unit > 0.0 || gap < GAP_SHARE * length() {
+    } else if marker.unit > 0.0
+        || gap < GAP_SHARE * length()
+        || gap < AROUND_SHARE * length() && goes_around(&points, length())
+    {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
         let message = format!("a contour of piece {number} ends {size} mm from where it starts");
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
@@ -135,6 +180,11 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
             "it is cut as an open line; sides of one outline must end where the next one starts"
         }));
     }
+}
+
+/// Whether an open line goes around something, and does not lead to and fro.
+fn goes_around(points: &[Point], length: f64) -> bool {
+    ring::area(points).abs() >= AROUND_AREA * length * length
 }
 
 /// A line that comes by its start and goes on.

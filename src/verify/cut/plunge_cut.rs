@@ -7,7 +7,7 @@ use super::nibbles::Nibble;
 use super::stroke::Judge;
 use super::trial::{REACH, Trial};
 use super::worsts::Worsts;
-use crate::geom::{angle, polyline};
+use crate::geom::polyline;
 use crate::ir::declaration::{Kind, Which};
 use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::declared::Stretch;
@@ -15,8 +15,6 @@ use crate::verify::reference::line::Line;
 
 /// Part of the tolerance by which a line is off a straight one where it bends, however little.
 const SLIGHT_SHARE: f64 = 0.1;
-/// Rounding of a station, mm.
-const STATION_EPSILON: f64 = 1e-6;
 
 impl Judge<'_> {
     /// Judges a stroke that goes no way.
@@ -28,7 +26,7 @@ impl Judge<'_> {
         worsts: &mut Worsts,
     ) {
         let line = &self.reference.lines[trial.line];
-        worsts.heading.see(askew(line, cut, trial).to_degrees(), || seen(cut.body));
+        worsts.heading.see(trial.askew(line, cut).to_degrees(), || seen(cut.body));
         if let Some(over) = trial.over {
             // Where shorter cuts would do less harm a curve is not cut straight.
             let excess = over.sagitta - self.overcut.of_chords(&self.ends(cut, trial));
@@ -144,21 +142,4 @@ impl Judge<'_> {
             || self.profile.c.range_deg.is_some()
             || !self.is_straight_within(line, [station; 2], SLIGHT_SHARE * self.tracer.allowed)
     }
-}
-
-/// How far a blade points away from its line under it, rad: no farther to either side than one of its chords there.
-pub(super) fn askew(line: &Line, cut: &Cut, trial: &Trial) -> f64 {
-    let [first, last] = trial.reach;
-    let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
-    // A chord that begins or ends where the cut does is none of its own.
-    let (low, high) = (first.min(last), first.max(last));
-    let aside = STATION_EPSILON.min(0.25 * (high - low));
-    let chords = line.chords_between([low + aside, high - aside]);
-    let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
-    for chord in chords.clone().skip(1) {
-        turned += line.turn(chord % line.chords());
-        cone = [cone[0].min(turned), cone[1].max(turned)];
-    }
-    let askew = angle::turn(line.direction(*chords.start() % line.chords()), blade);
-    (cone[0] - askew).max(askew - cone[1]).max(0.0)
 }

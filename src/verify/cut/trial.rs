@@ -8,9 +8,8 @@ use super::covered::{Near, covered};
 use super::follow::{Follower, Foot};
 use super::heading::on_lap;
 use super::passing::{longest, passed, skipped};
-use super::plunge_cut::askew;
 use super::plunged::Plunged;
-use crate::geom::Point;
+use crate::geom::{Point, angle};
 use crate::ir::declaration::{Kind, Which};
 use crate::verify::declared::{Declared, Stretch};
 use crate::verify::reference::grid::Grid;
@@ -23,6 +22,8 @@ pub(super) const REACH: f64 = 2.0;
 const ON_SHARE: f64 = 0.1;
 /// Least cosine between a blade that only plunges and a line that it cuts (30 degrees): others it crosses.
 const ALONG: f64 = 0.87;
+/// Rounding of a station, mm.
+const STATION_EPSILON: f64 = 1e-6;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
 
@@ -173,7 +174,7 @@ impl Tracer<'_> {
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
-        let points_along = |trial: &Trial| askew(&self.reference.lines[trial.line], cut, trial) <= self.max_heading;
+        let points_along = |trial: &Trial| trial.askew(&self.reference.lines[trial.line], cut) <= self.max_heading;
         if cut.is_plunge_cut() && trials.len() > 1 && trials.iter().any(points_along) {
             trials.retain(points_along);
         }
@@ -488,6 +489,23 @@ impl Lain {
 }
 
 impl Trial {
+    /// How far a blade points away from the line under it, rad: no farther to either side than one of its chords there.
+    pub(super) fn askew(&self, line: &Line, cut: &Cut) -> f64 {
+        let [first, last] = self.reach;
+        let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
+        // A chord that begins or ends where the cut does is none of its own.
+        let (low, high) = (first.min(last), first.max(last));
+        let aside = STATION_EPSILON.min(0.25 * (high - low));
+        let chords = line.chords_between([low + aside, high - aside]);
+        let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
+        for chord in chords.clone().skip(1) {
+            turned += line.turn(chord % line.chords());
+            cone = [cone[0].min(turned), cone[1].max(turned)];
+        }
+        let askew = angle::turn(line.direction(*chords.start() % line.chords()), blade);
+        (cone[0] - askew).max(askew - cone[1]).max(0.0)
+    }
+
     /// +1 when the tip goes with the line, -1 when it goes against it.
     pub(in crate::verify) fn sign(&self, cut: &Cut) -> f64 {
         if self.feet[cut.points.len() - 1].station < self.feet[cut.body].station { -1.0 } else { 1.0 }

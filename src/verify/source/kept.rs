@@ -91,21 +91,21 @@ impl KnifeStroke {
 
     /// Whether each place of it lies so near to one of some others, mm.
     fn is_near(&self, others: &[Self], reach: f64) -> bool {
-        self.away(others, reach) == 0.0
+        self.away(others, reach).iter().all(|is_away| !is_away)
     }
 
-    /// Length of it that lies farther than that from all of some others, mm.
-    fn away(&self, others: &[Self], reach: f64) -> f64 {
+    /// Which of its places, at even steps, lie farther than that from all of some others, mm.
+    fn away(&self, others: &[Self], reach: f64) -> Vec<bool> {
         let middle = self.from + (self.to - self.from) / 2.0;
         let around = reach + self.length() / 2.0;
         let near = others.iter().filter(|other| polyline::distance_to_segment(middle, other.from, other.to) <= around);
         let near: Vec<&Self> = near.collect();
         let steps = (self.length() / SAMPLE).ceil().max(1.0);
-        let is_away = |k: &usize| {
-            let at = self.from + (self.to - self.from) * (*k as f64 / steps);
+        let is_away = |k: usize| {
+            let at = self.from + (self.to - self.from) * (k as f64 / steps);
             near.iter().all(|other| polyline::distance_to_segment(at, other.from, other.to) > reach)
         };
-        (0..=steps as usize).filter(is_away).count() as f64 / (steps + 1.0) * self.length()
+        (0..=steps as usize).map(is_away).collect()
     }
 
     fn is_hole(&self) -> bool {
@@ -180,7 +180,7 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
         let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
         lost = lost
             .chunk_by(|a, b| a.to == b.from)
-            .filter(|line| !stands_in_for(line, &there, &still, reach))
+            .filter(|line| !stands_in_for(line, &there, &still, reach) && !is_mouth(line, read))
             .flatten()
             .copied()
             .collect();
@@ -203,10 +203,29 @@ fn overcuts(read: &[KeptPlace]) -> Vec<u32> {
     lines.filter_map(overcut).collect()
 }
 
-/// Whether a notch stands in the place of a line that the file draws again: no more of it than a mouth is not cut.
+/// Whether notches stand in the place of a line that the file draws again: it is cut but for stretches as wide as a mouth.
 fn stands_in_for(line: &[KnifeStroke], there: &[KnifeStroke], still: &[KnifeStroke], reach: f64) -> bool {
-    line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
-        && line.iter().map(|stroke| stroke.away(still, reach)).sum::<f64>() <= MOUTH
+    let steps = line.iter().flat_map(|stroke| {
+        let away = stroke.away(still, reach);
+        let step = stroke.length() / away.len() as f64;
+        away.into_iter().map(move |is_away| (is_away, step))
+    });
+    let (mut gap, mut widest) = (0.0, 0.0_f64);
+    for (is_away, step) in steps {
+        gap = if is_away { gap + step } else { 0.0 };
+        widest = widest.max(gap);
+    }
+    widest <= MOUTH && line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
+}
+
+/// Whether a line is the edge over the mouth of a notch that the file draws as an open line between its ends.
+fn is_mouth(line: &[KnifeStroke], read: &[KeptPlace]) -> bool {
+    let ends = [line[0].from, line[line.len() - 1].to];
+    let lies_at = |at: [Point; 2]| (at[0] - ends[0]).norm() <= AGAIN && (at[1] - ends[1]).norm() <= AGAIN;
+    let lines = read.chunk_by(|_, next| next.cause != Cause::NONE).filter(|line| line.len() > 2);
+    let is_there =
+        lines.map(|line| [line[0].at, line[line.len() - 1].at]).any(|[a, b]| lies_at([a, b]) || lies_at([b, a]));
+    is_there && line.iter().map(KnifeStroke::length).sum::<f64>() <= MOUTH
 }
 
 impl Works {

@@ -5,6 +5,7 @@ mod audit;
 mod classes;
 mod closing;
 mod curves;
+mod facing;
 mod frames;
 mod lost;
 mod notches;

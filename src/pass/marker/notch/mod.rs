@@ -153,9 +153,9 @@ impl<'a> Outline<'a> {
             // In nearly all outlines all notches go one way.
             [all, []] | [[], all] => self.alone(all).into_iter().flatten().collect(),
             [inward, outward] => {
-                let straight = [straighter(inward, outward, count), straighter(outward, inward, count)];
-                let kept = [inward, outward].map(|all| self.alone(all)).concat().into_iter().zip(straight.concat());
-                kept.filter_map(|(mouth, is_straight)| mouth.filter(|_| is_straight)).collect()
+                let meant = meant([inward, outward], count);
+                let kept = [inward, outward].map(|all| self.alone(all)).concat().into_iter().zip(meant.concat());
+                kept.filter_map(|(mouth, is_meant)| mouth.filter(|_| is_meant)).collect()
             }
         };
         kept.sort_by_key(|mouth| mouth.first);
@@ -229,20 +229,36 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// Of each of some notches, whether it is one beside others that go the other way: between two of those, and beside one
-/// with which it shares a segment and whose edge is straighter, stands none.
-fn straighter(mouths: &[Mouth], others: &[Mouth], count: usize) -> Vec<bool> {
-    let segments = |mouth: &Mouth| (mouth.first..mouth.first + mouth.segments).map(move |i| i % count);
-    let mut owners = vec![None; count];
-    for (k, other) in others.iter().enumerate() {
-        segments(other).for_each(|i| owners[i] = Some(k));
-    }
-    let is_straighter = |mouth: &Mouth| {
-        let mut met: Vec<usize> = segments(mouth).filter_map(|i| owners[i]).collect();
-        met.dedup();
-        met.len() < 2 && met.iter().all(|&k| mouth.askew <= others[k].askew)
+/// Of each of some notches to either side, whether it is meant. Between two notches the edge looks like one to the other side:
+/// of a row whose neighbours share segments every other one is, those at both ends of the row where they go the same way, else
+/// those at the end where the edge is straighter.
+fn meant(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
+    let mut all: Vec<(usize, usize)> = (0..2).flat_map(|side| (0..sides[side].len()).map(move |k| (side, k))).collect();
+    let mouth = |(side, k): (usize, usize)| sides[side][k];
+    all.sort_by_key(|&place| mouth(place).first);
+    // Whether each shares a segment with the one behind it, round the ring.
+    let shares = |i: usize| {
+        let [this, next] = [all[i], all[(i + 1) % all.len()]].map(mouth);
+        let start = if i + 1 < all.len() { next.first } else { next.first + count };
+        all.len() > 1 && start < this.first + this.segments
     };
-    mouths.iter().map(is_straighter).collect()
+    let shared: Vec<bool> = (0..all.len()).map(shares).collect();
+    let mut meant = sides.map(|side| vec![true; side.len()]);
+    // A row begins behind a notch that shares nothing; a gear, all round which each shares, anywhere.
+    let begin = shared.iter().rposition(|shares| !shares).map_or(0, |i| i + 1);
+    let mut row: Vec<(usize, usize)> = Vec::new();
+    for i in (0..all.len()).map(|i| (begin + i) % all.len()) {
+        row.push(all[i]);
+        if shared[i] && row.len() < all.len() {
+            continue;
+        }
+        let ends = [row[0], row[row.len() - 1]];
+        let [first, last] = ends.map(|place| mouth(place).askew);
+        let is_first = ends[0].0 == ends[1].0 || first < last || first == last && ends[0].0 == 0;
+        let side = if is_first { ends[0].0 } else { ends[1].0 };
+        row.drain(..).filter(|place| place.0 != side).for_each(|(side, k)| meant[side][k] = false);
+    }
+    meant
 }
 
 /// A notch over another piece.

@@ -315,7 +315,7 @@ impl Way<'_> {
     /// Greatest difference of depth at the bottom of a castle, mm: rounding moves a vertex by one slack and the mouth, from
     /// which depth is measured, by another.
     fn tilted(&self, slack: f64) -> f64 {
-        2.0 * slack + TILT * self.width
+        2.0 * slack + (TILT * self.width).min(self.depth / 2.0)
     }
 
     /// First and last of some vertices that are so much less deep than the deepest, mm, or deeper.

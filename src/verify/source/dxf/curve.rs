@@ -13,6 +13,8 @@ pub(super) type Curve = Box<dyn Fn(f64) -> Place>;
 const ROUNDS: usize = 100;
 /// Turn below which an arc comes round, rad.
 const ROUND_EPSILON: f64 = 1e-7;
+/// By how much angles that are written apart by a whole turn may miss that, rad: they have four decimals.
+const WRITTEN_EPSILON: f64 = 2.1e-4;
 
 /// A circle, or an arc of one that goes from one angle, rad, to another.
 pub(super) fn round(item: &Item) -> Option<Curve> {
@@ -31,9 +33,11 @@ pub(super) fn ellipse(item: &Item, is_from_below: bool) -> Option<Curve> {
 
 /// An ellipse by its centre and two half axes, between two angles; once around where those are one.
 fn turning(centre: Place, [a, b]: [Place; 2], [start, end]: [f64; 2]) -> Curve {
-    let turn = (end - start).rem_euclid(std::f64::consts::TAU);
-    let is_round = turn < ROUND_EPSILON || std::f64::consts::TAU - turn < ROUND_EPSILON;
-    let turn = if is_round { std::f64::consts::TAU } else { turn };
+    let whole = std::f64::consts::TAU;
+    let turn = (end - start).rem_euclid(whole);
+    let is_written_whole = ((end - start).abs() - whole).abs() < WRITTEN_EPSILON;
+    let is_round = is_written_whole || turn < ROUND_EPSILON || whole - turn < ROUND_EPSILON;
+    let turn = if is_round { whole } else { turn };
     Box::new(move |share| {
         let angle = if is_round && share >= 1.0 { start } else { start + share * turn };
         [0, 1].map(|k| centre[k] + a[k] * angle.cos() + b[k] * angle.sin())

@@ -176,7 +176,7 @@ impl Scan<'_> {
                         true
                     }
                 }
-                Some(byte) if has_comma && byte.is_ascii_alphabetic() => {
+                Some(byte) if has_comma && !matches!(*byte, b';' | 0x1b) => {
                     self.at += self.until(b";\r\n", usize::MAX);
                     true
                 }

@@ -1,0 +1,50 @@
+//! Tails: an outline that begins at the tip of a slit, or ends there. The pen comes from the tip to the edge and goes round from
+//! there, in one stroke.
+
+use super::line::SHORTEST_NOTCH;
+use crate::geom::closing;
+use crate::ir::drawing::{Drawing, PenStroke};
+use crate::ir::marker::Notch;
+
+/// Fewest places of an outline with its tail: a triangle's, its first once more, and the tip.
+const LEAST: usize = 5;
+
+/// Makes two strokes of each outline with a tail: the slit, and the outline. Places up to `reach` apart along an axis are one, mm.
+pub(super) fn part(drawing: &mut Drawing, reach: f64) {
+    let strokes = std::mem::take(&mut drawing.strokes);
+    drawing.strokes.reserve(strokes.len());
+    for stroke in strokes {
+        let PenStroke { first, end, pen } = stroke;
+        match foot(drawing, &stroke, reach) {
+            Some(foot) => {
+                drawing.strokes.push(PenStroke { first, end: foot + 1, pen });
+                drawing.strokes.push(PenStroke { first: foot, end, pen });
+            }
+            None => drawing.strokes.push(stroke),
+        }
+    }
+}
+
+/// The place of a stroke at which its tail stands on its outline.
+fn foot(drawing: &Drawing, stroke: &PenStroke, reach: f64) -> Option<u32> {
+    let vertices = &drawing.vertices[stroke.range()];
+    // What runs past its start has no tail, but an overcut.
+    let runs_past = || closing::retrace(vertices.len(), |k| vertices[k].at, closing::reach(drawing.unit)).is_some();
+    if vertices.len() < LEAST {
+        return None;
+    }
+    let last = vertices.len() - 1;
+    let way = |a: usize, b: usize| vertices[a].at - vertices[b].at;
+    let meet = |a: usize, b: usize| way(a, b).amax() <= reach;
+    let is_slit = |a: usize, b: usize| (SHORTEST_NOTCH..=Notch::LONGEST).contains(&way(a, b).norm());
+    let foot = if meet(0, last) {
+        None
+    } else if meet(1, last) && is_slit(0, 1) {
+        Some(stroke.first + 1)
+    } else if meet(0, last - 1) && is_slit(last, last - 1) {
+        Some(stroke.end - 2)
+    } else {
+        None
+    };
+    foot.filter(|_| !runs_past())
+}
