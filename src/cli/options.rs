@@ -191,6 +191,12 @@ pub(super) struct Choice {
     #[arg(long, value_name = "NUMBER", value_parser = start)]
     resume_from: Option<Start>,
 
+    /// Cut what lies in these windows of a conveyor only (`bite.length_mm`), as in `--bites 2-4`
+    ///
+    /// The cloth lies at the start as it does when the first of them is cut. `cutc info` lists the windows.
+    #[arg(long, value_name = "NUMBERS", value_parser = numbers, conflicts_with = "resume_from")]
+    bites: Option<Numbers>,
+
     /// The same motion with knife and drills up: nothing is cut
     #[arg(long, conflicts_with = "frame")]
     dry_run: bool,
@@ -276,7 +282,8 @@ impl Choice {
                 None => return Ok(Err(unfit(&found, &source, "file of marks"))),
             }
         }
-        let selection = Selection { pieces: self.pieces.clone(), resume_from: self.resume_from, ..job.selection };
+        let (pieces, bites) = (self.pieces.clone(), self.bites.clone());
+        let selection = Selection { pieces, bites, resume_from: self.resume_from, ..job.selection };
         let mode = match (self.dry_run, self.frame) {
             (_, true) => Mode::Frame,
             (true, false) => Mode::Dry,
@@ -296,7 +303,7 @@ fn unfit(found: &Diagnostics, source: &Source, noun: &str) -> Finished {
 
 /// The choice of a job as it is typed; empty when all is cut.
 pub(super) fn typed(job: &Job) -> String {
-    let Selection { pieces, skip, resume_from } = &job.selection;
+    let Selection { pieces, skip, resume_from, bites } = &job.selection;
     let mut words = Vec::new();
     words.extend(job.lines.pens.iter().map(|numbers| format!("--cut-pens {numbers}")));
     words.extend(job.lines.layers.iter().map(|layers| format!("--layers {layers}")));
@@ -320,6 +327,7 @@ pub(super) fn typed(job: &Job) -> String {
     words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
     words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
     words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));
+    words.extend(bites.iter().map(|numbers| format!("--bites {numbers}")));
     words.extend(job.centre.iter().map(|centre| format!("--centre {}", file_name(&centre.source))));
     words.extend(job.marks.iter().map(|marks| format!("--map {}", file_name(marks.source()))));
     match job.mode {

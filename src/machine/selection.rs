@@ -13,12 +13,19 @@ pub struct Selection {
     pub skip: Option<Numbers>,
     /// Only what is cut from there on.
     pub resume_from: Option<Start>,
+    /// Only what is cut in these windows of a conveyor, from 1.
+    pub bites: Option<Numbers>,
 }
 
 impl Selection {
     /// Whether every piece is cut.
     pub fn is_all(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// Whether a run may begin amid the marker.
+    pub fn begins_amid(&self) -> bool {
+        self.resume_from.is_some() || self.bites.is_some()
     }
 
     /// Whether a piece of this number is cut, its place in the cut order aside.
@@ -206,7 +213,7 @@ mod tests {
     #[test]
     fn skipping_wins_over_choosing() {
         let of = |text| Some(Numbers::parse(text).expect("numbers"));
-        let selection = Selection { pieces: of("1-5"), skip: of("3"), resume_from: None };
+        let selection = Selection { pieces: of("1-5"), skip: of("3"), ..Selection::default() };
         assert!(selection.has(2) && !selection.has(3) && !selection.has(6) && !selection.is_all());
         assert!(Selection::default().has(7) && Selection::default().is_all());
     }

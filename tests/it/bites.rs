@@ -322,6 +322,18 @@ fn a_run_goes_on_with_the_cloth_where_it_stopped() {
         let advances = rows(&room.text("some.csv")).iter().filter(|row| row[6] == 2.0).count();
         assert_eq!(advances, ((expected[1] - expected[0]) / 310.0) as usize, "{start}: it stands where it begins");
     }
+    for (bites, expected) in [("1", [0.0; 2]), ("1-2", [0.0, 310.0]), ("2-3", [310.0, 620.0]), ("1,3", [0.0, 620.0])] {
+        let options = format!("-p machine.toml --bites {bites}");
+        for program in ["some.csv", "some.ngc"] {
+            room.says(&format!("compile row.cut --force -o {program} {options}"), DONE);
+            room.says(&format!("verify {program} --source row.cut {options}"), DONE);
+        }
+        assert_eq!(ways(&room), expected, "{bites}");
+    }
+    room.says("verify some.csv --source row.cut -p machine.toml", FAULTY);
+    let said = room.says("compile row.cut -p machine.toml --bites 3-4", FAULTY);
+    assert!(said.contains("--bites: there is no bite 4") && said.contains("in 3 windows"), "{said}");
+    room.says("compile row.cut -p machine.toml --bites 3 --resume-from bite:2", USAGE);
     // The cloth stands elsewhere than the program begins.
     room.says("verify some.ngc --source row.cut -p machine.toml --resume-from bite:2", FAULTY);
     let said = room.says(&format!("compile row.cut {BITES} --resume-from bite:4"), FAULTY);

@@ -6,10 +6,10 @@
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Event, Marker, Piece};
-use crate::machine::{Job, Numbers, Start};
+use crate::machine::{Job, Numbers, Selection, Start};
 
 pub(super) const PASS: MarkerPass =
-    MarkerPass { name: "select", about: "keeps the pieces that --pieces, --skip and --resume-from leave", run };
+    MarkerPass { name: "select", about: "keeps the pieces that --pieces, --skip, --resume-from and --bites leave", run };
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let selection = &job.selection;
@@ -45,13 +45,20 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
             return;
         }
     };
+    let windows = windows(marker);
+    let last = windows.last().copied().unwrap_or(0);
+    if let Some(bite) = selection.bites.iter().flat_map(Numbers::written).find(|bite| !(1..=last).contains(bite)) {
+        diagnostics.push(unknown_bite("--bites", bite, last, job));
+        return;
+    }
+    let is_chosen = |i: usize| i >= first && selection.bites.as_ref().is_none_or(|bites| bites.has(windows[i]));
     let all = marker.pieces.len();
-    keep(marker, first, job);
+    keep(marker, &(0..all).map(is_chosen).collect::<Vec<bool>>(), selection);
     if !marker.pieces.iter().any(cuts) {
         let message = format!("none of the {all} pieces is left to cut");
         diagnostics.push(
             Diagnostic::new(&code::SELECT_NOTHING_LEFT, message)
-                .hint("--pieces, --skip and --resume-from act together: leave one out, or change its numbers"),
+                .hint("the options that choose pieces act together: leave one out, or change its numbers"),
         );
     }
 }
@@ -68,33 +75,48 @@ fn place(start: Start, marker: &Marker, job: &Job) -> Result<usize, Diagnostic> 
             })
         }
         Start::Bite(number) => {
-            let stations = marker.stations();
-            let begins = |&i: &usize| i == 0 || stations[i] != stations[i - 1];
-            let windows: Vec<usize> = (0..stations.len()).filter(begins).collect();
-            windows.get(number as usize - 1).copied().ok_or_else(|| {
-                let hint = match job.profile.bite.length_mm {
-                    Some(_) => format!("the marker is cut in {} windows", windows.len()),
-                    None => "the cloth lies still: bite.length_mm".to_owned(),
-                };
-                refused(format!("--resume-from: there is no bite {number}"), hint)
-            })
+            let windows = windows(marker);
+            let last = windows.last().copied().unwrap_or(0);
+            let first = windows.iter().position(|&window| window == number);
+            first.ok_or_else(|| unknown_bite("--resume-from", number, last, job))
         }
     }
 }
 
-/// Keeps the pieces from the `first` one on that are chosen. A run that goes on begins with the cloth as it lies when its first
-/// piece is cut. Else every advance before a piece that is left stays, and where the file has one at its end so do those
-/// behind the last piece.
-fn keep(marker: &mut Marker, first: usize, job: &Job) {
+/// The window of the conveyor that each piece is cut in, from 1.
+fn windows(marker: &Marker) -> Vec<u32> {
+    let stations = marker.stations();
+    let begins = |i: usize| i > 0 && stations[i] != stations[i - 1];
+    let number = |window: &mut u32, i: usize| {
+        *window += u32::from(begins(i));
+        Some(*window)
+    };
+    (0..stations.len()).scan(1, number).collect()
+}
+
+/// A window that an option names and the marker does not have.
+fn unknown_bite(flag: &str, bite: u32, last: u32, job: &Job) -> Diagnostic {
+    let hint = match job.profile.bite.length_mm {
+        Some(_) => format!("the marker is cut in {last} windows"),
+        None => "the cloth lies still: bite.length_mm".to_owned(),
+    };
+    Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, format!("{flag}: there is no bite {bite}")).hint(hint)
+}
+
+/// Keeps the pieces that are chosen, by their places. A run that begins amid the marker begins with the cloth as it lies when
+/// its first piece is cut. Else every advance before a piece that is left stays, and where the file has one at its end so do
+/// those behind the last piece.
+fn keep(marker: &mut Marker, is_chosen: &[bool], selection: &Selection) {
+    let first = is_chosen.iter().position(|is| *is).unwrap_or(0);
     let Marker { pieces, moved_on, closing, .. } = marker;
     let (mut place, mut left): (_, Vec<Event>) = (0.., Vec::new());
     pieces.retain_mut(|piece| {
         let i = place.next().unwrap_or(0);
         left.extend(piece.events.extract_if(.., |event| event.kind.advance_mm() > 0));
-        if i == first && job.selection.resume_from.is_some() {
+        if i == first && selection.begins_amid() {
             *moved_on = left.drain(..).map(|event| event.kind.advance_mm()).sum();
         }
-        let is_kept = i >= first && job.selection.has(piece.number);
+        let is_kept = is_chosen[i] && selection.has(piece.number);
         if is_kept {
             piece.events.splice(0..0, left.drain(..));
         }
