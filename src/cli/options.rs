@@ -176,8 +176,8 @@ impl LeftOut {
 pub(super) struct Choice {
     /// Cut these pieces only, by their numbers in the file, as in `--pieces 3,7-12`
     ///
-    /// The order stays that of `order.policy`. A number that the file does not have is an error. --pieces, --skip and
-    /// --resume-from act together.
+    /// The order stays that of `order.policy`. A number that the file does not have is an error. --pieces, --skip,
+    /// --resume-from and --bites act together.
     #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
     pieces: Option<Numbers>,
 

@@ -397,7 +397,7 @@ codes! {
     /// A number that no piece has.
     SELECT_UNKNOWN_PIECE = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
     /// Nothing is chosen.
-    SELECT_NOTHING_LEFT = error(Shape, "select/nothing-left", "The options that choose pieces leave nothing to cut.", "--pieces, --skip and --resume-from act together: a piece is cut when all three leave it. Pieces that hold labels alone count for nothing.");
+    SELECT_NOTHING_LEFT = error(Shape, "select/nothing-left", "The options that choose pieces leave nothing to cut.", "--pieces, --skip, --resume-from and --bites act together: a piece is cut when all leave it. Pieces that hold labels alone count for nothing.");
 
     // The knife's way.
     /// A smooth closed contour too small for the blade.

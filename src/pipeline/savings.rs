@@ -29,8 +29,8 @@ impl Savings {
     /// Those of a marker whose cuts are made, but for what hangs on the planned motion.
     pub(super) fn of(marker: &Marker, job: &Job) -> Self {
         // Who goes on with a program must go on in its order.
-        let is_as_filed = !job.selection.begins_amid()
-            && job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::File;
+        let is_as_filed =
+            !job.selection.begins_amid() && job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::File;
         let (least_travel_s, steady_s) =
             rayon::join(|| air::least(marker, job), || is_as_filed.then(|| saved_by(OrderPolicy::Steady, marker, job)));
         Self { least_travel_s, steady_s, clear_s: None }

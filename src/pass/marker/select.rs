@@ -8,8 +8,11 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Event, Marker, Piece};
 use crate::machine::{Job, Numbers, Selection, Start};
 
-pub(super) const PASS: MarkerPass =
-    MarkerPass { name: "select", about: "keeps the pieces that --pieces, --skip, --resume-from and --bites leave", run };
+pub(super) const PASS: MarkerPass = MarkerPass {
+    name: "select",
+    about: "keeps the pieces that --pieces, --skip, --resume-from and --bites leave",
+    run,
+};
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let selection = &job.selection;

@@ -80,8 +80,10 @@ fn notches_of_both_parts_at_one_place_of_their_common_edge_are_two() {
 #[test]
 fn notches_on_an_edge_that_is_drawn_twice_are_all_kept() {
     let ring = "8000,400,8000,4400,400,4400,400,400";
-    let notches: String =
-        (0..4).map(|k| 1600 + 1600 * k).map(|x| format!("PU{x},400;PD{},640,{},400;", x + 120, x + 240)).collect();
+    let notch = |k: i64| 1600 + 1600 * k;
+    let notches: Vec<String> =
+        (0..4).map(notch).map(|x| format!("PU{x},400;PD{},640,{},400;", x + 120, x + 240)).collect();
+    let notches = notches.concat();
     for (outline, code) in [
         (format!("PU400,400;PD{ring},{ring};"), "marker/round-again"),
         (format!("PU400,400;PD{ring},7000,400;"), "marker/overrun"),

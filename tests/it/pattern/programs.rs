@@ -280,7 +280,7 @@ fn a_piece_at_fault_is_named_and_all_others_can_be_cut_without_it() {
 fn selecting([pieces, skip]: [Option<&str>; 2], resume_from: Option<&str>) -> Job {
     let [pieces, skip] = [pieces, skip].map(|text| text.map(|text| Numbers::parse(text).expect("numbers")));
     let resume_from = resume_from.map(|text| Start::parse(text).expect("a piece"));
-    Job { selection: Selection { pieces, skip, resume_from }, ..Job::default() }
+    Job { selection: Selection { pieces, skip, resume_from, bites: None }, ..Job::default() }
 }
 
 #[test]
