@@ -94,6 +94,9 @@ const RADIUS_SHARE: f64 = 0.3;
 /// The same in lengths of the curve, which is gentler at its ends.
 const LENGTH_SHARE: f64 = 0.33;
 
+/// Radius far beyond any curve that a blade minds, mm.
+const STRAIGHT: f64 = 1e4;
+
 /// Least radius of a curve from one inner vertex of a path to another, for a blade of `width`, mm: that of the arc
 /// whose chords are as long and turn as much, c = 2 R sin(a/2), at either end by one half.
 pub fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> f64 {
@@ -117,8 +120,8 @@ pub fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64)
         })
     };
     let least = (0..count - 1).filter_map(of).fold(f64::INFINITY, f64::min);
-    // Turns to both sides may cancel each other; then the tightest vertex tells.
-    if least.is_finite() { least } else { (first..=last).map(|vertex| radius(path, vertex)).fold(least, f64::min) }
+    // Bends to either side cancel each other; the tightest vertex then gives the radius.
+    if least < STRAIGHT { least } else { (first..=last).map(|vertex| radius(path, vertex)).fold(least, f64::min) }
 }
 
 /// From the first to the last of some vertices that belong to curves tighter than the blade is wide, or of all when none

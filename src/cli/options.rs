@@ -191,7 +191,7 @@ pub(super) struct Choice {
     #[arg(long, value_name = "NUMBER", value_parser = start)]
     resume_from: Option<Start>,
 
-    /// Cut what lies in these windows of a conveyor only (`bite.length_mm`), as in `--bites 2-4`
+    /// Cut only these windows of a conveyor (`bite.length_mm`), as in `--bites 2-4`
     ///
     /// The cloth lies at the start as it does when the first of them is cut. `cutc info` lists the windows.
     #[arg(long, value_name = "NUMBERS", value_parser = numbers, conflicts_with = "resume_from")]

@@ -80,7 +80,7 @@ const FORMATS: &[Format] = &[
     known("a GP-GL plot (Graphtec)", OTHER_PLOTTER, is_gp_gl),
     known("a DMPL plot (Houston Instruments)", OTHER_PLOTTER, |b| b.trim_ascii_start().starts_with(b";:")),
     known("a raster page for a printer or an inkjet plotter (PCL, HP RTL)", RASTER, is_raster),
-    vague("binary data", EXPORT_CUT, is_binary),
+    vague("binary data", EXPORT_CUT, |b| is_binary(b) && !(has(b, b"\x1b*b") && has_vectors(b))),
     known("a Gerber file for circuit boards", "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15", is_circuit_board),
     known("a CAMM-GL I plot (Roland)", OTHER_PLOTTER, is_camm_gl),
     known("a drill file for circuit boards (Excellon)", "garment CAD writes ISO cut files with M14 and M15", is_excellon),
@@ -188,7 +188,7 @@ fn is_comma_table(bytes: &[u8]) -> bool {
     table(bytes, |byte| b"; \t".contains(byte)).iter().any(|row| row.contains(&b','))
 }
 
-/// Rows of two numbers or more, with other signs between, around or before them than points in CSV have.
+/// Table of numbers in another form than points in CSV: with other separators, quotes or remarks.
 fn is_other_table(bytes: &[u8]) -> bool {
     // Rows below the header of points in CSV have messages of their own.
     let first: Vec<u8> = head(bytes).iter().copied().filter(|byte| !b" \t\r".contains(byte)).collect();
@@ -197,8 +197,7 @@ fn is_other_table(bytes: &[u8]) -> bool {
     !is_csv && !table(bytes, |byte| b",; \t".contains(byte)).is_empty()
 }
 
-/// The rows of a table of numbers, in quotes or not; remarks are left out, and the first row may be a header. None where
-/// some row is of another kind.
+/// Rows of a table of numbers, in quotes or not, without remarks and header; empty where a row is of another kind.
 fn table(bytes: &[u8], parts: fn(&u8) -> bool) -> Vec<&[u8]> {
     let head = head(bytes);
     // The last number may be cut off.
@@ -208,7 +207,7 @@ fn table(bytes: &[u8], parts: fn(&u8) -> bool) -> Vec<&[u8]> {
     let mut rows = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|row| !is_remark(row));
     let is_row = |row: &[u8]| {
         let fields = row.split(parts).map(|field| unquoted(field.trim_ascii())).filter(|field| !field.is_empty());
-        fields.clone().count() > 1 && fields.into_iter().all(is_number)
+        fields.clone().count() > 1 && fields.clone().all(is_number)
     };
     let Some(first) = rows.next() else { return Vec::new() };
     let rows: Vec<&[u8]> = std::iter::once(first).filter(|row| is_row(row)).chain(rows.take(MOST_ROWS)).collect();
@@ -286,15 +285,20 @@ fn is_binary(bytes: &[u8]) -> bool {
 
 /// Sequences that begin, fill and end a raster: `ESC * r A`, `ESC * b W`.
 fn is_raster(bytes: &[u8]) -> bool {
-    let head = head(bytes);
-    let has = |text: &[u8]| memchr::memmem::find(head, text).is_some();
-    has(b"\x1b*r") && has(b"\x1b*b") && !has(b";PD") && !has(b"PD;")
+    let has = |text: &[u8]| memchr::memmem::find(head(bytes), text).is_some();
+    has(b"\x1b*r") && has(b"\x1b*b") && !has(b"PD") && !has_vectors(bytes)
+}
+
+/// Instructions of a plot, and switches to them: it may hold a raster picture beside its lines.
+fn has_vectors(bytes: &[u8]) -> bool {
+    let holds = |text: &&[u8]| memchr::memmem::find(bytes, text).is_some();
+    [&b"\x1b%0B"[..], b"\x1b%1B", b";PD", b"PD;", b";PU", b"PU;"].iter().any(holds)
 }
 
 /// The header of a drill file: `M48`, up to a line with a per cent sign.
 fn is_excellon(bytes: &[u8]) -> bool {
-    let mut lines = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
-    let mut lines = lines.by_ref().skip_while(|line| line.is_empty() || line.starts_with(b";"));
+    let lines = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    let mut lines = lines.skip_while(|line| line.is_empty() || line.starts_with(b";"));
     lines.next() == Some(b"M48") && lines.any(|line| line == b"%" || line == b"M95")
 }
 
@@ -399,15 +403,20 @@ mod tests {
     }
 
     #[test]
-    fn a_table_with_decimal_commas_is_known_however_it_is_laid_out() {
+    fn drill_files_raster_pages_and_tables_in_another_form_are_known() {
         check(b"M48\nINCH,LZ\nT1C0.02\n%\nT1\nX12500Y10000\n", Some("a drill file for circuit boards (Excellon)"));
         let raster = Some("a raster page for a printer or an inkjet plotter (PCL, HP RTL)");
         check(b"\x1bE\x1b*t300R\x1b*r1A\x1b*b4Wabcd\x1b*rB", raster);
+        check(b"\x1bE\x1b*t300R\x1b*r1A\x1b*b4Wabcd\x1b*rB\x1b%0BIN;PU0,0;PD9,9;", None);
+        check(b"\x1b%0BINSP1PU0,0PD9,0,9,9PU\x1b%0A\x1b*r1A\x1b*b4Wabcd\x1b*rB", None);
         let other = Some("a table of points in another form");
-        check(b"# points\n1.0,2.0\n3.0,4.0\n", other);
-        check(b"\"x\",\"y\"\n\"1.0\",\"2.0\"\n", other);
-        check(b"x;y\n1.0;2.0\n", other);
-        check(b"1;2\n3;4\n", other);
+        for text in ["# points\n1.0,2.0\n3.0,4.0\n", "\"x\",\"y\"\n\"1.0\",\"2.0\"\n", "x;y\n1.0;2.0\n", "1;2\n3;4\n"] {
+            check(text.as_bytes(), other);
+        }
+    }
+
+    #[test]
+    fn a_table_with_decimal_commas_is_known_however_it_is_laid_out() {
         let table = Some("a table of points with decimal commas");
         for text in [
             "404,9;413,5",

@@ -129,23 +129,22 @@ pub(super) fn how_to_close(gap: f64) -> Option<String> {
 
 /// Parts that open lines run beside from outside: each may be the seam line of an outline that is not whole.
 fn maybe_seams(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
-    let is_doubtful = |remains: &&Remains| {
-        let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
-        !remains.is_sure && sheet.lines[remains.inner].is_cut && remains.lines.iter().any(is_left)
-    };
-    let doubtful: Vec<&Remains> = sheet.remains.iter().filter(is_doubtful).collect();
-    let Some(first) = doubtful.first() else { return };
-    let parts: Vec<usize> = doubtful.iter().map(|remains| remains.inner).collect();
+    let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
+    let doubtful = sheet.remains.iter().filter(|remains| !remains.is_sure && sheet.lines[remains.inner].is_cut);
+    let doubtful = doubtful.filter_map(|remains| Some((remains.inner, remains.lines.iter().copied().find(is_left)?)));
+    let doubtful: Vec<(usize, usize)> = doubtful.collect();
+    let Some(&(_, first)) = doubtful.first() else { return };
+    let parts: Vec<usize> = doubtful.iter().map(|(inner, _)| *inner).collect();
     let numbers = numbers(owners, &parts);
     let (may_be, it) = match doubtful.len() {
         1 => ("may be a seam line".to_owned(), "it"),
         _ => ("may be seam lines".to_owned(), "them"),
     };
     let message = format!("{} {may_be}: open lines run beside {it} from outside", pieces::listed(&numbers));
-    let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first.lines[0]], sheet);
+    let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first], sheet);
     let found =
-        found.about(numbers).hint("if those lines are its outline, let the CAD close it: else the part is too small");
-    out.push(found.hint("if they are none, `--cut-pens` leaves their pen out"));
+        found.about(numbers).hint("if those lines are the outline, let the CAD close it: the part is cut too small");
+    out.push(found.hint("if those lines are guides, leave their pen out: `--cut-pens`"));
 }
 
 /// Parts without a seam line where many have one.

@@ -23,7 +23,7 @@ use super::tails;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::closing;
-use crate::geom::{Extent, Point, Vector, angle, bits, polyline};
+use crate::geom::{Extent, Point, Vector, angle, bits, cross, polyline};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
 use crate::ir::marker::Notch;
 use crate::machine::Job;
@@ -60,10 +60,9 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job, work: &mut Budget) -> (Vec<
     let reach = reach(drawing.unit);
     let close = job.profile.drawing.close_mm;
     let again = again::take(drawing, &uses, close.max(reach));
-    let mut joining = Joining { reach, close, strokes: 0, drawing, moved: Moved::default() };
-    tails::part(joining.drawing, reach);
+    tails::split(drawing, reach);
+    let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
     joining.close_alone();
-    joining.strokes = joining.drawing.strokes.len();
     let (chains, is_between) = joining.chains(work);
     let strokes = std::mem::take(&mut joining.drawing.strokes);
     let mut taken = vec![false; strokes.len()];
@@ -139,7 +138,7 @@ impl Joining<'_> {
         let mut graph = Graph::new(self, self.nodes(ends.clone()));
         graph.put_dead_ends_aside();
         graph.set_slits_apart(work);
-        graph.link();
+        graph.link(work);
         let is_left = graph.left();
         let mut chains = graph.chains;
         if self.close <= self.reach {
@@ -456,8 +455,8 @@ impl<'a, 'b> Graph<'a, 'b> {
 
     /// Decides at every place, first for rings, then where two lines meet, then where more do, then among those that lead
     /// nowhere.
-    fn link(&mut self) {
-        self.find_edges();
+    fn link(&mut self, work: &mut Budget) {
+        self.find_edges(work);
         self.close_rings();
         for k in 0..self.nodes.len() {
             if let [a, b] = self.open(k, false)[..]
@@ -498,7 +497,14 @@ impl<'a, 'b> Graph<'a, 'b> {
         let is_notch_on_edge = |end: End| {
             self.joining.is_notch(end / 2) && self.on_edge.contains(&end) && self.on_edge.contains(&other(end))
         };
-        is_pair && [a, b].into_iter().all(is_notch_on_edge)
+        is_pair && [a, b].into_iter().all(is_notch_on_edge) && self.lead_apart([a, b])
+    }
+
+    /// Whether the tips of two strokes lie on either side of the line between the ends of the first.
+    fn lead_apart(&self, [a, b]: [End; 2]) -> bool {
+        let [from, to] = [a, other(a)].map(|end| place(self.joining.drawing, end));
+        let side = |end: End| self.joining.tip(end / 2).map_or(0.0, |tip| cross(to - from, tip - from));
+        side(a) * side(b) < 0.0
     }
 
     /// Whether one of two strokes is a notch that the other has no part in: the other is a notch, too, or begins at its mouth,
@@ -517,7 +523,7 @@ impl<'a, 'b> Graph<'a, 'b> {
     }
 
     /// Finds the ends of notches on an edge of another line, of those that meet other strokes.
-    fn find_edges(&mut self) {
+    fn find_edges(&mut self, work: &mut Budget) {
         let joining = self.joining;
         let notches = |k: usize| self.open(k, true).into_iter().filter(|end| joining.is_notch(end / 2));
         let found = (0..self.nodes.len()).flat_map(notches).flat_map(|end| [end, other(end)]);
@@ -536,9 +542,16 @@ impl<'a, 'b> Graph<'a, 'b> {
         for stroke in strokes {
             for ends in joining.drawing.vertices[joining.drawing.strokes[stroke].range()].windows(2) {
                 let [a, b] = [ends[0].at, ends[1].at];
-                let near = boxes.near(Extent::between(a, b)).map(|k| found[k]);
-                let on = near.filter(|&end| polyline::distance_to_segment(at(end), a, b) <= Notch::MISS);
-                self.on_edge.extend(on.filter(|&end| !meets(end, stroke)));
+                let beside = Extent::between(a, b);
+                if !work.spend(boxes.cost_near(&beside)) {
+                    return;
+                }
+                for end in boxes.near(beside).map(|k| found[k]) {
+                    let is_on = polyline::distance_to_segment(at(end), a, b) <= Notch::MISS && !meets(end, stroke);
+                    if work.spend(1) && is_on {
+                        self.on_edge.insert(end);
+                    }
+                }
             }
         }
     }

@@ -228,15 +228,19 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     for bar in (0..lines.len()).filter(is_bar) {
         let places = lines[bar].vertices(vertices);
         let [a, b] = [places[0].at, places[places.len() - 1].at];
-        let mut divided = None;
-        near.each(&tips, [a, b], |i| divided = divided.or(Some(i)));
-        let stem = divided.map(|i| &mut marks[i]);
-        let divides = |mark: &&mut Mark| {
+        let divides = |mark: &Mark| {
             let tip = mark.cut[1];
             mark.line != bar && mark.bar.is_none() && (tip - a).norm().min((tip - b).norm()) > SHORTEST_NOTCH / 2.0
         };
-        if let Some(mark) = stem.filter(divides) {
-            mark.bar = Some(bar);
+        let mut nearest: Option<(f64, usize)> = None;
+        near.each(&tips, [a, b], |i| {
+            let off = polyline::distance_to_segment(marks[i].cut[1], a, b);
+            if divides(&marks[i]) && nearest.is_none_or(|(least, _)| off < least) {
+                nearest = Some((off, i));
+            }
+        });
+        if let Some((_, i)) = nearest {
+            marks[i].bar = Some(bar);
             bars.push(bar);
         }
     }

@@ -62,12 +62,14 @@ impl Edge {
     }
 }
 
-/// Lines beside a closed one, the share of it that they run beside, and the number of its four sides.
+/// Lines beside a closed one, the share of it that they run beside, and the numbers of its four sides: of those that they run
+/// beside for the most part, and of all that they meet.
 #[derive(Default)]
 struct Beside {
     lines: Vec<usize>,
     share: f64,
     sides: usize,
+    met: usize,
 }
 
 /// Finds the parts that open lines go around. A part that the budget leaves unsearched counts as a seam line: a part
@@ -162,21 +164,21 @@ impl Drawn<'_> {
         open.sort_unstable();
         let places = self.points(part);
         let mut edges = Edges::new(self.edges(part, &places, &open, work));
-        let unsearched = |lines| Some(Remains { lines, inner: part, is_sure: true });
+        let unsearched = |lines| Remains { lines, inner: part, is_sure: true };
         match edges.around(&places, work) {
-            Around::Unsearched => return unsearched(open),
-            Around::No => return None,
-            Around::Some(_) | Around::Much(_) => {}
+            Cover::Unsearched => return Some(unsearched(open)),
+            Cover::Little => return None,
+            Cover::Partial(_) | Cover::Most(_) => {}
         }
         // Few parts come so far: nothing closed may stand between, and a part with a seam line is an outline.
         edges.walls = Walls::new(self.walls(part, near, work));
         let remains = match edges.around(&places, work) {
-            Around::Unsearched => unsearched(open)?,
-            Around::No => return None,
-            // A smaller part has no seam line.
-            Around::Some(_) if self.lines[part].size() <= SMALL_OUTLINE => return None,
-            Around::Some(lines) => Remains { lines, inner: part, is_sure: false },
-            Around::Much(lines) => Remains { lines, inner: part, is_sure: true },
+            Cover::Unsearched => unsearched(open),
+            Cover::Little => return None,
+            // Parts of this size have no seam line, so there is no doubt.
+            Cover::Partial(_) if self.lines[part].size() <= SMALL_OUTLINE => return None,
+            Cover::Partial(lines) => Remains { lines, inner: part, is_sure: false },
+            Cover::Most(lines) => Remains { lines, inner: part, is_sure: true },
         };
         (!self.has_seam(part, &places, work)).then_some(remains)
     }
@@ -255,15 +257,15 @@ impl Walls {
     }
 }
 
-/// Lines that go around a closed one.
-enum Around {
+/// Extent to which open lines run along a closed one.
+enum Cover {
     /// The budget does not last to find them.
     Unsearched,
-    No,
+    Little,
     /// They run beside some of it.
-    Some(Vec<usize>),
+    Partial(Vec<usize>),
     /// They run beside so much of it that it is no part.
-    Much(Vec<usize>),
+    Most(Vec<usize>),
 }
 
 /// The edges of open lines near a closed one, by their boxes.
@@ -280,17 +282,18 @@ impl Edges {
     }
 
     /// The lines that go around a closed line.
-    fn around(&self, places: &[Point], work: &mut Budget) -> Around {
-        let Some(any) = self.beside(places, false, work) else { return Around::Unsearched };
+    fn around(&self, places: &[Point], work: &mut Budget) -> Cover {
+        let Some(any) = self.beside(places, false, work) else { return Cover::Unsearched };
         if any.share < DOUBTFUL {
-            return Around::No; // the usual case
+            return Cover::Little; // the usual case
         }
-        let Some(own) = self.beside(places, true, work) else { return Around::Unsearched };
+        let Some(own) = self.beside(places, true, work) else { return Cover::Unsearched };
         match (any, own) {
-            (_, own) if own.share >= BESIDE => Around::Much(own.lines),
-            (any, _) if any.share >= SURELY && any.sides >= LEAST_SIDES => Around::Much(any.lines),
-            (_, own) if own.share >= DOUBTFUL => Around::Some(own.lines),
-            _ => Around::No,
+            (_, own) if own.share >= BESIDE => Cover::Most(own.lines),
+            (any, _) if any.share >= SURELY && any.sides >= LEAST_SIDES => Cover::Most(any.lines),
+            // A line along one side is a fold, a grain line or the edge of the cloth.
+            (_, own) if own.share >= DOUBTFUL && own.met > 1 => Cover::Partial(own.lines),
+            _ => Cover::Little,
         }
     }
 
@@ -326,6 +329,7 @@ impl Edges {
         }
         found.share = beside as f64 / samples.len().max(1) as f64;
         found.sides = sides.iter().filter(|[beside, all]| 2 * beside > *all).count();
+        found.met = sides.iter().filter(|[beside, _]| *beside > 0).count();
         found.lines.sort_unstable();
         found.lines.dedup();
         Some(found)

@@ -178,8 +178,8 @@ fn seams_of_knives(sheet: &Sheet, out: &mut Diagnostics) {
     let lines = counted(&left, "seam line");
     let message = format!("not cut: {lines} of a knife's pen in outlines that are only drawn");
     let found = finding(&code::DRAWING_INNER_LINES, message, first, sheet);
-    let found = found.hint("`--cut-pens` with the pen of the outlines cuts these, with the allowance of the seam");
-    out.push(found.hint("`--inner all` cuts seam lines: parts without an allowance"));
+    let found = found.hint("name the pen of the outlines in `--cut-pens` to cut the parts with their allowance");
+    out.push(found.hint("`--inner all` cuts the seam lines: parts without allowance"));
 }
 
 /// Small circles that stand alone in parts, where nobody has said up to which size circles are holes.

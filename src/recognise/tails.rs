@@ -1,5 +1,5 @@
-//! Tails: an outline that begins at the tip of a slit, or ends there. The pen comes from the tip to the edge and goes round from
-//! there, in one stroke.
+//! Tails: slits that a plot draws in one stroke with their outline. The pen goes from the tip to the edge and round the outline,
+//! or the other way about.
 
 use super::line::SHORTEST_NOTCH;
 use crate::geom::closing;
@@ -10,7 +10,7 @@ use crate::ir::marker::Notch;
 const LEAST: usize = 5;
 
 /// Makes two strokes of each outline with a tail: the slit, and the outline. Places up to `reach` apart along an axis are one, mm.
-pub(super) fn part(drawing: &mut Drawing, reach: f64) {
+pub(super) fn split(drawing: &mut Drawing, reach: f64) {
     let strokes = std::mem::take(&mut drawing.strokes);
     drawing.strokes.reserve(strokes.len());
     for stroke in strokes {
@@ -28,7 +28,7 @@ pub(super) fn part(drawing: &mut Drawing, reach: f64) {
 /// The place of a stroke at which its tail stands on its outline.
 fn foot(drawing: &Drawing, stroke: &PenStroke, reach: f64) -> Option<u32> {
     let vertices = &drawing.vertices[stroke.range()];
-    // What runs past its start has no tail, but an overcut.
+    // A line that runs past its start has an overcut, not a tail.
     let runs_past = || closing::retrace(vertices.len(), |k| vertices[k].at, closing::reach(drawing.unit)).is_some();
     if vertices.len() < LEAST {
         return None;

@@ -7,7 +7,7 @@ use crate::source::Span;
 
 /// Bytes that begin no instruction: a letter of one may be lost.
 pub(super) fn over_junk(reader: &Reader, plotter: &mut Plotter, span: Span) {
-    if reader.is_quoted(span) {
+    if reader.is_quoted(span) && !reader.draws(span) {
         return; // a text, whatever words it holds
     }
     let (is_torn, numbers) = (reader.is_torn_pen(span), reader.numbers_within(span));

@@ -55,7 +55,9 @@ const SURE_INSTRUCTIONS: usize = 3;
 const SAGITTA: f64 = 0.25;
 
 fn sniff(bytes: &[u8]) -> Likeness {
-    let mut reader = Reader::new(&bytes[..bytes.len().min(SNIFFED_BYTES)]);
+    // A raster picture may stand before the lines; its data are counted, and passed over.
+    let most = if bytes.starts_with(b"\x1b") { bytes.len() } else { SNIFFED_BYTES };
+    let mut reader = Reader::new(&bytes[..bytes.len().min(most)]);
     let (mut known, mut all, mut moves) = (0, 0, false);
     while all < SNIFFED_STATEMENTS
         && let Some((statement, _)) = reader.next()

@@ -57,6 +57,8 @@ pub(super) struct Reader<'a> {
     paired: Option<bool>,
 }
 
+/// Numbers of the fewest places that make an outline.
+const NUMBERS_OF_A_LINE: usize = 6;
 /// Begins the sequences of [`super::escape`].
 const ESCAPE: u8 = 0x1b;
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -238,7 +240,8 @@ impl<'a> Reader<'a> {
                 self.at = self.bytes.len() - rest.len();
             }
             let separators = syntax::separators(&self.bytes[self.at..]);
-            let is_value = self.bytes[self.at..][..separators].contains(&b',');
+            let between = &self.bytes[self.at..][..separators];
+            let is_value = between.contains(&b',') && !between.contains(&b'\n');
             match self.bytes.get(self.at + separators) {
                 Some(b'"') => {}
                 // A title without quotes: its words run nothing.
@@ -274,6 +277,19 @@ impl<'a> Reader<'a> {
     /// Whether some bytes are a text in quotes.
     pub(super) fn is_quoted(&self, span: Span) -> bool {
         label::in_quotes(self.bytes, span.start as usize) == Some(span.end as usize)
+    }
+
+    /// Whether some bytes hold an instruction that draws, and places enough for a line.
+    pub(super) fn draws(&self, span: Span) -> bool {
+        let bytes = &self.bytes[span.start as usize..span.end as usize];
+        let instructions = bytes.split(|byte| b";\r\n\"".contains(byte)).map(<[u8]>::trim_ascii);
+        let numbers = instructions.filter_map(|text| {
+            let (mnemonic, numbers) = text.split_first_chunk()?;
+            let draws = [*b"PD", *b"PA", *b"PR", *b"AA", *b"AR"].contains(&mnemonic.map(|c| c.to_ascii_uppercase()));
+            let runs = numbers.chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit());
+            draws.then(|| runs.filter(|run| run[0].is_ascii_digit()).count())
+        });
+        numbers.sum::<usize>() >= NUMBERS_OF_A_LINE
     }
 
     /// Whether some bytes are what is left of PU or PD when a letter is lost.
@@ -343,7 +359,7 @@ impl<'a> Reader<'a> {
 
 /// Whether a byte may begin a statement.
 fn begins(byte: u8) -> bool {
-    byte.is_ascii_alphabetic() || matches!(byte, b';' | ESCAPE | b'@')
+    byte.is_ascii_alphabetic() || matches!(byte, b';' | ESCAPE | b'@' | b'"')
 }
 
 #[cfg(test)]

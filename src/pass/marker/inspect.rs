@@ -25,7 +25,6 @@ use crate::geom::{Extent, Point, bits, polyline, ring};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
-use crate::source::Span;
 use crate::units::number;
 
 pub(super) const PASS: MarkerPass =
@@ -33,16 +32,18 @@ pub(super) const PASS: MarkerPass =
 
 /// A gap below this share of the contour's length looks like a contour that was meant to close.
 const GAP_SHARE: f64 = 0.05;
-/// The same of a contour that goes around something: with a straight line over the gap it encloses so much, as a part of the
-/// square of its length. A rectangle ten times as long as wide does.
+/// Greatest gap of a contour that encloses an area, as a share of its length.
 const AROUND_SHARE: f64 = 0.25;
+/// Least area that it encloses, as a share of the squared length: that of a rectangle ten times as long as wide.
 const AROUND_AREA: f64 = 0.02;
 /// Gap below which the ends of a contour of any length are near, mm.
 const NEAR_ENDS: f64 = 5.0;
-/// Least distance of a point to both of its neighbours that may have a wrong digit, mm, and the greatest distance of these, as
-/// a share of that: a part of a garment has no spike so long.
-const SPIKE: f64 = 300.0;
-const SPIKE_SHARE: f64 = 0.1;
+/// Least distance of a far point from both of its neighbours, mm: a part of a garment has no spike so long.
+const FAR: f64 = 300.0;
+/// Greatest distance between these neighbours, as a share of that.
+const FAR_SHARE: f64 = 0.1;
+/// Least area of a contour without its far point, as a multiple of that of the spike.
+const REST: f64 = 4.0;
 /// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded for itself.
 const MISSES: f64 = 2.5;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
@@ -65,41 +66,51 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     for (&(piece, contour), _) in open.iter().zip(is_side).filter(|(_, is_side)| !is_side) {
         open_contour(marker, piece, contour, diagnostics);
     }
-    spikes(marker, diagnostics);
+    far_points(marker, diagnostics);
     let boxed = Boxed::of(marker);
     let repeats = twice(marker, &boxed, diagnostics);
     beside(marker, &boxed, &repeats, job.profile.band(marker.unit), diagnostics);
 }
 
-/// Says how many points stand far off between two that lie near each other, and which is the farthest.
-fn spikes(marker: &Marker, diagnostics: &mut Diagnostics) {
-    let (mut count, mut worst): (usize, Option<(f64, u32, Span)>) = (0, None);
+/// Says how many contours have a point far off between two that lie near each other, and which is the farthest.
+fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let is_far = |[before, at, after]: [Point; 3]| {
+        let [back, on] = [before - at, after - at];
+        let least = back.norm_squared().min(on.norm_squared());
+        least >= FAR * FAR && (on - back).norm_squared() <= FAR_SHARE * FAR_SHARE * least
+    };
+    let (mut count, mut worst): (usize, Option<(f64, usize, Range, usize)>) = (0, None);
     for (piece, contour) in marker.contours() {
         let points = marker.list.points(contour.range);
-        let is_spike = |k: &usize| {
-            let [before, after] = [points[*k - 1] - points[*k], points[*k + 1] - points[*k]];
-            let least = before.norm_squared().min(after.norm_squared());
-            least >= SPIKE * SPIKE && (after - before).norm_squared() <= SPIKE_SHARE * SPIKE_SHARE * least
-        };
-        for k in (1..points.len() - 1).filter(is_spike) {
-            count += 1;
-            let off = (points[k] - points[k - 1]).norm();
-            if worst.is_none_or(|(most, ..)| off > most) {
-                let span = marker.list.spans(contour.range)[k - 1];
-                worst = Some((off, marker.pieces[piece].number, span));
-            }
+        let last = points.len() - 1;
+        let inner = (1..last).map(|k| [k - 1, k, k + 1]);
+        let start = contour.closed.then_some([last - 1, last, 1]);
+        let far = inner.chain(start).filter(|&three| is_far(three.map(|k| points[k])));
+        let off = |[before, at, _]: [usize; 3]| (points[at] - points[before]).norm();
+        let farthest = far.max_by(|&a, &b| off(a).total_cmp(&off(b)));
+        let Some(three) = farthest.filter(|&three| stands_out(&points, three)) else { continue };
+        count += 1;
+        if worst.is_none_or(|(most, ..)| off(three) > most) {
+            worst = Some((off(three), piece, contour.range, three[0]));
         }
     }
-    let Some((off, number, span)) = worst else { return };
-    let off = number::fixed(off, 0);
+    let Some((off, piece, range, segment)) = worst else { return };
+    let (off, number) = (number::fixed(off, 0), marker.pieces[piece].number);
     let message = match count {
         1 => format!("a point of piece {number} stands {off} mm off, between two that lie near each other"),
-        count => {
-            format!("{count} points stand far off between two that lie near each other, one of piece {number} {off} mm")
-        }
+        count => format!("{count} contours have a point far off between two near each other, piece {number} {off} mm"),
     };
-    let finding = Diagnostic::new(&code::MARKER_SPIKE, message).at(span).about(vec![number]);
+    let span = marker.list.spans(range)[segment];
+    let finding = Diagnostic::new(&code::MARKER_FAR_POINT, message).at(span).about(vec![number]);
     diagnostics.push(finding.hint("a digit may be doubled or lost: look at the picture (`-t svg`), export it again"));
+}
+
+/// Whether a point and its neighbours are a spike out of what the contour is without the point: the tip of a strip or of a godet
+/// is most of its part, and a dart or a slash leads into its part.
+fn stands_out(points: &[Point], [before, at, after]: [usize; 3]) -> bool {
+    let rest: Vec<Point> = points.iter().copied().filter(|point| *point != points[at]).collect();
+    let spike = ring::area(&[points[before], points[at], points[after]]).abs();
+    ring::area(&rest).abs() >= REST * spike && !ring::contains(&rest, points[at])
 }
 
 /// Says so where all contours together are smaller than a part. Readers of files with a grid doubt their unit themselves.
@@ -195,18 +206,17 @@ struct Passing {
     past: f64,
 }
 
-/// The last time that a line comes by its start, at the least distance; the line was farther off before.
+/// Nearest return of a line to its start after it has left it, and the length behind that.
 fn comes_by(points: &[Point]) -> Option<Passing> {
     let first = points[0];
     let away = points.iter().position(|at| (at - first).norm() > NEAR_ENDS)?;
-    let near = |k: &usize| polyline::distance_to_segment(first, points[*k], points[*k + 1]) <= NEAR_ENDS;
+    let off = |k: usize| polyline::distance_to_segment(first, points[k], points[k + 1]);
     // The segment that leads away comes from the start itself.
-    let nearest = (away..points.len() - 1).filter(near).map(|k| {
-        let [a, b] = [points[k], points[k + 1]];
-        let at = a + (b - a) * polyline::foot(first, a, b).clamp(0.0, 1.0);
-        Passing { off: (at - first).norm(), past: (b - at).norm() + polyline::length(&points[k + 1..]) }
-    });
-    nearest.min_by(|a, b| a.off.total_cmp(&b.off)).filter(|passing| passing.past > NEAR_ENDS)
+    let (off, k) = (away..points.len() - 1).map(|k| (off(k), k)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let [a, b] = [points[k], points[k + 1]];
+    let at = a + (b - a) * polyline::foot(first, a, b);
+    let past = (b - at).norm() + polyline::length(&points[k + 1..]);
+    (off <= NEAR_ENDS && past > NEAR_ENDS).then_some(Passing { off, past })
 }
 
 /// A contour: the place of its piece among all, and its own in that.

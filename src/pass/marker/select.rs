@@ -41,14 +41,14 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     if unknown {
         return;
     }
-    let first = match selection.resume_from.map(|start| place(start, marker, job)).transpose() {
+    let windows = windows(marker);
+    let first = match selection.resume_from.map(|start| place(start, marker, &windows, job)).transpose() {
         Ok(first) => first.unwrap_or(0),
         Err(finding) => {
             diagnostics.push(finding);
             return;
         }
     };
-    let windows = windows(marker);
     let last = windows.last().copied().unwrap_or(0);
     if let Some(bite) = selection.bites.iter().flat_map(Numbers::written).find(|bite| !(1..=last).contains(bite)) {
         diagnostics.push(unknown_bite("--bites", bite, last, job));
@@ -67,18 +67,17 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 }
 
 /// The piece that a run begins with.
-fn place(start: Start, marker: &Marker, job: &Job) -> Result<usize, Diagnostic> {
-    let refused = |message: String, hint: String| Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, message).hint(hint);
+fn place(start: Start, marker: &Marker, windows: &[u32], job: &Job) -> Result<usize, Diagnostic> {
     match start {
         Start::Piece { number, copy } => {
             let found = marker.pieces.iter().position(|p| p.number == number && p.copy.max(1) == copy);
             found.ok_or_else(|| {
                 let hint = format!("the marker is cut {} times: sheet.copies", job.profile.sheet.copies);
-                refused(format!("--resume-from: there is no copy {copy}"), hint)
+                let message = format!("--resume-from: there is no copy {copy}");
+                Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, message).hint(hint)
             })
         }
         Start::Bite(number) => {
-            let windows = windows(marker);
             let last = windows.last().copied().unwrap_or(0);
             let first = windows.iter().position(|&window| window == number);
             first.ok_or_else(|| unknown_bite("--resume-from", number, last, job))

@@ -174,13 +174,14 @@ impl Tracer<'_> {
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
-        let points_along = |trial: &Trial| trial.askew(&self.reference.lines[trial.line], cut) <= self.max_heading;
-        if cut.is_plunge_cut() && trials.len() > 1 && trials.iter().any(points_along) {
-            trials.retain(points_along);
-        }
+        // A blade cuts along itself: where it lies along one line and askew to another, the first is cut, the second only nicked.
+        let is_askew = |trial: &Trial| {
+            cut.is_plunge_cut() && trial.askew(&self.reference.lines[trial.line], cut) > self.max_heading
+        };
         trials.into_iter().min_by(|a, b| {
             let by_name = self.is_named(b.line, trace.block).cmp(&self.is_named(a.line, trace.block));
             by_name
+                .then_with(|| is_askew(a).cmp(&is_askew(b)))
                 .then(a.left.total_cmp(&b.left))
                 .then(b.fresh.total_cmp(&a.fresh))
                 .then(a.worst.0.total_cmp(&b.worst.0))
@@ -489,7 +490,7 @@ impl Lain {
 }
 
 impl Trial {
-    /// How far a blade points away from the line under it, rad: no farther to either side than one of its chords there.
+    /// Angle between the blade and the line under it, rad; 0 between the directions of its chords there.
     pub(super) fn askew(&self, line: &Line, cut: &Cut) -> f64 {
         let [first, last] = self.reach;
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };

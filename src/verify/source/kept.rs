@@ -94,7 +94,7 @@ impl KnifeStroke {
         self.away(others, reach).iter().all(|is_away| !is_away)
     }
 
-    /// Which of its places, at even steps, lie farther than that from all of some others, mm.
+    /// Samples along it, two at least: true where one lies farther than that from all of some others, mm.
     fn away(&self, others: &[Self], reach: f64) -> Vec<bool> {
         let middle = self.from + (self.to - self.from) / 2.0;
         let around = reach + self.length() / 2.0;
@@ -178,9 +178,14 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     }
     if !lost.is_empty() {
         let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
+        // Open lines of several strokes, by their ends, that are still cut.
+        let is_kept = |place: &KeptPlace| bytes.binary_search(&place.cause.byte).is_ok();
+        let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
+        let open = lines.filter(|line| line.len() > 2 && line[1..].iter().all(is_kept));
+        let open: Vec<[Point; 2]> = open.map(|line| [line[0].at, line[line.len() - 1].at]).collect();
         lost = lost
             .chunk_by(|a, b| a.to == b.from)
-            .filter(|line| !stands_in_for(line, &there, &still, reach) && !is_mouth(line, read))
+            .filter(|line| !stands_in_for(line, &there, &still, &open, reach) && !is_mouth(line, &open))
             .flatten()
             .copied()
             .collect();
@@ -203,29 +208,49 @@ fn overcuts(read: &[KeptPlace]) -> Vec<u32> {
     lines.filter_map(overcut).collect()
 }
 
-/// Whether notches stand in the place of a line that the file draws again: it is cut but for stretches as wide as a mouth.
-fn stands_in_for(line: &[KnifeStroke], there: &[KnifeStroke], still: &[KnifeStroke], reach: f64) -> bool {
-    let steps = line.iter().flat_map(|stroke| {
+/// Test for a line that the file draws again and that notches replace: it is cut but for their mouths. A single stretch as wide
+/// as a mouth needs no notch that is drawn by itself; several need one each.
+fn stands_in_for(
+    line: &[KnifeStroke],
+    there: &[KnifeStroke],
+    still: &[KnifeStroke],
+    open: &[[Point; 2]],
+    reach: f64,
+) -> bool {
+    let mut gaps: Vec<[Point; 2]> = Vec::new();
+    let mut total = 0.0;
+    let mut is_in_gap = false;
+    for stroke in line {
         let away = stroke.away(still, reach);
-        let step = stroke.length() / away.len() as f64;
-        away.into_iter().map(move |is_away| (is_away, step))
-    });
-    let (mut gap, mut widest) = (0.0, 0.0_f64);
-    for (is_away, step) in steps {
-        gap = if is_away { gap + step } else { 0.0 };
-        widest = widest.max(gap);
+        let step = (stroke.to - stroke.from) / (away.len() - 1) as f64;
+        for (is_away, k) in away.into_iter().zip(0..) {
+            let at = stroke.from + step * f64::from(k);
+            match gaps.last_mut() {
+                Some(gap) if is_away && is_in_gap => {
+                    total += (at - gap[1]).norm();
+                    gap[1] = at;
+                }
+                _ if is_away => gaps.push([at, at]),
+                _ => {}
+            }
+            is_in_gap = is_away;
+        }
     }
-    widest <= MOUTH && line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
+    let near = |a: Point, b: Point| (a - b).norm() <= reach + 2.0 * SAMPLE + AGAIN;
+    let is_mouth = |[a, b]: &[Point; 2]| {
+        open.iter().any(|[from, to]| near(*a, *from) && near(*b, *to) || near(*a, *to) && near(*b, *from))
+    };
+    (total <= MOUTH || gaps.iter().all(is_mouth))
+        && line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
 }
 
-/// Whether a line is the edge over the mouth of a notch that the file draws as an open line between its ends.
-fn is_mouth(line: &[KnifeStroke], read: &[KeptPlace]) -> bool {
-    let ends = [line[0].from, line[line.len() - 1].to];
-    let lies_at = |at: [Point; 2]| (at[0] - ends[0]).norm() <= AGAIN && (at[1] - ends[1]).norm() <= AGAIN;
-    let lines = read.chunk_by(|_, next| next.cause != Cause::NONE).filter(|line| line.len() > 2);
-    let is_there =
-        lines.map(|line| [line[0].at, line[line.len() - 1].at]).any(|[a, b]| lies_at([a, b]) || lies_at([b, a]));
-    is_there && line.iter().map(KnifeStroke::length).sum::<f64>() <= MOUTH
+/// Test for the edge over the mouth of a notch: a straight stroke between the ends of an open line that is still cut.
+fn is_mouth(line: &[KnifeStroke], open: &[[Point; 2]]) -> bool {
+    let [only] = line else { return false };
+    let near = |a: Point, b: Point| (a - b).norm() <= AGAIN;
+    let is_over =
+        |[a, b]: &[Point; 2]| near(*a, only.from) && near(*b, only.to) || near(*a, only.to) && near(*b, only.from);
+    only.length() <= MOUTH && open.iter().any(is_over)
 }
 
 impl Works {

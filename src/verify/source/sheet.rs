@@ -57,7 +57,7 @@ impl Drawn {
             for piece in &drawn.pieces {
                 let found = laid.get_mut(&(piece.number, piece.span.start, number)).and_then(Vec::pop);
                 let Some(found) = found else {
-                    // Those before the one that a run begins with are gone as well.
+                    // Those before the one that a run begins with, and those of other windows, are gone as well.
                     let is_due = job.selection.has(piece.number) && !job.selection.begins_amid();
                     worst.see(if is_due { f64::INFINITY } else { 0.0 }, || of(piece, &table));
                     continue;

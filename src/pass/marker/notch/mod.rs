@@ -153,9 +153,9 @@ impl<'a> Outline<'a> {
             // In nearly all outlines all notches go one way.
             [all, []] | [[], all] => self.alone(all).into_iter().flatten().collect(),
             [inward, outward] => {
-                let meant = meant([inward, outward], count);
-                let kept = [inward, outward].map(|all| self.alone(all)).concat().into_iter().zip(meant.concat());
-                kept.filter_map(|(mouth, is_meant)| mouth.filter(|_| is_meant)).collect()
+                let selected = selected([inward, outward], count);
+                let kept = [inward, outward].map(|all| self.alone(all)).concat().into_iter().zip(selected.concat());
+                kept.filter_map(|(mouth, is_selected)| mouth.filter(|_| is_selected)).collect()
             }
         };
         kept.sort_by_key(|mouth| mouth.first);
@@ -229,21 +229,23 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// Of each of some notches to either side, whether it is meant. Between two notches the edge looks like one to the other side:
-/// of a row whose neighbours share segments every other one is, those at both ends of the row where they go the same way, else
-/// those at the end where the edge is straighter.
-fn meant(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
+/// Selection among notches of both sides. The edge between two notches looks like a notch to the other side, so in a row that
+/// shares segments the sides alternate and one side is kept: that of both ends where they agree, else that of the end with the
+/// straighter edge.
+fn selected(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
     let mut all: Vec<(usize, usize)> = (0..2).flat_map(|side| (0..sides[side].len()).map(move |k| (side, k))).collect();
     let mouth = |(side, k): (usize, usize)| sides[side][k];
     all.sort_by_key(|&place| mouth(place).first);
-    // Whether each shares a segment with the one behind it, round the ring.
+    // Whether a segment is shared with the next one, by each or by a longer one before it, round the ring.
+    let mut reach = 0;
     let shares = |i: usize| {
         let [this, next] = [all[i], all[(i + 1) % all.len()]].map(mouth);
         let start = if i + 1 < all.len() { next.first } else { next.first + count };
-        all.len() > 1 && start < this.first + this.segments
+        reach = reach.max(this.first + this.segments);
+        all.len() > 1 && start < reach
     };
     let shared: Vec<bool> = (0..all.len()).map(shares).collect();
-    let mut meant = sides.map(|side| vec![true; side.len()]);
+    let mut selected = sides.map(|side| vec![true; side.len()]);
     // A row begins behind a notch that shares nothing; a gear, all round which each shares, anywhere.
     let begin = shared.iter().rposition(|shares| !shares).map_or(0, |i| i + 1);
     let mut row: Vec<(usize, usize)> = Vec::new();
@@ -256,9 +258,9 @@ fn meant(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
         let [first, last] = ends.map(|place| mouth(place).askew);
         let is_first = ends[0].0 == ends[1].0 || first < last || first == last && ends[0].0 == 0;
         let side = if is_first { ends[0].0 } else { ends[1].0 };
-        row.drain(..).filter(|place| place.0 != side).for_each(|(side, k)| meant[side][k] = false);
+        row.drain(..).filter(|place| place.0 != side).for_each(|(side, k)| selected[side][k] = false);
     }
-    meant
+    selected
 }
 
 /// A notch over another piece.

@@ -211,7 +211,7 @@ impl Ring<'_> {
             (apex, self.at(i + apex))
         } else {
             let across = Vector::new(-along.y, along.x) * side;
-            let (deepest, _) = way.bottom(0..steps + 1, 2.0 * self.slack)?;
+            let (deepest, _) = way.bottom(0..steps + 1, rounding(self.slack))?;
             (deepest, self.points[i] + along * tip[0] + across * tip[1])
         };
         Some(Mouth {
@@ -260,6 +260,11 @@ impl Ring<'_> {
     }
 }
 
+/// Difference of depth that rounding makes, mm: a vertex moves by one slack, the mouth by another.
+fn rounding(slack: f64) -> f64 {
+    2.0 * slack
+}
+
 /// Whether a length lies between two, to rounding.
 fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
     (least - slack..=most + slack).contains(&length)
@@ -275,7 +280,7 @@ impl Way<'_> {
     /// A part of a round bottom may look like a U that leans, so that only a V and a castle may.
     fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
         let last = self.points.len() - 1;
-        let (left, right) = self.bottom(0..last + 1, self.tilted(slack))?;
+        let (left, right) = self.bottom(0..last + 1, self.bottom_tolerance(slack))?;
         // Shearing keeps straight sides straight, so that a way with curved ones is neither a V nor a castle.
         if !self.is_straight([0, left], slack) || !self.is_straight([right, last], slack) {
             return None;
@@ -312,13 +317,12 @@ impl Way<'_> {
         (0..self.points.len()).max_by(|&a, &b| self.points[a][1].total_cmp(&self.points[b][1])).unwrap_or(0)
     }
 
-    /// Greatest difference of depth at the bottom of a castle, mm: rounding moves a vertex by one slack and the mouth, from
-    /// which depth is measured, by another.
-    fn tilted(&self, slack: f64) -> f64 {
-        2.0 * slack + (TILT * self.width).min(self.depth / 2.0)
+    /// Greatest difference of depth along the bottom of a castle, mm: rounding, and tilt up to half the depth.
+    fn bottom_tolerance(&self, slack: f64) -> f64 {
+        rounding(slack) + (TILT * self.width).min(self.depth / 2.0)
     }
 
-    /// First and last of some vertices that are so much less deep than the deepest, mm, or deeper.
+    /// First and last of some vertices whose depth is within `most` mm of the greatest.
     fn bottom(&self, mut among: Range<usize>, most: f64) -> Option<(usize, usize)> {
         let is_low = |k: &usize| self.points[*k][1] >= self.depth - most;
         let left = among.find(is_low)?;
@@ -348,7 +352,7 @@ impl Way<'_> {
     /// The middle of the bottom, if it is a rectangle.
     fn castle(&self, slack: f64) -> Option<[f64; 2]> {
         let last = self.points.len() - 1;
-        let (left, right) = self.bottom(1..last, self.tilted(slack))?;
+        let (left, right) = self.bottom(1..last, self.bottom_tolerance(slack))?;
         let most = slack + LEAN * self.depth.min(self.width);
         let leans = [self.points[left][0].abs(), (self.points[right][0] - self.width).abs()];
         let is_castle = leans.into_iter().all(|lean| lean <= most)

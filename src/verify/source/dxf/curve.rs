@@ -13,7 +13,7 @@ pub(super) type Curve = Box<dyn Fn(f64) -> Place>;
 const ROUNDS: usize = 100;
 /// Turn below which an arc comes round, rad.
 const ROUND_EPSILON: f64 = 1e-7;
-/// By how much angles that are written apart by a whole turn may miss that, rad: they have four decimals.
+/// Greatest rounding of two written angles a turn apart, rad: they have four decimals.
 const WRITTEN_EPSILON: f64 = 2.1e-4;
 
 /// A circle, or an arc of one that goes from one angle, rad, to another.
