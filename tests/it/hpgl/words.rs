@@ -36,7 +36,7 @@ const fn carrier(before: &'static str, behind: &'static str) -> Carrier {
     Carrier { before, behind, ends_at_semicolon: false }
 }
 
-const CARRIERS: [Carrier; 13] = [
+const CARRIERS: [Carrier; 11] = [
     carrier("LB", "\x03"),
     carrier("BL", "\x03"),
     carrier("BL", "\x03PB;"),
@@ -46,8 +46,6 @@ const CARRIERS: [Carrier; 13] = [
     Carrier { before: "MG", behind: ";", ends_at_semicolon: true },
     carrier("CO\"", "\""),
     carrier("CO\"a \"\"quoted\"\" ", "\";"),
-    carrier("MT\"", "\";"),
-    carrier("PS \"", "\""),
     carrier("DT#,1;LB", "#DT;"),
     carrier("DT$;WD", "$DT;"),
 ];
@@ -91,6 +89,24 @@ fn words_in_texts_change_nothing_of_what_is_drawn() {
         let [one, other] = OUTLINES;
         check(format!("IN;SP1;{symbol}{one}{other}SP0;"));
     }
+}
+
+#[test]
+fn words_in_quotes_that_nothing_asks_for_change_nothing_and_an_outline_there_is_refused() {
+    let job = Job::default();
+    let [one, other] = OUTLINES;
+    let plain = outlines(&as_read(&source(format!("IN;SP1;{one}{other}SP0;")), &job));
+    for word in WORDS {
+        for said in [format!("MT\"{word}\";"), format!("PS \"{word}\"")] {
+            let source = source(format!("IN;SP1;{one}{said}{other}SP0;"));
+            let marker = as_read(&source, &job);
+            assert_eq!((outlines(&marker), audit(&source, &marker, &job)), (plain.clone(), vec![]), "{said}");
+        }
+    }
+    let lost = source(format!("IN;SP1;{one}MT\"PU0,0;pd9000,0,9000,9000,0,9000,0,0;\";{other}SP0;"));
+    let mut found = Diagnostics::default();
+    cutc::pipeline::marker_of(by_name("hpgl").expect("a dialect"), &lost, &job, &mut found);
+    assert!(found.iter().any(|said| said.code.name == "hpgl/lost-place"));
 }
 
 #[test]
