@@ -431,7 +431,7 @@ mod tests {
         ] {
             check(text.as_bytes(), table);
         }
-        for text in ["404,9", "1, 2\n3, 4\n", "x;y\n", "1,2;3,4;PU\n", "1,,2;3\n", ";PU7,4;PD8,4;"] {
+        for text in ["404,9", "1, 2\n3, 4\n", "x;y\n", "1,2;3,4;PU\n", ";PU7,4;PD8,4;"] {
             check(text.as_bytes(), None);
         }
     }
