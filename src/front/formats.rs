@@ -190,11 +190,14 @@ fn is_comma_table(bytes: &[u8]) -> bool {
 
 /// Table of numbers in another form than points in CSV: with other separators, quotes or remarks.
 fn is_other_table(bytes: &[u8]) -> bool {
+    if table(bytes, |byte| b",; \t".contains(byte)).is_empty() {
+        return false; // as nearly all files
+    }
     // Rows below the header of points in CSV have messages of their own.
     let first: Vec<u8> = head(bytes).iter().copied().filter(|byte| !b" \t\r".contains(byte)).collect();
     let is_csv = has(&first, b"x_mm,y_mm\n")
         || !table(bytes, |byte| *byte == b',').is_empty() && !first.iter().any(|byte| b"\"#".contains(byte));
-    !is_csv && !table(bytes, |byte| b",; \t".contains(byte)).is_empty()
+    !is_csv
 }
 
 /// Rows of a table of numbers, in quotes or not, without remarks and header; empty where a row is of another kind.

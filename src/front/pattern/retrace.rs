@@ -24,7 +24,7 @@ pub(super) struct Retraced {
 fn retrace(line: &Chain) -> Option<Retrace> {
     let count = line.vertices.len();
     let round = count + usize::from(line.is_closed);
-    closing::retrace(round, |k| line.vertices[k % count].at, Dxf::RETRACE_OFF)
+    closing::retrace(round, |k| line.vertices[if k < count { k } else { k - count }].at, Dxf::RETRACE_OFF)
 }
 
 /// Whether a line runs past its own start or goes round again.

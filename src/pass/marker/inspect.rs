@@ -83,9 +83,11 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
     for (piece, contour) in marker.contours() {
         let points = marker.list.points(contour.range);
         let last = points.len() - 1;
-        let inner = (1..last).map(|k| [k - 1, k, k + 1]);
         let start = contour.closed.then_some([last - 1, last, 1]);
-        let far = inner.chain(start).filter(|&three| is_far(three.map(|k| points[k])));
+        // A line turns back at a far point, so that a monotone chain begins there.
+        let chains = marker.list.chains(contour.range);
+        let begins = chains.each().map(|(chain, _)| chain.first as usize).filter(|k| (1..last).contains(k));
+        let far = begins.map(|k| [k - 1, k, k + 1]).chain(start).filter(|&three| is_far(three.map(|k| points[k])));
         let off = |[before, at, _]: [usize; 3]| (points[at] - points[before]).norm();
         let farthest = far.max_by(|&a, &b| off(a).total_cmp(&off(b)));
         let Some(three) = farthest.filter(|&three| stands_out(&points, three)) else { continue };
