@@ -180,11 +180,12 @@ impl Joining<'_> {
     fn is_notch(&self, stroke: usize) -> bool {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let [first, _, .., last] = vertices else { return false };
+        if (last.at - first.at).norm() > Notch::WIDEST {
+            return false; // as nearly all
+        }
         let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
         let is_deep = |at: &Point| polyline::distance_to_segment(*at, first.at, last.at) >= SHORTEST_NOTCH;
-        (last.at - first.at).norm() <= Notch::WIDEST
-            && polyline::length(&places) <= Notch::LONGEST_STROKE
-            && places.iter().any(is_deep)
+        polyline::length(&places) <= Notch::LONGEST_STROKE && places.iter().any(is_deep)
     }
 
     /// The place of a stroke that is farthest from the line between its ends.
@@ -525,8 +526,9 @@ impl<'a, 'b> Graph<'a, 'b> {
     /// Finds the ends of notches on an edge of another line, of those that meet other strokes.
     fn find_edges(&mut self, work: &mut Budget) {
         let joining = self.joining;
-        let notches = |k: usize| self.open(k, true).into_iter().filter(|end| joining.is_notch(end / 2));
-        let found = (0..self.nodes.len()).flat_map(notches).flat_map(|end| [end, other(end)]);
+        let is_notch = |end: &End| joining.is_notch(end / 2) && !joining.nearly_closes(end / 2);
+        let notches = self.nodes.iter().flatten().copied().filter(is_notch);
+        let found = notches.flat_map(|end| [end, other(end)]);
         let found: Vec<End> = found.collect::<BTreeSet<End>>().into_iter().collect();
         if found.is_empty() {
             return;
