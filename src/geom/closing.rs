@@ -88,16 +88,21 @@ impl<F: Fn(usize) -> Point> Line<F> {
     fn returns(&self) -> impl Iterator<Item = usize> {
         let first = (self.at)(0);
         let left = (1..self.count).find(|&k| ((self.at)(k) - first).amax() > self.reach).unwrap_or(self.count);
-        let comes_near = move |k: &usize| {
-            let [a, b] = [*k, *k + 1].map(&self.at);
-            let [least, most] = [[a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]];
-            let is_beside = first.x < least[0] - self.reach
-                || first.x > most[0] + self.reach
-                || first.y < least[1] - self.reach
-                || first.y > most[1] + self.reach;
-            !is_beside && polyline::distance_to_segment(first, a, b) <= self.reach
+        let from = left.max(LEAST_SEGMENTS - 1);
+        // On which sides of the box around the start a place lies: a segment between two on one side is far from it.
+        let (low, high) = (first.map(|value| value - self.reach), first.map(|value| value + self.reach));
+        let sides = move |at: Point| {
+            u8::from(at.x < low.x)
+                | u8::from(at.x > high.x) << 1
+                | u8::from(at.y < low.y) << 2
+                | u8::from(at.y > high.y) << 3
         };
-        (left.max(LEAST_SEGMENTS - 1)..self.count - 1).filter(comes_near)
+        let mut before = sides((self.at)(from.min(self.count - 1)));
+        (from..self.count - 1).filter(move |&k| {
+            let next = sides((self.at)(k + 1));
+            let is_beside = std::mem::replace(&mut before, next) & next != 0;
+            !is_beside && polyline::distance_to_segment(first, (self.at)(k), (self.at)(k + 1)) <= self.reach
+        })
     }
 
     /// The line as a ring that ends behind a place, if all behind it goes along that ring: whole rounds in either
