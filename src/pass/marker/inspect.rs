@@ -74,6 +74,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 
 /// Says how many contours have a point far off between two that lie near each other, and which is the farthest.
 fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
+    if marker.drawing.is_some() {
+        return; // its outlines are copied to be looked at, which is dear
+    }
     let is_far = |[before, at, after]: [Point; 3]| {
         let [back, on] = [before - at, after - at];
         let least = back.norm_squared().min(on.norm_squared());
