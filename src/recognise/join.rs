@@ -526,16 +526,14 @@ impl<'a, 'b> Graph<'a, 'b> {
     /// Finds the ends of notches on an edge of another line, of those that meet other strokes.
     fn find_edges(&mut self, work: &mut Budget) {
         let joining = self.joining;
-        let is_notch = |end: &End| joining.is_notch(end / 2) && !joining.nearly_closes(end / 2);
-        let notches = self.nodes.iter().flatten().copied().filter(is_notch);
-        let found = notches.flat_map(|end| [end, other(end)]);
-        let found: Vec<End> = found.collect::<BTreeSet<End>>().into_iter().collect();
+        let notches = self.nodes.iter().flatten().filter(|&&end| joining.is_notch(end / 2));
+        let found: BTreeSet<End> = notches.flat_map(|&end| [end, other(end)]).collect();
+        let found: Vec<End> = found.into_iter().collect();
         if found.is_empty() {
             return;
         }
         let at = |end: End| place(joining.drawing, end);
-        let boxes = found.iter().map(|&end| Extent::between(at(end), at(end)).grown(Notch::MISS));
-        let boxes = Boxes::new(boxes.collect());
+        let boxes = Boxes::new(found.iter().map(|&end| Extent::between(at(end), at(end)).grown(Notch::MISS)).collect());
         let meets = |end: End, stroke: usize| {
             let node = self.node[end];
             node.is_some() && [2 * stroke, 2 * stroke + 1].iter().any(|&end| self.node[end] == node)

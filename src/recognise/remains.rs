@@ -35,7 +35,7 @@ const LEAST_DRAWN: f64 = 0.1;
 pub(super) struct Remains {
     pub(super) lines: Vec<usize>,
     pub(super) inner: usize,
-    /// Whether they are so many that the closed line is no part; with fewer it is doubtful.
+    /// Certainty: true where they are enough to make the closed line no part, false where they make it doubtful.
     pub(super) is_sure: bool,
 }
 

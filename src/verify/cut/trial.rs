@@ -494,7 +494,7 @@ impl Trial {
     pub(super) fn askew(&self, line: &Line, cut: &Cut) -> f64 {
         let [first, last] = self.reach;
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
-        // A chord that begins or ends where the cut does is none of its own.
+        // Chords that only touch the cut at its ends are left out.
         let (low, high) = (first.min(last), first.max(last));
         let aside = STATION_EPSILON.min(0.25 * (high - low));
         let chords = line.chords_between([low + aside, high - aside]);
