@@ -136,7 +136,8 @@ impl<F: Fn(usize) -> Point> Line<F> {
         }
         let is_at_start = (self.at)(self.count - 1) == start;
         let past = if is_at_start { 0.0 } else { length - from };
-        let has_more = rounds > 1 || past > self.reach || (self.at)(ring) == start;
+        let passes_start = || polyline::foot(start, (self.at)(last), (self.at)(ring)) < 1.0;
+        let has_more = rounds > 1 || past > self.reach || (self.at)(ring) == start || past > 0.0 && passes_start();
         has_more.then_some(Retrace { last, rounds, is_back, past })
     }
 
@@ -285,6 +286,9 @@ mod tests {
     fn a_line_that_runs_past_its_start_is_a_ring_however_it_passes_it() {
         check(&[A, B, C, D, A, [5.0, 0.0]], Some((3, 1, 5.0)));
         check(&[A, B, C, D, A, [0.1, 0.0]], Some((3, 1, 0.1)));
+        check(&[A, B, C, D, [0.0, -0.1]], Some((3, 1, 0.1)));
+        check(&[A, B, C, D, [0.0, 0.1]], None);
+        check(&[A, B, C, D, [-0.1, 0.0]], None);
         // Beside the head by a unit; past a corner; with a start amid an edge that no place of the end repeats.
         check(&[A, B, C, D, [0.1, 0.0], [5.0, 0.1]], Some((3, 1, 5.001)));
         check(&[[90.0, 0.0], B, C, D, A, [90.0, 0.0], B, [100.0, 5.0]], Some((4, 1, 15.0)));

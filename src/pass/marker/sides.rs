@@ -1,7 +1,7 @@
 //! Sides: strokes of one outline whose ends were rounded apart meet halfway.
 //!
 //! A CAD system that writes each side of an outline for itself may round a corner twice: the next side then starts a unit
-//! of the file beside the end of the one before. Both places stand for one that is within half a diagonal of a cell of the
+//! of the file beside the end of the one before. An outline in one stroke may end a unit beside its start. Both places stand for one that is within half a diagonal of a cell of the
 //! grid, and so is the middle between them.
 
 use crate::geom::{Point, ring};
@@ -49,7 +49,7 @@ fn successors(ends: &[[Point; 2]], reach: f64) -> Vec<Option<usize>> {
     let next: Vec<Option<usize>> = ends.iter().map(|[_, end]| beside(*end)).collect();
     let mut count = vec![0; ends.len()];
     next.iter().flatten().for_each(|&k| count[k] += 1);
-    next.iter().enumerate().map(|(k, next)| next.filter(|&next| next != k && count[next] == 1)).collect()
+    next.iter().map(|next| next.filter(|&next| count[next] == 1)).collect()
 }
 
 /// The rings among contours, each from its first one on. None follows two, so every way ends or comes back to its start.

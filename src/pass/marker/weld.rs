@@ -2,8 +2,8 @@
 //!
 //! Needs: contours as the reader left them, walked in list order, `closed` not yet meant. Leaves true: no segment of
 //! length zero; within a piece no open contour that a later open one continues to the bit; `closed` exactly when the
-//! ends meet. Contours keep the order of their first chain. Chains of a file with a grid that make a ring but for a unit
-//! meet halfway ([`sides`]).
+//! ends meet. Contours keep the order of their first chain. Chains that make a ring but for a unit of the file meet
+//! halfway ([`sides`]).
 
 use std::collections::BTreeSet;
 
@@ -42,8 +42,8 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
             kept
         });
         join(&mut marker.list, piece);
-        if marker.unit > 0.0 && piece.contours.iter().filter(|contour| !contour.closed).count() > 1 {
-            sides::join(&mut marker.list, piece, marker.unit, seam);
+        if piece.contours.iter().any(|contour| !contour.closed) {
+            sides::join(&mut marker.list, piece, marker.unit.max(OFF_GRID), seam);
         }
     }
     dropped.report(diagnostics);
