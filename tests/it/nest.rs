@@ -321,8 +321,8 @@ fn slits_that_were_drawn_as_notches_are_cut_beside_the_parts_they_face() {
 /// Some faults show only among dozens of parts; `tests/heavy/nests.rs` has more of them.
 #[test]
 fn nests_of_dozens_of_parts_are_cut_with_the_notches_that_they_were_drawn_with() {
-    let wrong = |&seed: &u64| {
-        let recipe = Recipe::of(seed, 30, 10);
+    let wrong = |&(seed, parts): &(u64, usize)| {
+        let recipe = Recipe::of(seed, parts, 10);
         let nest = recipe.nest();
         assert_eq!(nest.text, recipe.nest().text, "the same recipe, the same bytes");
         let compiled = match verified(&nest.text, "csv", &Job::default()) {
@@ -333,6 +333,8 @@ fn nests_of_dozens_of_parts_are_cut_with_the_notches_that_they_were_drawn_with()
         let found = compiled.report.notches;
         (found != nest.notches).then(|| format!("{recipe:?}: {found:?}, drawn were {:?}", nest.notches))
     };
-    let found: Vec<String> = [2, 5, 8, 11, 13, 17, 22, 25].iter().filter_map(wrong).collect();
+    // In the last one a cut is led on along an edge beside the cut that stands for that.
+    let nests = [(2, 30), (5, 30), (8, 30), (11, 30), (13, 30), (17, 30), (22, 30), (25, 30), (54, 16)];
+    let found: Vec<String> = nests.iter().filter_map(wrong).collect();
     assert!(found.is_empty(), "{}", found.join("\n\n"));
 }

@@ -58,6 +58,8 @@ pub(in crate::verify) struct Joint {
 struct Stood {
     cut: u32,
     from: Sighting,
+    /// The stretch of the edge, if the cut is of its own part.
+    own: Option<usize>,
     /// Boxes along the stretch of the edge beside which the cut before it runs too. The cuts may cross anywhere in it: the
     /// earlier one bounds the part up to that place, the later one from it on.
     overlap: Vec<Extent>,
@@ -135,10 +137,13 @@ impl Common {
         // A cut that leaves the edge and comes back to it leaves what lies between.
         let mut left: Vec<(usize, f64, Sighting)> = Vec::new();
         let mut is_in_spared = false;
-        for stretch in &ring {
+        for (i, stretch) in ring.iter().enumerate() {
             let [from, _] = stretch.ends;
             match stretch.cut {
-                Some(cut) => cuts.push(Stood { cut, from: sighting(from, stretch.block), overlap: Vec::new() }),
+                Some(cut) => {
+                    let from = sighting(from, stretch.block);
+                    cuts.push(Stood { cut, from, own: Some(i), overlap: Vec::new() });
+                }
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
@@ -159,13 +164,20 @@ impl Common {
                 self.uncut.push((length, place));
             }
         }
-        let Some(mut before) = cuts.last().map(|last| last.cut) else { return };
-        for Stood { cut, from: Sighting { point: at, block, .. }, overlap } in cuts {
-            if before != cut {
-                let about = [Extent::EMPTY].into_iter().chain(overlap).collect();
-                self.joints.push(Joint { at, block, cuts: [before, cut], about });
+        let Some(mut before) = cuts.last() else { return };
+        // A cut of the part itself may be led on along its edge, beside the cut that stands for that.
+        let also = |own: Option<usize>, cut: u32, step: usize| {
+            let stretches = own.into_iter().flat_map(|own| (0..ring.len()).map(move |k| own + k * step));
+            both_beside(stretches.map(|i| &ring[i % ring.len()]), cut, reference, grid, distance)
+        };
+        for next in &cuts {
+            if before.cut != next.cut {
+                let led_on = also(before.own, next.cut, ring.len() - 1).into_iter().chain(also(next.own, before.cut, 1));
+                let about = [Extent::EMPTY].into_iter().chain(next.overlap.iter().copied()).chain(led_on).collect();
+                let Sighting { point: at, block, .. } = next.from;
+                self.joints.push(Joint { at, block, cuts: [before.cut, next.cut], about });
             }
-            before = cut;
+            before = next;
         }
     }
 
@@ -218,7 +230,7 @@ impl Common {
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
             if let Some(next) = next {
                 let overlap = before.map_or_else(Vec::new, |before| overlap(before, next));
-                chain.push(Stood { cut: next.cut, from: seen(at), overlap });
+                chain.push(Stood { cut: next.cut, from: seen(at), own: None, overlap });
                 (at, before) = (next.over[1], Some(next));
                 continue;
             }
@@ -370,6 +382,30 @@ pub(super) fn boxes_of(points: &[Point], distance: f64) -> Vec<Extent> {
         let place = |share: f64| chord[0] + way * (share / count);
         let places = (0..count as u64).map(|k| k as f64);
         found.extend(places.map(|k| Extent::between(place(k), place(k + 1.0)).grown(distance)));
+    }
+    found
+}
+
+/// Boxes along the first of some stretches of an edge, as far as a cut runs beside them, each grown by `distance`, the greatest
+/// distance of a cut from the edge, mm.
+fn both_beside<'s>(
+    stretches: impl Iterator<Item = &'s Drawn>,
+    cut: u32,
+    reference: &Reference,
+    grid: &Grid,
+    distance: f64,
+) -> Vec<Extent> {
+    let mut found = Vec::new();
+    for stretch in stretches.take_while(|stretch| stretch.cut.is_some()) {
+        let pieces: Vec<Beside> =
+            beside(stretch, reference, grid, distance).into_iter().filter(|piece| piece.cut == cut).collect();
+        if pieces.is_empty() {
+            break;
+        }
+        let [from, to] = stretch.ends;
+        let along = polyline::direction(from, to).unwrap_or_default();
+        let places = pieces.iter().map(|piece| piece.over.map(|way| from + along * way));
+        found.extend(places.flat_map(|ends| boxes_of(&ends, distance)));
     }
     found
 }
