@@ -172,7 +172,8 @@ impl Common {
         };
         for next in &cuts {
             if before.cut != next.cut {
-                let led_on = also(before.own, next.cut, ring.len() - 1).into_iter().chain(also(next.own, before.cut, 1));
+                let led_on =
+                    also(before.own, next.cut, ring.len() - 1).into_iter().chain(also(next.own, before.cut, 1));
                 let about = [Extent::EMPTY].into_iter().chain(next.overlap.iter().copied()).chain(led_on).collect();
                 let Sighting { point: at, block, .. } = next.from;
                 self.joints.push(Joint { at, block, cuts: [before.cut, next.cut], about });
