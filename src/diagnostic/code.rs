@@ -180,6 +180,8 @@ codes! {
     DRAWING_DIVIDED_PART = warning(Spares, Shape, "drawing/divided-part", "An open line goes from the outline of a part to the same outline, longer than any notch, and is not cut: the part stays in one piece.", "A line from edge to edge divides a part in two, or it is a fold, a pleat or a stripe. Two parts that share an edge are two outlines in most plots. Look at it in the picture (-t svg); if it must be cut, let the CAD draw both parts, or cut every line.\n  cutc compile marker.plt --cut-all");
     /// Lines between the strokes of an outline.
     DRAWING_SHARED_EDGE = error(Shape, "drawing/shared-edge", "An open line leads through a part between two places where strokes of its outline meet: it may be the edge that two parts share.", "Two parts in strokes that share an edge draw it once: the lines around both are one outline, and cut so they would be one part. A fold or a hem in a part that is drawn line by line looks the same. If two parts share it, let the CAD draw each part as one closed line, or cut every line. If it is a line in one part, say that such lines stay.\n  cutc compile marker.plt --cut-all\n  cutc compile marker.plt --inner ignore");
+    /// Edges of two parts that are drawn once.
+    DRAWING_EDGE_OF_TWO = warning(Spoils, Shape, "drawing/edge-of-two", "Loose lines of a drawing with layers draw an edge once with an area on both its sides: each of the two areas is cut as a part.", "Programs that draw parts in lines draw an edge that two parts share once, and so they draw a fold from edge to edge in one part. Nothing tells an area between parts that is waste. Look at the picture (-t svg): leave out what is waste, say what the layer of folds is, or that lines in parts stay.\n  cutc compile parts.dxf --skip 3\n  cutc compile parts.dxf --layers FOLD=ignore\n  cutc compile parts.dxf --inner ignore");
     /// An edge of two parts of which one is lost.
     DRAWING_PART_LOST = error(Shape, "drawing/part-lost", "Loose lines of a drawing with layers draw an edge twice, for two parts, and it lies on fewer than two of the outlines that are found.", "Lines that are drawn part after part tell parts apart that touch. In another order four lines or more meet at the ends of the edge, and the outlines that are found go around both parts together. Let the CAD draw each part as one closed polyline, or its lines one after the other.");
     /// A rectangle around a few parts.
@@ -387,13 +389,11 @@ codes! {
     /// Numbers that start again.
     MARKER_NUMBER_TWICE = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.", "Two markers that were joined into one file are both cut, and --pieces takes both pieces of a number. If only one of them is meant, split the file.");
 
-    // How the marker lies on the table.
+    // How the marker lies on the table, and which of its pieces are cut.
     /// A sheet that takes places away from advances.
     SHEET_ADVANCE = error(Shape, "sheet/advance", "The file moves the cloth on (M69), and the sheet of the profile would take the marker away from where it expects that.", "What is cut before an advance lies in the first window of the conveyor, and the advance is as long as the file means it: turned, mirrored end to end, scaled along X or copied, parts would be cut where no cloth is yet. Move or flip the marker only, or ignore the advance where the table is long enough.\n  cutc compile m.cut --set sheet.copies=2 --set codes.M69=ignore");
     /// More than a program holds.
     SHEET_COPIES = error(Shape, "sheet/too-many-copies", "So many copies of the marker have more points than one program can have; the hint says how many fit.", "A thousand million points are more than any table takes. Set sheet.copies to what the hint says, and run the program again.");
-
-    // The choice of pieces.
     /// A number that no piece has.
     SELECT_UNKNOWN_PIECE = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
     /// Nothing is chosen.

@@ -265,6 +265,10 @@ pub struct Moved {
     pub redrawn: Vec<Redrawn>,
     /// Lines that nobody drew: each closes an outline that is cut, from its last place to its first.
     pub closed: Vec<Vec<Point>>,
+    /// Edges that are drawn once and bound two parts: each as it stands a second time.
+    pub doubled: Vec<Vec<Vertex>>,
+    /// Places that lines have more than were drawn: where others meet them, and on edges that stand twice.
+    pub repeated: usize,
 }
 
 /// A line that was drawn a little otherwise than it is now.

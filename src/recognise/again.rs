@@ -7,7 +7,9 @@
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
+use super::line::{Class, Line};
 use super::pens::Use;
 use crate::geom::again::{Course, Step, course, turns_back};
 use crate::geom::{Point, bits};
@@ -20,11 +22,11 @@ const MOST_ENDS: usize = 32;
 /// Strokes that are equal, in the order of the file.
 type Set = Vec<usize>;
 
-/// Takes the strokes out of a drawing that are drawn again. Ends within `reach` of each other, mm, may belong to one
-/// line.
-pub(super) fn take(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Vec<PenStroke> {
+/// Takes the strokes out of a drawing that are drawn again, but for those whose places were `laid` in order. Ends within
+/// `reach` of each other, mm, may belong to one line.
+pub(super) fn take(drawing: &mut Drawing, uses: &[Use], laid: &Range<usize>, reach: f64) -> Vec<PenStroke> {
     let mut again = there_and_back(drawing);
-    let sets = sets(drawing, uses);
+    let sets = sets(drawing, uses, laid);
     if sets.is_empty() {
         return again;
     }
@@ -37,6 +39,15 @@ pub(super) fn take(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Vec<PenSt
     let mut flags = taken.iter();
     again.extend(drawing.strokes.extract_if(.., |_| flags.next().is_some_and(|&is_taken| is_taken)));
     again
+}
+
+/// Lines of strokes that are drawn again.
+pub(super) fn lines(strokes: Vec<PenStroke>, drawing: &Drawing, uses: &[Use]) -> impl Iterator<Item = Line> {
+    strokes.into_iter().map(|stroke| {
+        let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
+        let line = Line::of(&drawing.vertices[stroke.range()], stroke.first, usage);
+        Line { class: Class::Again, ..line }
+    })
 }
 
 /// Puts the lines that a stroke there and back draws in its place, and takes out what it draws again. A short straight
@@ -73,7 +84,7 @@ fn is_closed(drawing: &Drawing, stroke: usize) -> bool {
 }
 
 /// The sets of two equal strokes or more.
-fn sets(drawing: &Drawing, uses: &[Use]) -> Vec<Set> {
+fn sets(drawing: &Drawing, uses: &[Use], laid: &Range<usize>) -> Vec<Set> {
     let usage = |k: usize| uses.get(usize::from(drawing.strokes[k].pen)).copied().unwrap_or(Use::Ignore);
     let places = |k: usize| drawing.strokes[k].range().map(|i| bits(drawing.vertices[i].at));
     // Most strokes differ from all others by what both their ends have in common.
@@ -82,7 +93,8 @@ fn sets(drawing: &Drawing, uses: &[Use]) -> Vec<Set> {
         let [[ax, ay], [bx, by]] = [range.start, range.end - 1].map(|i| bits(drawing.vertices[i].at));
         (range.len(), ax.wrapping_add(bx), ay.wrapping_add(by))
     };
-    let meant = (0..drawing.strokes.len()).filter(|&k| usage(k) != Use::Ignore);
+    let is_meant = |k: &usize| !laid.contains(&drawing.strokes[*k].range().start) && usage(*k) != Use::Ignore;
+    let meant = (0..drawing.strokes.len()).filter(is_meant);
     let mut alike: Vec<((usize, u64, u64), usize)> = meant.map(|k| (common(k), k)).collect();
     alike.sort_unstable();
     // A stroke is compared in the direction in which its places come first.

@@ -1,18 +1,20 @@
-//! Faces of the graph that loose lines of a drawing with layers make: parts whose common edges are drawn twice, once for each.
+//! Faces of the graph that loose lines of a drawing with layers make: parts with common edges, drawn for each of them or once.
 //!
-//! In the order of the file such lines tell the parts apart ([`succession`](super::succession)). In any other order their strokes
-//! are put in the order of the faces that they bound, so that the rings are found. A graph that is not plane, has an edge of two
-//! faces that is drawn once, or a face below the size of a part, stays as it is drawn.
+//! In the order of the file such lines tell the parts apart ([`succession`](super::succession)). In any other order their
+//! stretches between the places where they meet ([`nodes`](super::nodes)) are put in the order of the faces that they bound, so
+//! that the rings are found. A graph that is not plane, or has a face below the size of a part, stays as it is drawn.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
-use super::chains::{End, other, place};
+use super::chains::{End, other};
 use super::line::SMALL_OUTLINE;
 use super::meeting;
+use super::nodes::{self, Stretch};
 use super::pens::Use;
 use crate::geom::{Extent, Point, polyline, ring};
-use crate::ir::drawing::{Drawing, PenStroke, Redrawn, Vertex};
+use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
+use crate::source::Span;
 
 /// Ends at one place that are looked at: more are the middle of a star.
 const MOST_ENDS: usize = 64;
@@ -24,54 +26,129 @@ const STRETCH: f64 = 1.0;
 const MOST_STEPS: usize = 64;
 /// Least angle between two strokes that leave a place, rad: nearer ones are in no order.
 const LEAST_ANGLE: f64 = 1e-3;
+/// Least number of open lines of a part and another one.
+const LEAST_STROKES: usize = 2;
 
-/// Puts strokes in the order of the faces that they bound; the lines that were moved so that their ends meet.
-pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64) -> Vec<Redrawn> {
+/// Puts lines in the order of the faces that they bound; what was moved so that their ends meet, what is drawn once and stands
+/// twice, and the lines that are drawn again on the edge of one face. Edges that are drawn once bound one part alone unless
+/// `divides`.
+pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64, divides: bool) -> (Moved, Vec<PenStroke>) {
     let is_asked = |k: &usize| {
         let pen = usize::from(drawing.strokes[*k].pen);
         drawing.pens.get(pen).is_some_and(|pen| pen.is_layer)
             && !matches!(uses.get(pen), None | Some(Use::Ignore | Use::Drawn))
     };
-    let is_open = |k: &usize| (place(drawing, 2 * k) - place(drawing, 2 * k + 1)).amax() > reach;
-    let strokes: Vec<usize> = (0..drawing.strokes.len()).filter(is_asked).filter(is_open).collect();
-    let graph = Graph::new(drawing, &strokes, reach);
-    if graph.twins.is_empty() {
-        return Vec::new(); // as in nearly all
+    let place = |vertex: u32| drawing.vertices[vertex as usize].at;
+    let is_open = |k: &usize| {
+        let stroke = drawing.strokes[*k];
+        (place(stroke.first) - place(stroke.end - 1)).amax() > reach
+    };
+    let mut strokes: Vec<usize> = (0..drawing.strokes.len()).filter(is_asked).filter(is_open).collect();
+    let mut moved = Moved::default();
+    if strokes.len() < LEAST_STROKES {
+        return (moved, Vec::new()); // as in nearly all
     }
-    let mut redrawn = Vec::new();
-    let mut in_order: BTreeMap<usize, Vec<PenStroke>> = BTreeMap::new();
-    let mut taken: BTreeSet<usize> = BTreeSet::new();
-    let mut places: Vec<Vertex> = Vec::new();
+    // Lines that lead nowhere, as notches do, part no others.
+    let leading: BTreeSet<usize> = {
+        let stretches = nodes::parted(drawing, &strokes, reach);
+        Graph::new(&stretches, reach).strokes()
+    };
+    strokes.retain(|stroke| leading.contains(stroke));
+    let stretches = nodes::parted(drawing, &strokes, reach);
+    let graph = Graph::new(&stretches, reach);
+    let mut laid = Laid::default();
     for component in graph.components() {
-        if !component.iter().any(|stroke| graph.twins.contains_key(stroke)) {
-            continue;
-        }
         let Some(faces) = graph.faces(&component) else { continue };
         let mut sides: BTreeMap<usize, usize> = BTreeMap::new();
         faces.iter().flatten().for_each(|end| *sides.entry(end / 2).or_default() += 1);
-        if sides.iter().any(|(stroke, count)| (*count > 1) != graph.twins.contains_key(stroke)) {
+        let is_twice = |stretch: &usize| graph.twins.contains_key(stretch);
+        let is_divided = sides.iter().any(|(stretch, count)| *count > 1 && !is_twice(stretch));
+        if is_divided && !divides || !is_divided && !component.iter().any(is_twice) {
             continue;
         }
-        for &end in faces.iter().flatten() {
-            let twin = graph.twins.get(&(end / 2)).filter(|_| taken.contains(&(end / 2)));
-            let stroke = twin.copied().unwrap_or(end / 2);
-            taken.insert(stroke);
-            let from = if graph.node[&(2 * stroke)] == graph.node[&end] { 2 * stroke } else { 2 * stroke + 1 };
-            let first = (drawing.vertices.len() + places.len()) as u32;
-            let mut along = directed(graph.vertices(stroke), from);
-            redrawn.extend(graph.meet(&mut along, [end, other(end)]));
-            places.append(&mut along);
-            let end = (drawing.vertices.len() + places.len()) as u32;
-            let laid = PenStroke { first, end, pen: drawing.strokes[stroke].pen };
-            in_order.entry(component[0]).or_default().push(laid);
+        laid.add(stretches[component[0]].stroke, &graph, faces, &mut moved);
+    }
+    let again = laid.put_into(drawing, &graph, &mut moved);
+    (moved, again)
+}
+
+/// Lines in the order of faces.
+#[derive(Default)]
+struct Laid {
+    /// Places and pens of the lines that stand in the place of each stroke.
+    lines: BTreeMap<usize, Vec<(Vec<Vertex>, u16)>>,
+    /// Stretches that were laid.
+    taken: BTreeSet<usize>,
+    /// Places that the lines are led to.
+    places: usize,
+}
+
+impl Laid {
+    /// Lays the stretches of faces in the place of a stroke.
+    fn add(&mut self, stroke: usize, graph: &Graph, faces: Vec<Vec<End>>, moved: &mut Moved) {
+        for face in faces {
+            for end in face {
+                let is_laid = self.taken.contains(&(end / 2));
+                let twin = graph.twins.get(&(end / 2)).filter(|_| is_laid);
+                let stretch = twin.copied().unwrap_or(end / 2);
+                self.taken.insert(stretch);
+                let from = if graph.node[&(2 * stretch)] == graph.node[&end] { 2 * stretch } else { 2 * stretch + 1 };
+                let mut along = graph.directed(from);
+                let redrawn = graph.meet(&mut along, [end, other(end)]);
+                if is_laid && twin.is_none() {
+                    moved.doubled.push(along.clone());
+                } else {
+                    moved.redrawn.extend(redrawn);
+                }
+                self.places += places(&along);
+                self.lines.entry(stroke).or_default().push((along, graph.stretches[stretch].pen));
+            }
         }
     }
-    let strokes = drawing.strokes.iter().enumerate().flat_map(|(k, &stroke)| {
-        in_order.remove(&k).unwrap_or_default().into_iter().chain((!taken.contains(&k)).then_some(stroke))
-    });
-    drawing.strokes = strokes.collect();
-    drawing.vertices.append(&mut places);
-    redrawn
+
+    /// Puts the lines into a drawing, for the strokes that they are stretches of; those that are drawn again.
+    fn put_into(mut self, drawing: &mut Drawing, graph: &Graph, moved: &mut Moved) -> Vec<PenStroke> {
+        let is_twin = |(stretch, twin): (&usize, &usize)| {
+            (self.taken.contains(stretch) && !self.taken.contains(twin)).then_some(*twin)
+        };
+        let again: BTreeSet<usize> = graph.twins.iter().filter_map(is_twin).collect();
+        let laid = self.taken.iter().chain(&again);
+        let strokes: BTreeSet<usize> = laid.map(|&stretch| graph.stretches[stretch].stroke).collect();
+        let add = |vertices: &[Vertex], pen: u16, drawing: &mut Drawing| {
+            let first = drawing.vertices.len() as u32;
+            drawing.vertices.extend(vertices);
+            PenStroke { first, end: drawing.vertices.len() as u32, pen }
+        };
+        for (k, stretch) in graph.stretches.iter().enumerate() {
+            if strokes.contains(&stretch.stroke) && !self.taken.contains(&k) {
+                self.places += places(&stretch.vertices);
+            }
+            if strokes.contains(&stretch.stroke) && !self.taken.contains(&k) && !again.contains(&k) {
+                let lines = self.lines.entry(stretch.stroke).or_default();
+                lines.push((stretch.vertices.clone(), stretch.pen));
+            }
+        }
+        let drawn = strokes.iter().map(|&stroke| places(&drawing.vertices[drawing.strokes[stroke].range()]));
+        moved.repeated = self.places.saturating_sub(drawn.sum());
+        for (k, stroke) in std::mem::take(&mut drawing.strokes).into_iter().enumerate() {
+            for (vertices, pen) in self.lines.remove(&k).unwrap_or_default() {
+                let stroke = add(&vertices, pen, drawing);
+                drawing.strokes.push(stroke);
+            }
+            if !strokes.contains(&k) {
+                drawing.strokes.push(stroke);
+            }
+        }
+        let again = again.into_iter().map(|k| &graph.stretches[k]);
+        again.map(|stretch| add(&stretch.vertices, stretch.pen, drawing)).collect()
+    }
+}
+
+/// Places that a line is led to: the chords of an arc lead to one.
+fn places(vertices: &[Vertex]) -> usize {
+    let mut before: Option<Span> = None;
+    let is_new = |pair: &&[Vertex]| pair[0].at != pair[1].at && before.replace(pair[1].span) != Some(pair[1].span);
+    vertices.windows(2).filter(is_new).count()
 }
 
 /// The places of a stroke from one of its ends on; each line keeps what drew it.
@@ -83,39 +160,58 @@ fn directed(vertices: &[Vertex], from: End) -> Vec<Vertex> {
     (0..=last).rev().map(|k| Vertex { at: vertices[k].at, span: vertices[(k + 1).min(last)].span }).collect()
 }
 
-/// Strokes between the places where their ends meet, those that lead nowhere left out.
+/// Stretches between the places where their ends meet, those that lead nowhere left out.
 struct Graph<'a> {
-    drawing: &'a Drawing,
+    stretches: &'a [Stretch],
+    /// Distance within which ends meet, mm.
+    reach: f64,
     /// The place of each end.
     node: BTreeMap<End, usize>,
     /// The ends at each place, those of twins left out.
     nodes: BTreeMap<usize, Vec<End>>,
-    /// Strokes that lie on others, by these.
+    /// Stretches that lie on others, by these.
     twins: BTreeMap<usize, usize>,
 }
 
 impl<'a> Graph<'a> {
-    fn new(drawing: &'a Drawing, strokes: &[usize], reach: f64) -> Self {
-        let node = ends_at_places(drawing, strokes, reach);
-        let mut graph = Self { drawing, node, nodes: BTreeMap::new(), twins: BTreeMap::new() };
+    fn new(stretches: &'a [Stretch], reach: f64) -> Self {
+        let node = ends_at_places(stretches, reach);
+        let mut graph = Self { stretches, reach, node, nodes: BTreeMap::new(), twins: BTreeMap::new() };
         let mut between: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
-        for &stroke in strokes {
-            let mut places = graph.places(stroke);
+        for stretch in 0..stretches.len() {
+            let mut places = graph.places(stretch);
             places.sort_unstable();
             let known = between.entry(places).or_default();
-            // A place where more strokes end has no order anyway.
-            let twin = known.iter().take(MOST_ENDS).position(|&other| graph.are_twins([other, stroke], reach));
+            // A place where more lines end has no order anyway.
+            let twin = known.iter().take(MOST_ENDS).position(|&other| graph.are_twins([other, stretch], reach));
             if let Some(k) = twin {
-                graph.twins.insert(known.swap_remove(k), stroke);
+                graph.twins.insert(known.swap_remove(k), stretch);
                 continue;
             }
-            known.push(stroke);
-            for (end, place) in [2 * stroke, 2 * stroke + 1].into_iter().zip(graph.places(stroke)) {
+            known.push(stretch);
+            for (end, place) in [2 * stretch, 2 * stretch + 1].into_iter().zip(graph.places(stretch)) {
                 graph.nodes.entry(place).or_default().push(end);
             }
         }
         graph.leave_out_dead_ends();
         graph
+    }
+
+    /// Strokes that lead from place to place.
+    fn strokes(&self) -> BTreeSet<usize> {
+        let alive: BTreeSet<usize> = self.nodes.values().flatten().map(|end| end / 2).collect();
+        let twins = self.twins.iter().filter(|(stretch, _)| alive.contains(stretch)).map(|(_, twin)| twin);
+        alive.iter().chain(twins).map(|&stretch| self.stretches[stretch].stroke).collect()
+    }
+
+    /// Where an end is drawn.
+    fn place(&self, end: End) -> Point {
+        place(self.stretches, end)
+    }
+
+    /// The places of a stretch from one of its ends on.
+    fn directed(&self, from: End) -> Vec<Vertex> {
+        directed(self.vertices(from / 2), from)
     }
 
     /// Leaves out strokes that lead nowhere, and those that do then.
@@ -146,8 +242,8 @@ impl<'a> Graph<'a> {
         [2 * stroke, 2 * stroke + 1].map(|end| self.node[&end])
     }
 
-    fn vertices(&self, stroke: usize) -> &'a [Vertex] {
-        &self.drawing.vertices[self.drawing.strokes[stroke].range()]
+    fn vertices(&self, stretch: usize) -> &'a [Vertex] {
+        &self.stretches[stretch].vertices
     }
 
     /// Whether two strokes between two places are drawn along each other.
@@ -166,7 +262,7 @@ impl<'a> Graph<'a> {
     fn meet(&self, along: &mut [Vertex], ends: [End; 2]) -> Vec<Redrawn> {
         let last = along.len() - 1;
         let before: Vec<Point> = along.iter().map(|vertex| vertex.at).collect();
-        let [first, end] = ends.map(|end| place(self.drawing, self.node[&end]));
+        let [first, end] = ends.map(|end| self.place(self.node[&end]));
         (along[0].at, along[last].at) = (first, end);
         let moved = |&k: &usize| along[k].at != before[k] || along[k + 1].at != before[k + 1];
         let redrawn = |k: usize| Redrawn { drawn: before[k..k + 2].to_vec(), now: [along[k].at, along[k + 1].at] };
@@ -198,7 +294,8 @@ impl<'a> Graph<'a> {
     /// order of their first strokes; `None` for one that is not plane, has strokes with one face on both sides, or small faces.
     fn faces(&self, component: &[usize]) -> Option<Vec<Vec<End>>> {
         let places: BTreeSet<usize> = component.iter().flat_map(|&stroke| self.places(stroke)).collect();
-        if places.iter().all(|place| self.nodes[place].len() < 3) {
+        let is_once = |stretch: &usize| !self.twins.contains_key(stretch);
+        if places.iter().all(|place| self.nodes[place].len() < 3) && component.iter().all(is_once) {
             return None; // a ring
         }
         // Of each end the one that is next to it clockwise.
@@ -246,14 +343,14 @@ impl<'a> Graph<'a> {
         (is_apart && turn >= LEAST_ANGLE).then(|| around.into_iter().map(|(_, end)| end).collect())
     }
 
-    /// The direction in which a stroke leaves the place of an end, rad; `None` of one without length there.
+    /// The direction in which a stretch leaves the place of an end, rad; `None` of one that is shorter than a place is wide.
     fn heading(&self, end: End) -> Option<f64> {
         let vertices = self.vertices(end / 2);
-        let from = place(self.drawing, self.node[&end]);
+        let from = self.place(self.node[&end]);
         let at = |k: usize| vertices[if end.is_multiple_of(2) { k } else { vertices.len() - 1 - k }].at;
         let ways = (1..vertices.len()).map(|k| at(k) - from);
         let way = ways.take(MOST_STEPS).find(|way| way.norm() >= STRETCH).unwrap_or(at(vertices.len() - 1) - from);
-        (way.norm() >= STRETCH).then(|| way.y.atan2(way.x))
+        (way.norm() > self.reach).then(|| way.y.atan2(way.x))
     }
 
     /// Places of some strokes behind each other.
@@ -263,11 +360,15 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The place of each end of the strokes, named by the first end there.
-fn ends_at_places(drawing: &Drawing, strokes: &[usize], reach: f64) -> BTreeMap<End, End> {
-    let ends: Vec<End> = strokes.iter().flat_map(|stroke| [2 * stroke, 2 * stroke + 1]).collect();
-    let drawn: Vec<(u16, Point)> =
-        ends.iter().map(|&end| (drawing.strokes[end / 2].pen, place(drawing, end))).collect();
-    let places = meeting::places(&drawn, reach).into_iter().map(|first| ends[first]);
-    ends.iter().copied().zip(places).collect()
+/// The place of each end, named by the first end there.
+fn ends_at_places(stretches: &[Stretch], reach: f64) -> BTreeMap<End, End> {
+    let drawn = (0..2 * stretches.len()).map(|end| (stretches[end / 2].pen, place(stretches, end)));
+    let drawn: Vec<(u16, Point)> = drawn.collect();
+    meeting::places(&drawn, reach).into_iter().enumerate().collect()
+}
+
+/// Where an end is drawn.
+fn place(stretches: &[Stretch], end: End) -> Point {
+    let vertices = &stretches[end / 2].vertices;
+    vertices[if end.is_multiple_of(2) { 0 } else { vertices.len() - 1 }].at
 }

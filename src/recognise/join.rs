@@ -10,12 +10,13 @@
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 use super::again;
 use super::bridge::Gaps;
 use super::chains::{Chains, End, other, place};
 use super::close::along;
-use super::line::{Class, Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
+use super::line::{Closing, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::pens::{self, Use};
 use super::slits::Slits;
 use super::succession::Ends;
@@ -54,12 +55,13 @@ pub(super) fn reach(unit: f64) -> f64 {
     if unit > 0.0 { (REACH_UNITS * unit).min(REACH) } else { REACH }
 }
 
-/// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
-pub(super) fn join(drawing: &mut Drawing, job: &Job, work: &mut Budget) -> (Vec<Line>, Moved) {
+/// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that. Strokes
+/// whose places were `laid` in order are not drawn again.
+pub(super) fn join(drawing: &mut Drawing, laid: &Range<usize>, job: &Job, work: &mut Budget) -> (Vec<Line>, Moved) {
     let uses = pens::uses(&drawing.pens, job);
     let reach = reach(drawing.unit);
     let close = job.profile.drawing.close_mm;
-    let again = again::take(drawing, &uses, close.max(reach));
+    let again = again::take(drawing, &uses, laid, close.max(reach));
     tails::split(drawing, reach);
     let mut joining = Joining { reach, close, strokes: drawing.strokes.len(), drawing, moved: Moved::default() };
     joining.close_alone();
@@ -88,11 +90,7 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job, work: &mut Budget) -> (Vec<
         }
         lines.push(line);
     }
-    for stroke in again {
-        let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
-        let line = Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage);
-        lines.push(Line { class: Class::Again, ..line });
-    }
+    lines.extend(again::lines(again, joining.drawing, &uses));
     (lines, joining.moved)
 }
 

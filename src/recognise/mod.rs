@@ -6,7 +6,8 @@
 //! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
 //! Never knows the dialect.
 //!
-//! `faces` puts loose lines in the order of the parts that they bound, by the places of their ends that `meeting` finds; `again`
+//! `nodes` parts loose lines where they meet, `faces` puts them in the order of the parts that they bound, by the places of their
+//! ends that `meeting` finds; `again`
 //! puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, by their `succession` where parts touch,
 //! over the gaps that `bridge` finds and without the slits that `slits` and `tails` find, `close` closes them, `twins` puts those aside that
 //! lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `remains`
@@ -29,6 +30,7 @@ mod line;
 mod marks;
 mod meeting;
 mod nest;
+mod nodes;
 mod pens;
 mod piece;
 mod remains;
@@ -51,6 +53,7 @@ use crate::geom::budget::Budget;
 use crate::ir::Marker;
 use crate::ir::drawing::Drawing;
 use crate::machine::Job;
+use crate::machine::plot::Inner;
 
 /// Decides what of a drawing is cut, and makes the marker of it.
 pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
@@ -60,12 +63,17 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     }
     let of_layers = layers::drawn(&drawing, job);
     let uses = pens::uses(&drawing.pens, job);
-    let shared = shared::edges(&drawing, &uses);
     let reach = join::reach(drawing.unit);
-    let redrawn = faces::put_in_order(&mut drawing, &uses, reach);
+    let divides = job.lines.inner != Some(Inner::Ignore);
+    let drawn = drawing.vertices.len();
+    let (in_order, again) = faces::put_in_order(&mut drawing, &uses, reach, divides);
+    let laid = drawn..drawing.vertices.len();
+    let shared = shared::edges(&drawing, &uses);
     let mut work = Budget::of_a_marker();
-    let (mut lines, mut moved) = join::join(&mut drawing, job, &mut work);
-    moved.redrawn.extend(redrawn);
+    let (mut lines, mut moved) = join::join(&mut drawing, &laid, job, &mut work);
+    lines.extend(again::lines(again, &drawing, &uses));
+    moved.redrawn.extend(in_order.redrawn);
+    (moved.doubled, moved.repeated) = (in_order.doubled, in_order.repeated);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     twins::mark(&mut lines, &drawing.vertices, sheet::band(drawing.unit), &mut work);
     let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
@@ -87,6 +95,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     };
     sheet.sort_out(job);
     sheet.decide(job);
+    shared::say_doubled(&sheet.moved.doubled, diagnostics);
     shared::refuse(&shared, &sheet.lines, &sheet.vertices, diagnostics);
     let [open, broken] = doubts::doubtful_outlines(&sheet);
     sheet.set_class(broken, Class::BrokenOutline);

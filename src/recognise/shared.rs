@@ -1,7 +1,7 @@
 //! Edges of two parts that loose lines of a drawing draw, each part for itself.
 //!
 //! Lines in the order of the file tell the parts apart ([`succession`](super::succession)). In any other order the ends of
-//! such an edge meet four lines or more, and one part may be lost: then the drawing is refused.
+//! such an edge meet four lines or more, and one part may be lost: then the drawing is refused. What is drawn once for two is told.
 
 use std::collections::BTreeMap;
 
@@ -77,6 +77,21 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
     let is_shared = |ends: &[Node; 2]| ends.iter().all(|node| degree[node] >= MEETING);
     let twice = edges.iter().filter(|(ends, _)| is_shared(ends)).flat_map(|(_, between)| between);
     twice.filter(|(count, _)| *count > 1).map(|(_, edge)| *edge).collect()
+}
+
+/// Says that edges which are drawn once stand on the outlines of two parts.
+pub(super) fn say_doubled(doubled: &[Vec<Vertex>], out: &mut Diagnostics) {
+    let Some(first) = doubled.first().and_then(|places| places.get(1)) else { return };
+    let length = |places: &Vec<Vertex>| places.windows(2).map(|ends| (ends[1].at - ends[0].at).norm()).sum::<f64>();
+    let longest = fixed(doubled.iter().map(length).fold(0.0, f64::max), DECIMALS);
+    let (count, what) = (doubled.len(), if doubled.len() == 1 { "edge is" } else { "edges are" });
+    let message =
+        format!("{count} {what} drawn once between two areas, up to {longest} mm: each area is cut as a part");
+    let finding = Diagnostic::new(&code::DRAWING_EDGE_OF_TWO, message).at(first.span);
+    let finding = finding.hint("leave out an area that is waste with `--skip`; `-t svg` shows all with their numbers");
+    out.push(
+        finding.hint("if it is a fold, name its layer: `--layers FOLD=ignore`; `--inner ignore` keeps parts whole"),
+    );
 }
 
 /// Refuses a drawing of whose shared edges not each is on the outlines of two parts.

@@ -261,6 +261,72 @@ fn parts_of_loose_lines_that_touch_are_cut_in_any_order() {
     }
 }
 
+/// Both ends of a line.
+type Ends = [[f64; 2]; 2];
+
+/// Parts of a rectangle between straight lines, each of which is drawn once: their areas, and the lines.
+fn divided([x, y, width, height]: [f64; 4], depth: u32, rng: &mut Rng) -> (Vec<f64>, Vec<Ends>) {
+    if depth == 0 || width.max(height) < 120.0 {
+        return (vec![width * height], Vec::new());
+    }
+    let share = 0.3 + 0.4 * rng.f64();
+    let [one, other, line] = if width > height {
+        let at = (width * share).round();
+        [[x, y, at, height], [x + at, y, width - at, height], [x + at, y, x + at, y + height]]
+    } else {
+        let at = (height * share).round();
+        [[x, y, width, at], [x, y + at, width, height - at], [x, y + at, x + width, y + at]]
+    };
+    let [(mut areas, mut lines), (more, others)] = [one, other].map(|part| divided(part, depth - 1, rng));
+    areas.extend(more);
+    lines.extend(others);
+    lines.push([[line[0], line[1]], [line[2], line[3]]]);
+    (areas, lines)
+}
+
+#[test]
+fn edges_of_two_parts_that_are_drawn_once_bound_both() {
+    for seed in 0..DRAWINGS {
+        let mut rng = Rng::with_seed(seed);
+        let (width, height, depth) = (800.0, [500.0, 300.0, 790.0][rng.usize(..3)], rng.u32(1..5));
+        let (areas, inner) = divided([0.0, 0.0, width, height], depth, &mut rng);
+        let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+        let around = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
+        let mut lines: Vec<Ends> = inner.iter().copied().chain(around).collect();
+        // A notch parts no edge, and a line that is drawn again is the same line.
+        lines.push([[20.5, 0.0], [20.5, 6.0]]);
+        let again = lines.iter().filter(|&&line| line != inner[0] && rng.u32(..4) == 0).copied().collect::<Vec<_>>();
+        lines.extend(again);
+        rng.shuffle(&mut lines);
+        let turn = rng.f64() * TAU;
+        let place = |[x, y]: [f64; 2]| {
+            [x * turn.cos() - y * turn.sin(), x * turn.sin() + y * turn.cos()].map(|mm| (mm * 1e4).round() / 1e4)
+        };
+        let line = |ends: &Ends| {
+            let [from, to] = if rng.bool() { [ends[1], ends[0]] } else { *ends }.map(place);
+            entity("LINE", "0", &[(10, from[0]), (20, from[1]), (11, to[0]), (21, to[1])])
+        };
+        let source = named(&file(&lines.iter().map(line).collect::<String>(), ""));
+        let (marker, found) = as_read(&source, &Job::default());
+        assert_eq!(marker.pieces.len(), areas.len(), "{seed}: {:?}", codes(&found));
+        assert!((area(&marker) - width * height).abs() < 1.0, "{seed}: {} of {}", area(&marker), width * height);
+        assert!(codes(&found).contains(&"drawing/edge-of-two"), "{seed}: {:?}", codes(&found));
+        assert_eq!(broken(&source, &marker, &Job::default()), [], "{seed}");
+        // Somebody says that the lines are folds.
+        let mut folds = Job::default();
+        folds.lines.inner = Some(Inner::Ignore);
+        let (whole, found) = as_read(&source, &folds);
+        assert!(!codes(&found).contains(&"drawing/edge-of-two"), "{seed}: {:?}", codes(&found));
+        assert_eq!(broken(&source, &whole, &folds), [], "{seed}");
+        // An edge is said to stand twice and does not.
+        let mut forged = marker.clone();
+        let moved = &mut forged.drawing.as_mut().expect("an account").aside.moved;
+        moved.doubled[0].iter_mut().for_each(|vertex| vertex.at.x += 50.0);
+        let rules = broken(&source, &forged, &Job::default());
+        assert!(rules.iter().any(|found| found.rule.name == "source/length"), "{seed}: {rules:?}");
+    }
+}
+
 /// A cut file's marker drawn as plain DXF: outlines as polylines on one layer, slits as lines on it.
 fn drawn(marker: &Marker) -> String {
     let mut entities = String::new();

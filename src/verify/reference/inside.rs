@@ -19,7 +19,7 @@ const EDGES_A_BAND: usize = 4;
 /// Bands that an edge reaches into on average, at the most.
 const BANDS_AN_EDGE: f64 = 4.0;
 
-/// A way through a part that is no longer is none, mm: rounding.
+/// A way through a part that is no longer is none, and one that is no farther from an edge runs along it, mm: rounding.
 const NONE: f64 = 1e-6;
 
 /// The parts, each by its box.
@@ -104,7 +104,8 @@ impl<'a> Inside<'a> {
         near.map(|part| self.parts[part].distance(point, reach)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a straight way leads through a part, however narrow that is.
+    /// Whether a straight way leads through a part, however narrow that is, or along an edge of one, on whichever side of that
+    /// rounding has it lie.
     pub(in crate::verify) fn is_crossed(&self, [from, to]: [Point; 2]) -> bool {
         let mut shares: Vec<f64> = vec![0.0, 1.0];
         for part in self.boxes.near(Extent::between(from, to)) {
@@ -113,8 +114,8 @@ impl<'a> Inside<'a> {
         shares.sort_by(f64::total_cmp);
         let middle = |ends: &[f64]| from + (to - from) * f64::midpoint(ends[0], ends[1]);
         let way = (to - from).norm();
-        let mut stretches = shares.windows(2).filter(|ends| (ends[1] - ends[0]) * way > NONE);
-        stretches.any(|ends| !self.pieces_at(middle(ends)).is_empty())
+        let stretches = shares.windows(2).filter(|ends| (ends[1] - ends[0]) * way > NONE);
+        stretches.map(middle).any(|at| !self.pieces_at(at).is_empty() || self.distance_to_edges(at, NONE) <= NONE)
     }
 
     /// The pieces in whose own rings a point lies.

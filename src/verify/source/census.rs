@@ -1,9 +1,11 @@
 //! What is cut, as numbers: counted of a marker and, by other means, of the bytes that it was read from.
 
+use std::collections::BTreeMap;
+
 use crate::geom::moments::Moments;
-use crate::geom::{Extent, Point, polyline};
+use crate::geom::{Extent, Point, bits, polyline};
 use crate::ir::Marker;
-use crate::ir::drawing::{Account, Redrawn};
+use crate::ir::drawing::{Account, Aside, Redrawn, Vertex};
 use crate::ir::marker::Notch;
 
 /// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
@@ -66,13 +68,17 @@ impl Census {
             }
         }
         if let Some(account) = &marker.drawing {
-            census.add_aside(account);
+            census.add_aside(marker, account);
         }
         census
     }
 
     /// Adds what a plot draws beyond what is cut: its marker keeps all of it.
-    fn add_aside(&mut self, Account { aside, .. }: &Account) {
+    fn add_aside(&mut self, marker: &Marker, Account { aside, .. }: &Account) {
+        let standing = if aside.moved.doubled.is_empty() { BTreeMap::new() } else { standing(marker, aside) };
+        let stands_twice =
+            |chord: &[Vertex]| standing.get(&chord_of(chord[0].at, chord[1].at)).is_some_and(|&count| count > 1);
+        let doubled = aside.moved.doubled.iter().filter(|places| places.windows(2).all(stands_twice));
         for (_, vertices) in aside.each() {
             let mut span = None;
             let moments = Moments::of(vertices.iter().map(|vertex| vertex.at));
@@ -84,7 +90,13 @@ impl Census {
             self.points +=
                 vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
         }
-        self.points += aside.moved.points;
+        self.points = (self.points + aside.moved.points).saturating_sub(aside.moved.repeated);
+        // An edge that two parts share may be drawn once; what does not stand twice does not.
+        for places in doubled {
+            let moments = Moments::of(places.iter().map(|vertex| vertex.at));
+            self.length -= moments.length();
+            self.moments -= moments;
+        }
         // Nobody drew the lines that close outlines.
         for places in &aside.moved.closed {
             let moments = Moments::of(places.iter().copied());
@@ -102,6 +114,25 @@ impl Census {
             }
         }
     }
+}
+
+/// The bits of the ends of a chord, in either direction.
+type Chord = [[u64; 2]; 2];
+
+fn chord_of(from: Point, to: Point) -> Chord {
+    let mut ends = [from, to].map(bits);
+    ends.sort_unstable();
+    ends
+}
+
+/// How often each chord stands in what a marker cuts and what it keeps beside that.
+fn standing(marker: &Marker, aside: &Aside) -> BTreeMap<Chord, usize> {
+    let mut standing = BTreeMap::new();
+    let cut = marker.pieces.iter().flat_map(|piece| &piece.contours);
+    let cut = cut.flat_map(|contour| marker.list.walk(contour.range)).map(|(_, line)| chord_of(line.from, line.to));
+    let kept = aside.each().flat_map(|(_, places)| places.windows(2)).map(|ends| chord_of(ends[0].at, ends[1].at));
+    cut.chain(kept).for_each(|chord| *standing.entry(chord).or_default() += 1);
+    standing
 }
 
 /// Whether every place of a line as it was drawn lies near to what it is now, and its ends near to the ends.
