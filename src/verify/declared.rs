@@ -20,6 +20,8 @@ const STEPS: f64 = 0.2;
 const NIBBLE_SHARE: f64 = 0.75;
 /// Least excess of a declaration of which nothing is found at its place, mm: some declare 0.
 const NOWHERE: f64 = 1.0;
+/// Excess of a measurement over the one that is needed, mm: rounding.
+const SURELY: f64 = 1e-9;
 
 /// The declarations of a program.
 #[derive(Debug, Clone, Default)]
@@ -89,6 +91,9 @@ impl Declared {
 #[derive(Debug)]
 pub(super) struct Account<'a> {
     declared: &'a Declared,
+    /// By how much a measurement may fall short of its declaration, mm, beside steps; and how much depth in parts is none.
+    shortfall: f64,
+    band: f64,
     /// Bits of one plus the most that was found of each, mm; `NOTHING` = nothing was found. Bits of positive floats have their
     /// order, and strokes are judged on all cores.
     found: Vec<AtomicU64>,
@@ -99,8 +104,9 @@ const NOTHING: u64 = 0;
 
 impl<'a> Account<'a> {
     /// Nothing is found yet.
-    pub(super) fn new(declared: &'a Declared) -> Self {
-        Self { declared, found: declared.entries.iter().map(|_| AtomicU64::new(NOTHING)).collect() }
+    pub(super) fn new(declared: &'a Declared, reference: &Reference) -> Self {
+        let found = declared.entries.iter().map(|_| AtomicU64::new(NOTHING)).collect();
+        Self { declared, shortfall: LESS * reference.tolerance, band: reference.band, found }
     }
 
     /// Whether nothing is declared of the cut of a line.
@@ -108,13 +114,38 @@ impl<'a> Account<'a> {
         self.declared.entries.binary_search_by_key(&line.cut.index, |entry| entry.cut).is_err()
     }
 
-    /// Whether more is declared of a kind about a stretch than was found so far.
-    pub(super) fn lacks(&self, kind: Kind, stretch: Stretch) -> bool {
-        let found = |place: usize| match self.found[place].load(Ordering::Relaxed) {
-            NOTHING => -1.0,
-            found => f64::from_bits(found) - 1.0,
-        };
-        self.declared.places(kind, stretch).any(|place| self.declared.entries[place].magnitude_mm > found(place))
+    /// Least deviation of a kind about a stretch, mm, beside which the declarations there are no longer too much; `None` where
+    /// none is by what was found so far.
+    pub(super) fn lacks(&self, kind: Kind, stretch: Stretch) -> Option<f64> {
+        self.lacks_where(kind, stretch, |_| true)
+    }
+
+    /// The same of some declarations alone.
+    pub(super) fn lacks_where(
+        &self,
+        kind: Kind,
+        stretch: Stretch,
+        is_meant: impl Fn(&Declaration) -> bool,
+    ) -> Option<f64> {
+        let meant = self.declared.places(kind, stretch).filter(|&place| is_meant(&self.declared.entries[place]));
+        let enough = |place: usize| self.beyond(&self.declared.entries[place], 0.0) + SURELY;
+        meant.filter(|&place| self.excess(place) > 0.0).map(enough).reduce(f64::max)
+    }
+
+    /// By how much a declaration says more than was found, with the tolerance of the lines, mm.
+    fn excess(&self, place: usize) -> f64 {
+        let entry = &self.declared.entries[place];
+        match self.found[place].load(Ordering::Relaxed) {
+            NOTHING => entry.magnitude_mm.max(NOWHERE),
+            found => self.beyond(entry, f64::from_bits(found) - 1.0),
+        }
+    }
+
+    /// The same of a measurement, mm.
+    fn beyond(&self, entry: &Declaration, found: f64) -> f64 {
+        // Less than the band is no depth.
+        let band = if entry.kind == Kind::Surplus { self.band } else { 0.0 };
+        entry.magnitude_mm - found - self.shortfall - STEPS - band
     }
 
     /// Sees a deviation of a kind about a stretch, mm.
@@ -130,18 +161,10 @@ impl<'a> Account<'a> {
         }
     }
 
-    /// Sees by how much each declaration says more than was found, with the tolerance of the lines.
+    /// Sees by how much each declaration says more than was found.
     pub(super) fn settle(&self, reference: &Reference, undeclared: &mut Worst) {
-        for (entry, found) in self.declared.entries.iter().zip(&self.found) {
-            let excess = match found.load(Ordering::Relaxed) {
-                NOTHING => entry.magnitude_mm.max(NOWHERE),
-                found => {
-                    // Less than the band is no depth.
-                    let band = if entry.kind == Kind::Surplus { reference.band } else { 0.0 };
-                    let found = f64::from_bits(found) - 1.0;
-                    entry.magnitude_mm - found - LESS * reference.tolerance - STEPS - band
-                }
-            };
+        for (i, entry) in self.declared.entries.iter().enumerate() {
+            let excess = self.excess(i);
             if excess > 0.0 {
                 undeclared.see(excess, || place(entry, reference));
             }

@@ -8,7 +8,7 @@ use super::plunged::Plunged;
 use super::stroke::{Judge, Traced};
 use super::trial::Trial;
 use crate::geom::{Point, polyline};
-use crate::ir::declaration::{Kind, Which};
+use crate::ir::declaration::{Declaration, Kind, Which};
 use crate::machine::Follow;
 use crate::verify::declared::{Account, Stretch};
 
@@ -32,24 +32,25 @@ impl Judge<'_> {
         let under = [0, cut.body].map(|place| trial.feet[place].station);
         let plunged = if cut.is_plunge_cut() { whole } else { Stretch { stations: under, ..whole } };
         // Deviations of the drawn line are quick to measure; those of the rows are measured where they fall short.
-        if account.lacks(Kind::Plunge, plunged) {
-            account.see(Kind::Plunge, plunged, self.drawn_beside(cut, trial));
+        if let Some(enough) = account.lacks(Kind::Plunge, plunged) {
+            account.see(Kind::Plunge, plunged, self.drawn_beside(cut, trial, enough));
         }
-        if account.lacks(Kind::Plunge, plunged) {
+        if account.lacks(Kind::Plunge, plunged).is_some() {
             account.see(Kind::Plunge, plunged, self.beside(cut, trial));
         }
         // A blade that is declared to stand still: its tip may travel as far as smoothing moves it.
-        if account.lacks(Kind::Nibbled, whole) && cut.tip_travel() <= STILL_TOLERANCES * self.reference.tolerance {
+        let is_still = || cut.tip_travel() <= STILL_TOLERANCES * self.reference.tolerance;
+        if account.lacks(Kind::Nibbled, whole).is_some() && is_still() {
             account.see(Kind::Nibbled, whole, (trial.reach[1] - trial.reach[0]).abs());
         }
         if cut.is_plunge_cut() {
             self.find_surplus(cut, trial, account);
             return;
         }
-        if account.lacks(Kind::Swing, whole) {
-            account.see(Kind::Swing, whole, self.drawn_swing(cut, trial));
+        if let Some(enough) = account.lacks(Kind::Swing, whole) {
+            account.see(Kind::Swing, whole, self.drawn_swing(cut, trial, enough));
         }
-        if account.lacks(Kind::Swing, whole) {
+        if account.lacks(Kind::Swing, whole).is_some() {
             account.see(Kind::Swing, whole, self.swing(traced, trial));
         }
     }
@@ -87,8 +88,8 @@ impl Judge<'_> {
     }
 
     /// Distance of blade and drawn line where it plunges at the start of its stretch, mm. On a narrow curve that depends on the
-    /// start, which the heel shows to within the tolerance only: the greatest of three starts.
-    fn drawn_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
+    /// start, which the heel shows to within the tolerance only: the greatest of three starts, or the first that is `enough`.
+    fn drawn_beside(&self, cut: &Cut, trial: &Trial, enough: f64) -> f64 {
         let line = &self.reference.lines[trial.line];
         let [from, to] = trial.reach;
         let beside = |from: f64| {
@@ -102,12 +103,22 @@ impl Judge<'_> {
             lines.map(|points| bow(points, self.knife.width_mm)).fold(0.0, f64::max)
         };
         let aside = 2.0 * self.tracer.allowed;
-        [from, from - aside, from + aside].map(beside).into_iter().fold(0.0, f64::max)
+        let mut most = 0.0_f64;
+        for from in [from, from - aside, from + aside] {
+            if most < enough {
+                most = most.max(beside(from));
+            }
+        }
+        most
     }
 
     /// How far a body leaves what a stroke cuts of its line as that is drawn, at the most, while the blade lies along it or is a
-    /// chord of it, mm: from where it has left the place of its plunge, on a ring from the start on.
-    fn drawn_swing(&self, cut: &Cut, trial: &Trial) -> f64 {
+    /// chord of it, mm: from where it has left the place of its plunge, on a ring from the start on. Looks no farther than to
+    /// where that is `enough`.
+    fn drawn_swing(&self, cut: &Cut, trial: &Trial, enough: f64) -> f64 {
+        if enough <= 0.0 {
+            return 0.0;
+        }
         let width = self.knife.width_mm;
         let behind = if trial.laps { BEHIND * width } else { 0.0 };
         let [from, to] = trial.reach;
@@ -134,6 +145,9 @@ impl Judge<'_> {
                     Follow::Tangent => from = tip + (most - off),
                     // Where a line is too tight for the chord mode, the blade lies along it in either.
                     Follow::Chord => most = most.max(followed.bow(width)),
+                }
+                if most >= enough {
+                    return most;
                 }
             }
         }
@@ -176,12 +190,23 @@ impl Judge<'_> {
         let line = &self.reference.lines[trial.line];
         let stroke = self.ends(cut, trial);
         for end in [Which::Start, Which::End] {
-            let places = (0..cut.points.len()).filter(|&place| trial.end_at(place) == end);
-            let deepest = places.map(|place| self.overcut.depths_at(place, &stroke));
-            let deepest = deepest.fold([0.0_f64; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
             let here = Stretch { line, stations: trial.reach, end: Some(end).filter(|_| self.knife.edges == 1) };
+            let is_in = |side: usize| move |entry: &Declaration| self.overcut.is_in(entry, side == 0, line);
+            let lacking = [0, 1].map(|side| account.lacks_where(Kind::Surplus, here, is_in(side)));
+            if lacking == [None; 2] {
+                continue;
+            }
+            let places = (0..cut.points.len()).filter(|&place| trial.end_at(place) == end);
+            let mut deepest = [0.0_f64; 2];
+            for place in places {
+                let depths = self.overcut.depths_at(place, &stroke);
+                deepest = [deepest[0].max(depths[0]), deepest[1].max(depths[1])];
+                if deepest.iter().zip(lacking).all(|(depth, enough)| enough.is_none_or(|enough| *depth >= enough)) {
+                    break;
+                }
+            }
             for (side, depth) in deepest.into_iter().enumerate() {
-                account.see_where(Kind::Surplus, here, |entry| self.overcut.is_in(entry, side == 0, line), depth);
+                account.see_where(Kind::Surplus, here, is_in(side), depth);
             }
         }
     }

@@ -131,7 +131,7 @@ impl<'a> Judge<'a> {
             held,
             rows_rounding: rounding,
             profile,
-            account: declared.map(Account::new),
+            account: declared.map(|declared| Account::new(declared, reference)),
             knife,
             period: profile.time.period(),
             rounding: place,
