@@ -26,4 +26,5 @@ pub(super) mod stroke;
 pub(super) mod strokes;
 mod swing;
 pub(super) mod trial;
+mod vicinity;
 pub(super) mod worsts;

@@ -9,6 +9,7 @@
 use super::body::Cut;
 use super::heading::on_lap;
 use super::trial::Trial;
+use super::vicinity::Vicinity;
 use super::worsts::{Overcuts, Worsts};
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::declaration::{Declaration, Kind, Which};
@@ -107,12 +108,14 @@ impl<'a> Overcut<'a> {
         let Ends { cut, trial, .. } = *stroke;
         let mut ends = [[(0.0, 0); 2]; 2];
         self.see_aside(stroke, seen, overcuts);
+        let Lines { reference, grid } = stroke.lines;
+        let mut vicinity = Vicinity::new(reference, grid, self.tolerance);
         for (i, &point) in cut.points.iter().enumerate() {
             let beyond = trial.beyond(cut, i);
             if beyond <= self.rounding || trial.over.is_some_and(|over| over.spans(i)) {
                 continue;
             }
-            let is_cut_anyway = !stroke.lines.is_away(point, self.tolerance);
+            let is_cut_anyway = !vicinity.is_away(&cut.points[i..]);
             let depths = if is_cut_anyway { [0.0; 2] } else { self.depths(point, beyond, stroke) };
             if depths == [0.0; 2] {
                 overcuts.waste.see(beyond, || seen(i));
@@ -336,16 +339,6 @@ impl<'a> Overcut<'a> {
 }
 
 impl Lines<'_> {
-    /// Whether a place is farther than `slack` mm from all that is cut.
-    fn is_away(self, point: Point, slack: f64) -> bool {
-        let is_near = |run: &Run| {
-            let line = &self.reference.lines[run.line()];
-            run.chords()
-                .any(|chord| line.may_reach(chord, point, slack) && line.distance_to_chord(chord, point) <= slack)
-        };
-        !self.grid.near(point, slack).any(is_near)
-    }
-
     /// How far a place is from the edges of some pieces, mm, surely where that is less than `reach`.
     fn distance_to_edges(self, point: Point, reach: f64, is_of: impl Fn(usize) -> bool) -> f64 {
         let is_edge = |run: &&Run| {

@@ -128,9 +128,14 @@ impl Grid {
     /// The chords that come nearer to a point than `reach` mm, and others: those of a line that follow each other. One that
     /// passes several cells comes several times.
     pub(in crate::verify) fn near(&self, point: Point, reach: f64) -> impl Iterator<Item = &Run> + '_ {
-        let reach = reach + EDGE;
-        let rows = self.row(point.y - reach)..=self.row(point.y + reach);
-        let columns = self.column(point.x - reach)..=self.column(point.x + reach);
+        self.about(Extent::between(point, point).grown(reach))
+    }
+
+    /// The same of a box: those that meet it, and others.
+    pub(in crate::verify) fn about(&self, extent: Extent) -> impl Iterator<Item = &Run> + '_ {
+        let Extent { min, max } = extent.grown(EDGE);
+        let rows = self.row(min.y)..=self.row(max.y);
+        let columns = self.column(min.x)..=self.column(max.x);
         rows.flat_map(move |r| columns.clone().map(move |c| r * self.columns + c))
             .flat_map(|cell| &self.runs[self.starts[cell] as usize..self.starts[cell + 1] as usize])
     }
