@@ -125,21 +125,33 @@ pub(in crate::verify) struct Trace {
 }
 
 impl Tracer<'_> {
-    /// Follows a cut along the line that has `block`. Nearly always the tip shows where; if it does not, the blade may. Of a
-    /// plunge cut all may be surplus, and its tip far from what it cuts: it is followed along all lines near it.
+    /// Follows a cut along the line that has `block`; one that only plunges along all lines near it.
     pub(in crate::verify) fn trace(&self, cut: &Cut, block: u32) -> Trace {
-        let named = |probes: &[usize]| self.candidates(cut, probes, |line| self.is_named(line, block));
-        let mut candidates = named(&cut.tip_probes());
-        if candidates.is_empty() {
-            candidates = named(&cut.probes());
+        let trials = if cut.is_plunge_cut() {
+            self.follow_all(cut, &self.about(cut, |line| self.is_named(line, block)))
+        } else {
+            self.follow_all(cut, &self.meant(cut, |line| self.is_named(line, block)))
+        };
+        Trace { trials, block }
+    }
+
+    /// The lines near a cut that are `meant`. Nearly always the tip shows where; if it does not, the blade may.
+    fn meant(&self, cut: &Cut, meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
+        let of_tip = self.candidates(cut, &cut.tip_probes(), &meant);
+        if of_tip.is_empty() { self.candidates(cut, &cut.probes(), &meant) } else { of_tip }
+    }
+
+    /// All lines near a cut, those that are `meant` however many others lie nearer. Of a plunge cut all may be surplus, and its
+    /// tip far from what it cuts.
+    fn about(&self, cut: &Cut, meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
+        let all = self.candidates(cut, &cut.probes(), |_| true);
+        if all.len() < TRIALS {
+            return all;
         }
-        if cut.is_plunge_cut() {
-            let all = self.candidates(cut, &cut.probes(), |_| true);
-            // The line that its row names is tried, however many others lie nearer.
-            candidates.retain(|named| all.iter().all(|other| other.line != named.line));
-            candidates.extend(all);
-        }
-        Trace { trials: candidates.iter().map(|candidate| self.follow(cut, candidate)).collect(), block }
+        let mut candidates = self.meant(cut, meant);
+        candidates.retain(|meant| all.iter().all(|other| other.line != meant.line));
+        candidates.extend(all);
+        candidates
     }
 
     fn is_named(&self, line: usize, block: u32) -> bool {
@@ -161,15 +173,13 @@ impl Tracer<'_> {
             // The line that its row names is tried, however many others lie nearer.
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials.retain(|named| candidates.iter().all(|other| other.line != named.line));
-            trials.extend(candidates.iter().map(|candidate| self.follow(cut, candidate)));
+            trials.extend(self.follow_all(cut, &candidates));
             self.weigh(&mut trials, coverage);
         }
         // A plunge is meant for a line that its blade lies over, however little of that is uncut. Lines that it crosses count
         // only without such a line.
-        let is_crossed = |trial: &Trial| trial.is_across(cut, &self.reference.lines[trial.line]);
-        let lies_over = |trial: &Trial| !trial.stretches.is_empty() && !is_crossed(trial);
-        if cut.is_plunge_cut() && trials.iter().any(lies_over) {
-            trials.retain(lies_over);
+        if cut.is_plunge_cut() && trials.iter().any(|trial| self.lies_over(cut, trial)) {
+            trials.retain(|trial| self.lies_over(cut, trial));
         }
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
@@ -244,10 +254,21 @@ impl Tracer<'_> {
         found
     }
 
-    /// What a cut cuts of a line that it was found near to.
-    fn follow(&self, cut: &Cut, candidate: &Candidate) -> Trial {
-        let lain = if cut.is_plunge_cut() && cut.body > 0 { self.lay(cut, candidate) } else { None };
-        lain.unwrap_or_else(|| self.go_along(cut, candidate))
+    /// What a cut cuts of the lines that it was found near to. A blade that only plunges and lies over one of them goes along
+    /// none.
+    fn follow_all(&self, cut: &Cut, candidates: &[Candidate]) -> Vec<Trial> {
+        let lay = |candidate| if cut.is_plunge_cut() && cut.body > 0 { self.lay(cut, candidate) } else { None };
+        let lain: Vec<Option<Trial>> = candidates.iter().map(lay).collect();
+        if lain.iter().flatten().any(|trial| self.lies_over(cut, trial)) {
+            return lain.into_iter().flatten().collect();
+        }
+        let trials = lain.into_iter().zip(candidates);
+        trials.map(|(lain, candidate)| lain.unwrap_or_else(|| self.go_along(cut, candidate))).collect()
+    }
+
+    /// Whether a blade that only plunges cuts something of a line and does not only cross it.
+    fn lies_over(&self, cut: &Cut, trial: &Trial) -> bool {
+        !trial.stretches.is_empty() && !trial.is_across(cut, &self.reference.lines[trial.line])
     }
 
     /// Follows a cut along a line, from where it was found both ways.
