@@ -32,6 +32,11 @@ impl<'a> Junctions<'a> {
         Self { ways: &marker.junctions, boxes: Boxes::new(extents.collect()), past }
     }
 
+    /// Whether one may lie by a chord of a polyline.
+    pub(super) fn may_be_by(&self, points: &[Point]) -> bool {
+        self.boxes.near(Extent::of(points)).next().is_some()
+    }
+
     /// Whether one lies by a chord.
     pub(super) fn is_by(&self, from: Point, to: Point) -> bool {
         let mut near = self.boxes.near(Extent::between(from, to)).map(|i| self.ways[i]);

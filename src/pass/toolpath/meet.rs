@@ -18,7 +18,10 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     for run in runs::each(toolpath) {
-        let by: Vec<bool> = run.points.windows(2).map(|ends| scene.junctions.is_by(ends[0], ends[1])).collect();
-        run.junctions = if by.contains(&true) { by } else { Vec::new() };
+        run.junctions = Vec::new();
+        if scene.junctions.may_be_by(&run.points) {
+            let by: Vec<bool> = run.points.windows(2).map(|ends| scene.junctions.is_by(ends[0], ends[1])).collect();
+            run.junctions = if by.contains(&true) { by } else { Vec::new() };
+        }
     }
 }

@@ -93,8 +93,9 @@ impl TipLine {
         }
         let last = extended.len() - 1;
         let (tip, first) = polyline::first_at_distance(&extended, width).unwrap_or((extended[last], last - 1));
-        let mut points = vec![tip];
-        let mut chords = Vec::new();
+        let mut points = Vec::with_capacity(extended.len() - first);
+        points.push(tip);
+        let mut chords = Vec::with_capacity(extended.len() - first);
         for (i, &point) in extended.iter().enumerate().skip(first + 1) {
             if (point - points[points.len() - 1]).norm() > LENGTH_EPSILON {
                 points.push(point);
