@@ -1,6 +1,7 @@
 //! The text of a program: lines of moves, and those of the profile for knife, drills and operator.
 
 use std::io;
+use std::rc::Rc;
 
 use super::pace::{Move, Pace};
 use crate::back::target::{Context, Output};
@@ -30,9 +31,14 @@ fn comment(text: &str) -> String {
     name.chars().take(NAME_CHARS).map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
-/// Steps with a number in place of `#`.
-fn filled(steps: &[Step], blank: f64) -> Vec<Step> {
-    steps.iter().map(|step| step.filled(blank)).collect()
+/// Steps with a number in place of `#`, as lines of a program.
+fn filled(steps: &[Step], blank: f64) -> String {
+    lines(&steps.iter().map(|step| step.filled(blank)).collect::<Vec<_>>())
+}
+
+/// Steps as lines of a program.
+fn lines(steps: &[Step]) -> String {
+    steps.iter().map(|step| format!("{step}\n")).collect()
 }
 
 /// A program in the making.
@@ -44,6 +50,8 @@ pub(super) struct Program<'a> {
     text: Vec<u8>,
     /// Pose of the axes over the cloth.
     pose: Pose,
+    /// Lines that put the knife down, and those that lift it: as many as there are cuts, so that they are spelled once.
+    knife: [Rc<str>; 2],
     /// Way of the cloth so far, mm.
     station: u32,
     /// Numbers of lines that were given.
@@ -58,7 +66,9 @@ impl<'a> Program<'a> {
         let job = context.job;
         let ([x, y, c], station) = (job.profile.home, context.marker.moved_on);
         let (pose, source) = (Pose::new(x + f64::from(station), y, rad(c)), context.source.name());
-        Self { job, source, text: Vec::new(), pose, station, lines: 0, moves: 0, pace: Pace::new(job) }
+        let keys = &job.profile.gcode;
+        let knife = [&keys.knife_down, &keys.knife_up].map(|steps| lines(steps).into());
+        Self { job, source, text: Vec::new(), pose, knife, station, lines: 0, moves: 0, pace: Pace::new(job) }
     }
 
     /// What comes before the first move.
@@ -82,7 +92,7 @@ impl<'a> Program<'a> {
         let [width, radius] = [profile.knife.width_mm, profile.knife.radius()].map(short);
         self.say(&format!("(knife: {width} mm wide, axis {radius} mm behind the tip)"));
         // Whatever ran before may have left the knife in the cloth.
-        self.order(&keys.knife_up, self.job.profile.knife.lift());
+        self.lift();
     }
 
     /// What comes behind the last one; the time of the program, s.
@@ -105,8 +115,8 @@ impl<'a> Program<'a> {
     pub(super) fn event(&mut self, event: Event) {
         let keys = &self.job.profile.gcode;
         match event {
-            Event::Stop => self.order(&keys.stop, 0.0),
-            Event::Advance => self.order(&keys.advance, 0.0),
+            Event::Stop => self.order(&lines(&keys.stop), 0.0),
+            Event::Advance => self.order(&lines(&keys.advance), 0.0),
             Event::AdvanceBy(mm) => {
                 self.order(&filled(&keys.advance, mm.into()), 0.0);
                 self.station += mm;
@@ -133,17 +143,23 @@ impl<'a> Program<'a> {
     /// A cut: plunge, the pieces of a path, lift.
     pub(super) fn cut(&mut self, path: &Path) {
         let job = self.job;
-        let (keys, knife) = (&job.profile.gcode, &job.profile.knife);
         self.rapid(path.start);
         if job.mode.cuts() {
-            self.order(&keys.knife_down, knife.plunge());
+            let [down, _] = self.knife.clone();
+            self.order(&down, job.profile.knife.plunge());
         }
         for piece in &path.pieces {
             self.feed(piece, path);
         }
         if job.mode.cuts() {
-            self.order(&keys.knife_up, knife.lift());
+            self.lift();
         }
+    }
+
+    /// The knife goes up.
+    fn lift(&mut self) {
+        let [_, up] = self.knife.clone();
+        self.order(&up, self.job.profile.knife.lift());
     }
 
     /// A hole.
@@ -160,10 +176,8 @@ impl<'a> Program<'a> {
     }
 
     /// Steps of the controller, which wait for the axes, and a dwell behind them, s.
-    fn order(&mut self, steps: &[Step], dwell: f64) {
-        for step in steps {
-            self.say(&step.to_string());
-        }
+    fn order(&mut self, steps: &str, dwell: f64) {
+        self.say(steps);
         self.pace.wait(0.0);
         if dwell > 0.0 {
             self.number();
