@@ -60,6 +60,8 @@ impl Cut {
     /// The same, and some of the body: on a short line the tip may stand beyond its end all the time.
     fn probes(&self) -> Vec<usize> {
         let mut probes = self.tip_probes().to_vec();
+        // Those of a tip that stands still are one.
+        probes.dedup();
         if self.body > 0 {
             probes.extend([0, 1, 2, 3].iter().map(|part| self.body * part / 4));
         }

@@ -178,7 +178,6 @@ impl<'a> Part<'a> {
 
     /// The ends of an edge.
     fn ends(&self, edge: u32) -> [Point; 2] {
-        // Nearly all parts have one ring.
         let ring = if self.rings.len() == 1 { 0 } else { self.firsts.partition_point(|&first| first <= edge) - 1 };
         let place = (edge - self.firsts[ring]) as usize;
         let [from, to] = self.rings[ring][place..place + 2] else { unreachable!("an edge has two ends") };
@@ -229,12 +228,17 @@ impl<'a> Part<'a> {
 
     /// Whether a ray to the right of a point crosses the edges an odd number of times.
     fn holds(&self, point: Point) -> bool {
-        let is_crossed = |&&edge: &&u32| {
-            let [from, to] = self.ends(edge);
+        let is_crossed = |[from, to]: &[Point; 2]| {
             (from.y > point.y) != (to.y > point.y)
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
         };
-        self.edges.of(self.band(point.y)).iter().filter(is_crossed).count() % 2 == 1
+        let edges = self.edges.of(self.band(point.y)).iter();
+        let crossed = match &*self.rings {
+            // Nearly all parts have one ring.
+            [ring] => edges.map(|&edge| [ring[edge as usize], ring[edge as usize + 1]]).filter(is_crossed).count(),
+            _ => edges.map(|&edge| self.ends(edge)).filter(is_crossed).count(),
+        };
+        crossed % 2 == 1
     }
 }
 
