@@ -31,7 +31,8 @@ pub fn swing(run: &Run, width: f64) -> Option<Swing> {
 /// The vertices at which a blade must be lifted so that its body leaves a run by at most `knife.max_swing_mm`. Of a ring
 /// the first alone: from there on it is an open run.
 pub fn bends(run: &Run, knife: &Knife) -> Vec<usize> {
-    let Some((limit, followed)) = knife.max_swing_mm.zip(Followed::new(run, knife.width_mm)) else { return Vec::new() };
+    let Some(limit) = knife.max_swing_mm else { return Vec::new() };
+    let Some(followed) = Followed::new(run, knife.width_mm) else { return Vec::new() };
     let mut bends = Vec::new();
     let mut lifted = 0;
     // It is plunged again so far before a lift.
@@ -77,32 +78,36 @@ impl Followed {
         self.stations.partition_point(|&station| station < from).max(plunged + 1)..self.path.len() - 1
     }
 
-    fn place(&self, station: f64) -> Point {
-        polyline::place(&self.path, &self.stations, station)
+    /// The place at a station, which is looked for from a vertex before it or behind it on.
+    fn place(&self, station: f64, vertex: usize) -> Point {
+        polyline::place_near(&self.path, &self.stations, station, vertex)
     }
 
     /// How far the body is off the path that it was plunged on at a vertex, right behind another, mm: there it is off
     /// the most.
     fn off(&self, vertex: usize, plunged: usize) -> f64 {
         let station = self.stations[vertex] + LOOK;
-        let tip = self.place(station);
+        let tip = self.place(station, vertex);
         let first = self.stations.partition_point(|&passed| passed < station - BEHIND * self.width);
         // The chord that reaches so far back may begin long before.
         let first = first.saturating_sub(1).max(plunged);
-        let behind: Vec<Point> = self.path[first..=vertex].iter().copied().chain([tip]).collect();
+        let behind = &self.path[first..=vertex];
         match self.orientation {
             OrientationMode::Tangent => {
-                let along = polyline::direction(self.place(station - LOOK), self.place(station + LOOK));
-                along.map_or(0.0, |along| polyline::distance(tip - along * self.width, &behind))
+                let ends = [station - LOOK, station + LOOK].map(|station| self.place(station, vertex));
+                polyline::direction(ends[0], ends[1]).map_or(0.0, |along| {
+                    let heel = tip - along * self.width;
+                    polyline::distance(heel, behind).min(polyline::distance_to_segment(heel, self.path[vertex], tip))
+                })
             }
-            OrientationMode::Chord => chord_off(&behind, self.width),
+            OrientationMode::Chord => chord_off(behind, tip, self.width),
         }
     }
 }
 
 /// How far the path behind the tip is off a blade that is its chord.
-fn chord_off(behind: &[Point], width: f64) -> f64 {
-    let back: Vec<Point> = behind.iter().rev().copied().collect();
+fn chord_off(behind: &[Point], tip: Point, width: f64) -> f64 {
+    let back: Vec<Point> = std::iter::once(tip).chain(behind.iter().rev().copied()).collect();
     let blade = Plunge::at_start(&back, width);
     back[1..=blade.chord].iter().map(|&point| blade.distance(point)).fold(0.0, f64::max)
 }

@@ -27,8 +27,7 @@ pub struct TightCurve {
 /// The stretches of a run, with the overlaps that there is room for, of which the blade cannot be a chord, those that meet
 /// joined. A smooth contour that is narrower than the blade is one of them as a whole.
 pub fn tight_curves(run: &Run, around: &Surroundings) -> Vec<TightCurve> {
-    let turned: f64 = run.points.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
-    if run.shape == Shape::Open && turned < TURN_MIN {
+    if run.shape == Shape::Open && polyline::turns_by_less(&run.points, TURN_MIN) {
         return Vec::new();
     }
     let [heel, front] = overlaps(run, around).map(|overlap| overlap.length);

@@ -4,6 +4,8 @@ use super::{Point, Vector, angle};
 
 /// Longest chord that a flattened curve is believed to have, mm: CAD flattens to small sagittas.
 pub const CURVE_CHORD_MAX: f64 = 25.0;
+/// Part of a turn by which rounding may seem to make it less.
+const SURE_EPSILON: f64 = 1e-9;
 
 /// Length of a polyline, mm.
 pub fn length(points: &[Point]) -> f64 {
@@ -26,6 +28,19 @@ pub fn stations(points: &[Point]) -> Vec<f64> {
 /// Signed turn at an inner vertex, rad, left positive.
 pub fn turn_at(before: Point, vertex: Point, after: Point) -> f64 {
     angle::turn(vertex - before, after - vertex)
+}
+
+/// Whether the turns of a polyline at its inner vertices, to either side, sum to less than `limit` rad. Of most the angles need
+/// not be known.
+pub fn turns_by_less(points: &[Point], limit: f64) -> bool {
+    // An angle is less than its tangent.
+    let tangent = |w: &[Point]| {
+        let (before, after) = (w[1] - w[0], w[2] - w[1]);
+        let cosine = before.dot(&after);
+        if cosine > 0.0 { super::cross(before, after).abs() / cosine } else { f64::INFINITY }
+    };
+    points.windows(3).map(tangent).sum::<f64>() < limit * (1.0 - SURE_EPSILON)
+        || points.windows(3).map(|w| turn_at(w[0], w[1], w[2]).abs()).sum::<f64>() < limit
 }
 
 /// The foot of `point` on the segment from `a` to `b`, as a fraction of the segment in `[0, 1]`.
@@ -64,7 +79,24 @@ pub fn distance(point: Point, points: &[Point]) -> f64 {
 /// The place at a station of a polyline of two points at least, given with their [`stations`], mm; beyond its ends the nearer
 /// of them.
 pub fn place(points: &[Point], stations: &[f64], station: f64) -> Point {
-    let next = stations.partition_point(|&passed| passed < station).clamp(1, points.len() - 1);
+    on_chord(points, stations, station, stations.partition_point(|&passed| passed < station))
+}
+
+/// The same, looked for from a vertex that is near.
+pub fn place_near(points: &[Point], stations: &[f64], station: f64, vertex: usize) -> Point {
+    let mut next = vertex;
+    while next > 0 && stations[next - 1] >= station {
+        next -= 1;
+    }
+    while next < stations.len() && stations[next] < station {
+        next += 1;
+    }
+    on_chord(points, stations, station, next)
+}
+
+/// The place at a station on the chord that ends at the vertex `next`, or on the nearest one.
+fn on_chord(points: &[Point], stations: &[f64], station: f64, next: usize) -> Point {
+    let next = next.clamp(1, points.len() - 1);
     let (from, to) = (stations[next - 1], stations[next]);
     let share = if to > from { ((station - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
     points[next - 1] + (points[next] - points[next - 1]) * share
@@ -123,6 +155,25 @@ mod tests {
         assert_eq!(distance_to_segment(Point::new(5.0, 2.0), a, b), 2.0);
         assert_eq!(distance_to_segment(Point::new(13.0, 4.0), a, b), 5.0);
         assert_eq!(distance_to_segment(Point::new(3.0, 4.0), a, a), 5.0);
+    }
+
+    #[test]
+    fn a_place_is_the_same_from_whichever_vertex_it_is_looked_for() {
+        let points = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0), (3.0, 4.0), (9.0, 4.0)].map(|(x, y)| Point::new(x, y));
+        let along = stations(&points);
+        for station in [-1.0, 0.0, 2.0, 3.0, 5.0, 7.0, 8.0, 13.0, 20.0] {
+            for vertex in 0..points.len() {
+                assert_eq!(place_near(&points, &along, station, vertex), place(&points, &along, station));
+            }
+        }
+    }
+
+    #[test]
+    fn turns_sum_to_less_than_a_limit_above_their_sum_alone() {
+        let wave = [(0.0, 0.0), (2.0, 0.0), (4.0, 1.0), (6.0, 1.0), (6.0, 3.0)].map(|(x, y)| Point::new(x, y));
+        let turned = 2.0 * 0.5_f64.atan() + std::f64::consts::FRAC_PI_2;
+        assert!(turns_by_less(&wave, turned + 1e-6) && !turns_by_less(&wave, turned - 1e-6));
+        assert!(turns_by_less(&wave[..4], 1.1) && !turns_by_less(&wave[..4], 0.9));
     }
 
     #[test]
