@@ -132,8 +132,10 @@ impl Fade {
             })
         };
         let gap = |[start, end]: [f64; 2]| end - start;
-        let (mut low, mut at) = (turn, turn - gap(askew(turn)));
-        let mut gap_low = gap(askew(low));
+        let worst = |askew: [f64; 2]| askew.into_iter().map(f64::abs).fold(0.0, f64::max);
+        let as_tip = askew(turn);
+        let mut gap_low = gap(as_tip);
+        let (mut low, mut at) = (turn, turn - gap_low);
         for _ in 0..SECANTS {
             let gap_at = gap(askew(at));
             if (gap_at - gap_low).abs() < TURN_EPSILON {
@@ -142,10 +144,9 @@ impl Fade {
             let next = at - gap_at * (at - low) / (gap_at - gap_low);
             (low, gap_low, at) = (at, gap_at, next);
         }
-        let worst = |turn: f64| askew(turn).into_iter().map(f64::abs).fold(0.0, f64::max);
+        let [found, of_tip] = [worst(askew(at)), worst(as_tip)];
         // On a very short part rounding alone may ask for any turn.
-        let at = if (at - turn).abs() < TURN_MAX && worst(at) < worst(turn) { at } else { turn };
-        (at, worst(at))
+        if (at - turn).abs() < TURN_MAX && found < of_tip { (at, found) } else { (turn, of_tip) }
     }
 }
 

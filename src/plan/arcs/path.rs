@@ -116,8 +116,10 @@ fn tip_arcs(
         if ring { (&line.points[..=lap], &line.chords[..lap]) } else { (&line.points[..], &line.chords[..]) };
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
     let plain = ToleranceBand::new(points.to_vec(), tolerance, [turn; 2], &job.profile);
-    let is_overlap = |chord: usize| stroke.share < 1.0 && run.front > 0.0 && chord + 1 == chords.len();
-    let band = plain.clone().with_junctions((0..chords.len()).map(is_overlap), stroke.share);
+    let is_overlap = |chord: usize| chord + 1 == chords.len();
+    let is_shared = stroke.share < 1.0 && run.front > 0.0;
+    let shared = is_shared.then(|| plain.clone().with_junctions((0..chords.len()).map(is_overlap), stroke.share));
+    let band = shared.as_ref().unwrap_or(&plain);
     let mut shares = JUNCTION_SHARES.iter().filter(|_| chords.iter().any(&is_junction));
     let start = if ring { at_seam(run) } else { band.direction(0) };
     let end = if ring { start } else { band.direction(band.chords() - 1) };
@@ -134,7 +136,7 @@ fn tip_arcs(
     };
     let nearer = |&share: &f64| fitted(&band.clone().with_junctions(chords.iter().map(is_junction), share)).ok();
     // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
-    let mut arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok).or_else(|_| fitted(&plain))?;
+    let mut arcs = shares.find_map(nearer).map_or_else(|| fitted(band), Ok).or_else(|_| fitted(&plain))?;
     if ring {
         // The feed may change at the seam.
         if let Some(closing) = arcs.last_mut() {

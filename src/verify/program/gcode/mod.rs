@@ -196,7 +196,7 @@ impl<'a> Places<'a> {
         if line.last() == Some(&b'\r') {
             line.pop();
         }
-        let read = if line.contains(&0) {
+        let read = if memchr::memchr(0, &line).is_some() {
             Err("holds a NUL, behind which no controller reads on".to_owned())
         } else {
             self.line(&line)
