@@ -82,7 +82,7 @@ pub fn place(points: &[Point], stations: &[f64], station: f64) -> Point {
     on_chord(points, stations, station, stations.partition_point(|&passed| passed < station))
 }
 
-/// The same, looked for from a vertex that is near.
+/// Place at a station, looked for from a near vertex on.
 pub fn place_near(points: &[Point], stations: &[f64], station: f64, vertex: usize) -> Point {
     let mut next = vertex;
     while next > 0 && stations[next - 1] >= station {

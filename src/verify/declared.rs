@@ -120,7 +120,7 @@ impl<'a> Account<'a> {
         self.lacks_where(kind, stretch, |_| true)
     }
 
-    /// The same of some declarations alone.
+    /// Least deviation beside which some declarations of a kind about a stretch are no longer too much, mm.
     pub(super) fn lacks_where(
         &self,
         kind: Kind,

@@ -21,7 +21,7 @@ pub(super) struct Vicinity<'a> {
 }
 
 impl<'a> Vicinity<'a> {
-    /// Nothing is known so far.
+    /// Surroundings that are still unknown.
     pub(super) fn new(reference: &'a Reference<'a>, grid: &'a Grid, slack: f64) -> Self {
         Self { reference, grid, slack, known: Extent::EMPTY, chords: Vec::new() }
     }
