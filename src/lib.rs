@@ -33,6 +33,7 @@
 //! | [`pass`] | edits of Marker and Toolpath, a file each, rows of two tables in order |
 //! | [`plan`] | `spline`: smooth curves inside the tolerance band; `orientation`: the blade along them; `timing`: jerk-limited speed; `solver`: their kernels; then rapids, and samples that keep the limits |
 //! | [`plan::arcs`] | few arcs and lines inside the band, for controllers that plan for themselves |
+//! | [`picture`] | pages for a browser: markup, columns of numbers, the script and style of the player |
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`]; printing only |
 //! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader; `flow`, `spray`: other heads |
 //! | [`pipeline`] | names every stage once, in order |
@@ -90,6 +91,7 @@ pub mod ir;
 pub mod machine;
 pub mod manual;
 pub mod pass;
+pub mod picture;
 pub mod pipeline;
 pub mod plan;
 pub mod recognise;

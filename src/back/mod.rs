@@ -8,13 +8,16 @@ mod csv;
 mod gcode;
 mod hal;
 mod halrun;
+mod html;
 mod iso;
 mod json;
 mod npy;
 mod svg;
 mod target;
 
-pub use target::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, Output, Parts, Proof, Target};
+pub use target::{
+    ArcTarget, ArcWriter, BeginPage, Context, Emit, Estimate, Outcome, Output, PageWriter, Parts, Proof, Target,
+};
 
 use crate::ir::Motion;
 
@@ -24,6 +27,7 @@ pub const TARGETS: &[Target] = &[
     npy::TARGET,
     json::TARGET,
     svg::TARGET,
+    html::TARGET,
     iso::TARGET,
     counts::TARGET,
     hal::TARGET,

@@ -4,7 +4,7 @@ use std::io::{self, Seek, Write};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
-use crate::ir::declaration::Total;
+use crate::ir::declaration::{Declaration, Total};
 use crate::ir::{Arcs, Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 use crate::source::Source;
@@ -58,6 +58,8 @@ pub enum Emit {
     Arcs(ArcTarget),
     /// From the timed motion, one at a time.
     Motion(Parts<Motion>),
+    /// From the timed motion and all that is found out about it.
+    Page(BeginPage),
 }
 
 impl Emit {
@@ -65,7 +67,7 @@ impl Emit {
     pub fn needs_toolpaths(&self) -> bool {
         match self {
             Self::Marker(_) => false,
-            Self::Toolpath(_) | Self::Arcs(_) | Self::Motion(_) => true,
+            Self::Toolpath(_) | Self::Arcs(_) | Self::Motion(_) | Self::Page(_) => true,
         }
     }
 }
@@ -95,6 +97,12 @@ pub struct Outcome<'a> {
     pub declared: &'a [Total],
     /// Warnings that are about some of the pieces.
     pub doubts: &'a [&'a Diagnostic],
+    /// Everything that was said, in the order in which it was found.
+    pub messages: &'a [&'a Diagnostic],
+    /// Single declarations behind the sums of `declared`.
+    pub deviations: &'a [Declaration],
+    /// Whether the verifier judged the setpoints.
+    pub is_judged: bool,
 }
 
 /// The refusals of a target that expresses everything.
@@ -123,6 +131,17 @@ pub trait ArcWriter {
     fn body(&mut self, toolpath: &Toolpath, arcs: &Arcs, out: &mut dyn Output) -> io::Result<()>;
     /// Writes what comes last, and says what the controller makes of all.
     fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate>;
+}
+
+/// Start of a page about a program.
+pub type BeginPage = for<'a> fn(&Context<'a>) -> Box<dyn PageWriter + 'a>;
+
+/// A page about a program: it takes the motion in order, and is written when all is known.
+pub trait PageWriter {
+    /// Takes the motion of a toolpath.
+    fn take(&mut self, motion: &Motion);
+    /// Writes the page. Of a program that was refused before it was planned no motion has come.
+    fn write(&mut self, outcome: Outcome, out: &mut dyn Output) -> io::Result<()>;
 }
 
 /// What a controller that plans for itself makes of a program.

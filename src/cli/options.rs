@@ -13,10 +13,11 @@ use crate::front::{self, Dialect};
 use crate::machine::layers::{LayerUses, NotLayers};
 use crate::machine::patterns::{Patterns, Quantity, Sizes};
 use crate::machine::plot::{Inner, Lines};
-use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
+use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Remarks, Selection, Start, load_given};
 use crate::source::Source;
 use crate::track;
 pub(super) use crate::units::number::counted;
+use crate::units::number::exact;
 
 /// For an option behind those that stand under a heading of their own: it belongs to the command itself.
 pub(super) const NO_HEADING: Option<&str> = None;
@@ -335,6 +336,15 @@ pub(super) fn typed(job: &Job) -> String {
         Mode::Dry => words.push("--dry-run".to_owned()),
         Mode::Frame => words.push("--frame".to_owned()),
     }
+    words.join(" ")
+}
+
+/// What a page prints beside a job, as it is typed; empty when nothing was.
+pub(super) fn remarks(job: &Job) -> String {
+    let Remarks { date, price } = &job.remarks;
+    let mut words = Vec::new();
+    words.extend(date.iter().map(|date| format!("--date {date}")));
+    words.extend(price.iter().map(|price| format!("--rate {}/s --plies {}", exact(price.per_s), price.plies)));
     words.join(" ")
 }
 

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use crate::machine;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
 
 /// What one asks for on the command line.
@@ -67,6 +68,12 @@ impl Pricing {
     /// The price, if costs are asked for.
     pub(super) fn price(self) -> Option<Price> {
         self.rate.map(|rate| Price { rate, plies: self.plies.unwrap_or(1) })
+    }
+}
+
+impl From<Price> for machine::Price {
+    fn from(Price { rate, plies }: Price) -> Self {
+        Self { per_s: rate.per_s, plies }
     }
 }
 

@@ -38,6 +38,7 @@ pub mod patterns;
 mod pen;
 pub mod plot;
 pub mod profile;
+mod remarks;
 mod schema;
 mod selection;
 pub mod sewing;
@@ -68,6 +69,7 @@ pub use order::{Order, OrderPolicy};
 pub use origin::{Axis, Origin};
 pub use path::Fit;
 pub use profile::{FileUnit, MachineProfile};
+pub use remarks::{Price, Remarks};
 pub use schema::schema;
 pub use selection::{Mode, NotNumbers, NotStart, Numbers, Selection, Start};
 pub use sewing::Sewing;
@@ -96,6 +98,8 @@ pub struct Job {
     pub marks: Option<Arc<Marks>>,
     /// Which patterns it cuts.
     pub patterns: patterns::Patterns,
+    /// What a page prints beside it.
+    pub remarks: Remarks,
 }
 
 impl Job {

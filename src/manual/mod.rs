@@ -42,7 +42,7 @@ pub const PAGES: &[Page] = &[
     },
     Page {
         name: "targets",
-        about: "What is written: setpoints, counts, HAL, G-code, cut files, JSON, pictures",
+        about: "What is written: setpoints, counts, HAL, G-code, cut files, JSON, pictures, the page that plays",
         text: include_str!("targets.md"),
     },
     Page {

@@ -52,8 +52,8 @@ use self::judge::Asked;
 use self::program::{Plan, Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::analysis::declare;
-use crate::back::{Context, Emit, Outcome, Proof, SETPOINTS, Target};
-use crate::diagnostic::Diagnostics;
+use crate::back::{Context, Emit, Outcome, PageWriter, Proof, SETPOINTS, Target};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
 use crate::ir::declaration::Total;
@@ -150,6 +150,7 @@ pub fn compile_all(
     }
     let known = diagnostics.iter().len();
     let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
+    let mut pages = Pages::of(products, &context);
     let mut audit = Vec::new();
     let written = rayon::in_place_scope(|scope| {
         // The source is looked at beside all that is done with what was read of it.
@@ -157,7 +158,8 @@ pub fn compile_all(
             let audited = |reading| judge::audited(source, input.dialect, reading, job);
             audit.extend(reading.into_iter().flat_map(audited));
         });
-        write(&context, products, (proofs.beside.then_some(&mut scratch), advance), diagnostics)
+        let beside = proofs.beside.then_some(&mut scratch);
+        write(&context, (products, &mut pages), (beside, advance), diagnostics)
     })?;
     let mut report = Report::of(&input.marker, input.dialect.name).planned(written.program, &input.marker);
     report.declared = declare::totals(&written.declared, &input.marker);
@@ -171,19 +173,38 @@ pub fn compile_all(
         judge::report(verdict, &input.marker, job, diagnostics);
     }
     place::place(diagnostics, known, &input.marker, source, job);
-    finish(&context, products, verdict.as_ref(), &report.declared, diagnostics)?;
+    let known = Known { verdict: verdict.as_ref(), declared: &report.declared, deviations: &written.declared };
+    finish(&context, (products, &mut pages), known, diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
+}
+
+/// Pages about the programs of a compile, one for each product, while they are made.
+struct Pages<'a>(Vec<Option<Box<dyn PageWriter + 'a>>>);
+
+impl<'a> Pages<'a> {
+    fn of(products: &[Product], context: &Context<'a>) -> Self {
+        let begin = |product: &Product| match product.target.emit {
+            Emit::Page(begin) => Some(begin(context)),
+            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Arcs(_) | Emit::Motion(_) => None,
+        };
+        Self(products.iter().map(begin).collect())
+    }
 }
 
 /// Writes all programs but the tails of those that show a verdict; `beside` takes the setpoints that are only judged.
 fn write(
     context: &Context,
-    products: &mut [Product],
+    (products, pages): (&mut [Product], &mut Pages),
     (beside, advance): (Option<&mut SpooledTempFile>, &Advance),
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
-    let mut sinks: Vec<Sink> =
-        products.iter_mut().filter_map(|product| Sink::new(&product.target.emit, context, &mut *product.out)).collect();
+    let mut sinks: Vec<Sink> = Vec::new();
+    for (product, page) in products.iter_mut().zip(&mut pages.0) {
+        match page {
+            Some(page) => sinks.push(Sink::of_page(&mut **page, &mut *product.out)),
+            None => sinks.extend(Sink::new(&product.target.emit, context, &mut *product.out)),
+        }
+    }
     if let Some(beside) = beside {
         sinks.push(Sink::of_motion(&SETPOINTS, beside));
     }
@@ -204,21 +225,36 @@ fn write(
     Ok(written)
 }
 
+/// What is known of programs when they are ended.
+#[derive(Clone, Copy)]
+struct Known<'a> {
+    verdict: Option<&'a Verdict>,
+    declared: &'a [Total],
+    deviations: &'a [Declaration],
+}
+
 /// Ends the programs that show the verdict, and says which of them show what was refused.
 fn finish(
     context: &Context,
-    products: &mut [Product],
-    verdict: Option<&Verdict>,
-    declared: &[Total],
+    (products, pages): (&mut [Product], &mut Pages),
+    Known { verdict, declared, deviations }: Known,
     diagnostics: &Diagnostics,
 ) -> io::Result<()> {
     let findings = verdict.map_or(&[][..], |verdict| &verdict.findings);
     let (refusals, doubts) = (&refused::errors(diagnostics)[..], &refused::doubts(diagnostics)[..]);
-    for Product { target, out, shows_refusal } in products {
+    let messages: &[&Diagnostic] = &diagnostics.iter().collect::<Vec<_>>();
+    let is_judged = verdict.is_some();
+    let outcome = Outcome { findings, refusals, declared, doubts, messages, deviations, is_judged };
+    for (Product { target, out, shows_refusal }, page) in products.iter_mut().zip(&mut pages.0) {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
+        if let Some(page) = page {
+            let mut out = BufWriter::new(&mut **out);
+            page.write(outcome, &mut out)?;
+            out.flush()?;
+        }
         if let Emit::Toolpath(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
-            (parts.tail)(context, Outcome { findings, refusals, declared, doubts }, &mut out)?;
+            (parts.tail)(context, outcome, &mut out)?;
             out.flush()?;
         }
         out.flush()?;

@@ -15,7 +15,7 @@ use super::swings;
 use super::toolpaths::{Toolpaths, Window};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::declare;
-use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, Parts};
+use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, PageWriter, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::check;
@@ -38,13 +38,14 @@ enum Form<'a> {
     Toolpath(&'static Parts<Toolpath>),
     Motion(&'static Parts<Motion>),
     Arcs(&'static ArcTarget, Box<dyn ArcWriter + 'a>),
+    Page(&'a mut (dyn PageWriter + 'a)),
 }
 
 impl<'a> Sink<'a> {
     /// A target's program; `None` when the target needs no toolpaths.
     pub(super) fn new(emit: &'static Emit, context: &Context<'a>, out: &'a mut dyn Medium) -> Option<Self> {
         let form = match emit {
-            Emit::Marker(_) => return None,
+            Emit::Marker(_) | Emit::Page(_) => return None,
             Emit::Toolpath(parts) => Form::Toolpath(parts),
             Emit::Motion(parts) => Form::Motion(parts),
             Emit::Arcs(target) => Form::Arcs(target, (target.begin)(context)),
@@ -57,9 +58,14 @@ impl<'a> Sink<'a> {
         Self { form: Form::Motion(parts), out: BufWriter::new(out) }
     }
 
+    /// A page that takes the timed motion and is written when that was judged.
+    pub(super) fn of_page(page: &'a mut (dyn PageWriter + 'a), out: &'a mut dyn Medium) -> Self {
+        Self { form: Form::Page(page), out: BufWriter::new(out) }
+    }
+
     /// Whether it needs timed motion.
     fn needs_motion(&self) -> bool {
-        matches!(self.form, Form::Motion(_))
+        matches!(self.form, Form::Motion(_) | Form::Page(_))
     }
 
     /// What of a marker or a profile its target cannot express.
@@ -68,13 +74,14 @@ impl<'a> Sink<'a> {
             Form::Toolpath(parts) => (parts.refusals)(context),
             Form::Motion(parts) => (parts.refusals)(context),
             Form::Arcs(target, _) => (target.refusals)(context),
+            Form::Page(_) => Vec::new(),
         }
     }
 
     fn arc_target(&self) -> Option<&'static ArcTarget> {
         match self.form {
             Form::Arcs(target, _) => Some(target),
-            Form::Toolpath(_) | Form::Motion(_) => None,
+            Form::Toolpath(_) | Form::Motion(_) | Form::Page(_) => None,
         }
     }
 }
@@ -175,6 +182,7 @@ pub(super) fn write(
             Form::Toolpath(parts) => (parts.head)(context, out)?,
             Form::Motion(parts) => (parts.head)(context, out)?,
             Form::Arcs(_, writer) => writer.head(out)?,
+            Form::Page(_) => {}
         }
     }
     let (planner, tally) = (Planner::new(job).over(context.marker.moved_on), Tally::default());
@@ -233,7 +241,7 @@ impl Writer<'_, '_, '_> {
         let mut arcs = arcs.into_iter();
         for Sink { form, out } in &mut *self.sinks {
             match form {
-                Form::Motion(_) => {}
+                Form::Motion(_) | Form::Page(_) => {}
                 Form::Toolpath(parts) => {
                     for toolpath in &toolpaths {
                         (parts.body)(toolpath, self.context, out)?;
@@ -259,8 +267,10 @@ impl Writer<'_, '_, '_> {
     fn motion(&mut self, motion: &Motion) -> io::Result<()> {
         self.tally.add(motion);
         for Sink { form, out } in &mut *self.sinks {
-            if let Form::Motion(parts) = form {
-                (parts.body)(motion, self.context, out)?;
+            match form {
+                Form::Motion(parts) => (parts.body)(motion, self.context, out)?,
+                Form::Page(page) => page.take(motion),
+                Form::Toolpath(_) | Form::Arcs(..) => {}
             }
         }
         Ok(())
@@ -289,7 +299,7 @@ impl Writer<'_, '_, '_> {
         }
         for Sink { form, out } in &mut *self.sinks {
             match form {
-                Form::Toolpath(_) => {}
+                Form::Toolpath(_) | Form::Page(_) => {}
                 Form::Motion(parts) => (parts.tail)(self.context, Outcome::default(), out)?,
                 Form::Arcs(_, writer) => written.estimate = Some(writer.tail(out)?),
             }

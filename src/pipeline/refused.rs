@@ -1,4 +1,4 @@
-//! Findings in pictures: the errors of a program that was refused, each at its place, and the doubts about pieces.
+//! Findings in pictures and pages: the errors of a program that was refused, each at its place, and the doubts about pieces.
 
 use std::io::{self, BufWriter, Write};
 
@@ -11,7 +11,7 @@ const MOST: usize = 24;
 
 /// Whether a target draws what the knife would do, and may do so where no program is written.
 pub(super) fn is_picture(target: &Target) -> bool {
-    matches!(target.emit, Emit::Toolpath(_)) && target.proof == Proof::None
+    matches!(target.emit, Emit::Toolpath(_) | Emit::Page(_)) && target.proof == Proof::None
 }
 
 /// The errors that refuse a program; those of the verifier are findings.
@@ -31,15 +31,20 @@ pub(super) fn doubts(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
 /// Draws a marker that was refused before anything was planned.
 pub(super) fn draw(context: &Context, products: &mut [Product], diagnostics: &Diagnostics) -> io::Result<()> {
     let (refusals, doubts) = (errors(diagnostics), doubts(diagnostics));
+    let messages: Vec<&Diagnostic> = diagnostics.iter().collect();
+    let outcome = Outcome { refusals: &refusals, doubts: &doubts, messages: &messages, ..Outcome::default() };
     for Product { target, out, shows_refusal } in products {
-        let Emit::Toolpath(parts) = &target.emit else { continue };
-        if is_picture(target) {
-            let mut out = BufWriter::new(&mut **out);
-            (parts.head)(context, &mut out)?;
-            (parts.tail)(context, Outcome { refusals: &refusals, doubts: &doubts, ..Outcome::default() }, &mut out)?;
-            out.flush()?;
-            *shows_refusal = true;
+        let mut out = BufWriter::new(&mut **out);
+        match &target.emit {
+            Emit::Toolpath(parts) if is_picture(target) => {
+                (parts.head)(context, &mut out)?;
+                (parts.tail)(context, outcome, &mut out)?;
+            }
+            Emit::Page(begin) => begin(context).write(outcome, &mut out)?,
+            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Arcs(_) | Emit::Motion(_) => continue,
         }
+        out.flush()?;
+        *shows_refusal = true;
     }
     Ok(())
 }

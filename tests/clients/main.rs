@@ -10,6 +10,8 @@ mod linuxcnc;
 
 mod patterns;
 
+mod player;
+
 #[cfg(unix)]
 #[path = "../it/support/page.rs"]
 #[expect(dead_code, reason = "commands are read off a page where all of them are run")]

@@ -26,7 +26,9 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("recognise", ASKING),
     ("pass", ASKING),
     ("plan", ASKING),
-    ("back", ASKING),
+    // Pages know nothing of what they show.
+    ("picture", &[]),
+    ("back", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "picture"]),
     // A checker measures for itself what it checks.
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),

@@ -57,7 +57,7 @@ fn parts() -> &'static Parts<Toolpath> {
     let target = TARGETS.iter().find(|target| target.name == "svg").expect("a target named svg");
     match &target.emit {
         Emit::Toolpath(parts) => parts,
-        Emit::Marker(_) | Emit::Arcs(_) | Emit::Motion(_) => panic!("a picture is made from toolpaths"),
+        Emit::Marker(_) | Emit::Arcs(_) | Emit::Motion(_) | Emit::Page(_) => panic!("a picture is made from toolpaths"),
     }
 }
 
@@ -72,7 +72,7 @@ fn picture(marker: &Marker, job: &Job, found: &[Finding]) -> String {
     }
     (parts().tail)(
         &context,
-        Outcome { findings: found, refusals: &[], declared: &DECLARED, doubts: &[&doubt()] },
+        Outcome { findings: found, refusals: &[], declared: &DECLARED, doubts: &[&doubt()], ..Outcome::default() },
         &mut out,
     )
     .expect("a buffer takes all");

@@ -25,7 +25,7 @@ pub(super) fn layer(
     sheet: &Sheet,
     context: &Context,
     marks: &[Mark],
-    Outcome { findings: found, refusals, declared, doubts }: Outcome,
+    Outcome { findings: found, refusals, declared, doubts, .. }: Outcome,
 ) -> String {
     let line = LINE_PX * sheet.px;
     let left = sheet.left + MARGIN_PX * sheet.px;

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::back::Target;
+use crate::back::{Emit, Target};
 use crate::cli::batch::{Shard, Threads};
 use crate::cli::choices::{self, Format};
-use crate::cli::finished::Finished;
+use crate::cli::finished::{Finished, failure};
 use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
-use crate::machine::Job;
+use crate::cli::price::Pricing;
+use crate::machine::{Job, Price, Remarks};
 
 /// Arguments of `cutc compile`.
 #[derive(Debug, Args)]
@@ -93,6 +94,13 @@ pub(in crate::cli) struct Making {
     #[arg(long, value_name = "FILE", help_heading = NO_HEADING)]
     pub(super) meta: Option<PathBuf>,
 
+    /// Date that a page of the target html prints, as typed: no other date stands in it
+    #[arg(long, value_name = "TEXT", help_heading = NO_HEADING)]
+    pub(super) date: Option<String>,
+
+    #[command(flatten)]
+    pub(super) pricing: Pricing,
+
     /// Do not read the program back and judge it; summary and provenance say so
     #[arg(long, help_heading = NO_HEADING)]
     pub(super) no_verify: bool,
@@ -123,6 +131,22 @@ impl Making {
     /// The job, or what is wrong with its profile, its centre line or its marks.
     pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         let planner: Vec<String> = self.planner.iter().map(|name| format!("{}={name}", choices::PLANNER)).collect();
-        self.choice.job_with(&self.reading, &planner)
+        let job = self.choice.job_with(&self.reading, &planner)?;
+        Ok(job.map(|job| Job { remarks: self.remarks(), ..job }))
+    }
+
+    /// What a page prints beside the job.
+    fn remarks(&self) -> Remarks {
+        Remarks { date: self.date.clone(), price: self.pricing.price().map(Price::from) }
+    }
+
+    /// Refuses remarks where no page is written that prints them.
+    pub(in crate::cli) fn check_remarks(&self, targets: &[&Target]) -> anyhow::Result<()> {
+        let has_page = targets.iter().any(|target| matches!(target.emit, Emit::Page(_)));
+        let option = if self.date.is_some() { "--date" } else { "--rate" };
+        if has_page || self.remarks() == Remarks::default() {
+            return Ok(());
+        }
+        Err(failure(format!("`{option}` is printed by a page, and none is written"), "add a page with `-t html`"))
     }
 }

@@ -4,11 +4,11 @@ use std::io::{self, Seek as _};
 use std::path::{Path, PathBuf};
 
 use super::arguments::Making;
-use crate::back::{Proof, Target};
+use crate::back::{Emit, Proof, Target};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::finished::say;
-use crate::cli::options::typed;
+use crate::cli::options::{remarks, typed};
 use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
 use crate::machine::{Job, sha256_of};
@@ -130,11 +130,10 @@ impl Compile<'_> {
         let Self { source, job, .. } = *self;
         let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
         let cut = Some(Cut { declared: is_moved.then_some(declared) });
-        provenance::draft(
-            path,
-            program,
-            &Made { source, job, target: target.name, verified, cut, options: &typed(job) },
-        )
+        let remarks = if matches!(target.emit, Emit::Page(_)) { remarks(job) } else { String::new() };
+        let options = [typed(job), remarks].join(" ");
+        let made = Made { source, job, target: target.name, verified, cut, options: options.trim() };
+        provenance::draft(path, program, &made)
     }
 
     /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.

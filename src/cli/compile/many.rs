@@ -14,7 +14,7 @@ use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
 use crate::cli::finished::{Console, Finished, USAGE, say};
-use crate::cli::options::{Messages, typed};
+use crate::cli::options::{Messages, remarks, typed};
 use crate::cli::{files, report};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
@@ -30,6 +30,7 @@ pub(super) fn run(
     let Arguments { making, messages, format, changed, shard, .. } = arguments;
     let out = making.place();
     let targets = targets_of_many(out, &making.targets)?;
+    making.check_remarks(&targets)?;
     let job = match making.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
@@ -100,7 +101,7 @@ pub(in crate::cli) struct Many<'a> {
 impl<'a> Many<'a> {
     /// What programs of an input are made from.
     pub(in crate::cli) fn made(&self, input: &Input, source: &Source) -> Made {
-        let mut options = vec![typed(self.job)];
+        let mut options = vec![typed(self.job), remarks(self.job)];
         options.extend(self.making.reading.from.map(|dialect| format!("--from {}", dialect.name)));
         let centre = self.job.centre.iter().map(|centre| &centre.source);
         let beside = centre.chain(self.job.marks.iter().map(|marks| marks.source()));

@@ -48,6 +48,7 @@ pub(super) fn one_map() -> anyhow::Error {
 
 /// What `--dump-after` prints.
 fn dump(arguments: &Arguments, file: &Path, pass: &str) -> anyhow::Result<Finished> {
+    arguments.making.check_remarks(&[])?;
     let source = files::read(file)?;
     let job = match arguments.making.job()? {
         Ok(job) => job,

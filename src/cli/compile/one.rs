@@ -29,6 +29,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let beside = arguments.making.beside();
     let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
+    arguments.making.check_remarks(&targets)?;
     if place == Place::Stdout && arguments.format == Format::Json {
         return Err(failure(
             "`-o -` and `--format json` both want standard output",

@@ -63,6 +63,7 @@ impl Settings {
             return Err(one_map());
         }
         let targets = targets_of_many(arguments.making.place(), arguments.making.targets())?;
+        arguments.making.check_remarks(&targets)?;
         let named: Vec<PathBuf> = [profile, centre].into_iter().flatten().map(Path::to_owned).collect();
         let stamps = std::iter::once(stamp).chain(named.iter().map(|path| Stamp::at(path))).collect();
         let read = std::iter::once(file).chain(named).collect();

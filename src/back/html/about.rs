@@ -1,0 +1,120 @@
+//! All that a page is about, and what of it the report and the script both need.
+
+use std::path::Path;
+
+use super::piece::Piece;
+use super::record::Record;
+use crate::back::target::{Context, Outcome};
+use crate::geom::{Point, polyline};
+use crate::ir::Finding;
+use crate::ir::declaration::Declaration;
+use crate::units::S_PER_MIN;
+use crate::units::number::fixed;
+
+/// Single deviations that a page lists; the greatest of them.
+const MOST_DEVIATIONS: usize = 400;
+
+/// All that a page is about.
+#[derive(Clone, Copy)]
+pub(super) struct About<'a> {
+    pub(super) context: &'a Context<'a>,
+    pub(super) record: &'a Record,
+    pub(super) outcome: Outcome<'a>,
+    /// Pieces in cut order.
+    pub(super) pieces: &'a [Piece],
+}
+
+/// Worth of a program, as the page shows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Worth {
+    Verified,
+    NotJudged,
+    Refused,
+}
+
+impl About<'_> {
+    /// Title of the page.
+    pub(super) fn title(&self) -> String {
+        format!("{}: {}", self.file(), self.worth().words())
+    }
+
+    /// Name of the file without its directory.
+    pub(super) fn file(&self) -> String {
+        let name = self.context.source.name();
+        Path::new(name).file_name().map_or_else(|| name.to_owned(), |file| file.to_string_lossy().into_owned())
+    }
+
+    pub(super) fn worth(&self) -> Worth {
+        let Outcome { findings, refusals, is_judged, .. } = self.outcome;
+        if !refusals.is_empty() || findings.iter().any(|finding| !finding.holds()) {
+            Worth::Refused
+        } else if is_judged {
+            Worth::Verified
+        } else {
+            Worth::NotJudged
+        }
+    }
+
+    /// Findings, the worst first: broken rules, then those that come nearest to their limit, then those without one.
+    pub(super) fn findings(&self) -> Vec<&Finding> {
+        let mut findings: Vec<&Finding> = self.outcome.findings.iter().collect();
+        let share = |finding: &Finding| match finding.limit {
+            Some(limit) if limit > 0.0 => finding.worst / limit,
+            Some(_) if finding.holds() => 0.0,
+            Some(_) => f64::INFINITY,
+            None => -1.0,
+        };
+        findings.sort_by(|a, b| a.holds().cmp(&b.holds()).then(share(b).total_cmp(&share(a))));
+        findings
+    }
+
+    /// Declared deviations with the places where they begin, the greatest first.
+    pub(super) fn deviations(&self) -> Vec<(Declaration, Point)> {
+        let marker = self.context.marker;
+        let mut entries = self.outcome.deviations.to_vec();
+        entries.sort_by(|a, b| b.magnitude_mm.total_cmp(&a.magnitude_mm));
+        entries.truncate(MOST_DEVIATIONS);
+        let place = |entry: Declaration| {
+            let points = marker.list.points(marker.cuts[entry.cut as usize].range);
+            (entry, polyline::place(&points, &polyline::stations(&points), entry.from_mm))
+        };
+        entries.into_iter().map(place).collect()
+    }
+
+    /// Time of so many ticks, s.
+    pub(super) fn time(&self, ticks: u64) -> f64 {
+        ticks as f64 * self.context.job.profile.time.period()
+    }
+}
+
+impl Worth {
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Verified => "verified",
+            Self::NotJudged => "not-judged",
+            Self::Refused => "refused",
+        }
+    }
+
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Verified => "verified",
+            Self::NotJudged => "not verified",
+            Self::Refused => "refused, no program was written",
+        }
+    }
+}
+
+/// A time for people, as in `2 min 05.3 s`.
+pub(super) fn clock(seconds: f64) -> String {
+    if seconds < S_PER_MIN {
+        return format!("{} s", fixed(seconds, 1));
+    }
+    let minutes = (seconds / S_PER_MIN).floor();
+    format!("{} min {:0>4} s", fixed(minutes, 0), fixed(seconds - minutes * S_PER_MIN, 1))
+}
+
+/// Whether a place can be drawn.
+pub(super) fn is_finite(point: Point) -> bool {
+    point.x.is_finite() && point.y.is_finite()
+}

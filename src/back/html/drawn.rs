@@ -1,0 +1,84 @@
+//! Lines of the cloth as the page draws them: outlines and notches of pieces, and what is drawn and not cut.
+
+use crate::back::target::Context;
+use crate::geom::Point;
+use crate::ir::marker::{Notch, NotchKind};
+use crate::picture::Columns;
+
+/// Unit of places, mm.
+const UNIT: f64 = 1e-3;
+/// Kinds of lines.
+const CLOSED: i64 = 0;
+const OPEN: i64 = 1;
+const NOTCH: i64 = 2;
+const ASIDE: i64 = 3;
+const HOLE: i64 = 4;
+
+/// Lines, their points one behind the other.
+#[derive(Debug, Default)]
+pub(super) struct Lines {
+    kinds: Vec<i64>,
+    /// The piece that each is of, by its place in the marker; of lines that are not cut the number of their class.
+    parts: Vec<i64>,
+    counts: Vec<i64>,
+    points: Vec<Point>,
+    /// What lines that are not cut were taken for.
+    pub(super) classes: Vec<&'static str>,
+}
+
+impl Lines {
+    pub(super) fn of(context: &Context) -> Self {
+        let mut lines = Self::default();
+        for (part, piece) in (0..).zip(&context.marker.pieces) {
+            for contour in &piece.contours {
+                let kind = if contour.closed { CLOSED } else { OPEN };
+                lines.add(kind, part, context.marker.points(contour));
+            }
+            for notch in &piece.notches {
+                lines.add(NOTCH, part, strokes(notch));
+            }
+            for notch in &piece.outline_notches {
+                lines.add(NOTCH, part, vec![notch.mouth[0], notch.tip, notch.mouth[1]]);
+            }
+            for drill in &piece.drills {
+                lines.add(HOLE, part, vec![drill.at]);
+            }
+        }
+        for (class, vertices) in context.marker.drawing.iter().flat_map(|account| account.aside.each()) {
+            // The way back of a mark lies on the mark.
+            let Some(class) = class else { continue };
+            let known = lines.classes.iter().position(|other| *other == class);
+            let number = known.unwrap_or_else(|| {
+                lines.classes.push(class);
+                lines.classes.len() - 1
+            });
+            lines.add(ASIDE, number as i64, vertices.iter().map(|vertex| vertex.at).collect());
+        }
+        lines
+    }
+
+    fn add(&mut self, kind: i64, part: i64, points: Vec<Point>) {
+        self.kinds.push(kind);
+        self.parts.push(part);
+        self.counts.push(points.len() as i64);
+        self.points.extend(points);
+    }
+
+    /// Adds the columns.
+    pub(super) fn write(self, columns: &mut Columns) {
+        let in_units = |value: f64| (value / UNIT).round() as i64;
+        columns.add("line_kind", 1.0, self.kinds);
+        columns.add("line_part", 1.0, self.parts);
+        columns.add("line_points", 1.0, self.counts);
+        columns.add("line_x", UNIT, self.points.iter().map(|point| in_units(point.x)));
+        columns.add("line_y", UNIT, self.points.iter().map(|point| in_units(point.y)));
+    }
+}
+
+/// A notch that is cut by itself as one line: a crossbar is led to from its tip.
+fn strokes(notch: &Notch) -> Vec<Point> {
+    match notch.kind {
+        NotchKind::Slit => vec![notch.root, notch.tip],
+        NotchKind::T(bar) => vec![notch.root, notch.tip, bar.from, bar.to],
+    }
+}

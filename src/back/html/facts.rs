@@ -1,0 +1,59 @@
+//! Facts that the script of the page reads beside the columns.
+
+use serde_json::{Value, json};
+
+use super::about::{About, is_finite};
+use super::piece::Piece;
+use crate::geom::Extent;
+use crate::ir::verdict::Finding;
+
+/// Decimals of places and times.
+const PER_UNIT: f64 = 1e6;
+
+/// The facts; `classes` are the names of lines that are not cut.
+pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
+    let About { context, record, pieces, .. } = about;
+    let knife = &context.job.profile.knife;
+    let [cut, travel] = record.limits();
+    let findings = about.findings();
+    json!({
+        "period_s": rounded(context.job.profile.time.period()),
+        "ticks": record.ticks(),
+        "peak_ticks": record.peaks.ticks(),
+        "knife": { "width_mm": rounded(knife.width_mm), "tip_mm": rounded(knife.radius()), "heel_mm": rounded(knife.back()) },
+        "limits": { "cut": cut, "travel": travel },
+        "extent": corners(&context.marker.extent()),
+        "aside": classes,
+        "pieces": pieces.iter().map(piece).collect::<Value>(),
+        "findings": findings.iter().map(|found| finding(found)).collect::<Value>(),
+        "deviations": about.deviations().iter().map(|(entry, at)| {
+            let [one, _] = entry.kind.words();
+            json!([one, rounded(entry.magnitude_mm), rounded(at.x), rounded(at.y)])
+        }).collect::<Value>(),
+    })
+}
+
+fn piece(piece: &Piece) -> Value {
+    let Piece { number, name, size, window, extent, .. } = piece;
+    json!({ "number": number, "name": name, "size": size, "window": window, "extent": corners(extent) })
+}
+
+fn finding(finding: &Finding) -> Value {
+    let place = finding.place.filter(|place| is_finite(place.point));
+    json!({
+        "name": finding.rule.name,
+        "holds": finding.holds(),
+        "time_s": place.and_then(|place| place.time).map(rounded),
+        "at": place.map(|place| [place.point.x, place.point.y].map(rounded)),
+    })
+}
+
+/// Left, lower, right and upper edge of a box, mm; null when it is empty.
+fn corners(extent: &Extent) -> Value {
+    let Extent { min, max } = extent;
+    if extent.is_empty() { Value::Null } else { json!([min.x, min.y, max.x, max.y].map(rounded)) }
+}
+
+fn rounded(value: f64) -> f64 {
+    (value * PER_UNIT).round() / PER_UNIT
+}

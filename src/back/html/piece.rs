@@ -1,0 +1,143 @@
+//! Pieces as the page names and counts them.
+
+use super::record::{Record, Sums};
+use crate::back::target::{Context, Outcome};
+use crate::diagnostic::Diagnostic;
+use crate::geom::{Extent, Point};
+use crate::ir::marker::{self, NotchKind};
+use crate::source::Span;
+
+/// What texts of pattern systems begin with that name a piece or its size.
+const NAMES: [&str; 3] = ["piece name", "piece", "name"];
+const SIZES: [&str; 1] = ["size"];
+
+/// A piece in the page.
+#[derive(Debug)]
+pub(super) struct Piece {
+    /// Number in the file, with its copy if there are several.
+    pub(super) number: String,
+    /// Name from its labels; empty when it has none.
+    pub(super) name: String,
+    /// Size from its labels, likewise.
+    pub(super) size: String,
+    /// All texts of the piece, one behind the other.
+    pub(super) texts: String,
+    /// Notches by kind, and holes.
+    pub(super) marks: String,
+    /// Length of its cuts, mm.
+    pub(super) cut: f64,
+    /// What it takes.
+    pub(super) sums: Sums,
+    /// Messages that name it.
+    pub(super) messages: usize,
+    /// Window of a conveyor that it is cut in, from 0; `None` where the cloth lies still.
+    pub(super) window: Option<usize>,
+    /// Box of its lines.
+    pub(super) extent: Extent,
+}
+
+/// All pieces, in cut order.
+pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Vec<Piece> {
+    let stations = context.marker.stations();
+    let mut windows = stations.clone();
+    windows.dedup();
+    let is_moved = stations.iter().any(|&station| station > 0);
+    let pieces = (0..).zip(&context.marker.pieces).zip(&stations);
+    let piece = |((part, piece), station): ((u32, &marker::Piece), &u32)| {
+        let texts = texts(context, piece);
+        let is_about = |message: &&&Diagnostic| is_about(message, piece);
+        Piece {
+            number: piece.name(),
+            name: told(&texts, &NAMES).or_else(|| plain(&texts)).unwrap_or_default(),
+            size: told(&texts, &SIZES).or_else(|| texts.iter().find(|text| is_size(text)).cloned()).unwrap_or_default(),
+            texts: texts.join(" · "),
+            marks: marks(piece),
+            cut: context.marker.cut_length_of(part),
+            sums: record.pieces[part as usize],
+            messages: outcome.messages.iter().filter(is_about).count(),
+            window: windows.iter().position(|window| window == station).filter(|_| is_moved),
+            extent: extent(context, piece),
+        }
+    };
+    pieces.map(piece).collect()
+}
+
+/// Whether a message names a piece.
+fn is_about(message: &Diagnostic, piece: &marker::Piece) -> bool {
+    let is_named = |name: &crate::diagnostic::PieceName| name.number == piece.number && name.copy == piece.copy;
+    message.piece.as_deref().is_some_and(is_named) || message.pieces.contains(&piece.number)
+}
+
+/// The texts of a piece that say something.
+fn texts(context: &Context, piece: &marker::Piece) -> Vec<String> {
+    let letters = context.marker.letters(&context.job.profile.labels);
+    let text = |span: Span| letters.text(context.source.slice(span)).trim().to_owned();
+    let labels = piece.labels.iter().map(|label| text(label.span));
+    let fields = piece.fields.iter().map(|field| format!("{}: {}", char::from(field.letter), text(field.span)));
+    labels.chain(fields).filter(|text| !text.is_empty()).collect()
+}
+
+/// The value behind one of these keys, as in `Size: M`.
+fn told(texts: &[String], keys: &[&str]) -> Option<String> {
+    let value = |text: &String| {
+        let (key, value) = text.split_once(':')?;
+        let is_key = keys.iter().any(|known| key.trim().eq_ignore_ascii_case(known));
+        (is_key && !value.trim().is_empty()).then(|| value.trim().to_owned())
+    };
+    texts.iter().find_map(value)
+}
+
+/// The first text that is neither a key with its value nor a size.
+fn plain(texts: &[String]) -> Option<String> {
+    texts.iter().find(|text| !text.contains(": ") && !is_size(text)).cloned()
+}
+
+/// Whether a text is a size in letters, as in `M` or `2XL`.
+fn is_size(text: &str) -> bool {
+    let letters = text.trim_start_matches(|c: char| c.is_ascii_digit());
+    let stem = letters.trim_start_matches('X');
+    matches!(stem, "S" | "L") || (stem == "M" && stem.len() == text.len())
+}
+
+/// Notches by kind and holes, as in `2 slit, 1 v, 3 drill`.
+fn marks(piece: &marker::Piece) -> String {
+    let of_piece = piece.notches.iter().map(|notch| match notch.kind {
+        NotchKind::Slit => "slit",
+        NotchKind::T(_) => "t",
+    });
+    let drills = piece.drills.iter().map(|_| "drill");
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for word in of_piece.chain(piece.outline_notches.iter().map(marker::OutlineNotch::word)).chain(drills) {
+        match counts.iter_mut().find(|(known, _)| *known == word) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((word, 1)),
+        }
+    }
+    let said: Vec<String> = counts.iter().map(|(word, count)| format!("{count} {word}")).collect();
+    said.join(", ")
+}
+
+fn extent(context: &Context, piece: &marker::Piece) -> Extent {
+    let contours = piece.contours.iter().flat_map(|contour| context.marker.points(contour));
+    let notches = piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]);
+    let points: Vec<Point> = contours.chain(notches).chain(piece.drills.iter().map(|drill| drill.at)).collect();
+    Extent::of(&points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_sizes_are_read_off_labels() {
+        let texts = ["Style: A", "SIZE: 42", "piece name: Front : left", "FRONT"].map(str::to_owned);
+        assert_eq!(told(&texts, &NAMES).as_deref(), Some("Front : left"));
+        assert_eq!(told(&texts, &SIZES).as_deref(), Some("42"));
+        assert_eq!(plain(&texts).as_deref(), Some("FRONT"));
+        assert_eq!(told(&texts, &["colour"]), None);
+        for (text, expected) in [("M", true), ("XXS", true), ("3XL", true), ("S4", false), ("XM", false), ("12", false)]
+        {
+            assert_eq!(is_size(text), expected, "{text}");
+        }
+    }
+}

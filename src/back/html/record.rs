@@ -1,0 +1,205 @@
+//! What a program does, phase by phase, as it comes: the way of the axes, outputs, blocks, and what every piece takes.
+
+use super::fit::{Axes, Fit};
+use super::peaks::{Limits, Peaks};
+use crate::ir::Motion;
+use crate::ir::motion::{Kind, Phase, Poses};
+use crate::ir::toolpath::{Event, Pose};
+use crate::machine::{self, MachineProfile};
+use crate::picture::Columns;
+use crate::units::deg;
+
+/// Time and ways of a program or of a piece of it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sums {
+    /// Ticks by what the machine does, in the order of [`Sums::PARTS`].
+    pub(super) ticks: [u64; 7],
+    /// Way of the C axis with the knife up, mm.
+    pub(super) travel: f64,
+    /// Way of the tip with the knife down, mm.
+    pub(super) cut: f64,
+    /// Times that the knife goes down.
+    pub(super) plunges: usize,
+    /// Length of all overlaps, mm.
+    pub(super) overlaps: f64,
+}
+
+impl Sums {
+    /// What the machine does, in words.
+    pub(super) const PARTS: [&str; 7] =
+        ["cutting", "travelling", "turning", "plunging", "lifting", "drilling", "waiting"];
+
+    fn add(&mut self, phase: &Phase) {
+        let part = match phase.kind {
+            Kind::Cut => 0,
+            Kind::Travel => 1,
+            Kind::Turn => 2,
+            Kind::Plunge => 3,
+            Kind::Lift => 4,
+            Kind::Drill(_) => 5,
+            Kind::Wait | Kind::Event(_) | Kind::Rest => 6,
+        };
+        self.ticks[part] += u64::from(phase.ticks);
+        match phase.kind {
+            Kind::Cut => self.cut += phase.length,
+            Kind::Travel | Kind::Turn => self.travel += phase.length,
+            Kind::Plunge => self.plunges += 1,
+            Kind::Lift | Kind::Drill(_) | Kind::Wait | Kind::Event(_) | Kind::Rest => {}
+        }
+    }
+
+    /// All ticks.
+    pub(super) fn total(&self) -> u64 {
+        self.ticks.iter().sum()
+    }
+}
+
+/// A phase as the page has it.
+#[derive(Debug)]
+struct Stretch {
+    tick: u64,
+    kind: i64,
+    part: u32,
+    station: u32,
+}
+
+/// A phase whose end is not known yet: that is where the next one begins.
+#[derive(Debug)]
+struct Open {
+    first_tick: u64,
+    ticks: u64,
+    /// The setpoints; one where the axes rest.
+    way: Vec<Axes>,
+}
+
+/// The record of a program.
+#[derive(Debug)]
+pub(super) struct Record {
+    tick: u64,
+    /// Limits of axes in cuts and with the knife up.
+    limits: [Limits; 2],
+    open: Option<Open>,
+    fit: Fit,
+    pub(super) peaks: Peaks,
+    stretches: Vec<Stretch>,
+    /// Ticks from which a block is cut.
+    blocks: Vec<[u64; 2]>,
+    /// Sums of all, and of every piece by its place in the marker.
+    pub(super) all: Sums,
+    pub(super) pieces: Vec<Sums>,
+}
+
+impl Record {
+    pub(super) fn new(profile: &MachineProfile, pieces: usize) -> Self {
+        let in_page = |limits: [machine::Limits; 3]| {
+            [0, 1, 2].map(|axis| {
+                let machine::Limits { speed, acceleration, jerk } = limits[axis];
+                [speed, acceleration, jerk].map(|limit| if axis == 2 { deg(limit) } else { limit })
+            })
+        };
+        Self {
+            tick: 0,
+            limits: [in_page(profile.axes.limits()), in_page(profile.axes.travel_limits())],
+            open: None,
+            fit: Fit::default(),
+            peaks: Peaks::new(profile.time.period()),
+            stretches: Vec::new(),
+            blocks: Vec::new(),
+            all: Sums::default(),
+            pieces: vec![Sums::default(); pieces],
+        }
+    }
+
+    /// Setpoints of the program so far.
+    pub(super) fn ticks(&self) -> u64 {
+        self.tick
+    }
+
+    /// Limits of axes in cuts and with the knife up, in mm or degrees and powers of s.
+    pub(super) fn limits(&self) -> &[Limits; 2] {
+        &self.limits
+    }
+
+    /// Takes the motion of a toolpath.
+    pub(super) fn take(&mut self, motion: &Motion) {
+        for phase in &motion.phases {
+            self.phase(phase, motion.part);
+        }
+        let overlaps: f64 = motion.tasks.iter().map(|task| task.front.max(0.0) + task.heel.max(0.0)).sum();
+        self.all.overlaps += overlaps;
+        if let Some(piece) = self.pieces.get_mut(motion.part as usize) {
+            piece.overlaps += overlaps;
+        }
+    }
+
+    fn phase(&mut self, phase: &Phase, part: u32) {
+        self.close(axes(phase.pose(0)));
+        self.all.add(phase);
+        if let Some(piece) = self.pieces.get_mut(part as usize) {
+            piece.add(phase);
+        }
+        let limits = &self.limits[usize::from(!phase.kind.knife_down())];
+        let rests = matches!(phase.poses, Poses::Still(_));
+        let mut way = Vec::with_capacity(if rests { 1 } else { phase.ticks as usize + 1 });
+        for tick in 0..phase.ticks {
+            let at = axes(phase.pose(tick));
+            self.peaks.take(at, limits);
+            if tick == 0 || !rests {
+                way.push(at);
+            }
+        }
+        self.open = Some(Open { first_tick: self.tick, ticks: u64::from(phase.ticks), way });
+        self.stretches.push(Stretch { tick: self.tick, kind: number(phase.kind), part, station: phase.station });
+        for spell in &phase.spells {
+            self.blocks.push([self.tick + u64::from(spell.first), u64::from(spell.block)]);
+        }
+        self.tick += u64::from(phase.ticks);
+    }
+
+    /// Ends the phase that is open where the next one begins.
+    fn close(&mut self, end: Axes) {
+        let Some(Open { first_tick, ticks, mut way }) = self.open.take() else { return };
+        if way.len() == 1 {
+            self.fit.rest(first_tick, ticks, way[0]);
+        } else {
+            way.push(end);
+            self.fit.add(first_tick, &way);
+        }
+    }
+
+    /// Adds the columns.
+    pub(super) fn write(&mut self, columns: &mut Columns) {
+        if let Some(last) = self.open.as_ref().and_then(|open| open.way.last().copied()) {
+            self.close(last);
+        }
+        self.fit.write(columns);
+        columns.add("phase_tick", 1.0, self.stretches.iter().map(|phase| phase.tick.cast_signed()));
+        columns.add("phase_kind", 1.0, self.stretches.iter().map(|phase| phase.kind));
+        columns.add("phase_part", 1.0, self.stretches.iter().map(|phase| i64::from(phase.part)));
+        columns.add("phase_station", 1.0, self.stretches.iter().map(|phase| i64::from(phase.station)));
+        columns.add("block_tick", 1.0, self.blocks.iter().map(|block| block[0].cast_signed()));
+        columns.add("block", 1.0, self.blocks.iter().map(|block| block[1].cast_signed()));
+        self.peaks.write(columns);
+    }
+}
+
+/// A pose as the page has it.
+fn axes(pose: Pose) -> Axes {
+    [pose.centre.x, pose.centre.y, deg(pose.c.0)]
+}
+
+/// Number of what happens in a phase, as the page has it.
+fn number(kind: Kind) -> i64 {
+    match kind {
+        Kind::Rest => 0,
+        Kind::Wait => 1,
+        Kind::Travel => 2,
+        Kind::Turn => 3,
+        Kind::Plunge => 4,
+        Kind::Cut => 5,
+        Kind::Lift => 6,
+        Kind::Event(Event::Stop) => 7,
+        Kind::Event(Event::Advance | Event::AdvanceBy(_)) => 8,
+        Kind::Drill(tool) => 10 + i64::from(tool),
+    }
+}

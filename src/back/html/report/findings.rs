@@ -1,0 +1,157 @@
+//! What is to be looked at: messages, findings of the verifier, declared deviations.
+
+use super::table;
+use crate::back::html::about::{About, is_finite};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::geom::Point;
+use crate::ir::Finding;
+use crate::picture::Markup;
+use crate::units::number::{counted, fixed, short};
+
+/// Most messages that a page lists: people mend the first of them and compile again.
+const MOST_MESSAGES: usize = 200;
+/// Below this, in any unit, a value is rounding of the computation.
+const NOISE_EPSILON: f64 = 1e-8;
+/// A limit is shown in so many percent.
+const PERCENT: f64 = 100.0;
+
+/// A button that moves the player to a place, and to a time if there is one.
+fn jump(out: &mut Markup, at: Point, time: Option<f64>) {
+    let (x, y) = (fixed(at.x, 3), fixed(at.y, 3));
+    let time = time.map(|time| fixed(time, 6));
+    let mut attributes = vec![("type", "button"), ("class", "jump"), ("data-x", x.as_str()), ("data-y", y.as_str())];
+    attributes.extend(time.as_deref().map(|time| ("data-time", time)));
+    let words = match &time {
+        Some(time) => format!("X {} Y {}, {} s", fixed(at.x, 1), fixed(at.y, 1), &time[..time.len() - 3]),
+        None => format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1)),
+    };
+    out.element("button", &attributes, &words);
+}
+
+/// Errors and warnings, the errors first.
+pub(super) fn messages(about: &About, out: &mut Markup) {
+    let mut messages: Vec<&Diagnostic> = about.outcome.messages.to_vec();
+    if messages.is_empty() {
+        return;
+    }
+    messages.sort_by_key(|message| message.code.severity);
+    let count = messages.len();
+    out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
+    if count > MOST_MESSAGES {
+        let words = format!("The first {MOST_MESSAGES} of {}.", counted(count, "message"));
+        out.element("p", &[], &words);
+    }
+    out.open("ol", &[("class", "messages")]);
+    for message in messages.into_iter().take(MOST_MESSAGES) {
+        let severity = match message.code.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        out.open("li", &[("class", severity)]).element("strong", &[], severity).text(" ");
+        out.element("code", &[], message.code.name).text(" ").element("span", &[], &message.message);
+        if let Some(piece) = &message.piece {
+            out.text(" ").element("span", &[("class", "where")], &piece.to_string());
+        }
+        if let Some(&[x, y]) = message.at.as_deref().filter(|at| at.iter().all(|value| value.is_finite())) {
+            jump(out, Point::new(x, y), None);
+        }
+        for hint in &message.hints {
+            out.element("p", &[("class", "hint")], hint);
+        }
+        out.close("li");
+    }
+    out.close("ol").close("section");
+}
+
+/// Findings of the verifier.
+pub(super) fn section(about: &About, out: &mut Markup) {
+    let findings = about.findings();
+    if findings.is_empty() {
+        return;
+    }
+    out.open("section", &[("id", "findings")]).element("h2", &[], "Rules of the verifier");
+    table::open(out, "sortable", &["Rule", "Verdict", "#Worst", "#Limit", "#Of limit", "Where", "Promise"]);
+    for finding in findings {
+        row(finding, out);
+    }
+    table::close(out);
+    out.close("section");
+}
+
+fn row(finding: &Finding, out: &mut Markup) {
+    let Finding { rule, worst, limit, unit, place } = finding;
+    let verdict = match (limit, finding.holds()) {
+        (None, _) => "reported",
+        (Some(_), true) => "holds",
+        (Some(_), false) => "broken",
+    };
+    out.open("tr", &[("class", verdict)]).element("td", &[], rule.name).element("td", &[], verdict);
+    let shown = |value: f64| match value.abs() {
+        noise if noise < NOISE_EPSILON => format!("0 {unit}"),
+        _ if value.is_finite() => format!("{} {unit}", short(value)),
+        _ => "missing".to_owned(),
+    };
+    table::number(out, &shown(*worst), *worst);
+    match limit {
+        Some(limit) => {
+            table::number(out, &shown(*limit), *limit);
+            let share = if *limit > 0.0 { PERCENT * worst / limit } else { 0.0 };
+            let words =
+                if *limit > 0.0 && share.is_finite() { format!("{} %", fixed(share, 1)) } else { String::new() };
+            table::number(out, &words, share);
+        }
+        None => _ = out.element("td", &[("class", "number")], "").element("td", &[("class", "number")], ""),
+    }
+    out.open("td", &[]);
+    if let Some(place) = place.filter(|place| is_finite(place.point)) {
+        jump(out, place.point, place.time);
+    }
+    out.close("td").open("td", &[]).text(rule.about);
+    if !finding.holds() {
+        for line in rule.more.lines().filter(|line| !line.trim().is_empty()) {
+            out.element("p", &[("class", "hint")], line.trim());
+        }
+    }
+    out.close("td").close("tr");
+}
+
+/// Declared deviations with their places.
+pub(super) fn deviations(about: &About, out: &mut Markup) {
+    let entries = about.deviations();
+    if entries.is_empty() {
+        return;
+    }
+    out.open("section", &[("id", "deviations")]).element("h2", &[], "Declared deviations from the drawing");
+    let count = about.outcome.deviations.len();
+    if count > entries.len() {
+        let words = format!("The {} greatest of {count}; the program's .meta.json has all.", entries.len());
+        out.element("p", &[], &words);
+    }
+    table::open(out, "sortable", &["Deviation", "Piece", "#Size, mm", "Where"]);
+    for (entry, at) in entries {
+        let part = about.context.marker.cuts[entry.cut as usize].piece as usize;
+        let [one, _] = entry.kind.words();
+        out.open("tr", &[]).element("td", &[], one).element("td", &[], &about.pieces[part].number);
+        table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
+        out.open("td", &[]);
+        jump(out, at, None);
+        out.close("td").close("tr");
+    }
+    table::close(out);
+    out.close("section");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_without_a_time_is_jumped_to_by_its_place() {
+        let mut out = Markup::default();
+        jump(&mut out, Point::new(1.0, -2.0), None);
+        assert_eq!(
+            out.into_text(),
+            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\">X 1.0 Y -2.0</button>\n"
+        );
+    }
+}

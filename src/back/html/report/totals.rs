@@ -1,0 +1,98 @@
+//! Totals of a job.
+
+use super::table;
+use crate::analysis::area;
+use crate::back::html::about::{About, clock};
+use crate::back::html::record::Sums;
+use crate::ir::declaration::Total;
+use crate::machine::Price;
+use crate::picture::Markup;
+use crate::units::number::{counted, fixed};
+use crate::units::{MM_PER_M, MM2_PER_M2};
+
+const PERCENT: f64 = 100.0;
+
+/// The job in a line.
+pub(super) fn summary(about: &About) -> String {
+    let marker = about.context.marker;
+    let (width, height) = marker.extent().size();
+    let mut said = format!(
+        "{}, {} x {} mm, {} m to cut",
+        counted(marker.pieces.len(), "piece"),
+        fixed(width, 0),
+        fixed(height, 0),
+        fixed(marker.cut_length() / MM_PER_M, 2)
+    );
+    let ticks = about.record.all.total();
+    if ticks > 0 {
+        said.push_str(&format!(", {}", clock(about.time(ticks))));
+    }
+    said
+}
+
+/// The section.
+pub(super) fn section(about: &About, out: &mut Markup) {
+    let marker = about.context.marker;
+    let sums = &about.record.all;
+    let (width, height) = marker.extent().size();
+    let mut rows = vec![
+        ("Pieces", marker.pieces.len().to_string()),
+        ("Cloth", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
+        ("Lines to cut", format!("{} m", fixed(marker.cut_length() / MM_PER_M, 3))),
+    ];
+    if let Some(area) = area(marker, &about.context.job.profile) {
+        let of = width * height;
+        let share =
+            if of > 0.0 { format!(", {} % of the cloth", fixed(PERCENT * area / of, 1)) } else { String::new() };
+        rows.push(("Area of the parts", format!("{} m2{share}", fixed(area / MM2_PER_M2, 4))));
+    }
+    if sums.total() > 0 {
+        rows.push(("Time", clock(about.time(sums.total()))));
+        rows.push(("Way of the knife in the cloth", format!("{} m", fixed(sums.cut / MM_PER_M, 3))));
+        rows.push(("Way with the knife up", format!("{} m", fixed(sums.travel / MM_PER_M, 3))));
+        rows.push(("Plunges", sums.plunges.to_string()));
+        rows.push(("Overlaps past ends of cuts", format!("{} m", fixed(sums.overlaps / MM_PER_M, 3))));
+    }
+    rows.extend(cost(about).map(|cost| ("Cost", cost)));
+    for Total { kind, count, worst_mm, .. } in about.outcome.declared {
+        let [one, many] = kind.words();
+        let name = if *count == 1 { one } else { many };
+        rows.push(("Declared", format!("{count} {name}, at most {} mm", fixed(*worst_mm, 2))));
+    }
+    table::facts(out, "totals", "Totals", &rows);
+    if sums.total() > 0 {
+        spent(about, sums, out);
+    }
+}
+
+/// Cost of the job where its price is known.
+fn cost(about: &About) -> Option<String> {
+    let ticks = about.record.all.total();
+    let Price { per_s, plies } = about.context.job.remarks.price.filter(|_| ticks > 0)?;
+    let marker = about.time(ticks) * per_s;
+    let ply = marker / f64::from(plies);
+    let of = if plies == 1 { "1 ply".to_owned() } else { format!("{plies} plies") };
+    let part = match about.pieces.len() {
+        0 => String::new(),
+        pieces => format!(", {} a part", fixed(ply / pieces as f64, 4)),
+    };
+    Some(format!("{} for {of}: {} a ply{part}", fixed(marker, 2), fixed(ply, 3)))
+}
+
+/// What the time is spent on: a row each, with a bar as long as its share.
+fn spent(about: &About, sums: &Sums, out: &mut Markup) {
+    out.open("section", &[("id", "spent")]).element("h2", &[], "Time");
+    table::open(out, "bars", &["Spent on", "#Time", "#Share", ""]);
+    let total = sums.total() as f64;
+    for (name, &ticks) in Sums::PARTS.iter().zip(&sums.ticks).filter(|(_, ticks)| **ticks > 0) {
+        let (time, share) = (about.time(ticks), ticks as f64 / total);
+        out.open("tr", &[]).element("td", &[], name);
+        table::number(out, &clock(time), time);
+        table::number(out, &format!("{} %", fixed(PERCENT * share, 1)), share);
+        let value = fixed(share, 4);
+        out.open("td", &[]).open("meter", &[("value", &value), ("aria-label", name)]).close("meter").close("td");
+        out.close("tr");
+    }
+    table::close(out);
+    out.close("section");
+}

@@ -1,0 +1,359 @@
+// The cloth: pieces, the trail of what is cut, travels, findings, and the blade.
+
+/** Kinds of lines, as the page numbers them. */
+const LINE = { closed: 0, open: 1, notch: 2, aside: 3, hole: 4 };
+/** Points of a line that are nearer than this on the screen are left out, pixels. */
+const LEAST_STEP = 0.6;
+
+/** @typedef {{kind: number, part: number, first: number, end: number, box: Box}} Line */
+/** @typedef {{travels: boolean, aside: boolean, names: boolean, marks: boolean}} Shown */
+
+/** The context of a canvas. @param {HTMLCanvasElement} canvas */
+function context(canvas) {
+  const found = canvas.getContext("2d");
+  if (!found) throw new Error("this browser draws no canvas");
+  return found;
+}
+
+/**
+ * Makes a canvas as sharp as the screen.
+ * @param {HTMLCanvasElement} canvas @param {number} width @param {number} height
+ */
+function sharpen(canvas, width, height) {
+  const ratio = globalThis.devicePixelRatio || 1;
+  const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+  const to = context(canvas);
+  to.setTransform(ratio, 0, 0, ratio, 0, 0);
+  to.clearRect(0, 0, width, height);
+  return to;
+}
+
+/** A colour of the style. @param {string} name */
+function themed(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
+
+class Cloth {
+  /** @param {Motion} motion @param {Colours} colours @param {View} view */
+  constructor(motion, colours, view) {
+    this.motion = motion;
+    this.colours = colours;
+    this.view = view;
+    this.trail = colours.trail;
+    /** @type {Shown} */
+    this.shown = { travels: true, aside: false, names: true, marks: true };
+    /** Piece that is marked, by its place in the marker; -1 for none. */
+    this.marked = -1;
+    /** Place that is marked, mm. @type {[number, number] | null} */
+    this.spot = null;
+    this.base = element("base", HTMLCanvasElement);
+    this.cut = element("cut", HTMLCanvasElement);
+    this.top = element("top", HTMLCanvasElement);
+    /** Points of the trail that are drawn; -1 when all must be drawn anew. */
+    this.drawn = -1;
+    this.stale = true;
+    this.lines = this.readLines();
+  }
+
+  /** @returns {Line[]} */
+  readLines() {
+    const { line_kind, line_part, line_points, line_x, line_y } = this.motion.columns;
+    let first = 0;
+    return Array.from(line_kind, (kind, i) => {
+      const end = first + line_points[i];
+      /** @type {Box} */
+      const box = [Infinity, Infinity, -Infinity, -Infinity];
+      for (let k = first; k < end; k++) {
+        box[0] = Math.min(box[0], line_x[k]);
+        box[1] = Math.min(box[1], line_y[k]);
+        box[2] = Math.max(box[2], line_x[k]);
+        box[3] = Math.max(box[3], line_y[k]);
+      }
+      const line = { kind, part: line_part[i], first, end, box };
+      first = end;
+      return line;
+    });
+  }
+
+  /** Box of the marker, and of home when there is nothing else. @returns {Box} */
+  get box() { return this.motion.facts.extent ?? [-50, -50, 50, 50]; }
+
+  /** Has all be drawn anew. */
+  renew() { this.stale = true; }
+
+  /** Draws the cloth at a tick. @param {number} tick */
+  draw(tick) {
+    if (this.stale) {
+      this.view.measure();
+      this.drawBase();
+      this.drawn = -1;
+      this.stale = false;
+    }
+    this.drawTrail(tick);
+    this.drawTop(tick);
+  }
+
+  drawBase() {
+    const { view } = this, to = sharpen(this.base, view.width, view.height);
+    const [left, low, right, high] = this.box;
+    to.fillStyle = themed("cloth");
+    to.fillRect(view.px(left) - 8, view.py(high) - 8, (right - left) * view.scale + 16, (high - low) * view.scale + 16);
+    /** Outlines by piece: they are filled together, so that cut-outs stay open. @type {Map<number, Path2D>} */
+    const areas = new Map();
+    for (const line of this.lines) {
+      if (!view.sees(line.box) || (line.kind === LINE.aside && !this.shown.aside)) continue;
+      const path = this.path(line);
+      if (line.kind === LINE.closed) {
+        const area = areas.get(line.part) ?? new Path2D();
+        area.addPath(path);
+        areas.set(line.part, area);
+      }
+      to.lineWidth = line.kind === LINE.notch ? 2 : 1;
+      to.strokeStyle = line.kind === LINE.aside ? themed("aside") : themed("line");
+      to.stroke(path);
+    }
+    for (const [part, area] of areas) {
+      to.fillStyle = this.colours.ofPiece(part);
+      to.globalAlpha = part === this.marked ? 0.42 : 0.13;
+      to.fill(area, "evenodd");
+      to.globalAlpha = 1;
+      if (part === this.marked) {
+        to.lineWidth = 2.5;
+        to.strokeStyle = themed("accent");
+        to.stroke(area);
+      }
+    }
+    this.drawOrigin(to);
+    if (this.shown.names) this.drawNames(to);
+  }
+
+  /** A line as it is drawn on the screen. @param {Line} line */
+  path(line) {
+    const { line_x, line_y } = this.motion.columns, { view } = this, path = new Path2D();
+    if (line.kind === LINE.hole) {
+      path.arc(view.px(line_x[line.first]), view.py(line_y[line.first]), Math.max(2.5, 2 * view.scale), 0, 2 * Math.PI);
+      return path;
+    }
+    let lastX = Infinity, lastY = Infinity;
+    for (let i = line.first; i < line.end; i++) {
+      const x = view.px(line_x[i]), y = view.py(line_y[i]);
+      if (i > line.first && i < line.end - 1 && Math.abs(x - lastX) + Math.abs(y - lastY) < LEAST_STEP) continue;
+      if (i === line.first) path.moveTo(x, y); else path.lineTo(x, y);
+      [lastX, lastY] = [x, y];
+    }
+    if (line.kind === LINE.closed) path.closePath();
+    return path;
+  }
+
+  /** The origin of the table and the directions of its axes. @param {CanvasRenderingContext2D} to */
+  drawOrigin(to) {
+    const x = this.view.px(0), y = this.view.py(0);
+    to.strokeStyle = to.fillStyle = themed("quiet");
+    to.lineWidth = 1;
+    to.font = "11px system-ui, sans-serif";
+    to.beginPath();
+    to.moveTo(x, y - 22);
+    to.lineTo(x, y);
+    to.lineTo(x + 22, y);
+    to.stroke();
+    to.textAlign = "left";
+    to.textBaseline = "middle";
+    to.fillText("X", x + 25, y);
+    to.textAlign = "center";
+    to.fillText("Y", x, y - 29);
+  }
+
+  /** @param {CanvasRenderingContext2D} to */
+  drawNames(to) {
+    const { view } = this;
+    to.textAlign = "center";
+    to.textBaseline = "middle";
+    to.fillStyle = themed("ink");
+    this.motion.facts.pieces.forEach(piece => {
+      if (!piece.extent || !view.sees(piece.extent)) return;
+      const [left, low, right, high] = piece.extent;
+      const wide = (right - left) * view.scale, tall = (high - low) * view.scale;
+      if (wide < 18 || tall < 14) return;
+      const x = view.px((left + right) / 2), y = view.py((low + high) / 2);
+      const name = piece.name && piece.name !== piece.number && tall > 40 ? piece.name : "";
+      to.font = "600 13px system-ui, sans-serif";
+      to.fillText(piece.number, x, name ? y - 8 : y);
+      to.font = "11px system-ui, sans-serif";
+      if (name && to.measureText(name).width < wide - 6) to.fillText(name, x, y + 8);
+    });
+  }
+
+  /** Draws what was cut up to a tick; goes on from what is drawn where it can. @param {number} tick */
+  drawTrail(tick) {
+    const { trail, view } = this;
+    const end = tick < (trail.tick[0] ?? Infinity) ? 0 : lastUpTo(trail.tick, tick) + 1;
+    let to = context(this.cut);
+    if (this.drawn < 0 || end < this.drawn) {
+      to = sharpen(this.cut, view.width, view.height);
+      this.drawn = 0;
+    }
+    if (end === this.drawn) return;
+    const of = this.colours.ofTrail(), { table } = this.colours;
+    to.lineWidth = 2.2;
+    to.lineCap = to.lineJoin = "round";
+    for (const stroke of trail.strokes) {
+      if (stroke.end <= this.drawn) continue;
+      if (stroke.first >= end) break;
+      if (!view.sees(stroke.box)) continue;
+      const from = Math.max(stroke.first, this.drawn - 1), until = Math.min(stroke.end, end);
+      this.drawStroke(to, from, until, i => of ? table[of[i]] : this.colours.ofPiece(stroke.part));
+    }
+    this.drawn = end;
+  }
+
+  /**
+   * Draws points of the trail in the colours of their chords.
+   * @param {CanvasRenderingContext2D} to @param {number} from @param {number} until One past the last.
+   * @param {(i: number) => string} colour
+   */
+  drawStroke(to, from, until, colour) {
+    const { x, y } = this.trail, { view } = this;
+    let lastX = view.px(x[from]), lastY = view.py(y[from]), now = "";
+    for (let i = from + 1; i < until; i++) {
+      const toX = view.px(x[i]), toY = view.py(y[i]), next = colour(i);
+      if (next === now && i < until - 1 && Math.abs(toX - lastX) + Math.abs(toY - lastY) < LEAST_STEP) continue;
+      if (next !== now) {
+        if (now) to.stroke();
+        to.strokeStyle = now = next;
+        to.beginPath();
+        to.moveTo(lastX, lastY);
+      }
+      to.lineTo(toX, toY);
+      [lastX, lastY] = [toX, toY];
+    }
+    if (now) to.stroke();
+  }
+
+  /** Draws what moves: travels, marks, the blade. @param {number} tick */
+  drawTop(tick) {
+    const to = sharpen(this.top, this.view.width, this.view.height);
+    if (this.shown.travels) this.drawTravels(to, tick);
+    if (this.shown.marks) this.drawMarks(to);
+    this.drawTip(to, tick);
+    this.drawBlade(to, tick);
+  }
+
+  /** @param {CanvasRenderingContext2D} to @param {number} tick */
+  drawTravels(to, tick) {
+    const { phase_kind, phase_tick } = this.motion.columns, { view } = this;
+    to.strokeStyle = themed("travel");
+    to.lineWidth = 1;
+    to.setLineDash([5, 4]);
+    to.beginPath();
+    for (let phase = 0; phase < phase_kind.length && phase_tick[phase] <= tick; phase++) {
+      if (phase_kind[phase] !== KIND.travel) continue;
+      const [fromX, fromY] = this.motion.blade(phase_tick[phase], 0);
+      const [toX, toY] = this.motion.blade(Math.min(tick, (phase_tick[phase + 1] ?? tick) - 1e-6), 0);
+      to.moveTo(view.px(fromX), view.py(fromY));
+      to.lineTo(view.px(toX), view.py(toY));
+    }
+    to.stroke();
+    to.setLineDash([]);
+  }
+
+  /** @param {CanvasRenderingContext2D} to */
+  drawMarks(to) {
+    const { view } = this, { findings, deviations } = this.motion.facts;
+    to.strokeStyle = themed("declared");
+    to.lineWidth = 1.2;
+    for (const [, , x, y] of deviations) {
+      if (!view.sees([x, y, x, y])) continue;
+      const px = view.px(x), py = view.py(y);
+      to.beginPath();
+      for (const [dx, dy] of [[4, 0], [0, 4], [-4, 0], [0, -4]]) to.lineTo(px + dx, py + dy);
+      to.closePath();
+      to.stroke();
+    }
+    for (const { holds, at } of findings) {
+      if (!at || holds) continue;
+      to.strokeStyle = themed("bad");
+      to.lineWidth = 2.5;
+      to.beginPath();
+      to.arc(view.px(at[0]), view.py(at[1]), 12, 0, 2 * Math.PI);
+      to.stroke();
+    }
+    if (this.spot) {
+      const px = view.px(this.spot[0]), py = view.py(this.spot[1]);
+      to.strokeStyle = themed("accent");
+      to.lineWidth = 2;
+      to.beginPath();
+      to.arc(px, py, 16, 0, 2 * Math.PI);
+      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+        to.moveTo(px + 11 * dx, py + 11 * dy);
+        to.lineTo(px + 21 * dx, py + 21 * dy);
+      }
+      to.stroke();
+    }
+  }
+
+  /**
+   * Draws the stretch of the cut between the last point of the trail and the blade.
+   * @param {CanvasRenderingContext2D} to @param {number} tick
+   */
+  drawTip(to, tick) {
+    const { trail, view } = this, phase = this.motion.phase(tick), last = this.drawn - 1;
+    if (this.motion.columns.phase_kind[phase] !== KIND.cut || last < 0) return;
+    const [x, y] = this.motion.blade(tick, this.motion.facts.knife.tip_mm);
+    const of = this.colours.ofTrail();
+    to.strokeStyle = of ? this.colours.table[of[last]] : this.colours.ofPiece(this.motion.columns.phase_part[phase]);
+    to.lineWidth = 2.2;
+    to.lineCap = "round";
+    to.beginPath();
+    to.moveTo(view.px(trail.x[last]), view.py(trail.y[last]));
+    to.lineTo(view.px(x), view.py(y));
+    to.stroke();
+  }
+
+  /**
+   * The blade seen from above, from heel to tip: filled when it is down, hollow when it is up.
+   * @param {CanvasRenderingContext2D} to @param {number} tick
+   */
+  drawBlade(to, tick) {
+    const { motion, view } = this, { tip_mm, heel_mm } = motion.facts.knife;
+    const kind = motion.columns.phase_kind[motion.phase(tick)], down = kind === KIND.plunge || kind === KIND.cut;
+    const [x, y] = motion.blade(tick, 0), angle = -motion.at(tick).c * Math.PI / 180;
+    to.save();
+    to.translate(view.px(x), view.py(y));
+    to.strokeStyle = themed(down ? "bad" : "ink");
+    to.lineWidth = 1.2;
+    to.beginPath();
+    to.arc(0, 0, 13, 0, 2 * Math.PI);
+    to.stroke();
+    to.rotate(angle);
+    const tip = Math.max(tip_mm * view.scale, tip_mm > 0 ? 1 : 0), heel = heel_mm * view.scale;
+    const half = Math.max(1.6, 0.1 * (tip + heel)), shoulder = tip - 0.35 * (tip + heel);
+    to.beginPath();
+    const outline = [[tip, 0], [shoulder, half], [-heel, 0.6 * half], [-heel, -0.6 * half], [shoulder, -half]];
+    for (const [along, across] of outline) to.lineTo(along, across);
+    to.closePath();
+    to.fillStyle = themed(down ? "bad" : "paper");
+    to.fill();
+    to.stroke();
+    to.beginPath();
+    to.moveTo(13, 0);
+    to.lineTo(19, 0);
+    to.stroke();
+    to.beginPath();
+    to.arc(0, 0, 1.6, 0, 2 * Math.PI);
+    to.fillStyle = themed(down ? "paper" : "ink");
+    to.fill();
+    to.restore();
+  }
+
+  /**
+   * The piece at a place of the window, by its place in the marker; -1 when there is none.
+   * @param {number} px @param {number} py
+   */
+  pieceAt(px, py) {
+    const to = context(this.base), ratio = globalThis.devicePixelRatio || 1;
+    const hit = this.lines.filter(line => line.kind === LINE.closed && this.view.sees(line.box));
+    const inside = hit.filter(line => to.isPointInPath(this.path(line), px * ratio, py * ratio));
+    const size = (/** @type {Line} */ line) => (line.box[2] - line.box[0]) * (line.box[3] - line.box[1]);
+    inside.sort((a, b) => size(a) - size(b));
+    return inside[0]?.part ?? -1;
+  }
+}

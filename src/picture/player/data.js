@@ -1,0 +1,75 @@
+// Facts and columns of the page, as they were written.
+
+/** @typedef {[number, number, number, number]} Box Left, lower, right and upper edge, mm. */
+/** @typedef {{number: string, name: string, size: string, window: number | null, extent: Box | null}} Piece */
+/** @typedef {{name: string, holds: boolean, time_s: number | null, at: [number, number] | null}} Finding */
+/** @typedef {[string, number, number, number]} Deviation Kind, size, X and Y, mm. */
+/**
+ * @typedef {object} Facts
+ * @property {number} period_s
+ * @property {number} ticks
+ * @property {number} peak_ticks
+ * @property {{width_mm: number, tip_mm: number, heel_mm: number}} knife
+ * @property {{cut: number[][], travel: number[][]}} limits Speed, acceleration and jerk of X, Y (mm) and C (degrees).
+ * @property {Box | null} extent
+ * @property {string[]} aside
+ * @property {Piece[]} pieces
+ * @property {Finding[]} findings
+ * @property {Deviation[]} deviations
+ * @property {[string, number, number][]} columns Name, length and unit.
+ */
+/** @typedef {Record<string, Float64Array>} Columns */
+
+/** An element of the page. @template {HTMLElement} T @param {string} id @param {new () => T} type @returns {T} */
+function element(id, type) {
+  const found = document.getElementById(id);
+  if (!(found instanceof type)) throw new Error(`the page has no ${id}`);
+  return found;
+}
+
+/** Bytes behind base64 and deflate. @param {string} text @returns {Promise<Uint8Array>} */
+async function unpack(text) {
+  const packed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/**
+ * Columns of differences, each in groups of seven bits, as numbers.
+ * @param {Uint8Array} bytes @param {[string, number, number][]} names @returns {Columns}
+ */
+function readColumns(bytes, names) {
+  /** @type {Columns} */
+  const columns = {};
+  let at = 0;
+  for (const [name, count, unit] of names) {
+    const column = new Float64Array(count);
+    let sum = 0;
+    for (let i = 0; i < count; i++) {
+      let value = 0, weight = 1;
+      for (;;) {
+        const byte = bytes[at++];
+        value += (byte & 0x7f) * weight;
+        if (byte < 0x80) break;
+        weight *= 128;
+      }
+      sum += value % 2 ? -(value + 1) / 2 : value / 2;
+      column[i] = sum * unit;
+    }
+    columns[name] = column;
+  }
+  return columns;
+}
+
+/**
+ * Place of the last number of a sorted column that is at most `value`; 0 when all are greater.
+ * @param {Float64Array} column @param {number} value
+ */
+function lastUpTo(column, value) {
+  let low = 0, high = column.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (column[middle] <= value) low = middle; else high = middle;
+  }
+  return low;
+}

@@ -1,0 +1,48 @@
+// The start of the page.
+
+/** Starts the player of a page that has one. */
+async function start() {
+  makeSortable();
+  const facts = /** @type {Facts} */ (JSON.parse(element("facts", HTMLScriptElement).text));
+  if (!document.getElementById("player")) return;
+  if (typeof DecompressionStream === "undefined") {
+    element("loading", HTMLElement).textContent = "This browser is too old to play the cutting; the report is below.";
+    return;
+  }
+  const bytes = await unpack(element("columns", HTMLScriptElement).text);
+  const motion = new Motion(facts, readColumns(bytes, facts.columns));
+  const player = new Player(motion, new Colours(motion, motion.trail()));
+  connect(player);
+  linkPieces(part => player.goToPiece(part, true));
+  linkPlaces((x, y, time) => player.goToPlace(x, y, time));
+  element("loading", HTMLElement).hidden = true;
+  player.setMode("piece");
+  player.fit();
+  let fitted = player.view.scale;
+  new ResizeObserver(() => {
+    // A window that shows the whole goes on showing it.
+    if (player.view.scale === fitted) {
+      player.fit();
+      fitted = player.view.scale;
+    }
+    player.renew();
+  }).observe(element("cloth", HTMLElement));
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => player.renew());
+  }
+  // What is printed is drawn for paper, whole and at once.
+  addEventListener("beforeprint", () => {
+    player.cloth.renew();
+    player.cloth.draw(player.tick);
+    player.charts.renew();
+    player.charts.draw(player.tick, false);
+  });
+  addEventListener("afterprint", () => player.renew());
+  Object.assign(globalThis, { cutc: { facts, motion, player } });
+}
+
+start().catch(error => {
+  const place = document.getElementById("loading");
+  if (place) place.textContent = `The page cannot be played: ${error}`;
+  throw error;
+});

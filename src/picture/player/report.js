@@ -1,0 +1,74 @@
+// The report: tables that are sorted, rows that lead to the cloth.
+
+/**
+ * Value of a cell to sort by: its number, or its text.
+ * @param {HTMLTableRowElement} row @param {number} column @returns {number | string}
+ */
+function sortValue(row, column) {
+  const cell = row.cells[column];
+  return cell.dataset.value === undefined ? cell.textContent?.trim() ?? "" : Number(cell.dataset.value);
+}
+
+/**
+ * Order of two rows by a column; texts as people order them, with numbers in them as numbers.
+ * @param {HTMLTableRowElement} a @param {HTMLTableRowElement} b @param {number} column
+ */
+function byColumn(a, b, column) {
+  const [x, y] = [sortValue(a, column), sortValue(b, column)];
+  if (typeof x === "number" && typeof y === "number") return x - y;
+  return String(x).localeCompare(String(y), "en", { numeric: true });
+}
+
+/** Has every head of a sortable table sort by its column, up and down in turn. */
+function makeSortable() {
+  for (const table of document.querySelectorAll("table.sortable")) {
+    if (!(table instanceof HTMLTableElement)) continue;
+    const body = table.tBodies[0];
+    const heads = [...table.querySelectorAll("thead th")];
+    heads.forEach((head, column) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = head.textContent;
+      head.replaceChildren(button);
+      button.addEventListener("click", () => {
+        const down = head.getAttribute("aria-sort") === "ascending";
+        heads.forEach(other => other.removeAttribute("aria-sort"));
+        head.setAttribute("aria-sort", down ? "descending" : "ascending");
+        const rows = [...body.rows].sort((a, b) => byColumn(a, b, column) * (down ? -1 : 1));
+        body.append(...rows);
+      });
+    });
+  }
+}
+
+/** Has a row of the table of pieces lead to its piece. @param {(part: number) => void} go */
+function linkPieces(go) {
+  for (const row of document.querySelectorAll("#pieces tbody tr")) {
+    if (!(row instanceof HTMLTableRowElement)) continue;
+    const part = Number(row.dataset.part);
+    row.tabIndex = 0;
+    row.addEventListener("click", () => go(part));
+    row.addEventListener("keydown", event => {
+      if (event.key === "Enter") go(part);
+    });
+  }
+}
+
+/** Marks the row of a piece. @param {number} part */
+function markRow(part) {
+  for (const row of document.querySelectorAll("#pieces tbody tr")) {
+    if (row instanceof HTMLTableRowElement) row.classList.toggle("marked", Number(row.dataset.part) === part);
+  }
+}
+
+/**
+ * Has every place of the report lead to the player.
+ * @param {(x: number, y: number, time: number | null) => void} go
+ */
+function linkPlaces(go) {
+  for (const button of document.querySelectorAll("button.jump")) {
+    if (!(button instanceof HTMLButtonElement)) continue;
+    const { x, y, time } = button.dataset;
+    button.addEventListener("click", () => go(Number(x), Number(y), time === undefined ? null : Number(time)));
+  }
+}

@@ -1,0 +1,121 @@
+"""Leads the player of a page: browser, page, setpoints. Says what is wrong and ends with 1."""
+
+import csv
+import random
+import sys
+
+from browser import Browser
+
+#: How far the page may be from the setpoints, mm and degrees.
+PROMISED = 0.01
+
+
+def check(holds, words):
+    """Ends where something does not hold."""
+    if not holds:
+        raise SystemExit(words)
+
+
+def places(browser, rows):
+    """The page is where the setpoints are at random times."""
+    dice = random.Random(7)
+    for tick in [0, len(rows) - 1] + [dice.randrange(len(rows)) for _ in range(20)]:
+        row = rows[tick]
+        found = browser.evaluate(f"Object.values(cutc.motion.at({float(row['t_s'])} / cutc.motion.period))")
+        for axis, value in zip(["x_mm", "y_mm", "c_deg"], found):
+            check(abs(value - float(row[axis])) <= PROMISED, f"tick {tick}: {axis} {value} instead of {row[axis]}")
+
+
+def ways(browser):
+    """It plays, is scrubbed, and goes from cut to cut and from piece to piece."""
+    browser.evaluate("cutc.player.seek(0); document.activeElement.blur()")
+    browser.click("#play")
+    browser.wait("cutc.player.tick * cutc.motion.period > 0.2")
+    check(browser.evaluate("document.getElementById('play').textContent") == "Pause", "the button says what it does")
+    browser.press(" ", "Space")
+    check(not browser.evaluate("cutc.player.playing"), "the space bar on the button pauses")
+    tick = browser.evaluate("cutc.player.tick")
+    browser.settle()
+    check(browser.evaluate("cutc.player.tick") == tick, "it stands still")
+    browser.evaluate("const s = document.getElementById('scrub'); s.value = s.max / 2; s.dispatchEvent(new Event('input'))")
+    check(abs(browser.evaluate("cutc.player.tick / cutc.motion.end") - 0.5) < 0.01, "it is scrubbed")
+    browser.evaluate("document.activeElement.blur()")
+    browser.press("Home")
+    check(browser.evaluate("cutc.player.tick") == 0, "Home is the start")
+    starts = browser.evaluate("cutc.motion.cuts.map(phase => cutc.motion.start(phase))")
+    for start in starts[:3]:
+        browser.press("ArrowRight")
+        check(browser.evaluate("cutc.player.tick") == start, "an arrow goes to the next cut")
+    pieces = browser.evaluate("cutc.motion.pieces.map(phase => cutc.motion.start(phase))")
+    browser.press("ArrowRight", shift=True)
+    check(browser.evaluate("cutc.player.tick") == pieces[1], "with Shift to the next piece")
+    browser.press(".")
+    check(browser.evaluate("cutc.player.tick") == pieces[1] + 1, "a point goes on by a cycle")
+    browser.press("End")
+    check(browser.evaluate("cutc.player.tick") == browser.evaluate("cutc.motion.end"), "End is the end")
+    browser.press("]")
+    check(browser.evaluate("cutc.player.rate") == 2, "a bracket is faster")
+
+
+def cloth(browser):
+    """The cloth is zoomed and moved, and shows what is cut."""
+    browser.press("0")
+    before = browser.evaluate("cutc.player.view.scale")
+    browser.press("+")
+    check(browser.evaluate("cutc.player.view.scale") > before, "plus is larger")
+    at = browser.evaluate("[cutc.player.view.x, cutc.player.view.y]")
+    browser.press("d")
+    check(browser.evaluate("cutc.player.view.x") > at[0], "a key moves the cloth")
+    browser.press("0")
+    drawn = ("(() => { const c = document.getElementById('cut'); const d = c.getContext('2d').getImageData(0, 0, c.width,"
+             " c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; })()")
+    amounts = []
+    for key in ["Home", "End"]:
+        browser.press(key)
+        amounts.append(browser.evaluate(drawn))
+    check(amounts[0] == 0 and amounts[1] > 500, f"the trail grows: {amounts}")
+    for mode in ["order", "speed", "axis", "heading", "piece"]:
+        browser.evaluate(f"cutc.player.setMode('{mode}')")
+        browser.settle()
+        check(browser.evaluate(drawn) > 500, f"the trail is drawn by {mode}")
+
+
+def report(browser):
+    """Tables are sorted, rows and places lead to the player."""
+    numbers = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.dataset.part))"
+    order = browser.evaluate(numbers)
+    browser.click("#pieces thead th:nth-child(6) button")
+    cuts = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.cells[5].dataset.value))"
+    sorted_up = browser.evaluate(cuts)
+    check(sorted_up == sorted(sorted_up) and browser.evaluate(numbers) != order, "the table is sorted")
+    browser.click("#pieces thead th:nth-child(6) button")
+    check(browser.evaluate(cuts) == sorted_up[::-1], "and the other way round")
+    part = browser.evaluate(numbers)[0]
+    browser.click("#pieces tbody tr:first-child td:nth-child(2)")
+    check(browser.evaluate("cutc.player.cloth.marked") == part, "a row marks its piece")
+    check(browser.evaluate("document.querySelector('tr.marked').dataset.part") == str(part), "and is marked itself")
+    browser.click("#findings button.jump[data-time]")
+    time = float(browser.evaluate("document.querySelector('#findings button.jump[data-time]').dataset.time"))
+    found = browser.evaluate("cutc.player.tick * cutc.motion.period")
+    check(abs(found - time) < 1e-6, f"a place leads to its time: {found} instead of {time}")
+    check(browser.evaluate("scrollY < innerHeight"), "and to the player")
+
+
+def main(program, page, setpoints):
+    """Everything, on one page."""
+    with open(setpoints, encoding="ascii") as file:
+        rows = list(csv.DictReader(file))
+    browser = Browser(program)
+    browser.open(page)
+    for step in [lambda: places(browser, rows), lambda: ways(browser), lambda: cloth(browser), lambda: report(browser)]:
+        step()
+    for width, height in [(390, 844), (1400, 900)]:
+        browser.size(width, height)
+        browser.settle()
+        wide = browser.evaluate("document.documentElement.scrollWidth")
+        check(wide <= width, f"the page is {wide} pixels wide on a screen of {width}")
+    check(not browser.said, f"the console says {browser.said}")
+    browser.close()
+
+
+main(*sys.argv[1:])

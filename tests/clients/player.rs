@@ -1,0 +1,43 @@
+//! Pages are opened in headless Chromium, which is led by a script; their scripts are checked by the compiler of
+//! TypeScript.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::{compile, is_there};
+
+/// The names under which Chromium is installed.
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Chromium, if it is there.
+fn browser() -> Option<&'static str> {
+    let runs = |name: &&&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    let found = BROWSERS.iter().find(runs).copied();
+    is_there("chromium", Command::new(found.unwrap_or(BROWSERS[0])).arg("--version")).then_some(found)?
+}
+
+#[test]
+fn chromium_plays_a_page_as_its_setpoints_are() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().expect("a directory");
+    compile("markers/metric-four-pieces.cut", "csv,html", folder.path());
+    let script = root().join("tests/clients/player.py");
+    let mut lead = Command::new("python3");
+    lead.arg(script).args([browser, "metric-four-pieces.html", "metric-four-pieces.csv"]).current_dir(folder.path());
+    let led = lead.output().expect("python3 starts");
+    assert!(led.status.success(), "{}{}", String::from_utf8_lossy(&led.stdout), String::from_utf8_lossy(&led.stderr));
+}
+
+#[test]
+fn the_types_of_the_player_are_sound() {
+    let mut probe = Command::new("tsc");
+    if !is_there("tsc", probe.arg("--version")) {
+        return;
+    }
+    let checked = Command::new("tsc").arg("-p").arg(root().join("src/picture/player")).output().expect("tsc starts");
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stdout));
+}

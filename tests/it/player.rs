@@ -1,0 +1,210 @@
+//! The page that plays a program: what it may run, that texts stay texts, and that it tells what the setpoints tell.
+
+use std::collections::BTreeMap;
+use std::process::Output;
+
+use cutc::machine::sha256_hex;
+use serde_json::Value;
+
+use crate::support::room::{DONE, FAULTY, Room, USAGE};
+
+/// A square with a slit and a label that is markup, a short line and a drill.
+const HOSTILE: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*X100Y100*M31*</script><img src=x onerror=alert(1)>*\
+                       N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M0*";
+/// How far a place of the page may be from the setpoint, mm and degrees.
+const PROMISED: f64 = 0.01;
+
+/// What stands between two texts.
+fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {
+    let rest = text.split_once(start).unwrap_or_else(|| panic!("no {start}")).1;
+    rest.split_once(end).unwrap_or_else(|| panic!("no {end}")).0
+}
+
+/// Bytes of base64.
+fn unbase64(text: &str) -> Vec<u8> {
+    let value = |letter: u8| match letter {
+        b'A'..=b'Z' => letter - b'A',
+        b'a'..=b'z' => letter - b'a' + 26,
+        b'0'..=b'9' => letter - b'0' + 52,
+        b'+' => 62,
+        b'/' => 63,
+        _ => panic!("{letter} is no letter of base64"),
+    };
+    let letters: Vec<u8> = text.trim().trim_end_matches('=').bytes().map(value).collect();
+    let group = |four: &[u8]| {
+        let bits = four.iter().fold(0_u32, |bits, &value| bits << 6 | u32::from(value)) << (6 * (4 - four.len()));
+        bits.to_be_bytes()[1..four.len()].to_vec()
+    };
+    letters.chunks(4).flat_map(group).collect()
+}
+
+/// A page as its script reads it.
+struct Page {
+    text: String,
+    facts: Value,
+    columns: BTreeMap<String, Vec<f64>>,
+}
+
+impl Page {
+    fn new(text: String) -> Self {
+        let facts: Value = serde_json::from_str(between(&text, "id=\"facts\">", "</script>")).expect("JSON");
+        let packed = unbase64(between(&text, "id=\"columns\">", "</script>"));
+        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(&packed).expect("deflated");
+        let (mut rest, mut columns) = (&bytes[..], BTreeMap::new());
+        for column in facts["columns"].as_array().expect("a list") {
+            let unit = column[2].as_f64().expect("a unit");
+            let mut sum = 0;
+            let mut next = || {
+                let length = 1 + rest.iter().position(|byte| byte & 0x80 == 0).expect("a last byte");
+                let (number, after) = rest.split_at(length);
+                rest = after;
+                let value = number.iter().rev().fold(0_i64, |value, byte| value << 7 | i64::from(byte & 0x7f));
+                sum += (value >> 1) ^ -(value & 1);
+                sum as f64 * unit
+            };
+            let numbers = (0..column[1].as_u64().expect("a length")).map(|_| next()).collect();
+            columns.insert(column[0].as_str().expect("a name").to_owned(), numbers);
+        }
+        assert!(rest.is_empty(), "{} bytes are of no column", rest.len());
+        Self { text, facts, columns }
+    }
+
+    fn of(room: &Room, name: &str) -> Self {
+        Self::new(room.text(name))
+    }
+
+    /// X, Y in mm and C in degrees at a tick, by the cubic between the knots about it.
+    fn at(&self, tick: f64) -> [f64; 3] {
+        let ticks = &self.columns["tick"];
+        let i = ticks.partition_point(|&knot| knot <= tick).clamp(1, ticks.len() - 1) - 1;
+        let span = ticks[i + 1] - ticks[i];
+        let u = (tick - ticks[i]) / span;
+        let v = 1.0 - u;
+        ["x", "y", "c"].map(|axis| {
+            let (place, rate) = (&self.columns[axis], &self.columns[&format!("rate_{axis}")]);
+            let places = place[i] * v * v * (1.0 + 2.0 * u) + place[i + 1] * u * u * (1.0 + 2.0 * v);
+            places + (rate[i] * v - rate[i + 1] * u) * u * v * span
+        })
+    }
+}
+
+fn rows(csv: &str) -> Vec<Vec<f64>> {
+    csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().expect("a number")).collect()).collect()
+}
+
+#[test]
+fn the_page_runs_its_own_script_and_nothing_else() {
+    let room = Room::new();
+    room.says("compile circle.cut -t html", DONE);
+    let page = Page::of(&room, "circle.html").text;
+    let policy = between(&page, "http-equiv=\"Content-Security-Policy\" content=\"", "\">");
+    let script = page.rsplit_once("<script>").expect("a script").1.split_once("</script>").expect("its end").0;
+    for (kind, text) in [("script-src", script), ("style-src", between(&page, "<style>", "</style>"))] {
+        let digest = between(policy, &format!("{kind} &#39;sha256-"), "&#39;");
+        let bytes: String = unbase64(digest).iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!(bytes, sha256_hex(text.as_bytes()), "{kind}");
+    }
+    let digests: Vec<&str> = policy.split("sha256-").skip(1).map(|rest| rest.split('&').next().expect("it")).collect();
+    let head = page.split_once("<style>").expect("a style").0.to_owned();
+    let head = digests.iter().fold(head, |head, digest| head.replace(digest, "DIGEST"));
+    insta::assert_snapshot!(head);
+    for word in ["http://", "https://", "src=", "href=", "style=", "onclick", "import "] {
+        assert!(!page.contains(word), "`{word}` in the page");
+    }
+}
+
+#[test]
+fn texts_of_a_file_stay_texts() {
+    let room = Room::with("<b>&.cut", HOSTILE);
+    let output: Output = room.command("compile -t html -o out.html").arg("<b>&.cut").output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = Page::of(&room, "out.html");
+    assert_eq!(page.facts["pieces"][0]["name"], "</script><img src=x onerror=alert(1)>");
+    assert!(!page.text.contains("<img") && !page.text.contains("<b>"), "markup came out of a text");
+    assert_eq!(page.text.matches("</script>").count(), 3);
+    assert!(page.text.contains("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;</td>"));
+    assert!(page.text.contains("<title>&lt;b&gt;&amp;.cut: verified</title>"));
+}
+
+#[test]
+fn the_way_of_the_page_is_that_of_the_setpoints() {
+    let room = Room::with("hostile.cut", HOSTILE);
+    for name in ["circle", "hostile"] {
+        room.says(&format!("compile {name}.cut -t csv,html"), DONE);
+        let (page, rows) = (Page::of(&room, &format!("{name}.html")), rows(&room.text(&format!("{name}.csv"))));
+        assert_eq!(page.facts["ticks"], rows.len());
+        let (starts, kinds) = (&page.columns["phase_tick"], &page.columns["phase_kind"]);
+        for (tick, row) in rows.iter().enumerate() {
+            let found = page.at(tick as f64);
+            let off = [0, 1, 2].map(|axis| (found[axis] - row[axis + 1]).abs());
+            assert!(off.iter().all(|off| *off <= PROMISED), "{name}, tick {tick}: {off:?}");
+            let kind = kinds[starts.partition_point(|&start| start <= tick as f64) - 1];
+            assert_eq!((4.0..=5.0).contains(&kind), row[4] == 1.0, "{name}, tick {tick}: the knife");
+        }
+        assert!(page.columns["tick"].len() * 8 < rows.len(), "{} knots", page.columns["tick"].len());
+        let most = |column: &str| page.columns[column].iter().copied().fold(0.0, f64::max);
+        let [speed, acceleration, jerk] = ["speed_x_most", "acc_x_most", "jerk_x_most"].map(most);
+        let shares = [speed, acceleration, jerk];
+        assert!(
+            speed <= 1.0 && (0.4..=1.0).contains(&acceleration) && (0.4..=1.0).contains(&jerk),
+            "{name}: {shares:?}"
+        );
+    }
+}
+
+#[test]
+fn the_page_is_the_same_on_any_number_of_threads() {
+    let room = Room::with("hostile.cut", HOSTILE);
+    let page = |threads: &str| {
+        let mut command = room.command("compile hostile.cut -t html,svg --force");
+        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("it starts");
+        assert!(output.status.success());
+        room.read("hostile.html")
+    };
+    let one = page("1");
+    assert!(one == page("3") && one == page("2"));
+}
+
+#[test]
+fn a_page_shows_what_was_refused() {
+    let room = Room::with("hostile.cut", HOSTILE);
+    let said = room.says("compile hostile.cut -t html,csv --set verify.max_overcut_waste_mm=0", FAULTY);
+    assert!(said.contains("wrote `hostile.html`, a picture of what was refused") && !room.has("hostile.csv"), "{said}");
+    let page = Page::of(&room, "hostile.html");
+    assert!(page.text.contains("data-worth=\"refused\"") && page.text.contains("<tr class=\"broken\">"));
+    let worst = &page.facts["findings"][0];
+    assert!(worst["holds"] == false && worst["name"] == "verify/overcut-waste" && worst["at"].is_array(), "{worst}");
+    // What is refused before anything is planned has a report and no player.
+    room.write("wide.cut", b"H1*G71*N1*X0Y0*M14*X90000Y0*X90000Y400*X0Y0*M15*M0*");
+    room.says("compile wide.cut -t html --set table.x_mm=[0,1000]", FAULTY);
+    let page = room.text("wide.html");
+    assert!(page.contains("id=\"messages\"") && !page.contains("id=\"player\""));
+}
+
+#[test]
+fn a_page_that_nobody_judged_says_so() {
+    let room = Room::new();
+    room.says("compile circle.cut -t html --no-verify", DONE);
+    assert!(room.text("circle.html").contains("data-worth=\"not-judged\">not verified</p>"));
+    room.says("compile circle.cut -t html -o - --set tool.kind=spray", FAULTY);
+    room.says("compile circle.cut -t html,html", USAGE);
+}
+
+#[test]
+fn a_date_and_a_price_are_printed_by_a_page_and_refused_without_one() {
+    let room = Room::new();
+    room.says("compile circle.cut -t csv,html --date 2031-05-06 --rate 3600/h --plies 10", DONE);
+    let page = room.text("circle.html");
+    assert!(page.contains("<th scope=\"row\">Date</th>\n<td>2031-05-06</td>"));
+    assert!(between(&page, "<th scope=\"row\">Cost</th>\n<td>", "</td>").contains(" for 10 plies: 0."));
+    let meta = room.text("circle.html.meta.json");
+    assert!(meta.contains("\"options\": \"--date 2031-05-06 --rate 1/s --plies 10\""), "{meta}");
+    assert!(!room.text("circle.csv.meta.json").contains("--date"));
+    for arguments in ["--date today", "-t csv --rate 45/h", "-t html --dump-after cut --date today"] {
+        let said = room.says(&format!("compile circle.cut {arguments}"), USAGE);
+        assert!(said.contains("is printed by a page") && said.contains("-t html"), "{said}");
+    }
+    room.says("compile circle.cut -o out/ -t html --changed --date monday", DONE);
+    let again = |date: &str| room.says(&format!("compile circle.cut -o out/ -t html --changed --date {date}"), DONE);
+    assert!(again("monday").contains("unchanged") && !again("tuesday").contains("unchanged"));
+}
