@@ -4,6 +4,7 @@ import base64
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import time
@@ -13,7 +14,7 @@ class Browser:
     """Chromium with one page."""
 
     def __init__(self, program, width=1400, height=900, dark=False):
-        self.folder = tempfile.TemporaryDirectory()
+        self.folder = tempfile.mkdtemp()
         to_read, self.to = os.pipe()
         self.out, to_write = os.pipe()
 
@@ -26,7 +27,7 @@ class Browser:
         self.process = subprocess.Popen(
             [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
              "--disable-dev-shm-usage", "--disable-background-networking", "--remote-debugging-pipe",
-             f"--user-data-dir={self.folder.name}", "about:blank"],
+             f"--user-data-dir={self.folder}", "about:blank"],
             preexec_fn=pipes, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_read)
         os.close(to_write)
@@ -128,8 +129,11 @@ class Browser:
         data = self.call("Page.printToPDF", printBackground=True)["data"]
         pathlib.Path(path).write_bytes(base64.b64decode(data))
 
-    def close(self):
-        """Ends the browser."""
-        self.call("Browser.close")
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
         self.process.wait(timeout=20)
-        self.folder.cleanup()
+        # Its helpers may still write there.
+        shutil.rmtree(self.folder, ignore_errors=True)

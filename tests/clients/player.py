@@ -26,6 +26,26 @@ def places(browser, rows):
             check(abs(value - float(row[axis])) <= PROMISED, f"tick {tick}: {axis} {value} instead of {row[axis]}")
 
 
+def trail(browser):
+    """The drawn trail stays near the way of the tip."""
+    off = browser.evaluate("""(() => {
+      const { motion, player } = cutc, { trail } = player.cloth, tip = motion.facts.knife.tip_mm;
+      let most = 0;
+      for (const { first, end } of trail.strokes) {
+        for (let i = first + 2; i < end; i++) {
+          const [a, b] = [i - 1, i].map(k => [trail.x[k], trail.y[k]]), from = trail.tick[i - 1], span = trail.tick[i] - from;
+          for (let t = 1; t < 8; t++) {
+            const [x, y] = motion.blade(from + span * t / 8, tip), dx = b[0] - a[0], dy = b[1] - a[1], d = dx * dx + dy * dy;
+            const u = d > 0 ? Math.min(1, Math.max(0, ((x - a[0]) * dx + (y - a[1]) * dy) / d)) : 0;
+            most = Math.max(most, Math.hypot(x - a[0] - u * dx, y - a[1] - u * dy));
+          }
+        }
+      }
+      return most;
+    })()""")
+    check(off <= 0.05, f"the trail is {off} mm off the way of the tip")
+
+
 def ways(browser):
     """It plays, is scrubbed, and goes from cut to cut and from piece to piece."""
     browser.evaluate("cutc.player.seek(0); document.activeElement.blur()")
@@ -67,8 +87,9 @@ def cloth(browser):
     browser.press("d")
     check(browser.evaluate("cutc.player.view.x") > at[0], "a key moves the cloth")
     browser.press("0")
-    drawn = ("(() => { const c = document.getElementById('cut'); const d = c.getContext('2d').getImageData(0, 0, c.width,"
-             " c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; })()")
+    drawn = ("(() => { const c = document.getElementById('cut'), k = new OffscreenCanvas(c.width, c.height);"
+             " const to = k.getContext('2d', {willReadFrequently: true}); to.drawImage(c, 0, 0); let n = 0;"
+             " to.getImageData(0, 0, c.width, c.height).data.forEach((v, i) => { n += i % 4 === 3 && v > 0; }); return n; })()")
     amounts = []
     for key in ["Home", "End"]:
         browser.press(key)
@@ -105,17 +126,19 @@ def main(program, page, setpoints):
     """Everything, on one page."""
     with open(setpoints, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
-    browser = Browser(program)
-    browser.open(page)
-    for step in [lambda: places(browser, rows), lambda: ways(browser), lambda: cloth(browser), lambda: report(browser)]:
-        step()
-    for width, height in [(390, 844), (1400, 900)]:
-        browser.size(width, height)
-        browser.settle()
-        wide = browser.evaluate("document.documentElement.scrollWidth")
-        check(wide <= width, f"the page is {wide} pixels wide on a screen of {width}")
-    check(not browser.said, f"the console says {browser.said}")
-    browser.close()
+    with Browser(program) as browser:
+        browser.open(page)
+        places(browser, rows)
+        trail(browser)
+        ways(browser)
+        cloth(browser)
+        report(browser)
+        for width, height in [(390, 844), (1400, 900)]:
+            browser.size(width, height)
+            browser.settle()
+            wide = browser.evaluate("document.documentElement.scrollWidth")
+            check(wide <= width, f"the page is {wide} pixels wide on a screen of {width}")
+        check(not browser.said, f"the console says {browser.said}")
 
 
 main(*sys.argv[1:])

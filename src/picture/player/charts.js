@@ -2,11 +2,12 @@
 
 /** Rows of the chart: the name of their columns, and what people call them. */
 const ROWS = [["speed", "speed"], ["acc", "acceleration"], ["jerk", "jerk"]];
-const AXIS_NAMES = ["x", "y", "c"];
 /** Share of a limit that a row reaches up to. */
 const ROW_TOP = 1.15;
 /** Height of the stripe of what the machine does, and of the scale of times, pixels. */
 const STRIPE = 12, TIMES = 18;
+/** Time that is shown at first, s. */
+const FIRST_SPAN = 20;
 /** Room for words on the left, pixels. */
 const LEFT = 86;
 
@@ -19,7 +20,7 @@ class Charts {
     this.top = element("cursor", HTMLCanvasElement);
     /** Stretch of time that is shown, ticks. */
     this.from = 0;
-    this.to = Math.max(1, motion.end);
+    this.to = Math.max(1, Math.min(motion.end, FIRST_SPAN / motion.period));
     this.stale = true;
     this.steer(seek);
   }
@@ -49,13 +50,6 @@ class Charts {
     this.stale = true;
   }
 
-  /** Shows all of the time. */
-  whole() {
-    this.from = 0;
-    this.to = Math.max(1, this.motion.end);
-    this.stale = true;
-  }
-
   /** @param {number} px */
   tick(px) {
     const share = Math.min(1, Math.max(0, (px - LEFT) / Math.max(1, this.width - LEFT)));
@@ -72,12 +66,12 @@ class Charts {
   renew() { this.stale = true; }
 
   /**
-   * Draws the charts with their cursor at a tick.
-   * @param {number} tick @param {boolean} playing Whether the stretch of time is to go with the cursor.
+   * Draws the charts with their cursor at a tick, which the stretch of time goes with.
+   * @param {number} tick
    */
-  draw(tick, playing) {
+  draw(tick) {
     const span = this.to - this.from;
-    if (playing && span < this.motion.end && (tick < this.from || tick > this.to)) {
+    if (span < this.motion.end && (tick < this.from || tick > this.to)) {
       this.from = Math.max(0, Math.min(this.motion.end - span, tick - 0.1 * span));
       this.to = this.from + span;
       this.stale = true;
@@ -146,9 +140,10 @@ class Charts {
     /** @type {[number, number][]} */
     const below = [];
     to.beginPath();
-    for (let x = LEFT; x <= this.width; x++) {
-      const first = Math.floor(this.tick(x) / ticks), next = Math.floor(this.tick(x + 1) / ticks);
-      const [least, most] = motion.peak(name, first, Math.max(first + 1, next));
+    const curve = motion.curve(name), { width } = this, perPixel = (this.to - this.from) / (width - LEFT) / ticks;
+    for (let x = LEFT; x <= width; x++) {
+      const at = this.from / ticks + (x - LEFT) * perPixel, first = Math.floor(at);
+      const [least, most] = peak(curve, first, Math.max(first + 1, Math.floor(at + perPixel)));
       if (x === LEFT) to.moveTo(x, y(most)); else to.lineTo(x, y(most));
       below.push([x, y(least)]);
     }

@@ -92,6 +92,19 @@ class Cloth {
     this.drawTop(tick);
   }
 
+  /**
+   * Draws all on one canvas: printers paint over what lies below a second one.
+   * @param {number} tick
+   */
+  drawForPaper(tick) {
+    this.draw(tick);
+    const to = context(this.base);
+    to.save();
+    to.setTransform(1, 0, 0, 1, 0, 0);
+    for (const canvas of [this.cut, this.top]) to.drawImage(canvas, 0, 0);
+    to.restore();
+  }
+
   drawBase() {
     const { view } = this, to = sharpen(this.base, view.width, view.height);
     const [left, low, right, high] = this.box;

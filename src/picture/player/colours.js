@@ -9,6 +9,8 @@ const SCALE = [
   "#3b4cc0", "#4a69d6", "#5f86e6", "#77a2ee", "#4fb3bf", "#3fb38a", "#5fb454",
   "#96b53a", "#c9ae2f", "#e39a2c", "#e8792c", "#dd5530", "#c4302f", "#9c1632",
 ];
+/** Names of the axes in columns. */
+const AXIS_NAMES = ["x", "y", "c"];
 /** Colours of what bounds a cut: X, Y, C, nothing of these. */
 const AXES = ["#2f7ed8", "#2fa35a", "#d9822b", "#8d939c"];
 /** From this share of a limit on an axis is said to be at it. */
@@ -58,29 +60,22 @@ class Colours {
 
   measure() {
     const { tick } = this.trail, { motion } = this;
-    if (this.mode === "axis") return Uint8Array.from(tick, at => this.bound(at));
+    if (this.mode === "axis") {
+      const curves = AXIS_NAMES.map(axis => ["speed", "acc", "jerk"].map(order => motion.curve(`${order}_${axis}`)));
+      return Uint8Array.from(tick, at => bound(curves, Math.floor(at / motion.facts.peak_ticks)));
+    }
     const speed = this.mode === "speed";
-    const values = tick.map((at, i) => {
-      const middle = i > 0 && tick[i - 1] < at ? (tick[i - 1] + at) / 2 : at;
-      return speed ? motion.tipSpeed(middle) : Math.abs(motion.at(middle, true).c);
-    });
+    const values = new Float64Array(tick.length);
+    for (const { first, end } of this.trail.strokes) {
+      // The first two points are heel and tip of the blade that plunges.
+      for (let i = first + 2; i < end; i++) {
+        const middle = (tick[i - 1] + tick[i]) / 2;
+        values[i] = speed ? motion.tipSpeed(middle) : Math.abs(motion.at(middle, true).c);
+      }
+    }
     const most = Math.max(1e-9, values.reduce((a, b) => Math.max(a, b), 0));
     if (speed) this.fastest = most; else this.sharpest = most;
     return Uint8Array.from(values, value => step(value / most));
-  }
-
-  /** Which axis is at one of its limits at a tick: 0 to 2, or 3 for none. @param {number} tick */
-  bound(tick) {
-    const stretch = Math.floor(tick / this.motion.facts.peak_ticks);
-    let best = 3, worst = AT_LIMIT;
-    ["x", "y", "c"].forEach((axis, i) => {
-      for (const order of ["speed", "acc", "jerk"]) {
-        const [least, most] = this.motion.peak(`${order}_${axis}`, stretch, stretch + 1);
-        const share = Math.max(-least, most);
-        if (share > worst) [best, worst] = [i, share];
-      }
-    });
-    return best;
   }
 
   /** What the colours mean. @returns {Legend} */
@@ -110,4 +105,19 @@ class Colours {
 /** Place in the scale of a share of all. @param {number} share */
 function step(share) {
   return Math.min(SCALE.length - 1, Math.max(0, Math.floor(share * SCALE.length)));
+}
+
+/**
+ * Which axis is at one of its limits in a stretch of time: 0 to 2, or 3 for none.
+ * @param {Curve[][]} curves Those of each axis. @param {number} stretch
+ */
+function bound(curves, stretch) {
+  let best = 3, worst = AT_LIMIT;
+  curves.forEach((orders, axis) => {
+    for (const { least, most } of orders) {
+      const share = Math.max(-least[stretch], most[stretch]);
+      if (share > worst) [best, worst] = [axis, share];
+    }
+  });
+  return best;
 }

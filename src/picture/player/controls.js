@@ -54,7 +54,7 @@ class Player {
     }
     if (this.following) this.follow();
     this.cloth.draw(this.tick);
-    this.charts.draw(this.tick, this.playing);
+    this.charts.draw(this.tick);
     this.tell();
     if (this.playing) this.wake();
   }

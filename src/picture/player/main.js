@@ -16,6 +16,8 @@ async function start() {
   linkPieces(part => player.goToPiece(part, true));
   linkPlaces((x, y, time) => player.goToPlace(x, y, time));
   element("loading", HTMLElement).hidden = true;
+  const frame = element("cloth", HTMLElement), [left, low, right, high] = player.cloth.box;
+  frame.style.setProperty("--shape", String((right - left + 1) / (high - low + 1)));
   player.setMode("piece");
   player.fit();
   let fitted = player.view.scale;
@@ -26,16 +28,15 @@ async function start() {
       fitted = player.view.scale;
     }
     player.renew();
-  }).observe(element("cloth", HTMLElement));
+  }).observe(frame);
   for (const query of ["(prefers-color-scheme: dark)", "print"]) {
     matchMedia(query).addEventListener("change", () => player.renew());
   }
-  // What is printed is drawn for paper, whole and at once.
+  // Frames wait while a page is printed: what is printed is drawn at once.
   addEventListener("beforeprint", () => {
     player.cloth.renew();
-    player.cloth.draw(player.tick);
-    player.charts.renew();
-    player.charts.draw(player.tick, false);
+    player.cloth.drawForPaper(player.tick);
+    frame.style.setProperty("--screen", String(player.view.width / player.view.height));
   });
   addEventListener("afterprint", () => player.renew());
   Object.assign(globalThis, { cutc: { facts, motion, player } });

@@ -15,6 +15,8 @@ const TRAIL_OFF = 0.03;
  * @property {Stroke[]} strokes
  */
 
+/** @typedef {{least: Float64Array, most: Float64Array}} Curve Least and greatest value in each stretch of time. */
+
 class Motion {
   /** @param {Facts} facts @param {Columns} columns */
   constructor(facts, columns) {
@@ -100,20 +102,8 @@ class Motion {
     return block[lastUpTo(block_tick, tick)];
   }
 
-  /**
-   * Least and greatest share of the limits in a stretch of time, order by order and axis by axis.
-   * @param {string} name @param {number} from First stretch. @param {number} to One past the last.
-   * @returns {[number, number]}
-   */
-  peak(name, from, to) {
-    const least = this.columns[`${name}_least`], most = this.columns[`${name}_most`];
-    let low = 0, high = 0;
-    for (let i = Math.max(0, from); i < Math.min(to, most.length); i++) {
-      if (least[i] < low) low = least[i];
-      if (most[i] > high) high = most[i];
-    }
-    return [low, high];
-  }
+  /** Shares of a limit over time, as in `speed_x`. @param {string} name @returns {Curve} */
+  curve(name) { return { least: this.columns[`${name}_least`], most: this.columns[`${name}_most`] }; }
 
   /** The way of the blade through the cloth. @returns {Trail} */
   trail() {
@@ -164,6 +154,20 @@ class Motion {
       [last, place] = [next, end];
     }
   }
+}
+
+/**
+ * Least and greatest value of a curve in some of its stretches, and 0.
+ * @param {Curve} curve @param {number} from First stretch. @param {number} to One past the last.
+ * @returns {[number, number]}
+ */
+function peak({ least, most }, from, to) {
+  let low = 0, high = 0;
+  for (let i = Math.max(0, from), end = Math.min(to, most.length); i < end; i++) {
+    if (least[i] < low) low = least[i];
+    if (most[i] > high) high = most[i];
+  }
+  return [low, high];
 }
 
 /**

@@ -2,14 +2,14 @@
 
 use super::table;
 use crate::back::html::about::{About, is_finite};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::picture::Markup;
 use crate::units::number::{counted, fixed, short};
 
-/// Most messages that a page lists: people mend the first of them and compile again.
-const MOST_MESSAGES: usize = 200;
+/// Most messages of a code that a page lists: people mend the worst of them and compile again.
+const MOST_MESSAGES: usize = 40;
 /// Below this, in any unit, a value is rounding of the computation.
 const NOISE_EPSILON: f64 = 1e-8;
 /// A limit is shown in so many percent.
@@ -28,39 +28,73 @@ fn jump(out: &mut Markup, at: Point, time: Option<f64>) {
     out.element("button", &attributes, &words);
 }
 
-/// Errors and warnings, the errors first.
+/// Messages of one code.
+struct Group<'a> {
+    code: &'static Code,
+    messages: Vec<&'a Diagnostic>,
+}
+
+/// Messages by their codes, errors first; of a code the worst first, as far as that can be measured.
+fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
+    let mut groups: Vec<Group> = Vec::new();
+    for &message in messages {
+        match groups.iter_mut().find(|group| group.code == message.code) {
+            Some(group) => group.messages.push(message),
+            None => groups.push(Group { code: message.code, messages: vec![message] }),
+        }
+    }
+    groups.sort_by_key(|group| group.code.severity);
+    for group in &mut groups {
+        group.messages.sort_by(|a, b| b.by.unwrap_or(0.0).total_cmp(&a.by.unwrap_or(0.0)));
+    }
+    groups
+}
+
+/// Errors and warnings, those of a code behind each other.
 pub(super) fn messages(about: &About, out: &mut Markup) {
-    let mut messages: Vec<&Diagnostic> = about.outcome.messages.to_vec();
-    if messages.is_empty() {
+    let groups = groups(about.outcome.messages);
+    if groups.is_empty() {
         return;
     }
-    messages.sort_by_key(|message| message.code.severity);
-    let count = messages.len();
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
-    if count > MOST_MESSAGES {
-        let words = format!("The first {MOST_MESSAGES} of {}.", counted(count, "message"));
-        out.element("p", &[], &words);
-    }
-    out.open("ol", &[("class", "messages")]);
-    for message in messages.into_iter().take(MOST_MESSAGES) {
-        let severity = match message.code.severity {
+    for Group { code, messages } in groups {
+        let severity = match code.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
-        out.open("li", &[("class", severity)]).element("strong", &[], severity).text(" ");
-        out.element("code", &[], message.code.name).text(" ").element("span", &[], &message.message);
-        if let Some(piece) = &message.piece {
-            out.text(" ").element("span", &[("class", "where")], &piece.to_string());
-        }
-        if let Some(&[x, y]) = message.at.as_deref().filter(|at| at.iter().all(|value| value.is_finite())) {
-            jump(out, Point::new(x, y), None);
-        }
-        for hint in &message.hints {
+        let count = counted(messages.len(), severity);
+        let few = if messages.len() > MOST_MESSAGES { format!(", the worst {MOST_MESSAGES}") } else { String::new() };
+        out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(" ");
+        out.element("code", &[], code.name).text(&few).close("p");
+        // A hint that all of them share is told once.
+        let shared = messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
+        let shared: Vec<&String> = shared.collect();
+        for hint in &shared {
             out.element("p", &[("class", "hint")], hint);
         }
-        out.close("li");
+        out.open("ol", &[("class", "messages")]);
+        for message in messages.into_iter().take(MOST_MESSAGES) {
+            entry(message, &shared, out);
+        }
+        out.close("ol");
     }
-    out.close("ol").close("section");
+    out.close("section");
+}
+
+/// One message, with the hints that not all of its code share.
+fn entry(message: &Diagnostic, shared: &[&String], out: &mut Markup) {
+    out.open("li", &[]).element("span", &[], &message.message);
+    if let Some(piece) = &message.piece {
+        out.text(" ").element("span", &[("class", "quiet")], &piece.to_string());
+    }
+    if let Some(&[x, y]) = message.at.as_deref().filter(|at| at.iter().all(|value| value.is_finite())) {
+        out.text(" ");
+        jump(out, Point::new(x, y), None);
+    }
+    for hint in message.hints.iter().filter(|hint| !shared.contains(hint)) {
+        out.element("p", &[("class", "hint")], hint);
+    }
+    out.close("li");
 }
 
 /// Findings of the verifier.
