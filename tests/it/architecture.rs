@@ -53,6 +53,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
             "diagnostic",
             "ir",
             "units",
+            "picture",
             "manual",
             "sew",
             "spray",

@@ -1,6 +1,8 @@
 //! The page that plays a program: what it may run, that texts stay texts, and that it tells what the setpoints tell.
 
 use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
 use std::process::Output;
 
 use cutc::machine::sha256_hex;
@@ -114,6 +116,23 @@ fn the_page_runs_its_own_script_and_nothing_else() {
 }
 
 #[test]
+fn the_scripts_are_short_and_plain() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/picture/player");
+    let mut lines = 0;
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("readable").path();
+        let text = fs::read_to_string(&path).expect("text");
+        let name = path.display();
+        assert!(text.lines().all(|line| line.chars().count() <= 150), "{name} has long lines");
+        if path.extension().is_some_and(|extension| extension == "js") {
+            assert!(text.starts_with("// ") && text.lines().all(|line| line.chars().count() <= 120), "{name}");
+            lines += text.lines().count();
+        }
+    }
+    assert!(lines <= 1500, "{lines} lines of script");
+}
+
+#[test]
 fn texts_of_a_file_stay_texts() {
     let room = Room::with("<b>&.cut", HOSTILE);
     let output: Output = room.command("compile -t html -o out.html").arg("<b>&.cut").output().expect("it starts");
@@ -179,6 +198,27 @@ fn a_page_shows_what_was_refused() {
     room.says("compile wide.cut -t html --set table.x_mm=[0,1000]", FAULTY);
     let page = room.text("wide.html");
     assert!(page.contains("id=\"messages\"") && !page.contains("id=\"player\""));
+}
+
+#[test]
+fn a_folder_of_pages_has_an_overview() {
+    let room = Room::new();
+    fs::create_dir(room.at("in")).expect("writable");
+    room.write("in/<i>.cut", HOSTILE.as_bytes());
+    room.write("in/circle.cut", &room.read("circle.cut"));
+    room.write("in/junk.cut", &room.read("junk.cut"));
+    room.says("compile in -o out/ -t html,csv", FAULTY);
+    let page = room.text("out/index.html");
+    assert!(page.contains("<a href=\"./%3Ci%3E.html\">in/&lt;i&gt;.cut</a>") && !page.contains("<i>"), "{page}");
+    assert!(page.contains("<a href=\"./circle.html\">") && page.contains("1 failed") && !page.contains("./junk.html"));
+    let again = room.says("compile in -o out/ -t html,csv --changed", FAULTY);
+    assert!(again.contains("wrote `out/index.html`") && room.text("out/index.html").contains("unchanged"), "{again}");
+    // What is no overview stays, and neither a part of the files nor setpoints have one.
+    room.write("out/index.html", b"mine");
+    assert!(room.says("compile in -o out/ -t html", USAGE).contains("`out/index.html` is no overview of pages"));
+    room.says("compile in -o out/ -t csv", FAULTY);
+    room.says("compile in -o out/ -t html --shard 1/1", FAULTY);
+    assert_eq!(room.text("out/index.html"), "mine");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::arguments::{Arguments, Making};
 use super::made::{Compile, Drafted, Ended, Whole};
 use super::one;
+use super::overview::Overview;
 use crate::back::Target;
 use crate::cli::batch::{
     self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
@@ -38,6 +39,7 @@ pub(super) fn run(
     let extensions: Vec<&str> = targets.iter().map(|target| target.extension).collect();
     let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &extensions)).collect();
     refuse_collisions(inputs, &places)?;
+    let overview = Overview::of(making, &targets, &places, *shard)?;
     let manifest_at = Manifest::place(out, *shard);
     let mut folder = MadeFolders::of([manifest_at.as_path()])?;
     // Behind another run that may take folders away that it left empty.
@@ -69,16 +71,26 @@ pub(super) fn run(
         Step::Drafted(one) => many.publish(*one).outcome(&inputs[i], many.job, *messages, *format),
     };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
-    let mut finished =
-        Batch { inputs, threads, telling }.run_in_stages(console, Stages { work, settle }).finished(telling);
+    let ended = Batch { inputs, threads, telling }.run_in_stages(console, Stages { work, settle });
+    let seen = overview.map(|overview| overview.write(inputs, &ended.rows));
+    let mut finished = ended.finished(telling);
     let path = manifest.path().display().to_string();
-    if let Err(error) = manifest.finish() {
-        say(&mut finished.stderr, format_args!("error: {error:#}"));
-        finished.code = USAGE;
-    } else if !messages.quiet {
-        say(&mut finished.stderr, format_args!("wrote `{path}`"));
+    for written in seen.into_iter().chain([manifest.finish().map(|()| path)]) {
+        tell(written, messages.quiet, &mut finished);
     }
     Ok(finished)
+}
+
+/// Tells the place of a file about all programs, or why it could not be written.
+fn tell(written: anyhow::Result<String>, quiet: bool, finished: &mut Finished) {
+    match written {
+        Ok(path) if !quiet => say(&mut finished.stderr, format_args!("wrote `{path}`")),
+        Ok(_) => {}
+        Err(error) => {
+            say(&mut finished.stderr, format_args!("error: {error:#}"));
+            finished.code = USAGE;
+        }
+    }
 }
 
 /// How far one of many files is when it was worked on.

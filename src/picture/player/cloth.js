@@ -273,11 +273,13 @@ class Cloth {
     const { view } = this, { findings, deviations } = this.motion.facts;
     to.strokeStyle = themed("declared");
     to.lineWidth = 1.2;
+    // Many of them would hide the cloth: they grow with it.
+    const arm = Math.min(4, Math.max(1.5, 5 * view.scale));
     for (const [, , x, y] of deviations) {
       if (!view.sees([x, y, x, y])) continue;
       const px = view.px(x), py = view.py(y);
       to.beginPath();
-      for (const [dx, dy] of [[4, 0], [0, 4], [-4, 0], [0, -4]]) to.lineTo(px + dx, py + dy);
+      for (const [dx, dy] of [[arm, 0], [0, arm], [-arm, 0], [0, -arm]]) to.lineTo(px + dx, py + dy);
       to.closePath();
       to.stroke();
     }

@@ -67,7 +67,8 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(" ");
         out.element("code", &[], code.name).text(&few).close("p");
         // A hint that all of them share is told once.
-        let shared = messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
+        let shared =
+            messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
         let shared: Vec<&String> = shared.collect();
         for hint in &shared {
             out.element("p", &[("class", "hint")], hint);

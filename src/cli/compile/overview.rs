@@ -1,0 +1,158 @@
+//! The overview of a folder of pages: a table with a row a file, each with a link to its page.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use super::arguments::Making;
+use crate::back::{Emit, Target};
+use crate::cli::batch::{Input, Row, Shard, State};
+use crate::cli::draft::{self, Draft};
+use crate::cli::files::cannot_write;
+use crate::cli::finished::failure;
+use crate::cli::times::clock;
+use crate::picture::{Columns, Markup, Page};
+use crate::units::number::{counted, fixed};
+
+/// Name of its file.
+const NAME: &str = "index.html";
+/// Opening of what stands in an overview and in no other page.
+const MARK: &str = "<main id=\"overview\">";
+
+/// An overview that is to be written when all files are done.
+#[derive(Debug)]
+pub(super) struct Overview<'a> {
+    path: PathBuf,
+    out: &'a Path,
+    /// Place of the page of each input.
+    pages: Vec<&'a Path>,
+}
+
+impl<'a> Overview<'a> {
+    /// The overview of these places of programs. None without pages, of a part of the files, and where the page of an input
+    /// has its name.
+    ///
+    /// # Errors
+    ///
+    /// A file of that name stands there that is no overview, and `--force` was not given.
+    pub(super) fn of(
+        making: &'a Making,
+        targets: &[&'static Target],
+        places: &'a [Vec<PathBuf>],
+        shard: Option<Shard>,
+    ) -> anyhow::Result<Option<Self>> {
+        let out = making.place();
+        let path = out.join(NAME);
+        let Some(page) = targets.iter().position(|target| matches!(target.emit, Emit::Page(_))) else {
+            return Ok(None);
+        };
+        let pages: Vec<&Path> = places.iter().map(|places| places[page].as_path()).collect();
+        if shard.is_some() || pages.contains(&path.as_path()) {
+            return Ok(None);
+        }
+        let is_ours =
+            fs::read(&path).map_or(true, |bytes| bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes()));
+        if !is_ours && !making.force {
+            let shown = path.display();
+            return Err(failure(
+                format!("`{shown}` is no overview of pages: it is not overwritten"),
+                "give the programs another place with -o, or say --force",
+            ));
+        }
+        Ok(Some(Self { path, out, pages }))
+    }
+
+    /// Writes the overview of what became of the inputs, and tells its place.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be written.
+    pub(super) fn write(&self, inputs: &[Input], rows: &[Row]) -> anyhow::Result<String> {
+        let page = Page {
+            title: format!("{}: overview", counted(rows.len(), "file")),
+            body: self.body(inputs, rows),
+            facts: serde_json::json!({}),
+            columns: Columns::default(),
+        };
+        let mut draft = Draft::new(&self.path)?;
+        page.write(draft.file()).map_err(|error| cannot_write(&self.path, &error))?;
+        draft::publish(vec![draft], || Ok(()))?;
+        Ok(self.path.display().to_string())
+    }
+
+    fn body(&self, inputs: &[Input], rows: &[Row]) -> String {
+        let mut out = Markup::default();
+        let failed = rows.iter().filter(|row| row.state == State::Failed).count();
+        out.open("header", &[]).element("h1", &[], &counted(rows.len(), "file"));
+        let said = if failed == 0 { "all done".to_owned() } else { format!("{failed} failed") };
+        let worth = if failed == 0 { "verified" } else { "refused" };
+        out.element("p", &[("class", "worth"), ("data-worth", worth)], &said);
+        let sum = |of: fn(&Row) -> Option<f64>| rows.iter().filter_map(of).sum::<f64>();
+        let summary = format!("{} m to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s)));
+        out.element("p", &[("class", "summary")], &summary).close("header");
+        out.markup(MARK).open("section", &[]).open("div", &[("class", "scroll")]);
+        out.open("table", &[("class", "sortable")]).open("thead", &[]).open("tr", &[]);
+        for (class, name) in
+            [("", "File"), ("", "State"), ("number", "Pieces"), ("number", "Cut, m"), ("number", "Time")]
+        {
+            out.element("th", &[("scope", "col"), ("class", class)], name);
+        }
+        out.element("th", &[("scope", "col")], "Worst finding").close("tr").close("thead").open("tbody", &[]);
+        for row in rows {
+            self.row(inputs, row, &mut out);
+        }
+        out.close("tbody").close("table").close("div").close("section").close("main");
+        out.into_text()
+    }
+
+    fn row(&self, inputs: &[Input], row: &Row, out: &mut Markup) {
+        let state = match row.state {
+            State::Done => "done",
+            State::Unchanged => "unchanged",
+            State::Failed => "failed",
+        };
+        let at = inputs.iter().position(|input| input.path.display().to_string() == row.file);
+        out.open("tr", &[("class", if row.state == State::Failed { "broken" } else { "" })]).open("td", &[]);
+        match at.map(|at| self.pages[at]).filter(|page| page.exists()) {
+            Some(page) => out.element("a", &[("href", &link(page.strip_prefix(self.out).unwrap_or(page)))], &row.file),
+            None => out.text(&row.file),
+        };
+        out.close("td").element("td", &[], state);
+        let mut number = |shown: Option<String>, value: Option<f64>| {
+            let value = value.unwrap_or(-1.0).to_string();
+            out.element("td", &[("class", "number"), ("data-value", &value)], &shown.unwrap_or_default());
+        };
+        number(row.pieces.map(|pieces| pieces.to_string()), row.pieces.map(|pieces| pieces as f64));
+        number(row.cut_m.map(|metres| fixed(metres, 3)), row.cut_m);
+        number(row.time_s.map(clock), row.time_s);
+        out.element("td", &[], &row.worst).close("tr");
+    }
+}
+
+/// A relative path as a link: what is no plain letter of an address is told by its bytes.
+fn link(path: &Path) -> String {
+    let mut link = String::from(".");
+    for part in path.components() {
+        let Component::Normal(name) = part else { continue };
+        link.push('/');
+        for &byte in name.as_encoded_bytes() {
+            if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
+                link.push(char::from(byte));
+            } else {
+                let _infallible = write!(link, "%{byte:02X}");
+            }
+        }
+    }
+    link
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_link_leads_to_any_name() {
+        assert_eq!(link(Path::new("a/b c?#%ż.html")), "./a/b%20c%3F%23%25%C5%BC.html");
+        assert_eq!(link(Path::new("javascript:x.html")), "./javascript%3Ax.html");
+    }
+}
