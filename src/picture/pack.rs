@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn every_number_is_packed() {
         let mut bytes = Vec::new();
-        [i64::MIN, i64::MAX].map(|number| push(&mut bytes, number));
+        [i64::MIN, i64::MAX].into_iter().for_each(|number| push(&mut bytes, number));
         assert_eq!(bytes.len(), 20);
     }
 }

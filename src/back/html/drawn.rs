@@ -19,8 +19,8 @@ const HOLE: i64 = 4;
 pub(super) struct Lines {
     kinds: Vec<i64>,
     /// The piece that each is of, by its place in the marker; of lines that are not cut the number of their class.
-    parts: Vec<i64>,
-    counts: Vec<i64>,
+    parts: Vec<u32>,
+    counts: Vec<u32>,
     points: Vec<Point>,
     /// What lines that are not cut were taken for.
     pub(super) classes: Vec<&'static str>,
@@ -52,15 +52,15 @@ impl Lines {
                 lines.classes.push(class);
                 lines.classes.len() - 1
             });
-            lines.add(ASIDE, number as i64, vertices.iter().map(|vertex| vertex.at).collect());
+            lines.add(ASIDE, number as u32, vertices.iter().map(|vertex| vertex.at).collect());
         }
         lines
     }
 
-    fn add(&mut self, kind: i64, part: i64, points: Vec<Point>) {
+    fn add(&mut self, kind: i64, part: u32, points: Vec<Point>) {
         self.kinds.push(kind);
         self.parts.push(part);
-        self.counts.push(points.len() as i64);
+        self.counts.push(points.len() as u32);
         self.points.extend(points);
     }
 
@@ -68,8 +68,8 @@ impl Lines {
     pub(super) fn write(self, columns: &mut Columns) {
         let in_units = |value: f64| (value / UNIT).round() as i64;
         columns.add("line_kind", 1.0, self.kinds);
-        columns.add("line_part", 1.0, self.parts);
-        columns.add("line_points", 1.0, self.counts);
+        columns.add("line_part", 1.0, self.parts.into_iter().map(i64::from));
+        columns.add("line_points", 1.0, self.counts.into_iter().map(i64::from));
         columns.add("line_x", UNIT, self.points.iter().map(|point| in_units(point.x)));
         columns.add("line_y", UNIT, self.points.iter().map(|point| in_units(point.y)));
     }

@@ -58,11 +58,11 @@ impl Peaks {
         if place == self.stretches.len() {
             self.stretches.push(Stretch::default());
         }
+        let per_s = [1, 2, 3].map(|power| self.period.powi(power));
         // The first setpoints have no differences of the higher orders.
         for order in (0..ORDERS).filter(|&order| self.count > order as u64) {
-            let power = self.period.powi(order as i32 + 1);
             for axis in 0..3 {
-                let share = differences[order + 1][axis] / (power * limits[axis][order]);
+                let share = differences[order + 1][axis] / (per_s[order] * limits[axis][order]);
                 let steps = (share * STEPS).round().clamp(-BEYOND, BEYOND) as i16;
                 let [least, most] = &mut self.stretches[place][order][axis];
                 (*least, *most) = ((*least).min(steps), (*most).max(steps));

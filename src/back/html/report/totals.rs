@@ -16,7 +16,7 @@ const PERCENT: f64 = 100.0;
 pub(super) fn summary(about: &About) -> String {
     let marker = about.context.marker;
     let (width, height) = marker.extent().size();
-    let mut said = format!(
+    let said = format!(
         "{}, {} x {} mm, {} m to cut",
         counted(marker.pieces.len(), "piece"),
         fixed(width, 0),
@@ -24,10 +24,7 @@ pub(super) fn summary(about: &About) -> String {
         fixed(marker.cut_length() / MM_PER_M, 2)
     );
     let ticks = about.record.all.total();
-    if ticks > 0 {
-        said.push_str(&format!(", {}", clock(about.time(ticks))));
-    }
-    said
+    if ticks > 0 { format!("{said}, {}", clock(about.time(ticks))) } else { said }
 }
 
 /// The section.
