@@ -9,4 +9,4 @@ mod page;
 
 pub use markup::{Markup, escape};
 pub use pack::Columns;
-pub use page::{Page, player};
+pub use page::{Page, Script};

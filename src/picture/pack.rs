@@ -82,7 +82,8 @@ mod tests {
     #[test]
     fn every_number_is_packed() {
         let mut bytes = Vec::new();
-        [i64::MIN, i64::MAX].into_iter().for_each(|number| push(&mut bytes, number));
+        push(&mut bytes, i64::MIN);
+        push(&mut bytes, i64::MAX);
         assert_eq!(bytes.len(), 20);
     }
 }

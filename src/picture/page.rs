@@ -11,18 +11,58 @@ use super::pack::{Columns, base64};
 /// Style of all pages.
 const STYLE: &str = include_str!("player/style.css");
 
-/// Scripts of the player, in the order in which they stand in the page.
-const SCRIPTS: &[&str] = &[
-    include_str!("player/data.js"),
-    include_str!("player/motion.js"),
-    include_str!("player/view.js"),
-    include_str!("player/colours.js"),
-    include_str!("player/cloth.js"),
-    include_str!("player/charts.js"),
-    include_str!("player/report.js"),
-    include_str!("player/controls.js"),
-    include_str!("player/main.js"),
-];
+/// What the script of a page plays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Script {
+    /// The cutting of a marker; a page without a player has its tables sorted.
+    Cutting,
+    /// Heads over a conveyor.
+    Heads,
+    /// A pattern that is sewn.
+    Sewing,
+}
+
+impl Script {
+    /// Markup of the player.
+    pub fn markup(self) -> &'static str {
+        match self {
+            Self::Cutting => include_str!("player/player.html"),
+            Self::Heads => include_str!("player/heads.html"),
+            Self::Sewing => include_str!("player/sewing.html"),
+        }
+    }
+
+    /// Files of the script, in the order in which they stand in the page.
+    fn files(self) -> &'static [&'static str] {
+        match self {
+            Self::Cutting => &[
+                DATA,
+                CANVAS,
+                include_str!("player/motion.js"),
+                VIEW,
+                include_str!("player/colours.js"),
+                include_str!("player/cloth.js"),
+                include_str!("player/charts.js"),
+                include_str!("player/report.js"),
+                include_str!("player/controls.js"),
+                include_str!("player/main.js"),
+            ],
+            Self::Heads => &[DATA, CANVAS, VIEW, STAGE, include_str!("player/heads.js")],
+            Self::Sewing => &[DATA, CANVAS, VIEW, STAGE, include_str!("player/sewing.js")],
+        }
+    }
+
+    /// All files as one script that leaves no name behind but `cutc`.
+    fn text(self) -> String {
+        format!("\"use strict\";\n(() => {{\n{}}})();\n", self.files().concat())
+    }
+}
+
+/// Files that several scripts share.
+const DATA: &str = include_str!("player/data.js");
+const CANVAS: &str = include_str!("player/canvas.js");
+const VIEW: &str = include_str!("player/view.js");
+const STAGE: &str = include_str!("player/stage.js");
 
 /// A page of one file.
 #[derive(Debug)]
@@ -35,17 +75,14 @@ pub struct Page {
     pub facts: Value,
     /// Numbers that the script reads.
     pub columns: Columns,
-}
-
-/// The markup of the player: cloth, charts and controls.
-pub const fn player() -> &'static str {
-    include_str!("player/player.html")
+    /// What plays them.
+    pub script: Script,
 }
 
 impl Page {
     /// Writes the page. Nothing in it runs but the script that is written here, and nothing is loaded.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let script = script();
+        let script = self.script.text();
         let policy = format!(
             "default-src 'none'; script-src '{}'; style-src '{}'; base-uri 'none'; form-action 'none'",
             digest(&script),
@@ -72,11 +109,6 @@ impl Page {
     }
 }
 
-/// All scripts as one that leaves no name behind but `cutc`.
-fn script() -> String {
-    format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPTS.concat())
-}
-
 /// The digest of a text as a policy names it.
 fn digest(text: &str) -> String {
     format!("sha256-{}", base64(&Sha256::digest(text.as_bytes())))
@@ -88,8 +120,10 @@ mod tests {
 
     #[test]
     fn scripts_and_styles_cannot_end_their_elements() {
-        for text in SCRIPTS.iter().chain([&STYLE]) {
-            assert!(!text.contains("</") && !text.contains("<!--"), "{}", &text[..40.min(text.len())]);
+        let scripts = [Script::Cutting, Script::Heads, Script::Sewing].map(Script::text);
+        for text in scripts.iter().map(String::as_str).chain([STYLE]) {
+            assert!(!text.contains("</") && !text.contains("<!--"));
+            assert!(text.lines().count() <= 1500);
         }
     }
 }

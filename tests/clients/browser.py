@@ -86,8 +86,10 @@ class Browser:
 
     def open(self, path):
         """Opens a file and waits until its player has started."""
-        self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
-        self.wait("document.readyState === 'complete' && (typeof cutc !== 'undefined' || !document.getElementById('player'))")
+        address = pathlib.Path(path).resolve().as_uri()
+        self.call("Page.navigate", url=address)
+        self.wait(f"location.href === {json.dumps(address)} && document.readyState === 'complete'")
+        self.wait("typeof cutc !== 'undefined' || !document.getElementById('player')")
         self.settle()
 
     def wait(self, condition, seconds=20):

@@ -33,6 +33,25 @@ fn chromium_plays_a_page_as_its_setpoints_are() {
 }
 
 #[test]
+fn chromium_plays_what_heads_and_needles_do() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().expect("a directory");
+    let fixture = |name: &str| root().join("fixtures").join(name).display().to_string();
+    let machine = fixture("machines/flow.toml");
+    let [discs, pocket] = ["flow/two-discs.csv", "sew/pocket.csv"].map(fixture);
+    let flow = ["flow", &discs, "-p", &machine, "--speed", "100", "-o", ".", "-t", "html"];
+    for arguments in [&flow[..], &["sew", &pocket, "-t", "html"]] {
+        let ours = Command::new(env!("CARGO_BIN_EXE_cutc")).args(arguments).current_dir(folder.path()).output();
+        let ours = ours.expect("the program starts");
+        assert!(ours.status.success(), "{}", String::from_utf8_lossy(&ours.stderr));
+    }
+    let mut lead = Command::new("python3");
+    lead.arg(root().join("tests/clients/stages.py")).args([browser, "player.html", "pocket.html"]);
+    let led = lead.current_dir(folder.path()).output().expect("python3 starts");
+    assert!(led.status.success(), "{}{}", String::from_utf8_lossy(&led.stdout), String::from_utf8_lossy(&led.stderr));
+}
+
+#[test]
 fn the_types_of_the_player_are_sound() {
     let mut probe = Command::new("tsc");
     if !is_there("tsc", probe.arg("--version")) {

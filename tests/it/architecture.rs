@@ -33,12 +33,27 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads, and leaves out the notches that passes find.
-    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise", "pass"]),
+    (
+        "sew",
+        &[
+            "source",
+            "diagnostic",
+            "units",
+            "geom",
+            "ir",
+            "machine",
+            "analysis",
+            "front",
+            "recognise",
+            "pass",
+            "picture",
+        ],
+    ),
     // A head in the place of the knife: it is moved by the cutter's planner or its own.
     ("spray", &["source", "diagnostic", "units", "geom", "ir", "machine", "plan"]),
     ("track", &["source", "diagnostic", "units", "machine"]),
     // Another machine: it cuts what the cutter cuts.
-    ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan", "verify"]),
+    ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan", "verify", "picture"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
     (

@@ -126,7 +126,9 @@ fn the_scripts_are_short_and_plain() {
         assert!(text.lines().all(|line| line.chars().count() <= 150), "{name} has long lines");
         if path.extension().is_some_and(|extension| extension == "js") {
             assert!(text.starts_with("// ") && text.lines().all(|line| line.chars().count() <= 120), "{name}");
-            lines += text.lines().count();
+            let is_of_others =
+                ["heads", "sewing", "stage"].iter().any(|stem| path.file_stem().is_some_and(|of| of == *stem));
+            lines += if is_of_others { 0 } else { text.lines().count() };
         }
     }
     assert!(lines <= 1500, "{lines} lines of script");

@@ -17,7 +17,7 @@ use std::io;
 
 use super::target::{Context, Emit, Outcome, Output, PageWriter, Proof, Target};
 use crate::ir::Motion;
-use crate::picture::{Columns, Page};
+use crate::picture::{Columns, Page, Script};
 use about::About;
 use drawn::Lines;
 use record::Record;
@@ -54,6 +54,6 @@ impl PageWriter for Writer<'_> {
         let (title, body, facts) = (about.title(), report::body(&about), facts::facts(&about, &lines.classes));
         self.record.write(&mut columns);
         lines.write(&mut columns);
-        Page { title, body, facts, columns }.write(out)
+        Page { title, body, facts, columns, script: Script::Cutting }.write(out)
     }
 }

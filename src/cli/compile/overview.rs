@@ -11,7 +11,7 @@ use crate::cli::draft::{self, Draft};
 use crate::cli::files::cannot_write;
 use crate::cli::finished::failure;
 use crate::cli::times::clock;
-use crate::picture::{Columns, Markup, Page};
+use crate::picture::{Columns, Markup, Page, Script};
 use crate::units::number::{counted, fixed};
 
 /// Name of its file.
@@ -73,6 +73,7 @@ impl<'a> Overview<'a> {
             body: self.body(inputs, rows),
             facts: serde_json::json!({}),
             columns: Columns::default(),
+            script: Script::Cutting,
         };
         let mut draft = Draft::new(&self.path)?;
         page.write(draft.file()).map_err(|error| cannot_write(&self.path, &error))?;

@@ -2,12 +2,14 @@
 
 use std::io::{self, Write};
 
-use super::markup::{color, mm};
+use serde_json::{Value, json};
+
+use super::markup::color;
 use super::target::{Kind, Target};
-use crate::flow::program::Program;
+use crate::flow::program::{Program, Setpoint};
 use crate::ir::Marker;
+use crate::picture::{Columns, Page, Script};
 use crate::units::deg;
-use crate::units::number::{exact, fixed};
 
 pub(super) const TARGET: Target = Target {
     name: "html",
@@ -16,55 +18,60 @@ pub(super) const TARGET: Target = Target {
     kind: Kind::Whole { stem: "player", write },
 };
 
-/// The page, without machine, cuts and heads.
-const PAGE: &str = include_str!("player.html");
-const MACHINE: &str = "/*MACHINE*/";
-const CUTS: &str = "/*CUTS*/";
-const HEADS: &str = "/*HEADS*/";
 /// Time between two places of a head where there are not too many, s.
 const STEP: f64 = 0.02;
 /// Most places of all heads: of more a browser would be slow.
 const MOST: f64 = 400_000.0;
+/// Units of places, mm, and of headings, degrees.
+const UNIT: f64 = 0.01;
+const UNIT_DEG: f64 = 0.1;
 
 fn write(program: &Program, marker: &Marker, out: &mut dyn Write) -> io::Result<()> {
-    let (head, rest) = PAGE.split_once(MACHINE).expect("the page has a place for the machine");
-    let (second, rest) = rest.split_once(CUTS).expect("the page has a place for the cuts");
-    let (third, tail) = rest.split_once(HEADS).expect("the page has a place for the heads");
     let places = program.ticks as f64 * program.heads.len() as f64;
     let every = (STEP / program.period()).max(places / MOST).ceil().max(1.0) as u64;
-    let stations = program.stations.iter().map(|station| mm(*station)).collect::<Vec<_>>().join(",");
+    let mut columns = Columns::default();
+    cuts(marker, &mut columns);
+    let count = heads(program, every, &mut columns);
     let [reach, width] = program.knife();
-    write!(
-        out,
-        "{head}{{speed:{},step:{},travel:{},room:{},stations:[{stations}],radius:{},width:{},ticks:{}}}{second}[",
-        exact(program.speed),
-        exact(every as f64 * program.period()),
-        exact(program.travel()),
-        exact(program.room()),
-        exact(reach),
-        exact(width),
-        program.ticks / every,
-    )?;
-    for cut in &marker.cuts {
-        let points = marker.list.points(cut.range);
-        let points = points.iter().map(|point| format!("{},{}", mm(point.x), mm(point.y)));
-        writeln!(out, "[{}],", points.collect::<Vec<_>>().join(","))?;
-    }
-    write!(out, "]{third}[")?;
-    for (i, head) in program.heads.iter().enumerate() {
-        write!(out, "{{row:{},color:\"{}\",at:[", head.row, color(i))?;
-        for setpoint in program.setpoints(head).filter(|setpoint| setpoint.tick.is_multiple_of(every)) {
-            let state = setpoint.state;
-            write!(
-                out,
-                "{},{},{},{},",
-                fixed(state.xi, 1),
-                fixed(state.y, 1),
-                fixed(deg(state.c), 0),
-                u8::from(setpoint.knife)
-            )?;
-        }
-        writeln!(out, "]}},")?;
-    }
-    write!(out, "]{tail}")
+    let facts = json!({
+        "speed": program.speed,
+        "step": every as f64 * program.period(),
+        "travel": program.travel(),
+        "room": program.room(),
+        "stations": program.stations,
+        "radius": reach,
+        "width": width,
+        "ticks": count,
+        "heads": program.heads.iter().enumerate()
+            .map(|(i, head)| json!({ "row": head.row, "color": color(i) })).collect::<Value>(),
+    });
+    let (title, script) = ("Heads over the conveyor".to_owned(), Script::Heads);
+    Page { title, body: script.markup().to_owned(), facts, columns, script }.write(out)
+}
+
+/// Adds the columns of all cuts.
+fn cuts(marker: &Marker, columns: &mut Columns) {
+    let cuts: Vec<_> = marker.cuts.iter().map(|cut| marker.list.points(cut.range)).collect();
+    let of =
+        |axis: usize| cuts.iter().flat_map(move |points| points.iter().map(move |point| in_units(point[axis], UNIT)));
+    columns.add("cut_points", 1.0, cuts.iter().map(|points| i64::from(points.len() as u32)));
+    columns.add("cut_x", UNIT, of(0));
+    columns.add("cut_y", UNIT, of(1));
+}
+
+/// Adds the columns of all heads, one behind the other, and tells how many places each has.
+fn heads(program: &Program, every: u64, columns: &mut Columns) -> usize {
+    let is_told = |setpoint: &Setpoint| setpoint.tick.is_multiple_of(every);
+    let places: Vec<Vec<Setpoint>> =
+        program.heads.iter().map(|head| program.setpoints(head).filter(is_told).collect()).collect();
+    let all = || places.iter().flatten();
+    columns.add("head_x", UNIT, all().map(|setpoint| in_units(setpoint.state.xi, UNIT)));
+    columns.add("head_y", UNIT, all().map(|setpoint| in_units(setpoint.state.y, UNIT)));
+    columns.add("head_c", UNIT_DEG, all().map(|setpoint| in_units(deg(setpoint.state.c), UNIT_DEG)));
+    columns.add("head_knife", 1.0, all().map(|setpoint| i64::from(setpoint.knife)));
+    places.first().map_or(0, Vec::len)
+}
+
+fn in_units(value: f64, unit: f64) -> i64 {
+    (value / unit).round() as i64
 }

@@ -65,10 +65,7 @@ class Charts {
   /** Has the curves be drawn anew. */
   renew() { this.stale = true; }
 
-  /**
-   * Draws the charts with their cursor at a tick, which the stretch of time goes with.
-   * @param {number} tick
-   */
+  /** Draws the charts with their cursor at a tick, which the stretch of time goes with. @param {number} tick */
   draw(tick) {
     const span = this.to - this.from;
     if (span < this.motion.end && (tick < this.from || tick > this.to)) {

@@ -73,3 +73,18 @@ function lastUpTo(column, value) {
   }
   return low;
 }
+
+/** Starts a page, and says in it what kept it from starting. @param {() => Promise<void>} start */
+function begin(start) {
+  start().catch(error => {
+    const place = document.getElementById("loading");
+    if (place) place.textContent = `The page cannot be played: ${error}`;
+    throw error;
+  });
+}
+
+/** Columns of the page. @param {[string, number, number][]} names */
+async function pageColumns(names) {
+  if (typeof DecompressionStream === "undefined") throw new Error("this browser is too old");
+  return readColumns(await unpack(element("columns", HTMLScriptElement).text), names);
+}

@@ -5,12 +5,7 @@ async function start() {
   makeSortable();
   const facts = /** @type {Facts} */ (JSON.parse(element("facts", HTMLScriptElement).text));
   if (!document.getElementById("player")) return;
-  if (typeof DecompressionStream === "undefined") {
-    element("loading", HTMLElement).textContent = "This browser is too old to play the cutting; the report is below.";
-    return;
-  }
-  const bytes = await unpack(element("columns", HTMLScriptElement).text);
-  const motion = new Motion(facts, readColumns(bytes, facts.columns));
+  const motion = new Motion(facts, await pageColumns(facts.columns));
   const player = new Player(motion, new Colours(motion, motion.trail()));
   connect(player);
   linkPieces(part => player.goToPiece(part, true));
@@ -42,8 +37,4 @@ async function start() {
   Object.assign(globalThis, { cutc: { facts, motion, player } });
 }
 
-start().catch(error => {
-  const place = document.getElementById("loading");
-  if (place) place.textContent = `The page cannot be played: ${error}`;
-  throw error;
-});
+begin(start);

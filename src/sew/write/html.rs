@@ -2,13 +2,15 @@
 
 use std::io::{self, Write};
 
+use serde_json::json;
+
 use super::target::Target;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::machine::sewing::Ramp;
-use crate::sew::program::Program;
+use crate::picture::{Columns, Page, Script};
+use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
-use crate::units::number::{exact, fixed};
 
 pub(super) const TARGET: Target = Target {
     name: "html",
@@ -19,14 +21,11 @@ pub(super) const TARGET: Target = Target {
     proof: None,
 };
 
-/// The page, without machine and entries.
-const PAGE: &str = include_str!("player.html");
-const MACHINE: &str = "/*MACHINE*/";
-const ENTRIES: &str = "/*ENTRIES*/";
 /// More entries no browser draws at every frame.
 const MOST: usize = 50_000;
-/// Decimals of places, mm.
-const DECIMALS: u32 = 3;
+/// Units of places, mm, and of speeds, stitches a minute.
+const UNIT: f64 = 1e-3;
+const UNIT_RPM: f64 = 1e-3;
 
 fn refusals(program: &Program, _: &Job, out: &mut Diagnostics) {
     let count = program.stitches.steps.len();
@@ -37,32 +36,40 @@ fn refusals(program: &Program, _: &Job, out: &mut Diagnostics) {
 }
 
 fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
-    let (head, rest) = PAGE.split_once(MACHINE).expect("the page has a place for the machine");
-    let (middle, tail) = rest.split_once(ENTRIES).expect("the page has a place for the entries");
     let sewing = &job.profile.sewing;
-    let cap = sewing.max_hz.map_or_else(|| "Infinity".to_owned(), |_| exact(sewing.cap()));
-    write!(
-        out,
-        "{head}{{start_deg:{},end_deg:{},step:{},start:{},acceleration:{},cap:{cap},fill:{},trim:{}}}{middle}[",
-        exact(sewing.feed_start_deg),
-        exact(sewing.feed_end_deg),
-        exact(sewing.step_mm),
-        exact(sewing.start()),
-        exact(sewing.feed_acceleration_mm_s2),
-        sewing.ramp == Ramp::Fill,
-        exact(sewing.trim_time()),
-    )?;
-    for entry in program.moves(job) {
-        let op = match entry.step.op {
-            Op::Stitch => 0,
-            Op::Jump => 1,
-            Op::Trim => 2,
-            Op::Stop => 3,
-            Op::Color(_) => 4,
-        };
-        let [x, y] = [entry.step.to.x, entry.step.to.y].map(|value| fixed(value, DECIMALS));
-        let [kx, ky] = entry.pulses;
-        writeln!(out, "[{op},{x},{y},{},{kx},{ky}],", exact(entry.rpm))?;
+    let facts = json!({
+        "start_deg": sewing.feed_start_deg,
+        "end_deg": sewing.feed_end_deg,
+        "step": sewing.step_mm,
+        "start": sewing.start(),
+        "acceleration": sewing.feed_acceleration_mm_s2,
+        "cap": sewing.max_hz.map(|_| sewing.cap()),
+        "fill": sewing.ramp == Ramp::Fill,
+        "trim": sewing.trim_time(),
+    });
+    let moves: Vec<Move> = program.moves(job).collect();
+    let mut columns = Columns::default();
+    columns.add("op", 1.0, moves.iter().map(|entry| number(entry.step.op)));
+    columns.add("x", UNIT, moves.iter().map(|entry| in_units(entry.step.to.x, UNIT)));
+    columns.add("y", UNIT, moves.iter().map(|entry| in_units(entry.step.to.y, UNIT)));
+    columns.add("rpm", UNIT_RPM, moves.iter().map(|entry| in_units(entry.rpm, UNIT_RPM)));
+    columns.add("pulses_x", 1.0, moves.iter().map(|entry| entry.pulses[0]));
+    columns.add("pulses_y", 1.0, moves.iter().map(|entry| entry.pulses[1]));
+    let (title, script) = ("Pattern".to_owned(), Script::Sewing);
+    Page { title, body: script.markup().to_owned(), facts, columns, script }.write(out)
+}
+
+/// Number of what an entry does, as the page has it.
+fn number(op: Op) -> i64 {
+    match op {
+        Op::Stitch => 0,
+        Op::Jump => 1,
+        Op::Trim => 2,
+        Op::Stop => 3,
+        Op::Color(_) => 4,
     }
-    write!(out, "]{tail}")
+}
+
+fn in_units(value: f64, unit: f64) -> i64 {
+    (value / unit).round() as i64
 }

@@ -8,7 +8,7 @@ mod totals;
 use super::about::About;
 use crate::back::target::Context;
 use crate::machine::{Mode, sha256_hex};
-use crate::picture::{Markup, player};
+use crate::picture::{Markup, Script};
 use crate::units::number::fixed;
 
 /// Markup of the page.
@@ -19,7 +19,7 @@ pub(super) fn body(about: &About) -> String {
     out.element("p", &[("class", "worth"), ("data-worth", worth.word())], worth.words());
     out.element("p", &[("class", "summary")], &totals::summary(about)).close("header");
     if about.record.ticks() > 0 {
-        out.markup(player());
+        out.markup(Script::Cutting.markup());
     }
     out.open("main", &[("id", "report")]);
     job(about, &mut out);
