@@ -38,7 +38,7 @@ fn filled(steps: &[Step], blank: f64) -> String {
 
 /// Steps as lines of a program.
 fn lines(steps: &[Step]) -> String {
-    steps.iter().map(|step| format!("{step}\n")).collect()
+    steps.iter().map(Step::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// A program in the making.
