@@ -14,14 +14,14 @@ use super::{as_read, source};
 
 /// An outline: its vertices, which of them are corners, and its curves in fine chords.
 #[derive(Debug, Clone, Default)]
-struct Outline {
-    vertices: Vec<Place>,
-    is_corner: Vec<bool>,
+pub(super) struct Outline {
+    pub(super) vertices: Vec<Place>,
+    pub(super) is_corner: Vec<bool>,
     fine: Vec<Place>,
 }
 
 /// A figure like a flower, whose corners are joined by arcs of waves: each side has points of its curve, or is straight.
-fn flower(random: &mut Rng, sides: usize) -> Outline {
+pub(super) fn flower(random: &mut Rng, sides: usize) -> Outline {
     let mut outline = Outline::default();
     let corner = |k: usize, reach: f64| {
         let angle = TAU * k as f64 / sides as f64;
@@ -54,7 +54,7 @@ fn flower(random: &mut Rng, sides: usize) -> Outline {
 
 impl Outline {
     /// Writes its vertices, and points that say which are corners and which are on curves.
-    fn write(&self, file: &mut Writer, layer: u32, drawn: Drawn) {
+    pub(super) fn write(&self, file: &mut Writer, layer: u32, drawn: Drawn) {
         file.outline(layer, &self.vertices, drawn);
         for (place, is_corner) in self.vertices.iter().zip(&self.is_corner) {
             file.point(if *is_corner { 2 } else { 3 }, *place, [0.0; 2]);
@@ -75,7 +75,7 @@ fn rotated(places: &[Place], by: usize, is_back: bool) -> Vec<Place> {
     places
 }
 
-fn points(marker: &Marker) -> Vec<Point> {
+pub(super) fn points(marker: &Marker) -> Vec<Point> {
     let (_, contour) = marker.contours().last().expect("an outline");
     marker.points(contour)
 }

@@ -5,6 +5,7 @@ mod audit;
 mod curves;
 mod damage;
 mod habits;
+mod marked;
 mod programs;
 mod retrace;
 mod sets;

@@ -328,23 +328,30 @@ impl Row<'_> {
         let turned = |at: Point| right * at.x + up * at.y;
         let contours = &self.read.contours;
         let numbers: BTreeSet<u32> = contours[*behind..].iter().flatten().map(|place| place.1).collect();
-        let &(corner, block) = cuts.corners.iter().find(|(_, block)| numbers.contains(block))?;
-        let has = |contour: &Vec<(Point, u32)>| contour.iter().any(|place| place.1 == block);
+        let first = cuts.corners.iter().find(|(_, block)| numbers.contains(block))?;
+        let has = |contour: &Vec<(Point, u32)>| contour.iter().any(|place| place.1 == first.1);
         let taken = *behind + contours[*behind..].iter().position(has)?;
         *behind = taken + 1;
         let contour = &contours[taken];
         let places = Lookup::of(contour.iter().map(|place| place.0), MEETS);
-        let sample = || cuts.corners.iter().step_by(cuts.corners.len().div_ceil(CORNERS));
+        let sample: Vec<(Point, u32)> =
+            cuts.corners.iter().step_by(cuts.corners.len().div_ceil(CORNERS)).copied().collect();
         let met = |origin: &Vector| {
             let meets = |at: Point| {
                 let at = Point::from(turned(at) + origin);
                 places.near(at).map(|k| (contour[k].0 - at).norm()).fold(MEETS, f64::min)
             };
-            sample().map(|(at, _)| meets(*at)).sum::<f64>()
+            sample.iter().map(|(at, _)| meets(*at)).sum::<f64>()
         };
-        // Places of a curve have the number of the vertex that they lead to, and so has its mirror image.
-        let of_corner = contour.iter().filter(|place| place.1 == block).map(|place| place.0.coords - turned(corner));
-        let origin = of_corner.min_by(|a, b| met(a).total_cmp(&met(b)))?;
+        // Places of a curve have the number of the vertex that they lead to, and so has its mirror image. The vertex itself may
+        // be missing: the mouth of a notch takes it away.
+        let of_corner = |&(corner, block): &(Point, u32)| {
+            let own = contour.iter().filter(move |place| place.1 == block);
+            own.map(move |place| place.0.coords - turned(corner)).collect::<Vec<Vector>>()
+        };
+        let origins = sample.iter().chain([first]).flat_map(of_corner);
+        let origins = origins.map(|origin| (met(&origin), origin));
+        let (_, origin) = origins.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let points: Vec<Point> = contour.iter().map(|place| place.0).collect();
         Some((origin, Extent::of(&points)))
     }
