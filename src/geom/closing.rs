@@ -1,8 +1,8 @@
 //! The closing of a line: how a line comes back to where it starts, and the ring that results.
 //!
 //! Drawing programs close an outline in several ways. Its last place is its first; or it stops a little before; or it runs
-//! on past its start, since other software lays an overcut there: along its own head, or straight on where that turns; or it
-//! goes round twice in one stroke, or there and back.
+//! on past its start, since other software lays an overcut there: along its own head, from where a flag that closes it may
+//! lead back, or straight on where that turns; or it goes round twice in one stroke, or there and back.
 
 use crate::geom::{Point, cross, polyline, ring};
 
@@ -49,9 +49,15 @@ pub fn retrace(count: usize, at: impl Fn(usize) -> Point, reach: f64) -> Option<
     }
     let line = Line { count, at, reach };
     if (line.at)(0) == (line.at)(count - 1) {
-        return line.whole_rounds();
+        let open = Line { count: count - 1, at: &line.at, reach };
+        return open.run_back().or_else(|| line.whole_rounds());
     }
     line.returns().take(MOST_RETURNS).find_map(|last| line.followed(last).or_else(|| line.straight_on(last)))
+}
+
+/// Whether the line through three places turns back at the middle one.
+pub fn turns_back([before, at, behind]: [Point; 3]) -> bool {
+    (at - before).dot(&(behind - at)) < 0.0
 }
 
 struct Line<F> {
@@ -82,6 +88,19 @@ impl<F: Fn(usize) -> Point> Line<F> {
             k = behind;
         }
         None
+    }
+
+    /// Overrun of a line that one more segment closes, which leads straight back over the tail.
+    fn run_back(&self) -> Option<Retrace> {
+        if self.count <= LEAST_SEGMENTS || !turns_back([self.count - 2, self.count - 1, 0].map(&self.at)) {
+            return None;
+        }
+        let closing = [(self.at)(self.count - 1), (self.at)(0)];
+        let is_on_closing =
+            |k: usize| polyline::distance_to_segment((self.at)(k), closing[0], closing[1]) <= self.reach;
+        let is_overrun = |found: &Retrace| found.past > self.reach && (found.last + 1..self.count).all(is_on_closing);
+        let found = self.returns().take(MOST_RETURNS).find_map(|last| self.followed(last));
+        found.filter(is_overrun)
     }
 
     /// Segments, by their first places, at which the line comes back to its start.
@@ -315,6 +334,17 @@ mod tests {
         // Two triangles that meet at the start, twice.
         let eight = [A, B, C, A, [-50.0, 0.0], [-50.0, -50.0]];
         check(&[&eight[..], &eight, &[A]].concat(), Some((5, 2, 0.0)));
+    }
+
+    #[test]
+    fn a_line_that_runs_past_its_start_and_back_is_a_ring() {
+        check(&[A, B, C, D, A, [5.0, 0.0], A], Some((3, 1, 5.0)));
+        check(&[A, B, C, D, [5.0, 0.1], A], Some((3, 1, 5.001)));
+        check(&[[50.0, 0.0], B, C, D, A, [70.0, 0.0], [50.0, 0.0]], Some((4, 1, 20.0)));
+        check(&[A, B, C, D, A, B, C, D, A, [5.0, 0.0], A], Some((3, 2, 5.0)));
+        check(&[A, B, C, D, [0.1, 0.0], A], None);
+        // Back across the ring.
+        check(&[A, B, C, D, A, B, [100.0, 20.0], A], None);
     }
 
     #[test]

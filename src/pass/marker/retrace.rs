@@ -95,7 +95,8 @@ fn there_and_back(piece: &mut Piece, list: &mut SegmentList, found: &mut Found) 
     }
 }
 
-/// Whether a line ends where it starts and has not been near there before, as nearly all have not.
+/// Whether a line ends where it starts, does not turn back on its way there and has not been near there before, as nearly all
+/// have not.
 fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
     let [first, inner @ .., last] = points else { return true };
     let is_near = |at: &Point| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach;
@@ -105,7 +106,8 @@ fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
         let places = chain.first as usize..inner.len().min(chain.last as usize);
         extent.meets(&around) && inner[places].iter().any(is_near)
     };
-    first == last && !chains.each().any(returns)
+    let runs_back = matches!(points, [.., before, at, last] if closing::turns_back([*before, *at, *last]));
+    first == last && !runs_back && !chains.each().any(returns)
 }
 
 /// Outlines or lines that something was found about.

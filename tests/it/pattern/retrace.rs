@@ -114,6 +114,28 @@ fn a_pattern_is_the_same_however_far_its_outline_runs_on() {
 }
 
 #[test]
+fn a_flag_that_closes_an_outline_behind_its_overcut_changes_nothing() {
+    for seed in 0..60 {
+        let mut random = Rng::with_seed(seed);
+        let ring = ring(&mut random);
+        let [a, b] = [ring[0], ring[1]];
+        let past = (0.9 * (b[0] - a[0]).hypot(b[1] - a[1])).min(0.5 + 9.5 * random.f64());
+        let read = |places: &[Place], is_closed: bool| {
+            let mut file = Writer::begin();
+            file.block("A").polyline(1, places, is_closed).point(4, ring[2], [5.0, 0.0]).end_block();
+            let source = source(file.end(&["UNITS: METRIC"]));
+            let (marker, codes) = as_read(&source, &Job::default());
+            assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "seed {seed}: {places:?}");
+            let contours = marker.contours().map(|(_, contour)| marker.points(contour)).collect::<Vec<_>>();
+            (contours, codes)
+        };
+        let [once, places] = [stroke(&ring, 1, 0.0), stroke(&ring, 1, past)];
+        let (plain, _) = read(&once, false);
+        assert_eq!(read(&places, true), (plain, vec![OVERRUN]), "seed {seed}: {past} past");
+    }
+}
+
+#[test]
 fn a_table_of_places_is_the_same_however_far_its_line_runs_on() {
     for seed in 0..60 {
         let mut random = Rng::with_seed(seed);

@@ -1,6 +1,7 @@
 //! Lines that go along themselves again behind their start, found anew: the overcut of another cutter, and further rounds.
 //! A line is walked from its first place. Where it comes back there, all of it behind must be where it was as far from its
-//! start, or on whole rounds as far from its end, or go straight on out of the ring.
+//! start, or on whole rounds as far from its end, or go straight on out of the ring. A last stretch that closes the line may lead
+//! straight back over it.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -25,7 +26,8 @@ const SAMPLES: usize = 16;
 pub(super) fn once(paths: Vec<Path>) -> Vec<Path> {
     let Some(walk) = walk(&paths) else { return paths };
     let legs = Legs::of(&walk);
-    let Some(last) = legs.closing() else { return paths };
+    let last = legs.closing().or_else(|| legs.closing_before_last().filter(|_| walk[0].is_closed));
+    let Some(last) = last else { return paths };
     let mut kept = walk;
     let (path, edge) = legs.owner[last];
     kept.truncate(path + 1);
@@ -176,12 +178,29 @@ impl Legs {
 
     /// The stretch that closes the ring, if the walk goes along itself behind it.
     fn closing(&self) -> Option<usize> {
+        self.first_return(|k, round| self.goes_again(k, round) || self.goes_straight_on(k))
+    }
+
+    /// The stretch that closes the ring of a line whose last stretch leads straight back over all that goes along the ring again.
+    fn closing_before_last(&self) -> Option<usize> {
+        let ([others @ .., back], [stations @ .., _]) = (&self.all[..], &self.stations[..]) else { return None };
+        if others.is_empty() || back.curve.is_some() {
+            return None;
+        }
+        let open = Self { all: others.to_vec(), owner: Vec::new(), stations: stations.to_vec() };
+        let last = open.first_return(|k, round| open.goes_again(k, round))?;
+        let is_on_back = |leg: &Leg| leg.curve.is_none() && back.distance(leg.ends[1]) <= Dxf::RETRACE_OFF;
+        open.all[last..].iter().all(is_on_back).then_some(last)
+    }
+
+    /// The first stretch that comes back to the start and ends a ring.
+    fn first_return(&self, ends_ring: impl Fn(usize, f64) -> bool) -> Option<usize> {
         let start = self.start();
         let comes_back = |k: &usize| self.all[*k].distance(start) <= Dxf::RETRACE_OFF;
         let returns = (1..self.all.len()).filter(comes_back).filter(|k| !self.is_flat(*k)).take(MOST_RETURNS);
         returns.into_iter().find(|&k| {
             let round = self.stations[k] + (self.stations[k + 1] - self.stations[k]) * self.all[k].share(start);
-            self.goes_again(k, round) || self.goes_straight_on(k)
+            ends_ring(k, round)
         })
     }
 
