@@ -10,7 +10,7 @@ use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Piece};
 use crate::machine::Job;
-use crate::source::{Source, Span};
+use crate::source::{Source, Span, line_end};
 
 pub(super) const DIALECT: Dialect = Dialect {
     name: "csv",
@@ -32,7 +32,8 @@ const VALUE_MAX: f64 = 1e6;
 fn sniff(bytes: &[u8]) -> Likeness {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let bytes = &bytes[..bytes.len().min(SNIFFED_BYTES)];
-    let Some(line) = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty()) else {
+    let end = line_end(bytes);
+    let Some(line) = bytes.split(|&byte| byte == end).map(<[u8]>::trim_ascii).find(|line| !line.is_empty()) else {
         return Likeness::No;
     };
     let is_number = |field: &[u8]| std::str::from_utf8(field.trim_ascii()).is_ok_and(|f| f.parse::<f64>().is_ok());
@@ -64,10 +65,11 @@ fn rows(source: &Source, out: &mut Diagnostics) -> Vec<(Row, Span)> {
     let bytes = source.bytes();
     let mut rows = Vec::new();
     let mut at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+    let end = line_end(bytes);
     let mut number = 0;
     let mut headed = false;
     while at < bytes.len() {
-        let length = memchr::memchr(b'\n', &bytes[at..]).unwrap_or(bytes.len() - at);
+        let length = memchr::memchr(end, &bytes[at..]).unwrap_or(bytes.len() - at);
         let line = bytes[at..at + length].trim_ascii_end();
         number += 1;
         let span = Span { start: at as u32, end: (at + line.len()) as u32, block: number };

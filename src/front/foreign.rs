@@ -2,7 +2,7 @@
 
 use super::formats::{self, Format, head};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::source::Source;
+use crate::source::{Source, line_end};
 
 /// Bytes in which the first element of XML is looked for.
 const SNIFFED_XML: usize = 65_536;
@@ -77,7 +77,8 @@ fn say(format: &Format, out: &mut Diagnostics) {
 /// A section begins, or remarks stand before it.
 pub(super) fn is_dxf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut lines = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    let end = line_end(head(bytes));
+    let mut lines = head(bytes).split(|&byte| byte == end).map(<[u8]>::trim_ascii);
     let is_section = |line: &[u8]| line.eq_ignore_ascii_case(b"SECTION");
     match (lines.next(), lines.next()) {
         (Some(b"0"), Some(line)) => is_section(line),

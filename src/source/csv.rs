@@ -1,12 +1,13 @@
 //! CSV of numbers that is given beside a source: its rows behind a header, with their places.
 
-use super::Span;
+use super::{Span, line_end};
 
 /// The lines of a text that are not blank, each with its span; the block of a line is its number. A byte order mark is left
 /// out.
 #[derive(Debug)]
 pub struct CsvLines<'a> {
     bytes: &'a [u8],
+    end: u8,
     at: usize,
     block: u32,
 }
@@ -14,7 +15,7 @@ pub struct CsvLines<'a> {
 impl<'a> CsvLines<'a> {
     /// Lines of the bytes of a source.
     pub fn of(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, block: 0 }
+        Self { bytes, end: line_end(bytes), at: 0, block: 0 }
     }
 }
 
@@ -24,7 +25,7 @@ impl<'a> Iterator for CsvLines<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         while self.at < self.bytes.len() {
             let rest = &self.bytes[self.at..];
-            let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
+            let length = memchr::memchr(self.end, rest).unwrap_or(rest.len());
             let (start, line) = (self.at, &rest[..length]);
             self.at += length + 1;
             self.block += 1;

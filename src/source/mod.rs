@@ -53,14 +53,20 @@ impl Source {
 
     /// The same for many spans, best in their order.
     pub fn lines(&self) -> Lines<'_> {
-        Lines { bytes: &self.bytes, at: 0, breaks: 0 }
+        Lines { bytes: &self.bytes, end: line_end(&self.bytes), at: 0, breaks: 0 }
     }
+}
+
+/// Byte that ends the lines of a text: a carriage return where it has no line feed, as old programs write it.
+pub fn line_end(bytes: &[u8]) -> u8 {
+    if memchr::memchr(b'\n', bytes).is_some() { b'\n' } else { b'\r' }
 }
 
 /// Counts the lines of a [`Source`] on from the place that was asked for before, forwards or back.
 #[derive(Debug)]
 pub struct Lines<'a> {
     bytes: &'a [u8],
+    end: u8,
     /// Bytes counted, and the line breaks among them.
     at: usize,
     breaks: usize,
@@ -70,7 +76,7 @@ impl Lines<'_> {
     /// Where a span starts.
     pub fn place(&mut self, span: Span) -> Place {
         let start = (span.start as usize).min(self.bytes.len());
-        let count = |bytes: &[u8]| memchr::memchr_iter(b'\n', bytes).count();
+        let count = |bytes: &[u8]| memchr::memchr_iter(self.end, bytes).count();
         if start >= self.at {
             self.breaks += count(&self.bytes[self.at..start]);
         } else {
@@ -117,6 +123,13 @@ pub struct Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_end_at_carriage_returns_where_no_line_feed_is() {
+        let source = Source::new("a", b"0\rSECTION\r2\r".to_vec()).expect("small");
+        assert_eq!(source.place(Span { start: 10, end: 11, block: 2 }).line, 3);
+        assert_eq!((line_end(b"0\r\nSECTION\r\n"), line_end(b"0")), (b'\n', b'\r'));
+    }
 
     #[test]
     fn a_place_counts_lines_from_one() {

@@ -2,7 +2,7 @@
 
 use super::syntax::code;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::source::{Source, Span};
+use crate::source::{Source, Span, line_end};
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,13 +22,14 @@ const MOST_FAULTS: usize = 20;
 /// The lines of a file, without line breaks, each with its first byte.
 struct Lines<'a> {
     bytes: &'a [u8],
+    end: u8,
     at: usize,
 }
 
 impl<'a> Lines<'a> {
     fn next(&mut self) -> Option<(usize, &'a [u8])> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
-        let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
+        let length = memchr::memchr(self.end, rest).unwrap_or(rest.len());
         let start = self.at;
         self.at += length + 1;
         Some((start, &rest[..length]))
@@ -47,7 +48,7 @@ fn trimmed(start: usize, line: &[u8], block: u32) -> Span {
 pub(in crate::front) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Group> {
     let bytes = source.bytes();
     let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
-    let mut lines = Lines { bytes, at };
+    let mut lines = Lines { bytes, end: line_end(bytes), at };
     let mut groups: Vec<Group> = Vec::with_capacity(bytes.len() / 10);
     let (mut faults, mut is_lost) = (0, false);
     while let Some((start, line)) = lines.next() {

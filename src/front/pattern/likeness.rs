@@ -10,6 +10,7 @@ use super::key::key;
 use super::layer::{Does, OUTLINE, layer};
 use crate::front::{Likeness, foreign};
 use crate::machine::letters::Letters;
+use crate::source::line_end;
 
 /// Codes that begin an entity, and of its text, its name and its layer.
 const BEGINS: &[u8] = b"0";
@@ -50,7 +51,7 @@ impl Signs {
         let mut signs = Self::default();
         let (mut kind, mut is_in_block): (&[u8], bool) = (b"", false);
         let mut start = 0;
-        let ends = memchr::memchr_iter(b'\n', bytes).chain([bytes.len()]);
+        let ends = memchr::memchr_iter(line_end(bytes), bytes).chain([bytes.len()]);
         let mut lines = ends.map(|end| bytes[std::mem::replace(&mut start, end + 1)..end].trim_ascii());
         while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
             match code {

@@ -4,8 +4,9 @@ use cutc::ir::Marker;
 use cutc::machine::Job;
 use fastrand::Rng;
 
+use super::audit::broken;
 use super::writer::{Drawn, Place, Writer};
-use super::{as_read, source};
+use super::{as_read, fixtures, source};
 
 /// How far two ways of drawing may differ, mm: rounding.
 const SAME: f64 = 1e-9;
@@ -142,6 +143,19 @@ fn what_is_on_a_layer_that_is_not_cut_changes_nothing() {
         assert_eq!(found, told, "layer {layer}");
     }
     assert_eq!(cut(&[11]).0.contours().count(), 2);
+}
+
+#[test]
+fn a_file_whose_lines_end_with_carriage_returns_is_the_same() {
+    for (path, bytes) in fixtures().into_iter().filter(|(_, bytes)| bytes.contains(&b'\n')) {
+        let returns: Vec<u8> = bytes.iter().filter(|&&byte| byte != b'\r').copied().collect();
+        let returns: Vec<u8> = returns.into_iter().map(|byte| if byte == b'\n' { b'\r' } else { byte }).collect();
+        let [(marker, found), (other, of_other)] =
+            [bytes, returns.clone()].map(|bytes| as_read(&source(bytes), &Job::default()));
+        let lines = |marker: &Marker| marker.contours().map(|(_, contour)| marker.points(contour)).collect::<Vec<_>>();
+        assert_eq!((lines(&other), of_other), (lines(&marker), found), "{}", path.display());
+        assert_eq!(broken(&source(returns), &other, &Job::default()), [""; 0], "{}", path.display());
+    }
 }
 
 #[test]

@@ -267,7 +267,9 @@ fn lettered(items: &mut [Item], labels: &Labels) -> Letters {
 /// Reads a file.
 pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
+    // Some programs end lines with carriage returns alone.
+    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    let lines: Vec<&[u8]> = bytes.split(|&byte| byte == end).map(<[u8]>::trim_ascii).collect();
     let mut items: Vec<Item> = Vec::new();
     for (pair, number) in lines.chunks_exact(2).zip(1..) {
         let Some(code) = std::str::from_utf8(pair[0]).ok().and_then(|code| code.parse().ok()) else { break };
