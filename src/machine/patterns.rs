@@ -46,6 +46,9 @@ impl Dxf {
     pub const CURVE_OFF: f64 = 0.5;
     /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
     pub const NOTCH_OFF: f64 = 1.0;
+    /// Farthest that a turn point or a curve point lies from the vertex that it marks, mm: what rounding to a hundredth of a
+    /// millimetre or a thousandth of an inch parts. A twentieth, and room for the rounding of that.
+    pub const POINT_OFF: f64 = 0.051;
     /// Longest stretch that goes straight on where an outline turns at its start, mm: the overcut of another cutter.
     pub const PAST_CORNER: f64 = 10.0;
     /// Farthest that such a stretch, one along the outline, or another round lies from the first round, mm.

@@ -24,11 +24,21 @@ pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Di
     let pieces =
         |from: &CurveCount| if from.pieces == 1 { "1 piece".to_owned() } else { format!("{} pieces", from.pieces) };
     let off = |from: &CurveCount| format!("up to {:.1} mm off the chords", from.off);
-    let CurveCounts { fine, laid, missed } = curved;
+    let CurveCounts { fine, laid, missed, chords, stray } = curved;
+    let compare = "compare a neck and an armhole in the picture (`-t svg`) with the CAD system";
     if missed.pieces > 0 {
-        let message = format!("layer 84 misses vertices of the outline and is not used: {}", pieces(missed));
-        let finding = Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(missed.first);
-        out.push(finding.hint("compare a neck and an armhole in the picture (`-t svg`) with the CAD system"));
+        let along = match chords.pieces {
+            0 => "",
+            count if count == missed.pieces => ", cut along the chords of layer 1",
+            _ => ", some cut along the chords of layer 1",
+        };
+        let message = format!("layer 84 misses vertices of the outline and is not used: {}{along}", pieces(missed));
+        out.push(Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(missed.first).hint(compare));
+    }
+    if stray.pieces > 0 {
+        let message =
+            format!("curve points (layer 3) mark no vertex of a line, so that chords are cut there: {}", pieces(stray));
+        out.push(Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(stray.first).hint(compare));
     }
     if fine.pieces > 0 {
         let message = format!("cut along the curves of layer 84: {}, {}", pieces(fine), off(fine));

@@ -4,7 +4,7 @@ use cutc::machine::Job;
 use fastrand::Rng;
 
 use super::audit::broken;
-use super::curves::flower;
+use super::curves::{flower, points};
 use super::writer::{Drawn, Writer};
 use super::{as_read, source};
 
@@ -27,5 +27,32 @@ fn a_notch_that_takes_a_curve_point_away_leaves_its_piece_in_its_place() {
             let (marker, _) = as_read(&source, &Job::default());
             assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "seed {seed}, layer {layer}, vertex {k}");
         }
+    }
+}
+
+#[test]
+fn points_that_rounding_moves_off_their_vertices_mark_them_and_others_are_told() {
+    let mut random = Rng::with_seed(5);
+    let outline = flower(&mut random, 5);
+    let read = |off: f64| {
+        let mut file = Writer::begin();
+        file.block("A").outline(1, &outline.vertices, Drawn::Closed);
+        for (k, [x, y]) in outline.vertices.iter().enumerate() {
+            let turn = off * if k % 2 == 0 { 1.0 } else { -1.0 };
+            file.point(if outline.is_corner[k] { 2 } else { 3 }, [x + turn, *y], [0.0; 2]);
+        }
+        file.end_block();
+        let source = source(file.end(&["UNITS: METRIC", "AUTHOR: Gerber"]));
+        let (marker, found) = as_read(&source, &Job::default());
+        assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "{off}");
+        (points(&marker), found)
+    };
+    let (laid, _) = read(0.0);
+    for off in [0.005, 0.02, 0.05] {
+        assert_eq!(read(off), (laid.clone(), vec!["dxf/curves"]), "{off}");
+    }
+    for off in [0.06, 0.3, 2.0] {
+        let (cut, found) = read(off);
+        assert_eq!((cut.len(), found), (outline.vertices.len() + 1, vec!["dxf/curve-missed"]), "{off}");
     }
 }

@@ -70,7 +70,7 @@ impl Curves {
             Some(legs) => Curve::of(&coarse, legs, Origin::Laid),
             None => Curve::drawn(line),
         };
-        curved.missed = missed;
+        (curved.missed, curved.stray) = (missed, self.nodes.stray);
         curved
     }
 

@@ -10,6 +10,10 @@ pub(in crate::front::pattern) struct CurveCounts {
     pub(in crate::front::pattern) laid: CurveCount,
     /// Pieces with fine lines that miss vertices of the outline: those lines are not used.
     pub(in crate::front::pattern) missed: CurveCount,
+    /// Pieces among them that are cut along the chords.
+    pub(in crate::front::pattern) chords: CurveCount,
+    /// Pieces with curve points that mark no vertex.
+    pub(in crate::front::pattern) stray: CurveCount,
 }
 
 /// Count of pieces with curves from one origin.
@@ -39,6 +43,12 @@ impl CurveCounts {
         let line = CurveCount { pieces: 1, off: curved.off, first };
         if let Some(first) = curved.missed {
             self.missed.add(CurveCount { pieces: 1, off: 0.0, first });
+            if curved.origin == Origin::Drawn {
+                self.chords.add(line);
+            }
+        }
+        if let Some(first) = curved.stray {
+            self.stray.add(CurveCount { pieces: 1, off: 0.0, first });
         }
         match curved.origin {
             Origin::Drawn => {}
@@ -52,5 +62,7 @@ impl CurveCounts {
         self.fine.add(those.fine);
         self.laid.add(those.laid);
         self.missed.add(those.missed);
+        self.chords.add(those.chords);
+        self.stray.add(those.stray);
     }
 }

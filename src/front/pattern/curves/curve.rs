@@ -29,6 +29,8 @@ pub(in crate::front::pattern) struct Curve {
     pub(in crate::front::pattern) off: f64,
     /// Start of a fine line near the line that misses some of its vertices.
     pub(in crate::front::pattern) missed: Option<Span>,
+    /// Curve point of its block that marks no vertex of a line.
+    pub(in crate::front::pattern) stray: Option<Span>,
     /// The coarse line, and the curve over each of its edges; empty for a line as it is drawn.
     coarse: Vec<Point>,
     legs: Vec<Vec<Point>>,
@@ -37,7 +39,8 @@ pub(in crate::front::pattern) struct Curve {
 impl Curve {
     /// Curve of a line without curves: the line itself.
     pub(super) fn drawn(line: &Chain) -> Self {
-        Self { line: line.clone(), origin: Origin::Drawn, off: 0.0, missed: None, coarse: Vec::new(), legs: Vec::new() }
+        let line = line.clone();
+        Self { line, origin: Origin::Drawn, off: 0.0, missed: None, stray: None, coarse: Vec::new(), legs: Vec::new() }
     }
 
     /// Curve over the edges of a coarse line, one leg a vertex; its spikes are put back.
@@ -57,7 +60,7 @@ impl Curve {
         let off = ways.iter().zip(round.windows(2)).map(off_edge).fold(0.0, f64::max);
         coarse.put_back(&mut legs);
         let line = Chain { vertices: legs.concat(), is_closed: base.is_closed };
-        Self { line, origin, off, missed: None, coarse: round, legs: ways }
+        Self { line, origin, off, missed: None, stray: None, coarse: round, legs: ways }
     }
 
     /// Place on the curve straight above a place beside a chord of the coarse line. Other places stay where they are, and so

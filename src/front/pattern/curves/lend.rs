@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::nodes::ON;
 use crate::front::pattern::layer::{Does, Layer};
 use crate::front::pattern::shape::{Dot, Line, Shapes};
 use crate::geom::Point;
+use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
 /// Name of a block, and whether it is of the size that the set was drawn in.
@@ -58,7 +58,7 @@ fn lent(lender: &Shapes, block: &Shapes) -> Vec<Dot> {
     }
     let vertices = |block| lines(block).flat_map(|line| &line.vertices).map(|vertex| vertex.at);
     let mut kinds: BTreeMap<[i64; 2], Vec<(Point, &'static Layer)>> = BTreeMap::new();
-    let cell = |at: Point| [at.x, at.y].map(|value| (value / ON).round() as i64);
+    let cell = |at: Point| [at.x, at.y].map(|value| (value / Dxf::POINT_OFF).round() as i64);
     lender
         .dots
         .iter()
@@ -68,7 +68,8 @@ fn lent(lender: &Shapes, block: &Shapes) -> Vec<Dot> {
     for (its, own) in vertices(lender).zip(vertices(block)) {
         let [x, y] = cell(its);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
-        let near = around.filter_map(|cell| kinds.get(&cell)).flatten().filter(|(at, _)| (at - its).norm() <= ON);
+        let near = around.filter_map(|cell| kinds.get(&cell)).flatten();
+        let near = near.filter(|(at, _)| (at - its).norm() <= Dxf::POINT_OFF);
         dots.extend(near.map(|&(_, layer)| Dot {
             layer,
             at: own,

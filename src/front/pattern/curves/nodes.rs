@@ -8,10 +8,13 @@ use crate::front::pattern::layer::Does;
 use crate::front::pattern::retrace::retraces;
 use crate::front::pattern::shape::{Dot, Line};
 use crate::geom::{Point, bits};
+use crate::machine::patterns::Dxf;
+use crate::source::Span;
 
-/// Largest distance from a vertex to the point that tells its kind, mm: rounding, and less than between any two vertices.
+/// Largest distance of places that are one, mm: rounding, and less than between any two vertices. A vertex without a point so
+/// near has the kind of those within [`Dxf::POINT_OFF`].
 pub(super) const ON: f64 = 0.01;
-/// Largest number of places of one cell that are kept: only a damaged file has more within a hundredth of a millimetre.
+/// Largest number of places of one cell that are kept: only a damaged file has more so near to each other.
 const MOST_AROUND: usize = 16;
 
 /// Course of a curve through a vertex.
@@ -37,11 +40,13 @@ enum Sign {
     Joint,
     /// A line has the place twice.
     Doubled,
+    /// A line has a vertex there.
+    Vertex,
 }
 
 /// Set of the signs of a place.
 #[derive(Debug, Clone, Copy, Default)]
-struct Signs([bool; 5]);
+struct Signs([bool; 6]);
 
 impl Signs {
     fn has(self, sign: Sign) -> bool {
@@ -63,16 +68,28 @@ impl Signs {
     }
 }
 
+/// The first curve point that marks no vertex of any line of its block.
+fn stray(lines: &[Line], dots: &[Dot]) -> Option<Span> {
+    let mut vertices = Nodes::default();
+    for vertex in lines.iter().flat_map(|line| &line.vertices) {
+        vertices.add(vertex.at, Signs::default().with(Sign::Vertex));
+    }
+    let marks_vertex = |dot: &&Dot| vertices.signs(dot.at, Dxf::POINT_OFF).has(Sign::Vertex);
+    dots.iter().filter(|dot| dot.layer.does == Does::Curve).find(|dot| !marks_vertex(dot)).map(|dot| dot.span)
+}
+
 /// The signs of a block, by where they are.
 #[derive(Debug, Clone, Default)]
 pub(in crate::front::pattern) struct Nodes {
     cells: BTreeMap<[i64; 2], Vec<(Point, Signs)>>,
     /// Whether a curve point is among them.
     pub(super) has_curves: bool,
+    /// The first curve point that marks no vertex.
+    pub(super) stray: Option<Span>,
 }
 
 fn cell(at: Point) -> [i64; 2] {
-    [at.x, at.y].map(|value| (value / ON).floor() as i64)
+    [at.x, at.y].map(|value| (value / Dxf::POINT_OFF).floor() as i64)
 }
 
 impl Nodes {
@@ -101,6 +118,7 @@ impl Nodes {
         if !nodes.has_curves {
             return Self::default();
         }
+        nodes.stray = stray(lines, dots);
         for line in lines.iter().filter(|line| line.layer.is_curved()) {
             let doubled = line.vertices.windows(2).filter(|pair| pair[0].at == pair[1].at);
             doubled.for_each(|pair| nodes.add(pair[0].at, Signs::default().with(Sign::Doubled)));
@@ -123,9 +141,18 @@ impl Nodes {
         }
     }
 
+    /// Signs of the places within reach of a place.
+    fn signs(&self, at: Point, reach: f64) -> Signs {
+        let [x, y] = cell(at);
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        let near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
+        let near = near.filter(|(place, _)| (place - at).norm() <= reach);
+        near.fold(Signs::default(), |signs, (_, more)| signs.and(*more))
+    }
+
     /// Signs on both sides of a fold. A line that ends on the fold goes on there.
     pub(super) fn unfolded(self, fold: &Fold) -> Self {
-        let mut nodes = Self { has_curves: self.has_curves, ..Self::default() };
+        let mut nodes = Self { has_curves: self.has_curves, stray: self.stray, ..Self::default() };
         for (at, signs) in self.cells.into_values().flatten() {
             let is_middle = fold.is_middle(at);
             nodes.add(at, if is_middle { signs.without(Sign::Joint) } else { signs });
@@ -138,12 +165,11 @@ impl Nodes {
 
     /// Course of a curve through a vertex.
     pub(super) fn at(&self, at: Point) -> Node {
-        let [x, y] = cell(at);
-        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
-        let near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
-        let near = near.filter(|(place, _)| (place - at).norm() <= ON);
-        let signs = near.fold(Signs::default(), |signs, (_, more)| signs.and(*more));
-        let [is_turn, is_curve, is_notch] = [Sign::Turn, Sign::Curve, Sign::Notch].map(|sign| signs.has(sign));
+        let [signs, beside] = [ON, Dxf::POINT_OFF].map(|reach| self.signs(at, reach));
+        let is_marked = [Sign::Turn, Sign::Curve].iter().any(|sign| signs.has(*sign));
+        let [is_turn, is_curve] =
+            [Sign::Turn, Sign::Curve].map(|sign| if is_marked { signs.has(sign) } else { beside.has(sign) });
+        let is_notch = beside.has(Sign::Notch);
         // A place that turns and curves is smooth, even where two lines meet.
         let is_parted = signs.has(Sign::Doubled) || signs.has(Sign::Joint) && !(is_turn && is_curve);
         match (is_parted, is_curve, is_notch) {

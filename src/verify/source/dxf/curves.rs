@@ -9,8 +9,9 @@ use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
+use crate::machine::patterns::Dxf;
 
-/// How far from a fine line a vertex is still on it, and from a vertex the point that says its kind, mm.
+/// How far from a fine line a vertex is still on it, mm.
 pub(super) const ON: f64 = 0.01;
 /// Layers of fine lines.
 const FINE: [u32; 4] = [84, 85, 86, 87];
@@ -21,10 +22,23 @@ const HIGH: f64 = 0.2;
 pub(super) struct Curves {
     /// Fine lines with their layers, each with those whose ends meet its own.
     fine: Vec<(u32, Vec<Path>)>,
-    turns: Lookup,
-    smooth: Lookup,
-    notches: Lookup,
+    turns: Spots,
+    smooth: Spots,
+    notches: Spots,
     may_bow: bool,
+}
+
+/// Points that say the kinds of vertices: those at a vertex, and those beside it.
+struct Spots {
+    on: Lookup,
+    beside: Lookup,
+}
+
+impl Spots {
+    fn of(points: &[Point]) -> Self {
+        let within = |reach| Lookup::of(points.iter().copied(), reach);
+        Self { on: within(ON), beside: within(Dxf::POINT_OFF) }
+    }
 }
 
 /// A coarse edge that a curve may leave, mm.
@@ -68,8 +82,7 @@ impl Curves {
             let all = clusters(paths(&sheet.items, layer, measure));
             all.into_iter().map(move |paths| (layer, once(paths)))
         });
-        let [of_turns, of_curves, of_notches] =
-            [&turns, &curves, &notches].map(|points| Lookup::of(points.iter().copied(), ON));
+        let [of_turns, of_curves, of_notches] = [&turns, &curves, &notches].map(|points| Spots::of(points));
         Self {
             fine: fine.collect(),
             may_bow: !curves.is_empty(),
@@ -117,7 +130,7 @@ impl Curves {
         if self.may_bow {
             for path in &bare {
                 smooth += self.see(path, &mut bows, &mut bends);
-                passed.extend(path.points.iter().filter(|at| self.smooth.has(**at) && self.notches.has(**at)));
+                passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
             }
         }
         if may_be_polygon && 2 * bends.len() <= smooth {
@@ -128,7 +141,17 @@ impl Curves {
 
     /// Whether a curve may go on at a vertex.
     fn goes_on(&self, at: Point) -> bool {
-        self.smooth.has(at) || self.notches.has(at) && !self.turns.has(at)
+        let is_turn = self.turns.on.has(at) || !self.smooth.on.has(at) && self.turns.beside.has(at);
+        self.is_smooth(at) || self.is_notched(at) && !is_turn
+    }
+
+    /// Whether a curve point marks a vertex: one beside it does where no turn point is at it.
+    fn is_smooth(&self, at: Point) -> bool {
+        self.smooth.on.has(at) || !self.turns.on.has(at) && self.smooth.beside.has(at)
+    }
+
+    fn is_notched(&self, at: Point) -> bool {
+        self.notches.beside.has(at)
     }
 
     /// Adds the edges that may bow, and the curve points whose chords a curve leaves by [`HIGH`] at least. Returns the count of
@@ -146,7 +169,7 @@ impl Curves {
             }
             let [before, at, behind] = [path.points[(k + count - 1) % count], ends[0], ends[1]];
             let turn = polyline::turn_at(before, at, behind).abs();
-            let is_smooth = self.smooth.has(at) && !self.notches.has(at) && !path.doubled.contains(&at);
+            let is_smooth = self.is_smooth(at) && !self.is_notched(at) && !path.doubled.contains(&at);
             // A round curve that turns so much from chord to chord stands an eighth of that over each, in parts of its length.
             smooth += usize::from(is_smooth);
             if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
@@ -277,7 +300,7 @@ pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[V
             |strokes: &[Stroke]| strokes.iter().flat_map(|stroke| stroke.vertices.clone()).collect::<Vec<_>>();
         let (own, its) = (vertices(&own), vertices(&its));
         let on = |layer: u32| -> Vec<Point> {
-            let dots = Lookup::of(dots(lender, layer).into_iter(), ON);
+            let dots = Lookup::of(dots(lender, layer).into_iter(), Dxf::POINT_OFF);
             own.iter().zip(&its).filter(|(_, its)| dots.has(its.0)).map(|(own, _)| own.0).collect()
         };
         is_alike.then(|| [on(2), on(3)])
