@@ -299,6 +299,11 @@ fn plot_statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
                 statements.push(("text", format!("{mnemonic}\"TEXT\";")));
                 rest = &behind[length + 2..];
             }
+            "MG" if behind.iter().find(|byte| matches!(byte, b';' | 3)) == Some(&3) => {
+                let Some(length) = behind.iter().position(|&byte| byte == 3) else { break };
+                statements.push(("text", "MGTEXTETX".to_owned()));
+                rest = &behind[length + 1..];
+            }
             "BP" if behind.starts_with(b"1,") => {
                 let Some(length) = behind.iter().position(|&byte| byte == b';') else { break };
                 let has_quotes = behind[..length].contains(&b'"');

@@ -68,11 +68,11 @@ fn holds_outline(text: &[u8]) -> bool {
 }
 
 /// Where the file goes on behind the quoted text of CO or MG. One without its second quote, or without any, ends with its
-/// line or at a semicolon.
+/// line, at a semicolon, or at ETX, which ends texts of plotters whatever DT says.
 pub(super) fn quoted(bytes: &[u8], at: usize) -> usize {
     in_quotes(bytes, at).unwrap_or_else(|| {
         let rest = &bytes[at..];
-        at + rest.iter().position(|byte| b";\r\n".contains(byte)).unwrap_or(rest.len())
+        at + rest.iter().position(|byte| b";\r\n\x03".contains(byte)).unwrap_or(rest.len())
     })
 }
 
@@ -135,5 +135,6 @@ mod tests {
         assert_eq!(quoted(b"CO\"\";PU", 2), 4);
         assert_eq!(quoted(b"CO\"a;PU", 2), 4);
         assert_eq!(quoted(b"CO;PU", 2), 2);
+        assert_eq!(quoted(b"MGa\x03PD1,2;", 2), 3);
     }
 }

@@ -6,6 +6,8 @@ use super::scan::{Pen, Place, Scan};
 pub(super) const ETX: u8 = 3;
 /// Places behind PD, after a PU with a place, from which on a label is no text: it has swallowed an outline.
 const DRAWN_PLACES: usize = 3;
+/// Ends of a text that stands without quotes behind CO, MG or BP.
+const END_OF_WORDS: &[u8] = b";\r\n\x03";
 /// Longest label, bytes, before its terminator counts as lost.
 const LABEL_BYTES: usize = 1024;
 
@@ -115,7 +117,7 @@ impl Scan<'_> {
             }
             b"CO" | b"MG" => {
                 if !self.quote() {
-                    self.at += self.until(b";\r\n", usize::MAX);
+                    self.at += self.until(END_OF_WORDS, usize::MAX);
                 }
             }
             b"SM" => self.at += usize::from(!matches!(self.bytes.get(self.at), Some(b';') | None)),
@@ -172,12 +174,12 @@ impl Scan<'_> {
                 Some(b'"') => {
                     self.at = next;
                     self.quote() || {
-                        self.at += self.until(b";\r\n", usize::MAX);
+                        self.at += self.until(END_OF_WORDS, usize::MAX);
                         true
                     }
                 }
                 Some(byte) if has_comma && !matches!(*byte, b';' | 0x1b) => {
-                    self.at += self.until(b";\r\n", usize::MAX);
+                    self.at += self.until(END_OF_WORDS, usize::MAX);
                     true
                 }
                 _ => false,
