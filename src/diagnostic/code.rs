@@ -3,20 +3,10 @@
 //! The first word is the stage. Names never change once released: scripts filter by them.
 
 pub use super::kind::Code;
-use super::kind::{error, warning};
+use super::kind::{codes, error, warning};
 pub use super::telling::{Fault, Harm, Severity, Telling};
 use Fault::{Shape, Text};
 use Harm::{Spares, Spoils};
-
-/// Declares each code, and the table of all of them in the order of the manual.
-macro_rules! codes {
-    ($($(#[$about:meta])* $name:ident = $code:expr;)*) => {
-        $($(#[$about])* pub static $name: Code = $code;)*
-
-        /// Every code, in the order of the manual.
-        pub static ALL: &[&Code] = &[$(&$name),*];
-    };
-}
 
 codes! {
     // The source as a whole.
@@ -103,11 +93,13 @@ codes! {
     /// A mnemonic that is not in the table.
     HPGL_UNKNOWN = warning(Spares, Text, "hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.", "Private instructions of a plotter do not draw as a rule. If lines are missing from the picture (-t svg), this is where to look.");
     /// What draws and is not cut.
-    HPGL_LEFT_OUT = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper.");
+    HPGL_LEFT_OUT = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows, copies.", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper.");
     /// A size that depends on the plotter.
     HPGL_SCALE = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.", "The size of the drawing depends on the plotter that it was made for, or a number of its scale was lost, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP.");
     /// More than one page.
-    HPGL_PAGES = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file.");
+    HPGL_PAGES = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out or was cut off, or draws over the same place after a fresh start; the pages lie on each other.", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file.");
+    /// Frames of a long plot.
+    HPGL_FRAMES = error(Shape, "hpgl/frame-advance", "A plot draws on after the paper was moved on by a frame (FR).", "Places behind FR have the same numbers and lie a frame farther on the paper. How long a frame is only the plotter knows, so the frames would be cut into each other. Let the CAD system write one long plot, without frames.");
     /// A place that no table reaches.
     HPGL_FAR_PLACE = error(Text, "hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Two numbers may have run together, relative moves may be damaged, or the unit is far too large.\n  cutc check marker.plt --set hpgl.unit=0.01");
     /// Curves that fill the memory.

@@ -45,3 +45,14 @@ pub(super) const fn warning(
 ) -> Code {
     Code { name, severity: Severity::Warning, harm, fault, about, more }
 }
+
+/// Declares each code, and the table of all of them in the order of the manual.
+macro_rules! codes {
+    ($($(#[$about:meta])* $name:ident = $code:expr;)*) => {
+        $($(#[$about])* pub static $name: Code = $code;)*
+
+        /// Every code, in the order of the manual.
+        pub static ALL: &[&Code] = &[$(&$name),*];
+    };
+}
+pub(super) use codes;

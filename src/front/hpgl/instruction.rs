@@ -1,5 +1,7 @@
 //! Every instruction that is known: a table.
 
+use super::page::End;
+
 /// What an instruction does, as far as lines matter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Instruction {
@@ -45,8 +47,8 @@ pub(super) enum Instruction {
     CornersPercent,
     Rotate,
     PageSize,
-    /// PG, AF, AH: the page goes out.
-    Page,
+    /// PG, AF, AH, FR, EC: the page ends.
+    Page(End),
     /// LB, DT.
     Label,
     Terminator,
@@ -127,7 +129,7 @@ impl Instruction {
             | Self::CornersPercent
             | Self::Rotate
             | Self::PageSize
-            | Self::Page
+            | Self::Page(_)
             | Self::PrintBuffer
             | Self::Direction
             | Self::LeftOut(_)
@@ -167,7 +169,9 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"IR" => Instruction::CornersPercent,
         b"RO" => Instruction::Rotate,
         b"PS" => Instruction::PageSize,
-        b"PG" | b"AF" | b"AH" => Instruction::Page,
+        b"PG" | b"AF" | b"AH" => Instruction::Page(End::Out),
+        b"FR" => Instruction::Page(End::Frame),
+        b"EC" => Instruction::Page(End::CutOff),
         b"LB" => Instruction::Label,
         b"DT" => Instruction::Terminator,
         b"BL" => Instruction::Buffer,
@@ -182,14 +186,16 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"WG" => Instruction::LeftOut("a filled wedge"),
         b"FP" => Instruction::LeftOut("a filled polygon"),
         b"CS" | b"SS" => Instruction::LeftOut("a character set"),
+        b"RP" => Instruction::LeftOut("more copies of the plot"),
         b"SM" => Instruction::Symbol,
         b"IW" => Instruction::LeftOut("a window that clips lines"),
         b"AC" | b"AD" | b"AP" | b"AS" | b"CA" | b"CF" | b"CM" | b"CR" | b"CT" | b"CV" | b"DC" | b"DP" | b"DV"
-        | b"EC" | b"ES" | b"FI" | b"FN" | b"FR" | b"FS" | b"GC" | b"GM" | b"IM" | b"LA" | b"LM" | b"LO" | b"LT"
-        | b"MC" | b"MT" | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO" | b"OP"
-        | b"OS" | b"OT" | b"OW" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"RP" | b"SA" | b"SB" | b"SD"
-        | b"SI" | b"SL" | b"SR" | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN" | b"VS" | b"WU"
-        | b"XT" | b"YT" => Instruction::Housekeeping,
+        | b"ES" | b"FI" | b"FN" | b"FS" | b"GC" | b"GM" | b"IM" | b"LA" | b"LM" | b"LO" | b"LT" | b"MC" | b"MT"
+        | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO" | b"OP" | b"OS" | b"OT"
+        | b"OW" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"SA" | b"SB" | b"SD" | b"SI" | b"SL" | b"SR"
+        | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN" | b"VS" | b"WU" | b"XT" | b"YT" => {
+            Instruction::Housekeeping
+        }
         _ => Instruction::Unknown,
     }
 }

@@ -6,6 +6,7 @@ use super::curve::{Arc, Bezier, Through};
 use super::encoded::{Body, Ending, Item};
 use super::instruction::Instruction;
 use super::lost;
+use super::page::{End, Pages};
 use super::plotter::{NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
 use super::scale::{Frame, Pair, Unknown};
@@ -36,7 +37,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         labels: Vec::new(),
         heading: None,
         buffer: None,
-        page_out: None,
+        pages: Pages::default(),
         unsized_at: None,
         doubts: Vec::new(),
         last_drew: false,
@@ -61,8 +62,7 @@ struct Lowering<'a> {
     heading: Option<Heading>,
     /// The text that BL has left for PB.
     buffer: Option<Span>,
-    /// How much was drawn when a page went out, and where that stands.
-    page_out: Option<(usize, Span)>,
+    pages: Pages,
     /// What left the scale to the device, as long as nothing was drawn in it: the corners may follow.
     unsized_at: Option<Span>,
     /// What was said of scales, each thing once.
@@ -104,7 +104,7 @@ impl Lowering<'_> {
                     self.tally.sound();
                     self.obey(instruction, span);
                 }
-                Statement::Reset => self.reset(),
+                Statement::Reset => self.reset(span),
                 Statement::Junk => {
                     self.tally.junk(span);
                     lost::over_junk(&self.reader, &mut self.plotter, span);
@@ -115,14 +115,7 @@ impl Lowering<'_> {
                 return;
             }
         }
-        if let Some((drawn, span)) = self.page_out
-            && self.plotter.drawing.strokes.len() > drawn
-        {
-            let finding = Diagnostic::new(&code::HPGL_PAGES, "a page goes out here, and more is drawn behind it");
-            self.out.push(
-                finding.at(span).hint("the pages lie on each other; if they do not belong together, split the file"),
-            );
-        }
+        self.pages.report(&self.plotter.drawing, self.out);
     }
 
     /// The end of the file: a line that the pen is still drawing there may be cut short.
@@ -156,7 +149,8 @@ impl Lowering<'_> {
         }
     }
 
-    fn reset(&mut self) {
+    fn reset(&mut self, span: Span) {
+        self.pages.end(End::Afresh, self.plotter.drawing.strokes.len(), span);
         self.plotter.reset();
         (self.heading, self.unsized_at, self.buffer) = (None, None, None);
     }
@@ -193,7 +187,7 @@ impl Lowering<'_> {
             Instruction::Wedge => self.wedge(span),
             Instruction::Polygon => self.polygon(span),
             Instruction::EdgePolygon => self.edge_polygon(span),
-            Instruction::Page => self.page(span),
+            Instruction::Page(end) => self.page(end, span),
             Instruction::Label
             | Instruction::Terminator
             | Instruction::Buffer
@@ -201,10 +195,10 @@ impl Lowering<'_> {
             | Instruction::Display
             | Instruction::Comment
             | Instruction::Direction => self.say(instruction, span),
-            Instruction::Initialize => self.reset(),
+            Instruction::Initialize => self.reset(span),
             Instruction::Begin => {
                 self.reader.pass_over(instruction.tail());
-                self.reset();
+                self.reset(span);
             }
             Instruction::Default => self.set_default(),
             Instruction::Scale
@@ -277,12 +271,14 @@ impl Lowering<'_> {
         (self.heading, self.unsized_at) = (None, None);
     }
 
-    /// PG: whatever is drawn next, what was drawn is whole.
-    fn page(&mut self, span: Span) {
-        self.plotter.drawing.lift();
-        let drawn = self.plotter.drawing.strokes.len();
-        if drawn > 0 {
-            self.page_out.get_or_insert((drawn, span));
+    /// PG, FR: the drawing before it is whole, whatever follows. EC may be a setting; `EC0` switches the cutter off.
+    fn page(&mut self, end: End, span: Span) {
+        let is_off = end == End::CutOff && self.values::<1>().first() == Some(&0.0);
+        if end != End::CutOff {
+            self.plotter.drawing.lift();
+        }
+        if !is_off {
+            self.pages.end(end, self.plotter.drawing.strokes.len(), span);
         }
     }
 

@@ -7,8 +7,8 @@
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the
 //! table of what they mean; [`decimal_comma`] tells files whose numbers are none; [`mod@lower`] follows them with the
-//! [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed,
-//! [`lost`] what may be lost.
+//! [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the size, [`page`] drawings that lie on each other;
+//! [`tally`] counts what was not obeyed, [`lost`] what may be lost.
 
 mod count;
 mod curve;
@@ -19,6 +19,7 @@ mod instruction;
 mod label;
 mod lost;
 mod lower;
+mod page;
 mod plotter;
 mod reader;
 mod scale;

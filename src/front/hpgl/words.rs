@@ -15,8 +15,9 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`IN`, `BP`, `ESC E`", about: "as switched on: pen 1, up, at the origin; scale, corners and turn end; ETX ends labels" },
     Word { words: "`DF`", about: "the same of modes, scale and terminator; pen, place, corners and turn stay" },
     Word { words: "other escape sequences, lines of `@PJL`", about: "passed over, with the data that they count (`ESC*b26W`)" },
-    Word { words: "`PG`, `AF`, `AH`", about: "reported when more is drawn behind it" },
-    Word { words: "`FP`, `RA`, `RR`, `WG`, `FT`, `UC`, `CP`, `CS`, `SS`, `SM`, `IW`", about: "reported" },
+    Word { words: "`PG`, `AF`, `AH`, `EC`", about: "reported when more is drawn behind it; so is `IN` when the same place is drawn again" },
+    Word { words: "`FR`", about: "refused when more is drawn behind it: the frames would lie on each other" },
+    Word { words: "`FP`, `RA`, `RR`, `WG`, `FT`, `UC`, `CP`, `CS`, `SS`, `SM`, `IW`, `RP`", about: "reported" },
     Word { words: "`LT`, `VS`, `PW` and other settings", about: "no effect on the cut" },
     Word { words: "any other", about: "reported as unknown" },
 ];

@@ -9,6 +9,7 @@ mod facing;
 mod frames;
 mod lost;
 mod notches;
+mod pages;
 mod patience;
 mod remains;
 mod slits;
