@@ -45,9 +45,11 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("slit-askew.cut", NO_OVERLAPS), // slits that lean on their edge, led on by the tolerance alone
     ("slit-coarse.csv", ""),  // slits that end on an edge whose chords stand for a curve
     ("slit-root.plt", "knife.width_mm=3 knife.back_mm=1.5"), // a slit whose edge is cut as far beside it as may be
+    ("slit-there-and-back.cut", ""), // a slit inside its part, in a stroke there and back
     ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps
     ("spike.plt", "--cut-all"), // a chord of 0.18 mm at the point of a spike
     ("straight-edge.cut", COARSE), // an edge as long as the blade that bends a little
+    ("stroke-there-and-back.plt", "--cut-all"), // the same in a plot
     ("tabs.cut", ""),         // a curve that begins at a reflex corner
     ("touching-seam.plt", "--cut-all"), // a line that touches another and goes on along it
     ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end

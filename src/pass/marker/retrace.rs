@@ -4,7 +4,7 @@
 //! Needs: welded contours. Other software lays an overcut at the end of an outline, plotters draw bold lines by going round
 //! twice, or there and back. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts
 //! once. Leaves true: such a contour ends where it starts, and keeps its start and direction; every edge of an open line is
-//! there once.
+//! there once, but for short straight lines: the pass that finds slits needs them as they are drawn.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
@@ -29,7 +29,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let reach = closing::reach(marker.unit);
     let [mut past, mut again, mut back, mut lines] = [(); 4].map(|()| Found::default());
     for piece in &mut marker.pieces {
-        there_and_back(piece, &mut marker.list, &mut lines);
+        there_and_back(piece, &mut marker.list, Notch::LONGEST, &mut lines);
         for contour in &mut piece.contours {
             let points = marker.list.points(contour.range);
             let points: &[Point] = &points;
@@ -63,21 +63,19 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let round = |most| format!("round {} times in one stroke", fixed(most, 0));
     again.say(&code::MARKER_ROUND_AGAIN, "outline", diagnostics, round);
     back.say(&code::MARKER_ROUND_AGAIN, "outline", diagnostics, |_| "round and back in one stroke".to_owned());
-    lines.say(&code::MARKER_ROUND_AGAIN, "line", diagnostics, |longest| {
-        format!("there and back, for up to {} mm", fixed(longest, DECIMALS))
-    });
+    lines.say_there_and_back(diagnostics);
 }
 
-/// Puts the lines that a line there and back draws in its place. One that may be a slit is left to the pass that finds
+/// Puts the lines that a line there and back draws in its place, but for straight ones up to a length, mm, which may be
 /// slits.
-fn there_and_back(piece: &mut Piece, list: &mut SegmentList, found: &mut Found) {
+pub(super) fn there_and_back(piece: &mut Piece, list: &mut SegmentList, longest_slit: f64, found: &mut Found) {
     for k in 0..piece.contours.len() {
         let range = piece.contours[k].range;
         let points = list.points(range);
         let Some(course) = course(&points) else { continue };
         let step = |ends: &[Step]| (points[ends[1].place] - points[ends[0].place]).norm();
         let length = |row: &Vec<Step>| row.windows(2).map(step).sum::<f64>();
-        if course.straight(&points).is_some_and(|length| length <= Notch::LONGEST) {
+        if course.straight(&points).is_some_and(|length| length <= longest_slit) {
             continue;
         }
         let again: f64 = course.again.iter().map(length).sum();
@@ -112,7 +110,7 @@ fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
 
 /// Outlines or lines that something was found about.
 #[derive(Default)]
-struct Found {
+pub(super) struct Found {
     pieces: Vec<u32>,
     count: usize,
     worst: f64,
@@ -127,6 +125,13 @@ impl Found {
         if self.pieces.last() != Some(&piece) {
             self.pieces.push(piece);
         }
+    }
+
+    /// Reports lines there and back.
+    pub(super) fn say_there_and_back(&self, diagnostics: &mut Diagnostics) {
+        self.say(&code::MARKER_ROUND_AGAIN, "line", diagnostics, |longest| {
+            format!("there and back, for up to {} mm", fixed(longest, DECIMALS))
+        });
     }
 
     fn say(&self, code: &'static Code, noun: &str, diagnostics: &mut Diagnostics, how: impl Fn(f64) -> String) {

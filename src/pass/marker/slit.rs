@@ -6,7 +6,8 @@
 //! - One that starts on an outline of its piece is a slit.
 //! - One that the tip of a slit divides is the crossbar of a T, also when the file calls it a slit: then it touches no
 //!   outline.
-//! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap.
+//! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap. One that is drawn
+//!   there and back is cut once.
 //!
 //! A slit that starts up to [`Notch::MISS`] inside its edge reaches it: where its own line leads back there. Leaves true:
 //! notches in the order of the file; none without length, and no slit twice, whichever way round.
@@ -15,6 +16,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::pass::MarkerPass;
+use super::retrace::{Found, there_and_back};
 use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::near::{Near, sorted};
@@ -40,7 +42,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let grid = if *unit > 0.0 { *unit } else { NO_GRID };
     let (near, around) = (Near::on_grid(grid), Near::on_grid(grid + Notch::MISS));
     let mut search = Search { list, near, around, least_miss: (*unit / 2.0).max(MISS_EPSILON), diagnostics };
-    for piece in pieces {
+    for piece in pieces.iter_mut() {
         let contours = piece.contours.iter().zip(0..);
         let mut shorts: Vec<Short> = contours.filter_map(|(contour, i)| short(search.list, contour, i)).collect();
         if shorts.is_empty() && piece.notches.is_empty() {
@@ -54,6 +56,11 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         let mut place = 0..;
         piece.contours.retain(|_| taken.next_if_eq(&place.next().expect("it never ends")).is_none());
     }
+    let mut lines = Found::default();
+    for piece in pieces.iter_mut() {
+        there_and_back(piece, search.list, 0.0, &mut lines);
+    }
+    lines.say_there_and_back(search.diagnostics);
     if search.near.is_cut_short() || search.around.is_cut_short() {
         search.diagnostics.push(search_ended("more of the short ones may be notches, and are cut as lines"));
     }
@@ -116,7 +123,7 @@ fn is_short_slit(notch: &Notch) -> bool {
 
 /// What the search in all pieces needs.
 struct Search<'a> {
-    list: &'a SegmentList,
+    list: &'a mut SegmentList,
     near: Near,
     /// The same, as far as a slit may miss its edge.
     around: Near,
