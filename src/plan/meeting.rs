@@ -2,8 +2,9 @@
 //!
 //! Each tip may be off its line by the tolerance, and two cuts that lie beside each other leave a thread between them. An
 //! overlap begins and ends at a known place. One of length o that leads back over a line under the angle a begins o sin a
-//! beside it, so the other cut passes between that place and the vertex when it is off its own line by less. Where o sin a is
-//! less than the tolerance - the contour hardly turns at a lift, or an overlap has no room - the tip keeps that near.
+//! beside it, so the other cut passes between that place and the vertex when it is off its own line by less. At the tip of a
+//! needle both overlaps lead ahead of the vertex, and an own overlap of length p comes to no more than p tan a. Where o sin a or
+//! p tan a is less than the tolerance - the contour hardly turns at a lift, or an overlap has no room - the tip keeps that near.
 
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{End, PlungeCut, Run, Shape, Side, Step, Toolpath};
@@ -26,31 +27,32 @@ struct Stroke<'a> {
     points: &'a [Point],
     ends: [End; 2],
     turned: bool,
-    /// The run; none for a plunge cut, whose straight blade lies along its points.
     run: Option<&'a Run>,
+    /// The plunge cut, whose straight blade lies along its points.
+    plunge: Option<&'a PlungeCut>,
 }
 
 impl<'a> Stroke<'a> {
     fn of_step(step: &'a Step) -> Option<Self> {
         match step {
             Step::Run(run) => Some(Self::of(run)),
-            Step::PlungeCut(PlungeCut { points, ends, turned, .. }) => {
-                Some(Self { points, ends: *ends, turned: *turned, run: None })
+            Step::PlungeCut(cut) => {
+                Some(Self { points: &cut.points, ends: cut.ends, turned: cut.turned, run: None, plunge: Some(cut) })
             }
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
         }
     }
 
     fn of(run: &'a Run) -> Self {
-        Self { points: &run.points, ends: run.ends, turned: run.turned, run: Some(run) }
+        Self { points: &run.points, ends: run.ends, turned: run.turned, run: Some(run), plunge: None }
     }
 }
 
-/// A place at which a run ends.
+/// A place at which a stroke ends.
 struct Place {
     at: Point,
-    /// Unit vector along its chord.
-    along: Vector,
+    /// Unit vector along its overlap, away from the stroke.
+    beyond: Vector,
     /// Length of its overlap, mm.
     overlap: f64,
 }
@@ -59,9 +61,24 @@ impl Place {
     /// The start (0) or the end (1) of a run.
     fn of(run: &Run, end: usize) -> Self {
         let last = run.points.len() - 1;
-        let (at, chord, overlap) = [(0, 0, run.heel), (last, last - 1, run.front)][end];
-        let along = polyline::direction(run.points[chord], run.points[chord + 1]);
-        Self { at: run.points[at], along: along.expect("no chord of a run has length zero"), overlap }
+        let ([from, to], overlap) = [([1, 0], run.heel), ([last - 1, last], run.front)][end];
+        let beyond = polyline::direction(run.points[from], run.points[to]);
+        Self { at: run.points[to], beyond: beyond.expect("no chord of a run has length zero"), overlap }
+    }
+
+    /// The start (0) or the end (1) of a plunge cut.
+    fn of_plunge(cut: &PlungeCut, end: usize) -> Self {
+        let last = cut.points.len() - 1;
+        let (at, beyond, overlap) = [(0, -cut.along, cut.heel), (last, cut.along, cut.front)][end];
+        Self { at: cut.points[at], beyond, overlap }
+    }
+
+    /// Distance from its line at which a cut still crosses that of another place, mm.
+    fn beside(&self, other: &Self) -> f64 {
+        let sin = cross(self.beyond, other.beyond).abs();
+        let reach = other.overlap * sin;
+        let cos = self.beyond.dot(&other.beyond);
+        if cos > 0.0 { reach.min(self.overlap * sin / cos) } else { reach }
     }
 }
 
@@ -72,16 +89,19 @@ pub(super) fn near(toolpath: &Toolpath, job: &Job) -> Vec<[Near; 2]> {
     let runs: Vec<&Run> = toolpath.runs().collect();
     let count = runs.len();
     let least = (LEAST * job.profile.verify.max_uncut_mm / tolerance).min(1.0);
-    let near = |k: usize, end: usize| {
+    let near = |k: usize, (end, beside): (usize, [usize; 2])| {
         if runs[k].shape == Shape::Ring {
             return Near::default();
         }
         let own = Place::of(runs[k], end);
         let neighbours = [(k + count - 1) % count, (k + 1) % count];
         let ends = neighbours.iter().flat_map(|&other| [(other, 0), (other, 1)]).filter(|&other| other != (k, end));
-        let met = ends.map(|(other, end)| Place::of(runs[other], end)).filter(|other| other.at == own.at);
+        let of_runs = ends.map(|(other, end)| Place::of(runs[other], end));
+        let plunges = beside.iter().filter_map(|&other| strokes[other].plunge);
+        let of_plunges = plunges.flat_map(|cut| [0, 1].map(|end| Place::of_plunge(cut, end)));
+        let met = of_runs.chain(of_plunges).filter(|other| other.at == own.at);
         met.fold(Near::default(), |near, other| {
-            let beside = other.overlap * cross(own.along, other.along).abs();
+            let beside = own.beside(&other);
             if beside >= tolerance {
                 return near;
             }
@@ -96,8 +116,9 @@ pub(super) fn near(toolpath: &Toolpath, job: &Job) -> Vec<[Near; 2]> {
     };
     let all = strokes.len();
     let ends = |(k, i): (usize, usize)| {
-        let [start, end] = [shared((i + all - 1) % all, i), shared(i, (i + 1) % all)];
-        [start.unwrap_or_else(|| near(k, 0)), end.unwrap_or_else(|| near(k, 1))]
+        let beside = [(i + all - 1) % all, (i + 1) % all];
+        let [start, end] = [shared(beside[0], i), shared(i, beside[1])];
+        [start.unwrap_or_else(|| near(k, (0, beside))), end.unwrap_or_else(|| near(k, (1, beside)))]
     };
     let of_runs = (0..all).filter(|&i| strokes[i].run.is_some());
     (0..).zip(of_runs).map(ends).collect()
@@ -201,6 +222,8 @@ mod tests {
         assert_eq!(contour(90.0, [0.03, 0.8]), [[0.0, 1.0], [0.93, 0.6]]);
         assert_eq!(contour(30.0, [0.05, 0.05]), [[0.2, 0.5]; 2]);
         assert_eq!(contour(0.0, [3.0, 3.0]), [[6.1, 0.09]; 2]);
-        assert_eq!(contour(170.0, [0.0, 3.0]), [[0.0, 1.0], [3.1, 0.09]]);
+        assert_eq!(contour(170.0, [0.0, 3.0]), [[3.1, 0.09]; 2]);
+        // At a needle both overlaps lead the same way: the shorter one counts.
+        assert_eq!(contour(178.0, [0.8, 4.5]), [[5.4, 0.558732], [5.4, 0.558392]]);
     }
 }

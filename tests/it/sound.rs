@@ -34,6 +34,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("long-heel.cut", LONG_HEEL),                // a heel overlap of half a blade
     ("narrow-spike.cut", COARSE),                // a leg of a spike beside the other leg
     ("needle-led-over.plt", ""),                 // a cut that is led over to another at the tip of a needle
+    ("needle-plunged.plt", ""),                  // a needle one side of which is a plunge cut
     ("needle-tip.plt", ""),                      // cuts on both sides of a needle that meet past its tip
     ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
