@@ -19,7 +19,7 @@ pub(super) struct Stroke {
 }
 
 /// Greatest fall of the depth of a notch between two deeper places, mm: strokes with a greater one are an M or a W.
-const DENT: f64 = 0.5;
+const DENT: f64 = 0.7;
 
 /// Whether a stroke gets no less deep before its deepest place, and no deeper behind it: depths, mm.
 fn has_one_tip(depths: &[f64]) -> bool {

@@ -55,6 +55,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("touching-seam.plt", "--cut-all"), // a line that touches another and goes on along it
     ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end
     ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
+    ("u-past-edge.plt", ""),  // a notch whose stroke overshoots its edge
 ];
 const NO_OVERLAPS: &str =
     "knife.front_overlap_mm=0 knife.corner_front_overlap_mm=0 knife.heel_overlap_mm=0 knife.corner_heel_overlap_mm=0";
