@@ -27,6 +27,12 @@ const LEAST_OFF: f64 = 1.0;
 const SQUARE: f64 = 0.7;
 /// Largest line that may be a letter, mm; a dash is straight.
 const LETTER: f64 = 15.0;
+/// Share of an open line along one side that lies at one distance from the part: its ends stick out beyond the corners.
+const EVEN: f64 = 0.75;
+/// Greatest difference between distances that are one, mm: rounding, and curves in chords.
+const SAME_OFF: f64 = 0.3;
+/// Seam lines of other parts that are measured to know the usual distance.
+const MEASURED: usize = 32;
 /// Share of its length that lines must have around a closed one to be looked at.
 const LEAST_DRAWN: f64 = 0.1;
 
@@ -168,7 +174,7 @@ impl Drawn<'_> {
         match edges.around(&places, work) {
             Cover::Unsearched => return Some(unsearched(open)),
             Cover::Little => return None,
-            Cover::Partial(_) | Cover::Most(_) => {}
+            Cover::Side(_) | Cover::Partial(_) | Cover::Most(_) => {}
         }
         // Few parts come so far: nothing closed may stand between, and a part with a seam line is an outline.
         edges.walls = Walls::new(self.walls(part, near, work));
@@ -176,7 +182,9 @@ impl Drawn<'_> {
             Cover::Unsearched => unsearched(open),
             Cover::Little => return None,
             // Parts of this size have no seam line, so there is no doubt.
-            Cover::Partial(_) if self.lines[part].size() <= SMALL_OUTLINE => return None,
+            Cover::Side(_) | Cover::Partial(_) if self.lines[part].size() <= SMALL_OUTLINE => return None,
+            Cover::Side(line) if !self.is_usual(line, part, &places, work) => return None,
+            Cover::Side(line) => Remains { lines: vec![line], inner: part, is_sure: false },
             Cover::Partial(lines) => Remains { lines, inner: part, is_sure: false },
             Cover::Most(lines) => Remains { lines, inner: part, is_sure: true },
         };
@@ -215,6 +223,26 @@ impl Drawn<'_> {
         walls
     }
 
+    /// Whether an open line runs as far from a part as another part does from its seam line.
+    fn is_usual(&self, open: usize, part: usize, places: &[Point], work: &mut Budget) -> bool {
+        if !work.spend(self.lines.len() + seam::COST * places.len()) {
+            return true;
+        }
+        let Some(distance) = even_distance(&self.points(open), places) else { return false };
+        let part_around = |inner: usize| {
+            let outer = self.nest.parent(inner)?;
+            let is_part = outer != part && self.lines[outer].class == Class::Part && self.lines[inner].is_outline();
+            is_part.then_some([inner, outer])
+        };
+        let mut seams = (0..self.lines.len()).filter_map(part_around).take(MEASURED);
+        seams.any(|pair| {
+            let [inner, outer] = pair.map(|line| self.points(line));
+            work.spend(2 * seam::COST * outer.len())
+                && seam::follows(&inner, &outer)
+                && even_distance(&inner, &outer).is_some_and(|other| (other - distance).abs() <= SAME_OFF)
+        })
+    }
+
     /// Whether a closed line has a seam line inside it: then it is an outline.
     fn has_seam(&self, part: usize, places: &[Point], work: &mut Budget) -> bool {
         work.spend(self.lines.len());
@@ -224,6 +252,16 @@ impl Drawn<'_> {
         let follows = |&i: &usize| work.spend(seam::COST * places.len()) && seam::follows(&self.points(i), places);
         inner.iter().take(seam::CANDIDATES).any(follows)
     }
+}
+
+/// Distance at which most of a line runs beside another one, mm.
+fn even_distance(line: &[Point], other: &[Point]) -> Option<f64> {
+    let samples = seam::samples(line);
+    let mut off: Vec<f64> = samples.iter().map(|(at, _)| polyline::distance(*at, other)).collect();
+    off.sort_by(f64::total_cmp);
+    let middle = *off.get(off.len() / 2)?;
+    let even = off.iter().filter(|off| (**off - middle).abs() <= SAME_OFF).count();
+    (even as f64 >= EVEN * off.len() as f64).then_some(middle)
 }
 
 /// Share of an open line that runs beside a closed one from outside, square to it.
@@ -262,6 +300,8 @@ enum Cover {
     /// The budget does not last to find them.
     Unsearched,
     Little,
+    /// One runs beside one side of it.
+    Side(usize),
     /// They run beside some of it.
     Partial(Vec<usize>),
     /// They run beside so much of it that it is no part.
@@ -291,8 +331,12 @@ impl Edges {
         match (any, own) {
             (_, own) if own.share >= BESIDE => Cover::Most(own.lines),
             (any, _) if any.share >= SURELY && any.sides >= LEAST_SIDES => Cover::Most(any.lines),
-            // A line along one side is a fold, a grain line or the edge of the cloth.
             (_, own) if own.share >= DOUBTFUL && own.met > 1 => Cover::Partial(own.lines),
+            // A line along one side is a fold, a grain line or the edge of the cloth, or runs as far off as outlines do.
+            (_, own) if own.share >= DOUBTFUL && own.sides == 1 => match own.lines[..] {
+                [line] => Cover::Side(line),
+                _ => Cover::Little,
+            },
             _ => Cover::Little,
         }
     }

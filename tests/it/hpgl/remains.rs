@@ -328,6 +328,22 @@ fn a_part_beside_less_than_half_an_outline_is_cut_and_doubted() {
 }
 
 #[test]
+fn a_line_along_one_side_is_doubted_where_it_runs_as_far_off_as_other_outlines_do() {
+    let other = rectangle(10_000, 400, 7600, 3600) + &rectangle(10_400, 800, 6800, 2800);
+    let seam = rectangle(800, 800, 6800, 2800);
+    let doubted = ["drawing/may-be-seam-line", "drawing/open-outlines"];
+    for (line, codes) in [
+        ("PU400,400;PD8000,400;", &doubted[..]),
+        ("PU400,160;PD8000,160;", &doubted[1..]),
+        ("PU0,400;PD8000,700;", &doubted[1..]),
+    ] {
+        let (marker, mut found) = found(&format!("{other}{seam}{line}"), &Job::default());
+        found.sort_unstable();
+        assert_eq!((areas(&marker), &found[..]), (vec![17_100.0, 11_900.0], codes), "{line}");
+    }
+}
+
+#[test]
 fn lines_between_two_parts_are_named_by_both() {
     let parts = rectangle(400, 400, 4000, 4000) + &rectangle(8400, 400, 4000, 4000);
     let one = source(format!("IN;SP1;{parts}PU4400,2000;PD8400,2000;PU4400,2400;PD6000,2500,8400,2400;PU;"));
