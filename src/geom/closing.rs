@@ -155,7 +155,12 @@ impl<F: Fn(usize) -> Point> Line<F> {
         }
         let is_at_start = (self.at)(self.count - 1) == start;
         let past = if is_at_start { 0.0 } else { length - from };
-        let passes_start = || polyline::foot(start, (self.at)(last), (self.at)(ring)) < 1.0;
+        // Farther past it than beside it.
+        let passes_start = || {
+            let [from, to] = [last, ring].map(&self.at);
+            let foot = from + (to - from) * polyline::foot(start, from, to);
+            (to - foot).norm() > (start - foot).norm()
+        };
         let has_more = rounds > 1 || past > self.reach || (self.at)(ring) == start || past > 0.0 && passes_start();
         has_more.then_some(Retrace { last, rounds, is_back, past })
     }
@@ -339,9 +344,9 @@ mod tests {
     #[test]
     fn a_line_that_runs_past_its_start_and_back_is_a_ring() {
         check(&[A, B, C, D, A, [5.0, 0.0], A], Some((3, 1, 5.0)));
-        check(&[A, B, C, D, [5.0, 0.1], A], Some((3, 1, 5.001)));
+        check(&[A, B, C, D, [0.1, 0.0], [5.0, 0.1], A], Some((3, 1, 5.001)));
         check(&[[50.0, 0.0], B, C, D, A, [70.0, 0.0], [50.0, 0.0]], Some((4, 1, 20.0)));
-        check(&[A, B, C, D, A, B, C, D, A, [5.0, 0.0], A], Some((3, 2, 5.0)));
+        check(&[A, B, C, D, A, B, C, D, A, [5.0, 0.0], A], Some((3, 2, 0.0)));
         check(&[A, B, C, D, [0.1, 0.0], A], None);
         // Back across the ring.
         check(&[A, B, C, D, A, B, [100.0, 20.0], A], None);

@@ -224,6 +224,6 @@ mod tests {
         assert_eq!(contour(0.0, [3.0, 3.0]), [[6.1, 0.09]; 2]);
         assert_eq!(contour(170.0, [0.0, 3.0]), [[3.1, 0.09]; 2]);
         // At a needle both overlaps lead the same way: the shorter one counts.
-        assert_eq!(contour(178.0, [0.8, 4.5]), [[5.4, 0.558732], [5.4, 0.558392]]);
+        assert_eq!(contour(178.0, [0.8, 4.5]), [[5.4, 0.558_732], [5.4, 0.558_392]]);
     }
 }

@@ -13,6 +13,12 @@ use super::{as_read, fixtures, source};
 /// Damages of each file.
 const DAMAGES: usize = 150;
 
+/// Lines of a file, which end with line feeds or with carriage returns alone.
+fn lines_of(bytes: &[u8]) -> Vec<&[u8]> {
+    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    bytes.split(|&byte| byte == end).collect()
+}
+
 /// Reads what is damaged: nothing panics, and what is read without errors the second reading finds as well. Gives the rules
 /// that are broken, and the file.
 fn check(lines: &[&[u8]], what: &str) -> Option<String> {
@@ -28,7 +34,7 @@ fn check(lines: &[&[u8]], what: &str) -> Option<String> {
 #[test]
 fn a_file_cut_short_at_any_line_is_refused() {
     for (path, bytes) in fixtures() {
-        let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').collect();
+        let lines: Vec<&[u8]> = lines_of(&bytes);
         // Behind the last line stands nothing.
         for count in (0..lines.len() - 2).step_by(if lines.len() > 500 { 17 } else { 1 }) {
             let source = source(lines[..count].join(&b'\n'));
@@ -65,7 +71,7 @@ fn cuts(marker: &Marker) -> Vec<Vec<Point>> {
 #[test]
 fn one_damaged_number_of_what_is_cut_refuses_the_file_or_changes_nothing() {
     for (path, bytes) in fixtures() {
-        let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
+        let lines: Vec<&[u8]> = lines_of(&bytes).into_iter().map(<[u8]>::trim_ascii).collect();
         let (whole, _) = as_read(&source(bytes.clone()), &Job::default());
         let mut kind: &[u8] = b"";
         let mut tried = 0;
@@ -95,7 +101,7 @@ fn one_damaged_number_of_what_is_cut_refuses_the_file_or_changes_nothing() {
 fn damaged_groups_never_panic_and_what_is_read_all_the_same_is_what_stands_there() {
     let mut faults: Vec<String> = Vec::new();
     for (path, bytes) in fixtures() {
-        let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').collect();
+        let lines: Vec<&[u8]> = lines_of(&bytes);
         let mut random = Rng::with_seed(bytes.len() as u64);
         for k in 0..DAMAGES {
             let mut damaged = lines.clone();
