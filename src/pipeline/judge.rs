@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 use std::io::{self, BufRead as _, BufReader, Read as _};
 
 use super::input::{Judged, Reading, make_cuts, read_to_judge};
-use super::off_table;
 use super::product::{BLOCK, Medium};
 use super::rounded::significant;
 use super::told::{Explained, quote, told};
+use super::{off_table, overreach};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -194,7 +194,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
         let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
         diagnostics.push(diagnostic.hint(rule).hint(hint));
     }
-    over_the_edge(verdict, diagnostics);
+    over_the_edge(verdict, job, diagnostics);
 }
 
 /// Advice on a broken rule that no key of the profile limits. Outlines may be known to cross, as they do where every line of a
@@ -217,14 +217,15 @@ fn fault(crossing: Option<&Code>, is_all_cut: bool) -> String {
 }
 
 /// One line on a blade that leaves the table by less than is refused, unless the marker itself is known to.
-fn over_the_edge(verdict: &Verdict, diagnostics: &mut Diagnostics) {
+fn over_the_edge(verdict: &Verdict, job: &Job, diagnostics: &mut Diagnostics) {
     let over = verdict.under(&rules::TABLE).filter(|finding| finding.holds());
     let Some((by, place)) = over.and_then(|finding| Some((finding.worst, finding.place?))) else { return };
     if by < EDGE_SHOWN || diagnostics.iter().any(|finding| finding.code == &code::MARKER_OVER_EDGE) {
         return;
     }
     let message = format!("the knife reaches over the edge of the table: {} mm", up(by, 2));
-    diagnostics.push(Diagnostic::new(&code::MARKER_OVER_EDGE, message).on_cloth(place.point).by(by));
+    let finding = Diagnostic::new(&code::MARKER_OVER_EDGE, message).on_cloth(place.point).by(by);
+    diagnostics.push(if overreach::may_lay(job) { finding.hint(overreach::LAY) } else { finding });
 }
 
 /// The keys of the profile by which runs are parted amid a line, as a sentence begins with them; `None` when none does.

@@ -16,12 +16,21 @@ use crate::units::number::up;
 /// Decimals of distances in messages, mm.
 const DECIMALS: u32 = 1;
 
+/// Hint on a marker that lies too near to an edge of the table.
+pub(super) const LAY: &str =
+    "have the marker laid as far from the edges as the blade reaches: sheet.origin = \"corner\"";
+
 /// The end of a cut that lies farthest off the table.
 struct Farthest {
     /// mm.
     off: f64,
     at: Point,
     span: Span,
+}
+
+/// Whether a marker may be laid elsewhere on the table.
+pub(super) fn may_lay(job: &Job) -> bool {
+    job.profile.sheet.origin.is_some() && job.marks.is_none()
 }
 
 /// Refuses a marker whose overlaps leave the table by more than a blade may.
@@ -51,9 +60,8 @@ pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &m
     let by = up(off, DECIMALS);
     let message = format!("the blade leaves the table by {by} mm where it cuts beyond the end of a line");
     let mut finding = Diagnostic::new(&code::MARKER_OFF_TABLE, message).at(span).on_cloth(at).by(off);
-    if profile.sheet.origin.is_some() && job.marks.is_none() {
-        finding =
-            finding.hint("have the marker laid as far from the edges as the blade reaches: sheet.origin = \"corner\"");
+    if may_lay(job) {
+        finding = finding.hint(LAY);
     }
     diagnostics.push(finding.hint(off_table::advice(marker, job)));
     place::place(diagnostics, known, marker, source, job);

@@ -57,6 +57,9 @@ fn a_marker_off_the_table_is_told_how_to_move() {
     assert!(said.contains("does not fit") && said.contains("5.0 mm more"), "{said}");
     let (_, said) = room.expect("check row.cut --set table.x_mm=[0.5,300]", DONE);
     assert!(said.contains("warning[marker/over-the-edge]"), "{said}");
+    let (_, said) = Room::with("corner.cut", "N1*X0Y0*M14*X400Y0*X400Y300*X0Y300*X0Y0*M15*M0*")
+        .expect("compile corner.cut --set table.x_mm=[0,3000] --set table.y_mm=[0,1500]", DONE);
+    assert!(said.contains("warning[marker/over-the-edge]") && said.contains("sheet.origin = \"corner\""), "{said}");
     let (_, said) = room.expect("check row.cut --set table.strict=true", 2);
     assert!(said.contains("there is no key `table.strict`") && said.contains("leave it out"), "{said}");
 }
