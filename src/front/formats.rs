@@ -243,8 +243,9 @@ fn is_gp_gl(bytes: &[u8]) -> bool {
 /// Lines of one letter with pairs of numbers, moves and lines, among commands of mode 2 behind a circumflex.
 fn is_camm_gl(bytes: &[u8]) -> bool {
     let begins = |bytes: &[u8]| matches!(bytes, [first, second, ..] if *first == b'^' || !second.is_ascii_alphabetic());
-    if memchr::memchr(b'*', head(bytes)).is_some() || !begins(bytes.trim_ascii_start()) {
-        return false;
+    let holds = |byte: u8| memchr::memchr(byte, head(bytes)).is_some();
+    if holds(b'*') || !holds(b',') || !begins(bytes.trim_ascii_start()) {
+        return false; // as nearly all that is read
     }
     let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
     let commands = commands.filter(|command| !command.is_empty() && !b"^!".contains(&command[0]));
@@ -314,8 +315,9 @@ fn is_small_iso(bytes: &[u8]) -> bool {
 
 /// Parameters between per cent signs, or places with codes of apertures (RS-274D), and no knife.
 fn is_circuit_board(bytes: &[u8]) -> bool {
-    if memchr::memmem::find(head(bytes), b"M15*").is_some() || memchr::memmem::find(head(bytes), b"M14*").is_some() {
-        return false;
+    let holds = |text: &[u8]| memchr::memmem::find(head(bytes), text).is_some();
+    if !holds(b"D0") && !holds(b"%") || holds(b"M15*") || holds(b"M14*") {
+        return false; // as nearly all that is read
     }
     let is_flash = |block: &[u8]| {
         let block = block.trim_ascii();

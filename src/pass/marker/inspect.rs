@@ -74,6 +74,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 
 /// Says how many contours have a point far off between two that lie near each other, and which is the farthest.
 fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
+    if marker.drawing.is_some() {
+        return; // its outlines are copied to be looked at, which is dear
+    }
     let is_far = |[before, at, after]: [Point; 3]| {
         let [back, on] = [before - at, after - at];
         let least = back.norm_squared().min(on.norm_squared());
@@ -84,8 +87,10 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
         let points = marker.list.points(contour.range);
         let last = points.len() - 1;
         let start = contour.closed.then_some([last - 1, last, 1]);
-        let candidates = between_long(&points).into_iter().map(|k| [k - 1, k, k + 1]).chain(start);
-        let far = candidates.filter(|&three| is_far(three.map(|k| points[k])));
+        // A line turns back at a far point, so that a monotone chain begins there.
+        let chains = marker.list.chains(contour.range);
+        let begins = chains.each().map(|(chain, _)| chain.first as usize).filter(|k| (1..last).contains(k));
+        let far = begins.map(|k| [k - 1, k, k + 1]).chain(start).filter(|&three| is_far(three.map(|k| points[k])));
         let off = |[before, at, _]: [usize; 3]| (points[at] - points[before]).norm();
         let farthest = far.max_by(|&a, &b| off(a).total_cmp(&off(b)));
         let Some(three) = farthest.filter(|&three| stands_out(&points, three)) else { continue };
@@ -103,19 +108,6 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
     let span = marker.list.spans(range)[segment];
     let finding = Diagnostic::new(&code::MARKER_FAR_POINT, message).at(span).about(vec![number]);
     diagnostics.push(finding.hint("a digit may be doubled or lost: look at the picture (`-t svg`), export it again"));
-}
-
-/// Points between two segments that are as long as a far point is off. Nearly all points are passed over at one length.
-#[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
-fn between_long(points: &[Point]) -> Vec<usize> {
-    let is_long = |a: Point, b: Point| (b - a).norm_squared() >= FAR * FAR;
-    let mut found = Vec::new();
-    for (three, k) in points.windows(3).zip(1..) {
-        if is_long(three[0], three[1]) && is_long(three[1], three[2]) {
-            found.push(k);
-        }
-    }
-    found
 }
 
 /// Whether a point and its neighbours are a spike out of what the contour is without the point: the tip of a strip or of a godet

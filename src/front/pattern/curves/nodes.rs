@@ -40,13 +40,11 @@ enum Sign {
     Joint,
     /// A line has the place twice.
     Doubled,
-    /// A line has a vertex there.
-    Vertex,
 }
 
 /// Set of the signs of a place.
 #[derive(Debug, Clone, Copy, Default)]
-struct Signs([bool; 6]);
+struct Signs([bool; 5]);
 
 impl Signs {
     fn has(self, sign: Sign) -> bool {
@@ -70,11 +68,13 @@ impl Signs {
 
 /// The first curve point that marks no vertex of any line of its block.
 fn stray(lines: &[Line], dots: &[Dot]) -> Option<Span> {
-    let mut vertices = Nodes::default();
-    for vertex in lines.iter().flat_map(|line| &line.vertices) {
-        vertices.add(vertex.at, Signs::default().with(Sign::Vertex));
-    }
-    let marks_vertex = |dot: &&Dot| vertices.signs(dot.at, Dxf::POINT_OFF).has(Sign::Vertex);
+    let mut vertices: Vec<Point> = lines.iter().flat_map(|line| &line.vertices).map(|vertex| vertex.at).collect();
+    vertices.sort_unstable_by(|a, b| a.x.total_cmp(&b.x));
+    let marks_vertex = |dot: &&Dot| {
+        let first = vertices.partition_point(|at| at.x < dot.at.x - Dxf::POINT_OFF);
+        let mut near = vertices[first..].iter().take_while(|at| at.x <= dot.at.x + Dxf::POINT_OFF);
+        near.any(|at| (at - dot.at).norm() <= Dxf::POINT_OFF)
+    };
     dots.iter().filter(|dot| dot.layer.does == Does::Curve).find(|dot| !marks_vertex(dot)).map(|dot| dot.span)
 }
 
@@ -141,13 +141,20 @@ impl Nodes {
         }
     }
 
-    /// Signs of the places within reach of a place.
-    fn signs(&self, at: Point, reach: f64) -> Signs {
+    /// Signs of a place: of those within [`ON`] of it, and of those within [`Dxf::POINT_OFF`].
+    fn signs(&self, at: Point) -> [Signs; 2] {
         let [x, y] = cell(at);
-        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
-        let near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
-        let near = near.filter(|(place, _)| (place - at).norm() <= reach);
-        near.fold(Signs::default(), |signs, (_, more)| signs.and(*more))
+        let mut found = [Signs::default(); 2];
+        for (place, signs) in
+            (x - 1..=x + 1).flat_map(|x| self.cells.range([x, y - 1]..=[x, y + 1])).flat_map(|(_, all)| all)
+        {
+            for (found, reach) in found.iter_mut().zip([ON, Dxf::POINT_OFF]) {
+                if (place - at).norm() <= reach {
+                    *found = found.and(*signs);
+                }
+            }
+        }
+        found
     }
 
     /// Signs on both sides of a fold. A line that ends on the fold goes on there.
@@ -165,7 +172,7 @@ impl Nodes {
 
     /// Course of a curve through a vertex.
     pub(super) fn at(&self, at: Point) -> Node {
-        let [signs, beside] = [ON, Dxf::POINT_OFF].map(|reach| self.signs(at, reach));
+        let [signs, beside] = self.signs(at);
         let is_marked = [Sign::Turn, Sign::Curve].iter().any(|sign| signs.has(*sign));
         let [is_turn, is_curve] =
             [Sign::Turn, Sign::Curve].map(|sign| if is_marked { signs.has(sign) } else { beside.has(sign) });
