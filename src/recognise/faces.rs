@@ -1,7 +1,7 @@
 //! Faces of the graph that loose lines of a drawing with layers make: parts with common edges, drawn for each of them or once.
 //!
 //! In the order of the file such lines tell the parts apart ([`succession`](super::succession)). In any other order their
-//! stretches between the places where they meet ([`nodes`](super::nodes)) are put in the order of the faces that they bound, so
+//! stretches between the places where they meet ([`nodes`]) are put in the order of the faces that they bound, so
 //! that the rings are found. A graph that is not plane, or has a face below the size of a part, stays as it is drawn.
 
 use std::collections::{BTreeMap, BTreeSet};
