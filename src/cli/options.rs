@@ -339,7 +339,7 @@ pub(super) fn typed(job: &Job) -> String {
     words.join(" ")
 }
 
-/// What a page prints beside a job, as it is typed; empty when nothing was.
+/// Remarks that a page prints beside a job, as they are typed; empty when none are.
 pub(super) fn remarks(job: &Job) -> String {
     let Remarks { date, price } = &job.remarks;
     let mut words = Vec::new();

@@ -101,6 +101,20 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Number of the part of a program's time that a phase of the kind counts to: cutting, travelling, turning, plunging,
+    /// lifting, drilling, waiting.
+    pub fn part(self) -> usize {
+        match self {
+            Self::Cut => 0,
+            Self::Travel => 1,
+            Self::Turn => 2,
+            Self::Plunge => 3,
+            Self::Lift => 4,
+            Self::Drill(_) => 5,
+            Self::Wait | Self::Event(_) | Self::Rest => 6,
+        }
+    }
+
     /// Whether the knife is commanded down.
     pub fn knife_down(self) -> bool {
         match self {

@@ -98,7 +98,7 @@ pub struct Job {
     pub marks: Option<Arc<Marks>>,
     /// Which patterns it cuts.
     pub patterns: patterns::Patterns,
-    /// What a page prints beside it.
+    /// Remarks that a page prints beside it.
     pub remarks: Remarks,
 }
 

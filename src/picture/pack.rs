@@ -3,7 +3,7 @@
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
-/// How hard the columns are packed, 0 to 10.
+/// Level at which the columns are packed, 0 to 10.
 const LEVEL: u8 = 7;
 /// Letters of base64.
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

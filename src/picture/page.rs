@@ -11,7 +11,7 @@ use super::pack::{Columns, base64};
 /// Style of all pages.
 const STYLE: &str = include_str!("player/style.css");
 
-/// What the script of a page plays.
+/// Script of a page, by the machine that it plays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Script {
     /// The cutting of a marker; a page without a player has its tables sorted.
@@ -75,7 +75,7 @@ pub struct Page {
     pub facts: Value,
     /// Numbers that the script reads.
     pub columns: Columns,
-    /// What plays them.
+    /// Script that plays them.
     pub script: Script,
 }
 

@@ -4,7 +4,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::rounded::to_millionths;
-use crate::ir::motion::{BOUNDS, Bound, Kind, Motion, Shares};
+use crate::ir::motion::{BOUNDS, Bound, Motion, Shares};
 
 /// Time by what the machine does, s.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -85,16 +85,7 @@ impl Clock {
     /// Counts the phases of a motion.
     pub(super) fn add(&mut self, motion: &Motion) {
         for phase in &motion.phases {
-            let part = match phase.kind {
-                Kind::Cut => 0,
-                Kind::Travel => 1,
-                Kind::Turn => 2,
-                Kind::Plunge => 3,
-                Kind::Lift => 4,
-                Kind::Drill(_) => 5,
-                Kind::Wait | Kind::Event(_) | Kind::Rest => 6,
-            };
-            self.ticks[part] += u64::from(phase.ticks);
+            self.ticks[phase.kind.part()] += u64::from(phase.ticks);
         }
     }
 

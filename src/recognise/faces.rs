@@ -204,7 +204,7 @@ impl<'a> Graph<'a> {
         alive.iter().chain(twins).map(|&stretch| self.stretches[stretch].stroke).collect()
     }
 
-    /// Where an end is drawn.
+    /// Place at which an end is drawn.
     fn place(&self, end: End) -> Point {
         place(self.stretches, end)
     }
@@ -367,7 +367,7 @@ fn ends_at_places(stretches: &[Stretch], reach: f64) -> BTreeMap<End, End> {
     meeting::places(&drawn, reach).into_iter().enumerate().collect()
 }
 
-/// Where an end is drawn.
+/// Place at which an end is drawn.
 fn place(stretches: &[Stretch], end: End) -> Point {
     let vertices = &stretches[end / 2].vertices;
     vertices[if end.is_multiple_of(2) { 0 } else { vertices.len() - 1 }].at

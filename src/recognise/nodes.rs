@@ -79,7 +79,7 @@ impl Chord {
         })
     }
 
-    /// Where another chord ends on this one or crosses it, as shares of it; not at the ends of its own stroke.
+    /// Places at which another chord ends on this one or crosses it, as shares of it; none at the ends of its own stroke.
     fn met(&self, other: &Self, reach: f64) -> impl Iterator<Item = f64> {
         let place = |share: f64| self.from + (self.to - self.from) * share;
         let is_at = move |share: f64, end: Point| (place(share) - end).amax() <= reach;
@@ -90,7 +90,7 @@ impl Chord {
         ends_here.into_iter().chain([crossing]).flatten().filter(is_amid)
     }
 
-    /// Where two chords cross, as a share of this one, if the other stroke does not end there.
+    /// Crossing of two chords, as a share of this one, if the other stroke does not end there.
     fn crossing(&self, other: &Self, reach: f64) -> Option<f64> {
         let [way, across] = [self.to - self.from, other.to - other.from];
         let sine = cross(way, across);

@@ -13,10 +13,10 @@ use crate::support::room::{DONE, FAULTY, Room, USAGE};
 /// A square with a slit and a label that is markup, a short line and a drill.
 const HOSTILE: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*X100Y100*M31*</script><img src=x onerror=alert(1)>*\
                        N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M0*";
-/// How far a place of the page may be from the setpoint, mm and degrees.
+/// Greatest distance of a place of the page from the setpoint, mm and degrees.
 const PROMISED: f64 = 0.01;
 
-/// What stands between two texts.
+/// Text between two others.
 fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {
     let rest = text.split_once(start).unwrap_or_else(|| panic!("no {start}")).1;
     rest.split_once(end).unwrap_or_else(|| panic!("no {end}")).0

@@ -81,7 +81,7 @@ impl About<'_> {
         entries.into_iter().map(place).collect()
     }
 
-    /// Time of so many ticks, s.
+    /// Time that ticks take, s.
     pub(super) fn time(&self, ticks: u64) -> f64 {
         ticks as f64 * self.context.job.profile.time.period()
     }

@@ -22,7 +22,7 @@ pub(super) struct Lines {
     parts: Vec<u32>,
     counts: Vec<u32>,
     points: Vec<Point>,
-    /// What lines that are not cut were taken for.
+    /// Classes of the lines that are not cut.
     pub(super) classes: Vec<&'static str>,
 }
 

@@ -5,11 +5,11 @@ use crate::picture::Columns;
 /// Units of the knots: places in mm and degrees, rates in the same a tick.
 const UNITS: [f64; 3] = [1e-3, 1e-3, 1e-4];
 const RATE_UNIT: f64 = 1e-5;
-/// How far a cubic may be from a setpoint, mm and degrees. With the rounding of its ends that is half of what the page
+/// Greatest distance of a cubic from a setpoint, mm and degrees. With the rounding of its ends that is half of what the page
 /// promises.
 const OFF: [f64; 3] = [4e-3, 4e-3, 1e-2];
 
-/// Where the axes stand: X and Y in mm, C in degrees.
+/// Places of the axes: X and Y in mm, C in degrees.
 pub(super) type Axes = [f64; 3];
 
 /// A place of the way with its rate, in units.
@@ -69,7 +69,7 @@ impl Fit {
         }
     }
 
-    /// Adds a rest of so many ticks.
+    /// Adds a rest of some ticks.
     pub(super) fn rest(&mut self, first_tick: u64, ticks: u64, at: Axes) {
         let place = [0, 1, 2].map(|axis| (at[axis] / UNITS[axis]).round() as i64);
         for tick in [first_tick, first_tick + ticks] {

@@ -7,7 +7,7 @@ use crate::geom::{Extent, Point};
 use crate::ir::marker::{self, NotchKind};
 use crate::source::Span;
 
-/// What texts of pattern systems begin with that name a piece or its size.
+/// Words with which texts of pattern systems name a piece, and its size.
 const NAMES: [&str; 3] = ["piece name", "piece", "name"];
 const SIZES: [&str; 1] = ["size"];
 
@@ -26,7 +26,7 @@ pub(super) struct Piece {
     pub(super) marks: String,
     /// Length of its cuts, mm.
     pub(super) cut: f64,
-    /// What it takes.
+    /// Its time and ways.
     pub(super) sums: Sums,
     /// Messages that name it.
     pub(super) messages: usize,

@@ -1,4 +1,4 @@
-//! What a program does, phase by phase, as it comes: the way of the axes, outputs, blocks, and what every piece takes.
+//! Record of a program, phase by phase: the way of the axes, outputs, blocks, and the time and ways of each piece.
 
 use super::fit::{Axes, Fit};
 use super::peaks::{Limits, Peaks};
@@ -25,21 +25,12 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// What the machine does, in words.
+    /// Names of the parts of the time, by their numbers.
     pub(super) const PARTS: [&str; 7] =
         ["cutting", "travelling", "turning", "plunging", "lifting", "drilling", "waiting"];
 
     fn add(&mut self, phase: &Phase) {
-        let part = match phase.kind {
-            Kind::Cut => 0,
-            Kind::Travel => 1,
-            Kind::Turn => 2,
-            Kind::Plunge => 3,
-            Kind::Lift => 4,
-            Kind::Drill(_) => 5,
-            Kind::Wait | Kind::Event(_) | Kind::Rest => 6,
-        };
-        self.ticks[part] += u64::from(phase.ticks);
+        self.ticks[phase.kind.part()] += u64::from(phase.ticks);
         match phase.kind {
             Kind::Cut => self.cut += phase.length,
             Kind::Travel | Kind::Turn => self.travel += phase.length,

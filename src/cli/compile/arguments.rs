@@ -135,7 +135,7 @@ impl Making {
         Ok(job.map(|job| Job { remarks: self.remarks(), ..job }))
     }
 
-    /// What a page prints beside the job.
+    /// Remarks that a page prints beside the job.
     fn remarks(&self) -> Remarks {
         Remarks { date: self.date.clone(), price: self.pricing.price().map(Price::from) }
     }

@@ -12,7 +12,7 @@ const WAY: f64 = 8.0;
 pub(super) struct Vicinity<'a> {
     reference: &'a Reference<'a>,
     grid: &'a Grid,
-    /// How near a chord is to a place that it may pass, mm.
+    /// Greatest distance of a chord that passes a place, mm.
     slack: f64,
     /// The box of the places whose surroundings are known.
     known: Extent,

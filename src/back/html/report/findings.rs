@@ -1,4 +1,4 @@
-//! What is to be looked at: messages, findings of the verifier, declared deviations.
+//! Points to look at: messages, findings of the verifier, declared deviations.
 
 use super::table;
 use crate::back::html::about::{About, is_finite};
@@ -12,7 +12,7 @@ use crate::units::number::{counted, fixed, short};
 const MOST_MESSAGES: usize = 40;
 /// Below this, in any unit, a value is rounding of the computation.
 const NOISE_EPSILON: f64 = 1e-8;
-/// A limit is shown in so many percent.
+/// Percent of a whole limit.
 const PERCENT: f64 = 100.0;
 
 /// A button that moves the player to a place, and to a time if there is one.

@@ -33,7 +33,7 @@ pub(super) fn body(about: &About) -> String {
     out.into_text()
 }
 
-/// What was made from what.
+/// Source, profile and machine of the program.
 fn job(about: &About, out: &mut Markup) {
     let Context { source, job, .. } = about.context;
     let profile = &job.profile;

@@ -76,7 +76,7 @@ fn cost(about: &About) -> Option<String> {
     Some(format!("{} for {of}: {} a ply{part}", fixed(marker, 2), fixed(ply, 3)))
 }
 
-/// What the time is spent on: a row each, with a bar as long as its share.
+/// Parts of the time: a row each, with a bar as long as its share.
 fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     out.open("section", &[("id", "spent")]).element("h2", &[], "Time");
     table::open(out, "bars", &["Spent on", "#Time", "#Share", ""]);
