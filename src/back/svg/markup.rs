@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::geom::Point;
+pub(super) use crate::picture::escape;
 use crate::source::Span;
 use crate::units::number;
 
@@ -18,23 +19,6 @@ pub(super) fn mm(value: f64) -> String {
 pub(super) fn short(value: f64) -> String {
     let text = number::fixed(value, 3);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// Text as it may stand in an element or in an attribute.
-pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            // XML 1.0 knows no other control characters, not even escaped.
-            c if c.is_control() && !matches!(c, '\t' | '\n' | '\r') => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }
 
 /// The data of a path: polylines and circles, any number of them.
