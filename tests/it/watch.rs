@@ -144,6 +144,31 @@ fn a_file_that_comes_in_is_compiled_and_a_bad_one_gets_a_report() {
 }
 
 #[test]
+fn the_overview_of_the_pages_is_kept_up_to_date() {
+    let folder = HotFolder::new();
+    folder.put("a.cut", &square(4000));
+    folder.put("bad.cut", JUNK);
+    let says = |folder: &HotFolder, words: &[&str]| {
+        let page = folder.text("out/index.html");
+        words.iter().all(|words| page.contains(words))
+    };
+    let watch = folder.watch("-t html");
+    folder.wait_for("two rows", |f| says(f, &["<h1>2 files</h1>", "1 failed", "href=\"./a.html\"", "in/bad.cut"]));
+    folder.put("b.cut", &square(5000));
+    folder.wait_for("a row that comes", |f| says(f, &["<h1>3 files</h1>", "href=\"./b.html\""]));
+    fs::remove_file(folder.at("in/bad.cut")).expect("it is there");
+    folder.wait_for("a row that goes", |f| says(f, &["<h1>2 files</h1>", "all done"]));
+    end(watch);
+    fs::write(folder.at("out/index.html"), "mine").expect("writable");
+    folder.put("c.cut", &square(3000));
+    let watch = folder.watch("-t html");
+    folder.wait_for("a refusal", |f| f.text("said").contains("`out/index.html` is no overview of pages"));
+    folder.wait_for("a page all the same", |f| f.has("c.html"));
+    assert_eq!(folder.text("out/index.html"), "mine");
+    end(watch);
+}
+
+#[test]
 fn the_options_of_the_folder_hold_and_may_be_changed() {
     let hot = HotFolder::new();
     hot.put("a.cut", &square(500));

@@ -29,9 +29,6 @@ use self::progress::Progress;
 use super::finished::{Console, DONE, FAULTY, Finished};
 use crate::diagnostic::Diagnostics;
 
-/// What is said of a file that no file should do.
-const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
-
 /// How many files are worked on.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct Threads {
@@ -52,6 +49,9 @@ impl Threads {
         self.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
     }
 }
+
+/// What is said of a file that no file should do.
+const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
 
 /// What became of one file.
 #[derive(Debug)]
@@ -77,8 +77,7 @@ impl Outcome {
 
     /// A file that the program itself broke down over.
     fn broken(input: &Input, said: String) -> Self {
-        let row = Row { worst: BROKEN.to_owned(), ..Row::new(&input.path, State::Failed) };
-        Self { row: Some(row), said, json: None }
+        Self { row: Some(Row::broken(&input.path)), said, json: None }
     }
 
     /// A file that is left to others.

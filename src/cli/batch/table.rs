@@ -49,6 +49,11 @@ impl Row {
         Some(price.costs(self.time_s?, self.pieces?))
     }
 
+    /// The row of a file over which the program itself broke down.
+    pub(in crate::cli) fn broken(file: &Path) -> Self {
+        Self { worst: super::BROKEN.to_owned(), ..Self::new(file, State::Failed) }
+    }
+
     /// A row of which no more is known.
     pub(in crate::cli) fn new(file: &Path, state: State) -> Self {
         let file = file.display().to_string();

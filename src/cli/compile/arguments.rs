@@ -78,7 +78,7 @@ pub(in crate::cli) struct Making {
 
     /// Overwrite a file even if it was made from another input, or by somebody else
     #[arg(long)]
-    pub(super) force: bool,
+    pub(in crate::cli) force: bool,
 
     #[command(flatten)]
     pub(super) reading: Reading,

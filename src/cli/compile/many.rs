@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::arguments::{Arguments, Making};
 use super::made::{Compile, Drafted, Ended, Whole};
 use super::one;
-use super::overview::Overview;
+use super::overview::{Overview, page_of};
 use crate::back::Target;
 use crate::cli::batch::{
     self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
@@ -39,7 +39,11 @@ pub(super) fn run(
     let extensions: Vec<&str> = targets.iter().map(|target| target.extension).collect();
     let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &extensions)).collect();
     refuse_collisions(inputs, &places)?;
-    let overview = Overview::of(making, &targets, &places, *shard)?;
+    // A part of the files leaves it to the run over all.
+    let overview = Overview::of(out, &targets, places.iter().map(Vec::as_slice)).filter(|_| shard.is_none());
+    if let Some(overview) = overview.as_ref().filter(|_| !making.force) {
+        overview.may_be_written()?;
+    }
     let manifest_at = Manifest::place(out, *shard);
     let mut folder = MadeFolders::of([manifest_at.as_path()])?;
     // Behind another run that may take folders away that it left empty.
@@ -72,7 +76,9 @@ pub(super) fn run(
     };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
     let ended = Batch { inputs, threads, telling }.run_in_stages(console, Stages { work, settle });
-    let seen = overview.map(|overview| overview.write(inputs, &ended.rows));
+    let page = page_of(&targets).unwrap_or_default();
+    let rows: Vec<_> = ended.rows.iter().zip(&places).map(|(row, places)| (row, places[page].as_path())).collect();
+    let seen = overview.map(|overview| overview.write(&rows));
     let mut finished = ended.finished(telling);
     let path = manifest.path().display().to_string();
     for written in seen.into_iter().chain([manifest.finish().map(|()| path)]) {
@@ -181,15 +187,21 @@ impl<'a> Many<'a> {
 
     /// A file of which everything still stands.
     fn unchanged(&self, input: &Input, line: Line) -> Outcome {
+        Outcome { row: Some(self.kept(input, line)), said: String::new(), json: None }
+    }
+
+    /// The row of a file for which nothing was to do, whose line is kept.
+    pub(in crate::cli) fn kept(&self, input: &Input, line: Line) -> Row {
+        let state = if line.verdict == Verdict::Refused { State::Failed } else { State::Unchanged };
         let row = Row {
             pieces: line.pieces,
             cut_m: line.cut_m,
             time_s: line.time_s,
             worst: line.worst.clone().unwrap_or_default(),
-            ..Row::new(&input.path, State::Unchanged)
+            ..Row::new(&input.path, state)
         };
         self.manifest.keep(line);
-        Outcome { row: Some(row), said: String::new(), json: None }
+        row
     }
 }
 

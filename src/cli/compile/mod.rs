@@ -4,7 +4,7 @@ mod arguments;
 mod made;
 pub(super) mod many;
 mod one;
-mod overview;
+pub(super) mod overview;
 mod shown;
 
 pub(super) use arguments::{Arguments, Making};

@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use super::arguments::Making;
 use crate::back::{Emit, Target};
-use crate::cli::batch::{Input, Row, Shard, State};
+use crate::cli::batch::{Row, State};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::cannot_write;
 use crate::cli::finished::failure;
@@ -19,47 +18,45 @@ const NAME: &str = "index.html";
 /// Opening of what stands in an overview and in no other page.
 const MARK: &str = "<main id=\"overview\">";
 
-/// An overview that is to be written when all files are done.
+/// A row of the table, and the place of its page.
+pub(in crate::cli) type Seen<'a> = (&'a Row, &'a Path);
+
+/// The overview of a folder.
 #[derive(Debug)]
-pub(super) struct Overview<'a> {
+pub(in crate::cli) struct Overview<'a> {
     path: PathBuf,
     out: &'a Path,
-    /// Place of the page of each input.
-    pages: Vec<&'a Path>,
 }
 
 impl<'a> Overview<'a> {
-    /// The overview of these places of programs. None without pages, of a part of the files, and where the page of an input
-    /// has its name.
+    /// The overview of a folder of programs; none where they have no pages, and where a page has its name.
+    pub(in crate::cli) fn of<'p>(
+        out: &'a Path,
+        targets: &[&'static Target],
+        places: impl IntoIterator<Item = &'p [PathBuf]>,
+    ) -> Option<Self> {
+        let path = out.join(NAME);
+        let page = page_of(targets)?;
+        let is_taken = places.into_iter().any(|places| places[page] == path);
+        (!is_taken).then_some(Self { path, out })
+    }
+
+    /// Permission to write in its place.
     ///
     /// # Errors
     ///
-    /// A file of that name stands there that is no overview, and `--force` was not given.
-    pub(super) fn of(
-        making: &'a Making,
-        targets: &[&'static Target],
-        places: &'a [Vec<PathBuf>],
-        shard: Option<Shard>,
-    ) -> anyhow::Result<Option<Self>> {
-        let out = making.place();
-        let path = out.join(NAME);
-        let Some(page) = targets.iter().position(|target| matches!(target.emit, Emit::Page(_))) else {
-            return Ok(None);
-        };
-        let pages: Vec<&Path> = places.iter().map(|places| places[page].as_path()).collect();
-        if shard.is_some() || pages.contains(&path.as_path()) {
-            return Ok(None);
-        }
+    /// A file stands there that is no overview.
+    pub(in crate::cli) fn may_be_written(&self) -> anyhow::Result<()> {
         let is_ours =
-            fs::read(&path).map_or(true, |bytes| bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes()));
-        if !is_ours && !making.force {
-            let shown = path.display();
-            return Err(failure(
-                format!("`{shown}` is no overview of pages: it is not overwritten"),
-                "give the programs another place with -o, or say --force",
-            ));
+            fs::read(&self.path).map_or(true, |bytes| bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes()));
+        if is_ours {
+            return Ok(());
         }
-        Ok(Some(Self { path, out, pages }))
+        let shown = self.path.display();
+        Err(failure(
+            format!("`{shown}` is no overview of pages: it is not overwritten"),
+            "give the programs another place with -o, or say --force",
+        ))
     }
 
     /// Writes the overview of what became of the inputs, and tells its place.
@@ -67,10 +64,10 @@ impl<'a> Overview<'a> {
     /// # Errors
     ///
     /// The file cannot be written.
-    pub(super) fn write(&self, inputs: &[Input], rows: &[Row]) -> anyhow::Result<String> {
+    pub(in crate::cli) fn write(&self, rows: &[Seen<'_>]) -> anyhow::Result<String> {
         let page = Page {
             title: format!("{}: overview", counted(rows.len(), "file")),
-            body: self.body(inputs, rows),
+            body: self.body(rows),
             facts: serde_json::json!({}),
             columns: Columns::default(),
             script: Script::Cutting,
@@ -81,14 +78,14 @@ impl<'a> Overview<'a> {
         Ok(self.path.display().to_string())
     }
 
-    fn body(&self, inputs: &[Input], rows: &[Row]) -> String {
+    fn body(&self, rows: &[Seen<'_>]) -> String {
         let mut out = Markup::default();
-        let failed = rows.iter().filter(|row| row.state == State::Failed).count();
+        let failed = rows.iter().filter(|(row, _)| row.state == State::Failed).count();
         out.open("header", &[]).element("h1", &[], &counted(rows.len(), "file"));
         let said = if failed == 0 { "all done".to_owned() } else { format!("{failed} failed") };
         let worth = if failed == 0 { "verified" } else { "refused" };
         out.element("p", &[("class", "worth"), ("data-worth", worth)], &said);
-        let sum = |of: fn(&Row) -> Option<f64>| rows.iter().filter_map(of).sum::<f64>();
+        let sum = |of: fn(&Row) -> Option<f64>| rows.iter().filter_map(|(row, _)| of(row)).sum::<f64>();
         let summary = format!("{} m to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s)));
         out.element("p", &[("class", "summary")], &summary).close("header");
         out.markup(MARK).open("section", &[]).open("div", &[("class", "scroll")]);
@@ -99,25 +96,25 @@ impl<'a> Overview<'a> {
             out.element("th", &[("scope", "col"), ("class", class)], name);
         }
         out.element("th", &[("scope", "col")], "Worst finding").close("tr").close("thead").open("tbody", &[]);
-        for row in rows {
-            self.row(inputs, row, &mut out);
+        for (row, page) in rows {
+            self.row(row, page, &mut out);
         }
         out.close("tbody").close("table").close("div").close("section").close("main");
         out.into_text()
     }
 
-    fn row(&self, inputs: &[Input], row: &Row, out: &mut Markup) {
+    fn row(&self, row: &Row, page: &Path, out: &mut Markup) {
         let state = match row.state {
             State::Done => "done",
             State::Unchanged => "unchanged",
             State::Failed => "failed",
         };
-        let at = inputs.iter().position(|input| input.path.display().to_string() == row.file);
         out.open("tr", &[("class", if row.state == State::Failed { "broken" } else { "" })]).open("td", &[]);
-        match at.map(|at| self.pages[at]).filter(|page| page.exists()) {
-            Some(page) => out.element("a", &[("href", &link(page.strip_prefix(self.out).unwrap_or(page)))], &row.file),
-            None => out.text(&row.file),
-        };
+        if page.exists() {
+            out.element("a", &[("href", &link(page.strip_prefix(self.out).unwrap_or(page)))], &row.file);
+        } else {
+            out.text(&row.file);
+        }
         out.close("td").element("td", &[], state);
         let mut number = |shown: Option<String>, value: Option<f64>| {
             let value = value.unwrap_or(-1.0).to_string();
@@ -128,6 +125,11 @@ impl<'a> Overview<'a> {
         number(row.time_s.map(clock), row.time_s);
         out.element("td", &[], &row.worst).close("tr");
     }
+}
+
+/// Place of the page among the targets of a file.
+pub(in crate::cli) fn page_of(targets: &[&'static Target]) -> Option<usize> {
+    targets.iter().position(|target| matches!(target.emit, Emit::Page(_)))
 }
 
 /// A relative path as a link: what is no plain letter of an address is told by its bytes.

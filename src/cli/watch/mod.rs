@@ -19,9 +19,10 @@ use std::time::{Duration, Instant};
 use self::events::{Events, Told};
 use self::settings::{Settings, Stamps};
 use self::settling::{STEADY, Settling, Stamp};
-use super::batch::{self, Input, Manifest, Outcome, Row, Stages};
+use super::batch::{self, Input, Manifest, Outcome, Row, Stages, State};
 use super::choices::Format;
 use super::compile::many::{Became, Many};
+use super::compile::overview::{Overview, page_of};
 use super::destination::below;
 use super::draft::{self, MadeFolders};
 use super::finished::{Console, Finished, failure};
@@ -61,7 +62,14 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
     // Who only waits ends at once.
     stop::finish_first();
     let folders = Folders { from: folder, out, inner: inner(folder, out), threads: threads.set(), manifest: &manifest };
-    let mut watch = Watch { folders, settings, changed: None, files: Settling::default(), told: BTreeMap::new() };
+    let mut watch = Watch {
+        folders,
+        settings,
+        changed: None,
+        files: Settling::default(),
+        told: BTreeMap::new(),
+        rows: BTreeMap::new(),
+    };
     let _ = writeln!(console.err, "watching `{}`; programs go to `{}`", folder.display(), out.display());
     let code = watch.go(typed, console);
     manifest.finish()?;
@@ -93,14 +101,18 @@ struct Watch<'a> {
     files: Settling,
     /// What was said last of files that nothing could be done with: it is said once.
     told: BTreeMap<PathBuf, String>,
+    /// What became of the files, each with the places of its programs, for the overview of their pages.
+    rows: BTreeMap<PathBuf, (Row, Vec<PathBuf>)>,
 }
 
 /// How a file was dealt with.
 enum Dealt {
-    /// There is nothing to say: nothing was to do, or others are quicker.
-    Quietly,
+    /// There is nothing to do: it is gone.
+    Gone,
+    /// Nothing was to do: it has its program, or its report.
+    Before(Row),
     /// It has its program, or its report: a line on that.
-    With(String),
+    With(String, Row),
     /// Nothing could be read or written: that is tried again. What went wrong.
     Not(String),
     /// It is not what it was when it was found to be finished, or the end was asked for.
@@ -197,6 +209,11 @@ impl Watch<'_> {
         for gone in self.files.keep(|path| there.contains(path)) {
             report::remove(&report::path(self.folders.out, self.folders.name(&gone)));
         }
+        let before = self.rows.len();
+        self.rows.retain(|path, _| there.contains(path));
+        if self.rows.len() < before {
+            self.write_overview(console);
+        }
         self.told.retain(|path, _| there.contains(path) || path.ends_with(settings::NAME));
     }
 
@@ -254,20 +271,22 @@ impl Watch<'_> {
         let deal = |i: usize| {
             let input = &finished[i].input;
             let dealt = batch::unless_broken(input, || folders.deal(&finished[i], settings));
-            dealt.unwrap_or_else(|said| folders.refuse(input, &said, "cutc broke down over it"))
+            dealt.unwrap_or_else(|said| folders.refuse(input, &said, Row::broken(&input.path)))
         };
         batch::side_by_side(&sizes, self.folders.threads, Stages { work: deal, settle: |_, how| how }, |i, how| {
-            if let Dealt::With(line) = &how {
+            if let Dealt::With(line, _) = &how {
                 let _ = writeln!(console.out, "{line}").and_then(|()| console.out.flush());
             }
             dealt.push((i, how));
         });
         for (i, how) in dealt {
-            let Finish { input: Input { path, .. }, stamp, .. } = &finished[i];
+            let Finish { input: Input { path, .. }, stamp, places } = &finished[i];
             match how {
-                Dealt::Quietly | Dealt::With(_) => {
+                Dealt::Gone => self.files.done(path, *stamp),
+                Dealt::Before(row) | Dealt::With(_, row) => {
                     self.told.remove(path);
                     self.files.done(path, *stamp);
+                    self.rows.insert(path.clone(), (row, places.clone()));
                 }
                 Dealt::Not(wrong) => {
                     self.files.again(path, *stamp, Instant::now());
@@ -275,6 +294,22 @@ impl Watch<'_> {
                 }
                 Dealt::Later => {}
             }
+        }
+        self.write_overview(console);
+    }
+
+    /// Brings the overview of the pages up to date.
+    fn write_overview(&mut self, console: &mut Console) {
+        let Settings { targets, arguments, .. } = &self.settings;
+        let places = self.rows.values().map(|(_, places)| places.as_slice());
+        let (Some(page), Some(overview)) = (page_of(targets), Overview::of(self.folders.out, targets, places)) else {
+            return;
+        };
+        let rows: Vec<_> = self.rows.values().map(|(row, places)| (row, places[page].as_path())).collect();
+        let may = if arguments.making.force { Ok(()) } else { overview.may_be_written() };
+        if let Err(error) = may.and_then(|()| overview.write(&rows)) {
+            let about = self.folders.out.to_owned();
+            self.say_once(&about, &format!("error: {error:#}\n"), console);
         }
     }
 }
@@ -307,7 +342,7 @@ impl Folders<'_> {
         let not = |error: &anyhow::Error| self.not_now(input, &format!("error: {error:#}\n"));
         let source = match files::read(&input.path) {
             Ok(source) => source,
-            Err(_) if !input.path.exists() => return Dealt::Quietly,
+            Err(_) if !input.path.exists() => return Dealt::Gone,
             Err(error) => return not(&error),
         };
         if Stamp::at(&input.path) != Some(*stamp) {
@@ -317,13 +352,11 @@ impl Folders<'_> {
         let many = Many { making, targets: &settings.targets, job: &settings.job, manifest: self.manifest };
         let made = many.made(input, &source);
         if let Some(line) = self.manifest.standing(&made) {
-            self.manifest.keep(line);
             report::remove(&report);
-            return Dealt::Quietly;
+            return Dealt::Before(many.kept(input, line));
         }
         if let Some(line) = self.manifest.refused(&made).filter(|_| report.exists()) {
-            self.manifest.keep(line);
-            return Dealt::Quietly;
+            return Dealt::Before(many.kept(input, line));
         }
         // It is of what the file was before.
         report::remove(&report);
@@ -334,19 +367,20 @@ impl Folders<'_> {
         let published = many.publish(many.draft(input, source, made, places));
         let became = published.became();
         let Outcome { row, said, .. } = published.outcome(input, &settings.job, *messages, Format::Text);
-        let worst = row.as_ref().map(|row| row.worst.clone()).unwrap_or_default();
+        let row = row.unwrap_or_else(|| Row::new(&input.path, State::Failed));
         match became {
-            Became::Program => Dealt::With(written(row.as_ref(), &input.path, places)),
-            Became::Refused => self.refuse(input, &said, &worst),
+            Became::Program => Dealt::With(written(&row, &input.path, places), row),
+            Became::Refused => self.refuse(input, &said, row),
             Became::Unwritten => self.not_now(input, &said),
         }
     }
 
     /// Leaves a report on a file that has no program until it is changed.
-    fn refuse(&self, input: &Input, said: &str, worst: &str) -> Dealt {
+    fn refuse(&self, input: &Input, said: &str, row: Row) -> Dealt {
         let report = report::path(self.out, &input.name);
+        let (file, worst) = (input.path.display(), &row.worst);
         match report::write(&report, said) {
-            Ok(()) => Dealt::With(format!("{}: FAILED {worst} -> `{}`", input.path.display(), report.display())),
+            Ok(()) => Dealt::With(format!("{file}: FAILED {worst} -> `{}`", report.display()), row),
             Err(error) => Dealt::Not(format!("{said}error: {error:#}\n")),
         }
     }
@@ -359,14 +393,11 @@ impl Folders<'_> {
 }
 
 /// A line on a file that has its programs.
-fn written(row: Option<&Row>, file: &Path, places: &[PathBuf]) -> String {
-    let figures = row.iter().flat_map(|row| {
-        let pieces = row.pieces.map(|pieces| counted(pieces, "piece"));
-        let cut = row.cut_m.map(|cut| format!("{} m", fixed(cut, 1)));
-        let worst = Some(row.worst.clone()).filter(|worst| !worst.is_empty());
-        [pieces, cut, row.time_s.map(clock), worst].into_iter().flatten()
-    });
-    let figures: Vec<String> = figures.collect();
+fn written(row: &Row, file: &Path, places: &[PathBuf]) -> String {
+    let pieces = row.pieces.map(|pieces| counted(pieces, "piece"));
+    let cut = row.cut_m.map(|cut| format!("{} m", fixed(cut, 1)));
+    let worst = Some(row.worst.clone()).filter(|worst| !worst.is_empty());
+    let figures: Vec<String> = [pieces, cut, row.time_s.map(clock), worst].into_iter().flatten().collect();
     let places: Vec<_> = places.iter().map(|place| format!("`{}`", place.display())).collect();
     format!("{}: {} -> {}", file.display(), figures.join(", "), places.join(" "))
 }
