@@ -44,6 +44,7 @@ impl Script {
                 include_str!("player/cloth.js"),
                 include_str!("player/charts.js"),
                 include_str!("player/report.js"),
+                STAGE,
                 include_str!("player/controls.js"),
                 include_str!("player/main.js"),
             ],

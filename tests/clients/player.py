@@ -1,8 +1,10 @@
 """Leads the player of a page: browser, page, setpoints. Says what is wrong and ends with 1."""
 
 import csv
+import pathlib
 import random
 import sys
+import tempfile
 
 from browser import Browser
 
@@ -17,13 +19,17 @@ def check(holds, words):
 
 
 def places(browser, rows):
-    """The page is where the setpoints are at random times."""
+    """The page is where the setpoints are at random times, on a tick and between two of them."""
     dice = random.Random(7)
-    for tick in [0, len(rows) - 1] + [dice.randrange(len(rows)) for _ in range(20)]:
-        row = rows[tick]
-        found = browser.evaluate(f"Object.values(cutc.motion.at({float(row['t_s'])} / cutc.motion.period))")
+    last = len(rows) - 1
+    # Between two setpoints a straight line is within a micrometre: a cycle of 1 ms at 5 m/s2.
+    for at in [0, last] + [dice.randrange(last) for _ in range(20)] + [dice.uniform(0, last) for _ in range(20)]:
+        before, share = min(int(at), last - 1), at - min(int(at), last - 1)
+        found = browser.evaluate(f"Object.values(cutc.motion.at({at}))")
         for axis, value in zip(["x_mm", "y_mm", "c_deg"], found):
-            check(abs(value - float(row[axis])) <= PROMISED, f"tick {tick}: {axis} {value} instead of {row[axis]}")
+            here, there = (float(rows[tick][axis]) for tick in [before, before + 1])
+            told = here + (there - here) * share
+            check(abs(value - told) <= PROMISED, f"tick {at}: {axis} {value} instead of {told}")
 
 
 def trail(browser):
@@ -101,6 +107,69 @@ def cloth(browser):
         check(browser.evaluate(drawn) > 500, f"the trail is drawn by {mode}")
 
 
+def moved(browser):
+    """What is moved on the screen is what is drawn anew."""
+    pixels = """(() => [cutc.player.cloth.base, cutc.player.cloth.cut].map(canvas => {
+      const copy = new OffscreenCanvas(canvas.width, canvas.height);
+      const to = copy.getContext('2d', { willReadFrequently: true });
+      to.drawImage(canvas, 0, 0);
+      return Array.from(to.getImageData(0, 0, copy.width, copy.height).data);
+    }))()"""
+    browser.evaluate("cutc.player.seek(cutc.motion.end * 0.6)")
+    for key in "++aadwsd":
+        browser.press(key)
+    seen = browser.evaluate(pixels)
+    browser.evaluate("cutc.player.renew()")
+    browser.settle()
+    for canvas, before, now in zip(["pieces", "trail"], seen, browser.evaluate(pixels)):
+        check(any(before), f"{canvas}: nothing is drawn")
+        # Where the trail went on from what was drawn its rounded ends lie on each other: some edge pixels differ.
+        differ = sum(abs(a - b) > 32 for a, b in zip(before, now))
+        check(differ <= len(now) / 10_000, f"{canvas}: {differ} of {len(now)} bytes differ")
+    browser.press("0")
+
+
+def touch(browser):
+    """Two fingers make the cloth larger, one moves it."""
+    browser.evaluate("scrollTo(0, 0)")
+    x, y = browser.evaluate("(() => { const b = document.getElementById('cloth').getBoundingClientRect();"
+                            " return [b.x + b.width / 2, b.y + b.height / 2]; })()")
+    told = "[cutc.player.view.scale, cutc.player.view.x]"
+    scale, at = browser.evaluate(told)
+    for kind, apart in [("touchStart", 40), ("touchMove", 60), ("touchMove", 80), ("touchEnd", None)]:
+        fingers = [] if apart is None else [{"x": x - apart, "y": y, "id": 1}, {"x": x + apart, "y": y, "id": 2}]
+        browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
+    browser.settle()
+    check(abs(browser.evaluate(told)[0] / scale - 2) < 0.05, "two fingers at twice the distance double the size")
+    for kind, by in [("touchStart", 0), ("touchMove", 30), ("touchMove", 60), ("touchEnd", None)]:
+        fingers = [] if by is None else [{"x": x + by, "y": y, "id": 1}]
+        browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
+    browser.settle()
+    check(browser.evaluate(told)[1] < at, "a finger moves the cloth")
+    browser.press("0")
+
+
+def paper(browser):
+    """Printed, the page has its report on sheets of paper."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "page.pdf")
+        browser.pdf(path)
+        printed = path.read_bytes()
+    check(printed.startswith(b"%PDF") and len(printed) > 20_000, f"a PDF of {len(printed)} bytes")
+
+
+def search(browser):
+    """The rows that hold the words are shown."""
+    shown = "[...document.querySelectorAll('#pieces tbody tr')].filter(row => !row.hidden).length"
+    every = browser.evaluate(shown)
+    found = []
+    for words in ["12", "no such piece", ""]:
+        browser.evaluate(f"""(() => {{ const field = document.querySelector('#pieces input[type=search]');
+          field.value = '{words}'; field.dispatchEvent(new Event('input')); }})()""")
+        found.append(browser.evaluate(shown))
+    check(0 < found[0] < every and found[1:] == [0, every], f"{found} of {every} rows are found")
+
+
 def report(browser):
     """Tables are sorted, rows and places lead to the player."""
     numbers = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.dataset.part))"
@@ -122,8 +191,8 @@ def report(browser):
     check(browser.evaluate("scrollY < innerHeight"), "and to the player")
 
 
-def main(program, page, setpoints):
-    """Everything, on one page."""
+def main(program, page, setpoints, many):
+    """Everything, on one page, and another with many pieces and findings."""
     with open(setpoints, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
     with Browser(program) as browser:
@@ -132,12 +201,19 @@ def main(program, page, setpoints):
         trail(browser)
         ways(browser)
         cloth(browser)
+        moved(browser)
+        touch(browser)
         report(browser)
+        paper(browser)
         for width, height in [(390, 844), (1400, 900)]:
             browser.size(width, height)
             browser.settle()
             wide = browser.evaluate("document.documentElement.scrollWidth")
             check(wide <= width, f"the page is {wide} pixels wide on a screen of {width}")
+        browser.open(many)
+        tally = browser.evaluate("[cutc.motion.facts.pieces.length, document.body.textContent.includes('2000 warnings')]")
+        check(tally == [200, True], f"200 pieces and twice 2,000 findings: {tally}")
+        search(browser)
         check(not browser.said, f"the console says {browser.said}")
 
 

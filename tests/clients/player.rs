@@ -1,6 +1,7 @@
 //! Pages are opened in headless Chromium, which is led by a script; their scripts are checked by the compiler of
 //! TypeScript.
 
+use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
@@ -20,14 +21,33 @@ fn browser() -> Option<&'static str> {
     is_there("chromium", Command::new(found.unwrap_or(BROWSERS[0])).arg("--version")).then_some(found)?
 }
 
+/// A marker of 200 squares, each with ten slits that are shorter than the blade.
+fn many_findings() -> String {
+    let mut file = "H1*G71*".to_owned();
+    for piece in 0..200 {
+        let [x, y] = [piece % 20, piece / 20].map(|place| place * 1500);
+        let [right, high] = [x + 1400, y + 1400];
+        write!(file, "N{}*X{x}Y{y}*M14*X{right}*Y{high}*X{x}*Y{y}*M15*", piece + 1).expect("in memory");
+        for slit in 0..10 {
+            let [along, up] = [x + 150 + 110 * slit, y + 700];
+            write!(file, "X{along}Y{up}*M14*Y{}*M15*", up + 40).expect("in memory");
+        }
+    }
+    file + "M0*"
+}
+
 #[test]
 fn chromium_plays_a_page_as_its_setpoints_are() {
     let Some(browser) = browser() else { return };
     let folder = tempfile::tempdir().expect("a directory");
     compile("markers/metric-four-pieces.cut", "csv,html", folder.path());
+    let many = folder.path().join("many.cut");
+    std::fs::write(&many, many_findings()).expect("writable");
+    compile(many.to_str().expect("a plain name"), "html", folder.path());
     let script = root().join("tests/clients/player.py");
     let mut lead = Command::new("python3");
-    lead.arg(script).args([browser, "metric-four-pieces.html", "metric-four-pieces.csv"]).current_dir(folder.path());
+    let pages = ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html"];
+    lead.arg(script).arg(browser).args(pages).current_dir(folder.path());
     let led = lead.output().expect("python3 starts");
     assert!(led.status.success(), "{}{}", String::from_utf8_lossy(&led.stdout), String::from_utf8_lossy(&led.stderr));
 }

@@ -21,5 +21,50 @@ function sharpen(canvas, width, height) {
   return to;
 }
 
+/** Colours of the style as long as a frame is drawn, by their names. @type {Map<string, string>} */
+const palette = new Map();
+
+/** Has colours be asked for anew: the style may have changed since the last frame. */
+function forgetColours() { palette.clear(); }
+
 /** A colour of the style. @param {string} name */
-function themed(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
+function themed(name) {
+  let colour = palette.get(name);
+  if (colour === undefined) {
+    colour = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    palette.set(name, colour);
+  }
+  return colour;
+}
+
+/**
+ * Moves what a canvas shows and has the strips drawn that come into view.
+ * @param {HTMLCanvasElement} canvas @param {View} view
+ * @param {[number, number]} by Pixels to the right and down, whole ones of the screen.
+ * @param {(to: CanvasRenderingContext2D) => void} draw Draws what the window of the view shows.
+ */
+function scroll(canvas, view, [dx, dy], draw) {
+  const to = context(canvas), ratio = globalThis.devicePixelRatio || 1, { width, height } = view;
+  to.save();
+  to.setTransform(1, 0, 0, 1, 0, 0);
+  to.globalCompositeOperation = "copy";
+  to.drawImage(canvas, Math.round(dx * ratio), Math.round(dy * ratio));
+  to.restore();
+  /** @type {Box[]} */
+  const strips = [
+    [dx > 0 ? 0 : width + dx, 0, dx > 0 ? dx : width, height],
+    [0, dy > 0 ? 0 : height + dy, width, dy > 0 ? dy : height],
+  ];
+  for (const [left, top, right, bottom] of strips) {
+    if (right <= left || bottom <= top) continue;
+    to.save();
+    to.beginPath();
+    to.rect(left, top, right - left, bottom - top);
+    to.clip();
+    to.clearRect(left, top, right - left, bottom - top);
+    view.window = [left, top, right, bottom];
+    draw(to);
+    to.restore();
+  }
+  view.window = [0, 0, width, height];
+}

@@ -27,6 +27,8 @@ class Cloth {
     /** Points of the trail that are drawn; -1 when all must be drawn anew. */
     this.drawn = -1;
     this.stale = true;
+    /** How the view stood when it was drawn: origin and scale, width and height, pixels. */
+    this.stood = [NaN];
     this.lines = this.readLines();
   }
 
@@ -58,18 +60,27 @@ class Cloth {
 
   /** Draws the cloth at a tick. @param {number} tick */
   draw(tick) {
-    if (this.stale) {
-      this.view.measure();
-      this.drawBase();
+    const { view } = this, [left, top, ...size] = this.stood;
+    const stands = [view.left, view.top, view.scale, view.width, view.height];
+    if (this.stale || size.some((value, i) => value !== stands[i + 2])) {
+      this.drawBase(sharpen(this.base, view.width, view.height));
       this.drawn = -1;
       this.stale = false;
+    } else if (left !== view.left || top !== view.top) {
+      /** @type {[number, number]} */
+      const by = [view.left - left, view.top - top];
+      scroll(this.base, view, by, to => this.drawBase(to));
+      scroll(this.cut, view, by, to => this.drawStrokes(to, 0, this.drawn));
     }
+    this.stood = stands;
     this.drawTrail(tick);
     this.drawTop(tick);
   }
 
   /** Draws all on one canvas: printers paint over what lies below a second one. @param {number} tick */
   drawForPaper(tick) {
+    this.view.measure();
+    this.renew();
     this.draw(tick);
     const to = context(this.base);
     to.save();
@@ -78,9 +89,9 @@ class Cloth {
     to.restore();
   }
 
-  drawBase() {
-    const { view } = this, to = sharpen(this.base, view.width, view.height);
-    const [left, low, right, high] = this.box;
+  /** Draws pieces and other lines. @param {CanvasRenderingContext2D} to */
+  drawBase(to) {
+    const { view } = this, [left, low, right, high] = this.box;
     to.fillStyle = themed("cloth");
     to.fillRect(view.px(left) - 8, view.py(high) - 8, (right - left) * view.scale + 16, (high - low) * view.scale + 16);
     /** Outlines by piece: they are filled together, so that cut-outs stay open. @type {Map<number, Path2D>} */
@@ -94,7 +105,7 @@ class Cloth {
         areas.set(line.part, area);
       }
       to.lineWidth = line.kind === LINE.notch ? 2 : 1;
-      to.strokeStyle = line.kind === LINE.aside ? themed("aside") : themed("line");
+      to.strokeStyle = themed(line.kind === LINE.aside ? "aside" : "line");
       to.stroke(path);
     }
     for (const [part, area] of areas) {
@@ -178,17 +189,25 @@ class Cloth {
       this.drawn = 0;
     }
     if (end === this.drawn) return;
+    this.drawStrokes(to, this.drawn, end);
+    this.drawn = end;
+  }
+
+  /**
+   * Draws points of the trail, all strokes.
+   * @param {CanvasRenderingContext2D} to @param {number} begin @param {number} end One past the last.
+   */
+  drawStrokes(to, begin, end) {
     const of = this.colours.ofTrail(), { table } = this.colours;
     to.lineWidth = 2.2;
     to.lineCap = to.lineJoin = "round";
-    for (const stroke of trail.strokes) {
-      if (stroke.end <= this.drawn) continue;
+    for (const stroke of this.trail.strokes) {
+      if (stroke.end <= begin) continue;
       if (stroke.first >= end) break;
-      if (!view.sees(stroke.box)) continue;
-      const from = Math.max(stroke.first, this.drawn - 1), until = Math.min(stroke.end, end);
+      if (!this.view.sees(stroke.box)) continue;
+      const from = Math.max(stroke.first, begin - 1), until = Math.min(stroke.end, end);
       this.drawStroke(to, from, until, i => of ? table[of[i]] : this.colours.ofPiece(stroke.part));
     }
-    this.drawn = end;
   }
 
   /**

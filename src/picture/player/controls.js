@@ -2,61 +2,41 @@
 
 /** Speeds of playing, in times of the real one. */
 const RATES = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 25, 60, 150];
-/** How far a key moves the cloth, pixels. */
-const KEY_PAN = 60;
-const KEY_ZOOM = 1.3;
 /** What happens in phases, by their kinds. */
 const WORDS = ["rest", "wait", "travel", "turn", "plunge", "cut", "lift", "stop", "advance"];
 /** Buttons that do what a key does. */
 const BUTTONS = {
-  play: " ", cut_next: "ArrowRight", cut_before: "ArrowLeft", piece_next: "Shift+ArrowRight",
-  piece_before: "Shift+ArrowLeft", zoom_in: "+", zoom_out: "-", zoom_fit: "0",
+  cut_next: "ArrowRight", cut_before: "ArrowLeft", piece_next: "Shift+ArrowRight", piece_before: "Shift+ArrowLeft",
 };
 
-class Player {
+class Player extends Stage {
   /** @param {Motion} motion @param {Colours} colours */
   constructor(motion, colours) {
+    super(RATES, 1, () => this.cloth.box, elapsed => this.draw(elapsed), (px, py) => {
+      this.goToPiece(this.cloth.pieceAt(px, py), false);
+    });
     this.motion = motion;
     this.colours = colours;
     this.tick = 0;
-    this.playing = false;
-    this.rate = 1;
     this.following = false;
     /** Jumps of the report, for the keys that go through them. */
     this.jump = -1;
-    this.view = new View(element("cloth", HTMLElement), () => {
-      this.cloth.renew();
-      this.wake();
-    });
     this.cloth = new Cloth(motion, colours, this.view);
     this.charts = new Charts(motion, tick => this.seek(tick));
-    this.awake = false;
-    this.before = 0;
-    this.scrub = element("scrub", HTMLInputElement);
     this.scrub.max = String(motion.end);
+    this.rewind = () => {
+      if (this.tick >= motion.end) this.tick = 0;
+    };
   }
 
-  /** Has a frame be drawn. */
-  wake() {
-    if (this.awake) return;
-    this.awake = true;
-    requestAnimationFrame(now => this.frame(now));
-  }
-
-  /** Draws a frame; the next one follows while it plays. @param {number} now */
-  frame(now) {
-    this.awake = false;
-    if (this.playing) {
-      const elapsed = this.before ? Math.min(0.25, (now - this.before) / 1000) : 0;
-      this.tick = Math.min(this.motion.end, this.tick + elapsed * this.rate / this.motion.period);
-      this.before = now;
-      if (this.tick >= this.motion.end) this.play(false);
-    }
+  /** @param {number} elapsed */
+  draw(elapsed) {
+    this.tick = Math.min(this.motion.end, this.tick + elapsed / this.motion.period);
+    if (this.playing && this.tick >= this.motion.end) this.play(false);
     if (this.following) this.follow();
     this.cloth.draw(this.tick);
     this.charts.draw(this.tick);
-    this.tell();
-    if (this.playing) this.wake();
+    this.tellAll();
   }
 
   /** Keeps the blade in the window. */
@@ -64,17 +44,6 @@ class Player {
     const [x, y] = this.motion.blade(this.tick, 0), { view } = this;
     const isAmid = (/** @type {number} */ share) => share > 0.2 && share < 0.8;
     if (!isAmid(view.px(x) / view.width) || !isAmid(view.py(y) / view.height)) view.moveTo(x, y);
-  }
-
-  /** @param {boolean} on */
-  play(on) {
-    if (on && this.tick >= this.motion.end) this.tick = 0;
-    this.playing = on;
-    this.before = 0;
-    const button = element("play", HTMLButtonElement);
-    button.textContent = on ? "Pause" : "Play";
-    button.setAttribute("aria-pressed", String(on));
-    this.wake();
   }
 
   /** Goes to a tick. @param {number} tick */
@@ -131,14 +100,8 @@ class Player {
     if (button instanceof HTMLButtonElement) button.click();
   }
 
-  /** Shows the whole marker. */
-  fit() {
-    this.view.measure();
-    this.view.fit(this.cloth.box);
-  }
-
   /** Says what happens at the cursor. */
-  tell() {
+  tellAll() {
     const { motion, tick } = this, { x, y, c } = motion.at(tick), phase = motion.phase(tick);
     const kind = motion.columns.phase_kind[phase], part = motion.columns.phase_part[phase];
     const words = WORDS[kind] ?? `drill ${kind - KIND.drill}`;
@@ -159,18 +122,6 @@ class Player {
   say(id, text) {
     const found = document.getElementById(id);
     if (found && found.textContent !== text) found.textContent = text;
-  }
-
-  /** @param {number} by Steps of the list of speeds. */
-  changeRate(by) {
-    const next = RATES[Math.min(RATES.length - 1, Math.max(0, RATES.indexOf(this.rate) + by))];
-    this.setRate(next);
-  }
-
-  /** @param {number} rate */
-  setRate(rate) {
-    this.rate = rate;
-    element("rate", HTMLSelectElement).value = String(rate);
   }
 
   /** @param {Mode} mode */
@@ -215,10 +166,9 @@ function showLegend({ colours, words, bounds }) {
 
 /** What each key does. @param {Player} player @returns {Record<string, () => void>} */
 function keys(player) {
-  const { motion, view } = player;
+  const { motion } = player;
   const toggle = (/** @type {string} */ id) => element(id, HTMLInputElement).click();
   return {
-    " ": () => player.play(!player.playing),
     "ArrowRight": () => player.step(motion.cuts, 1),
     "ArrowLeft": () => player.step(motion.cuts, -1),
     "Shift+ArrowRight": () => player.step(motion.pieces, 1),
@@ -227,16 +177,6 @@ function keys(player) {
     ",": () => player.seek(Math.ceil(player.tick) - 1),
     "Home": () => player.seek(0),
     "End": () => player.seek(motion.end),
-    "]": () => player.changeRate(1),
-    "[": () => player.changeRate(-1),
-    "+": () => view.zoom(KEY_ZOOM),
-    "=": () => view.zoom(KEY_ZOOM),
-    "-": () => view.zoom(1 / KEY_ZOOM),
-    "0": () => player.fit(),
-    "w": () => view.pan(0, KEY_PAN),
-    "s": () => view.pan(0, -KEY_PAN),
-    "a": () => view.pan(KEY_PAN, 0),
-    "d": () => view.pan(-KEY_PAN, 0),
     "f": () => toggle("following"),
     "t": () => toggle("travels"),
     "l": () => toggle("aside"),
@@ -247,12 +187,9 @@ function keys(player) {
 
 /** Has buttons, choices and keys move the player. @param {Player} player */
 function connect(player) {
-  const { motion, view } = player, known = keys(player);
-  for (const [id, key] of Object.entries(BUTTONS)) element(id, HTMLButtonElement).addEventListener("click", known[key]);
+  const { motion } = player;
+  player.connect(keys(player), BUTTONS);
   player.scrub.addEventListener("input", () => player.seek(Number(player.scrub.value)));
-  const rate = element("rate", HTMLSelectElement);
-  rate.append(...RATES.map(value => new Option(`${value}×`, String(value), value === 1, value === 1)));
-  rate.addEventListener("change", () => player.setRate(Number(rate.value)));
   const mode = element("colours", HTMLSelectElement);
   mode.addEventListener("change", () => player.setMode(/** @type {Mode} */ (mode.value)));
   /** @param {string} id @param {(on: boolean) => void} act */
@@ -267,18 +204,6 @@ function connect(player) {
     check(id, on => { player.cloth.shown[id] = on; });
   }
   check("following", on => { player.following = on; });
-  steer(view, (px, py) => player.goToPiece(player.cloth.pieceAt(px, py), false));
-  document.addEventListener("keydown", event => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const on = event.target;
-    if (on instanceof HTMLSelectElement || (on instanceof HTMLInputElement && on.type === "text")) return;
-    if (on instanceof HTMLButtonElement && event.key === " ") return;
-    const isLetter = event.key.length === 1, key = isLetter && !event.shiftKey ? event.key.toLowerCase() : event.key;
-    const act = known[event.shiftKey ? `Shift+${key}` : key] ?? (isLetter ? known[key] : undefined);
-    if (!act) return;
-    event.preventDefault();
-    act();
-  });
   if (motion.facts.aside.length === 0) element("aside_label", HTMLElement).hidden = true;
   if (motion.facts.pieces.every(piece => piece.window === null)) {
     for (const option of [...mode.options]) if (option.value === "window") option.remove();

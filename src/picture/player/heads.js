@@ -168,6 +168,7 @@ begin(async () => {
   heads.stage.rewind = () => {
     if (heads.tick >= heads.last) heads.tick = 0;
   };
+  heads.stage.connect();
   heads.tick = Math.min(heads.last, Number(new URLSearchParams(location.search).get("t") ?? 0) / facts.step || 0);
   Object.assign(globalThis, { cutc: { facts, heads } });
 });

@@ -7,29 +7,16 @@ async function start() {
   if (!document.getElementById("player")) return;
   const motion = new Motion(facts, await pageColumns(facts.columns));
   const player = new Player(motion, new Colours(motion, motion.trail()));
-  connect(player);
   linkPieces(part => player.goToPiece(part, true));
   linkPlaces((x, y, time) => player.goToPlace(x, y, time));
   element("loading", HTMLElement).hidden = true;
   const frame = element("cloth", HTMLElement), [left, low, right, high] = player.cloth.box;
   frame.style.setProperty("--shape", String((right - left + 1) / (high - low + 1)));
+  connect(player);
   player.setMode("piece");
-  player.fit();
-  let fitted = player.view.scale;
-  new ResizeObserver(() => {
-    // A window that shows the whole goes on showing it.
-    if (player.view.scale === fitted) {
-      player.fit();
-      fitted = player.view.scale;
-    }
-    player.renew();
-  }).observe(frame);
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => player.renew());
-  }
   // Frames wait while a page is printed: what is printed is drawn at once.
   addEventListener("beforeprint", () => {
-    player.cloth.renew();
+    forgetColours();
     player.cloth.drawForPaper(player.tick);
     frame.style.setProperty("--screen", String(player.view.width / player.view.height));
   });

@@ -1,4 +1,7 @@
-// The report: tables that are sorted, rows that lead to the cloth.
+// The report: tables that are sorted and searched, rows that lead to the cloth.
+
+/** Rows from which on a table is searched. */
+const MANY_ROWS = 10;
 
 /**
  * Value of a cell to sort by: its number, or its text.
@@ -38,7 +41,24 @@ function makeSortable() {
         body.append(...rows);
       });
     });
+    if (body.rows.length >= MANY_ROWS) table.parentElement?.before(searchField(body));
   }
+}
+
+/** A field whose words the rows that are shown hold. @param {HTMLTableSectionElement} body */
+function searchField(body) {
+  const field = document.createElement("input");
+  field.type = "search";
+  field.placeholder = "Search";
+  field.setAttribute("aria-label", "Search the rows");
+  field.addEventListener("input", () => {
+    const words = field.value.toLowerCase().split(/\s+/);
+    for (const row of body.rows) {
+      const text = row.textContent?.toLowerCase() ?? "";
+      row.hidden = !words.every(word => text.includes(word));
+    }
+  });
+  return field;
 }
 
 /** Has a row of the table of pieces lead to its piece. @param {(part: number) => void} go */

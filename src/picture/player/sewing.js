@@ -188,5 +188,6 @@ begin(async () => {
       pattern.entry = pattern.time = 0;
     }
   };
+  pattern.stage.connect();
   Object.assign(globalThis, { cutc: { facts, pattern } });
 });

@@ -1,53 +1,94 @@
-// The stage of pages that play other machines: a clock, its buttons and keys, and a window onto the cloth.
+// The stage of a page that plays: a clock, its buttons and keys, and a window onto the cloth.
+
+/** How far a key moves the cloth, pixels. */
+const KEY_PAN = 60;
+const KEY_ZOOM = 1.3;
 
 class Stage {
   /**
    * @param {number[]} rates Speeds, in times of the real one. @param {number} rate The first of them that holds.
    * @param {() => Box} box What the window shows at first.
    * @param {(elapsed: number) => void} draw Draws a frame so many seconds later, at the speed that was chosen.
+   * @param {(px: number, py: number) => void} [clicked] Called for a press that moves nothing.
    */
-  constructor(rates, rate, box, draw) {
+  constructor(rates, rate, box, draw, clicked = () => {}) {
+    this.rates = rates;
     this.rate = rate;
     this.playing = false;
     this.awake = false;
     this.before = 0;
     /** Called before it plays: what is at its end begins anew. */
     this.rewind = () => {};
-    this.draw = draw;
+    this.drawFrame = draw;
     this.box = box;
     this.frame = element("cloth", HTMLElement);
     this.view = new View(this.frame, () => this.wake());
+    /** Scale at which all is seen, while the window is left so. */
+    this.fitted = NaN;
     this.scrub = element("scrub", HTMLInputElement);
-    const choice = element("rate", HTMLSelectElement);
-    choice.append(...rates.map(value => new Option(`${value}×`, String(value), value === rate, value === rate)));
-    choice.addEventListener("change", () => { this.rate = Number(choice.value); });
-    steer(this.view, () => {});
-    this.connect();
+    this.rateChoice = element("rate", HTMLSelectElement);
+    this.rateChoice.append(...rates.map(value => new Option(`${value}×`, String(value))));
+    this.rateChoice.addEventListener("change", () => this.setRate(Number(this.rateChoice.value)));
+    this.setRate(rate);
+    steer(this.view, clicked);
   }
 
-  connect() {
+  /**
+   * Has buttons, keys, the size of the window and the style of the page act.
+   * @param {Record<string, () => void>} [keys] Keys beside those of every stage.
+   * @param {Record<string, string>} [buttons] Buttons that do what a key does.
+   */
+  connect(keys = {}, buttons = {}) {
+    const { view } = this;
     /** @type {Record<string, () => void>} */
-    const keys = {
-      " ": () => this.play(!this.playing), "+": () => this.view.zoom(1.3), "-": () => this.view.zoom(1 / 1.3),
+    const known = {
+      " ": () => this.play(!this.playing),
+      "]": () => this.changeRate(1),
+      "[": () => this.changeRate(-1),
+      "+": () => view.zoom(KEY_ZOOM),
+      "=": () => view.zoom(KEY_ZOOM),
+      "-": () => view.zoom(1 / KEY_ZOOM),
       "0": () => this.fit(),
+      "w": () => view.pan(0, KEY_PAN),
+      "s": () => view.pan(0, -KEY_PAN),
+      "a": () => view.pan(KEY_PAN, 0),
+      "d": () => view.pan(-KEY_PAN, 0),
+      ...keys,
     };
-    for (const [id, key] of [["play", " "], ["zoom_in", "+"], ["zoom_out", "-"], ["zoom_fit", "0"]]) {
-      element(id, HTMLButtonElement).addEventListener("click", keys[key]);
+    for (const [id, key] of Object.entries({ play: " ", zoom_in: "+", zoom_out: "-", zoom_fit: "0", ...buttons })) {
+      element(id, HTMLButtonElement).addEventListener("click", known[key]);
     }
     document.addEventListener("keydown", event => {
-      const isTyped = event.target instanceof HTMLSelectElement || event.target instanceof HTMLButtonElement;
-      if (isTyped || event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      const on = event.target;
+      if (on instanceof HTMLSelectElement || (on instanceof HTMLInputElement && on.type === "search")) return;
+      if (on instanceof HTMLButtonElement && event.key === " ") return;
+      const isLetter = event.key.length === 1, key = isLetter && !event.shiftKey ? event.key.toLowerCase() : event.key;
+      const act = known[event.shiftKey ? `Shift+${key}` : key] ?? (isLetter ? known[key] : undefined);
+      if (!act) return;
       event.preventDefault();
-      keys[event.key]();
+      act();
     });
-    new ResizeObserver(() => this.fit()).observe(this.frame);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.wake());
+    this.fit();
+    new ResizeObserver(() => {
+      view.measure();
+      // A window that shows the whole goes on showing it.
+      if (view.scale === this.fitted) this.fit();
+      this.renew();
+    }).observe(this.frame);
+    for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+      matchMedia(query).addEventListener("change", () => this.renew());
+    }
   }
+
+  /** Draws all anew: the size or the style has changed. */
+  renew() { this.wake(); }
 
   /** Shows all. */
   fit() {
     this.view.measure();
     this.view.fit(this.box());
+    this.fitted = this.view.scale;
   }
 
   /** @param {boolean} on */
@@ -61,7 +102,19 @@ class Stage {
     this.wake();
   }
 
-  /** Has a frame be drawn. */
+  /** @param {number} rate */
+  setRate(rate) {
+    this.rate = rate;
+    this.rateChoice.value = String(rate);
+  }
+
+  /** @param {number} by Steps of the list of speeds. */
+  changeRate(by) {
+    const { rates } = this;
+    this.setRate(rates[Math.min(rates.length - 1, Math.max(0, rates.indexOf(this.rate) + by))]);
+  }
+
+  /** Has a frame be drawn; the next one follows while it plays. */
   wake() {
     if (this.awake) return;
     this.awake = true;
@@ -69,7 +122,8 @@ class Stage {
       this.awake = false;
       const elapsed = this.playing && this.before ? Math.min(0.25, (now - this.before) / 1000) : 0;
       this.before = now;
-      this.draw(elapsed * this.rate);
+      forgetColours();
+      this.drawFrame(elapsed * this.rate);
       if (this.playing) this.wake();
     });
   }

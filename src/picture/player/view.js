@@ -13,18 +13,31 @@ class View {
     /** Middle, mm, and size of a millimetre, pixels. */
     this.x = 0; this.y = 0; this.scale = 1;
     this.width = 1; this.height = 1;
+    /** The origin of the cloth, on a whole pixel of the screen: what is drawn can be moved. */
+    this.left = 0; this.top = 0;
+    /** What is being drawn of the frame, pixels. @type {Box} */
+    this.window = [0, 0, 1, 1];
   }
 
   /** Size of the frame, pixels. */
   measure() {
     this.width = Math.max(1, this.frame.clientWidth);
     this.height = Math.max(1, this.frame.clientHeight);
+    this.window = [0, 0, this.width, this.height];
+    this.place();
+  }
+
+  place() {
+    const ratio = globalThis.devicePixelRatio || 1;
+    const whole = (/** @type {number} */ px) => Math.round(px * ratio) / ratio;
+    this.left = whole(this.width / 2 - this.x * this.scale);
+    this.top = whole(this.height / 2 + this.y * this.scale);
   }
 
   /** @param {number} x */
-  px(x) { return (x - this.x) * this.scale + this.width / 2; }
+  px(x) { return this.left + x * this.scale; }
   /** @param {number} y */
-  py(y) { return this.height / 2 - (y - this.y) * this.scale; }
+  py(y) { return this.top - y * this.scale; }
   /** @param {number} px */
   mmX(px) { return (px - this.width / 2) / this.scale + this.x; }
   /** @param {number} py */
@@ -32,8 +45,9 @@ class View {
 
   /** Whether some of a box is seen. @param {Box} box */
   sees([left, low, right, high]) {
-    const inWidth = this.px(right) > -20 && this.px(left) < this.width + 20;
-    return inWidth && this.py(low) > -20 && this.py(high) < this.height + 20;
+    const [first, top, last, bottom] = this.window, near = 20;
+    const inWidth = this.px(right) > first - near && this.px(left) < last + near;
+    return inWidth && this.py(low) > top - near && this.py(high) < bottom + near;
   }
 
   /** Shows a box as large as it fits. @param {Box} box */
@@ -48,6 +62,7 @@ class View {
   moveTo(x, y) {
     this.x = x;
     this.y = y;
+    this.place();
     this.changed();
   }
 
