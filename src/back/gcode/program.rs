@@ -214,7 +214,8 @@ impl<'a> Program<'a> {
                 self.number();
                 self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
                 let away = centre - from.centre;
-                let speed = speed.min(self.pace.best_speed(piece.length, turn / piece.length));
+                let best = self.pace.best_speed(piece.length, turn / piece.length);
+                let speed = speed.min(best).min(self.followed(piece.length, piece.to.c.0 - from.c.0));
                 self.plan(piece.to, piece.length, turn, speed, Some(-away));
                 self.axes_of_cut(piece.to);
                 self.word(b'I', away.x);
@@ -236,7 +237,8 @@ impl<'a> Program<'a> {
                     };
                     let to = Pose { centre, c };
                     let (length, ratio) = self.told([self.pose, to], path);
-                    let speed = fastest.min(piece.feed * ratio);
+                    let followed = self.followed(length, to.c.0 - self.pose.c.0);
+                    let speed = fastest.min(piece.feed * ratio).min(followed);
                     self.number();
                     self.text.extend_from_slice(b"G1");
                     self.plan(to, length, 0.0, speed, None);
@@ -261,6 +263,14 @@ impl<'a> Program<'a> {
             along: [along, end],
             curvature: if arm.is_some() { turn / length } else { 0.0 },
         });
+    }
+
+    /// Greatest speed along a move of a length, mm/s, at which C keeps its limit while it turns by an angle, rad, and the
+    /// controller gets no more blocks a second than it takes.
+    fn followed(&self, length: f64, turn: f64) -> f64 {
+        let [_, _, c] = self.job.profile.axes.limits();
+        let shortest = self.job.profile.gcode.max_blocks_s.map_or(0.0, f64::recip);
+        length / (turn.abs() / c.speed).max(shortest)
     }
 
     /// The length of a straight move between two poses as they are told, mm, and how much faster the axis is than the tip

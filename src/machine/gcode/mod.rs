@@ -34,6 +34,9 @@ pub struct Gcode {
     /// P of G64.
     #[serde(with = "OrWord::<Off>")]
     pub blend_mm: Option<f64>,
+    /// Most moves a second that it plans; `None` = as many as are written.
+    #[serde(with = "OrWord::<Off>")]
+    pub max_blocks_s: Option<f64>,
     /// Of positions.
     pub decimals: u32,
     /// Lines have N.
@@ -116,6 +119,7 @@ impl Default for Gcode {
             arcs: true,
             feed_mode: FeedMode::G94,
             blend_mm: Some(0.05),
+            max_blocks_s: None,
             decimals: 4,
             line_numbers: false,
             heading_tolerance_deg: 0.1,

@@ -28,6 +28,9 @@ const SAME_EPSILON: f64 = 2e-4;
 const LENGTH_EPSILON: f64 = 1e-9;
 /// Tangents at both ends of a biarc that differ by less, as one less their scalar product, twice, are parallel.
 const PARALLEL_EPSILON: f64 = 1e-12;
+/// Curvatures that are tried where the gentlest one leaves the band, in times of that: rounding turns short lines on a tight
+/// arc the more the tighter it is.
+const LOOSER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 /// Neighbouring places that are tried when no aim can be reached.
 const FIRST_TRIES: usize = 4;
 
@@ -172,8 +175,9 @@ pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> 
         let stop = (i + 1..nodes.len()).find(|&k| nodes[k].stops).unwrap_or(nodes.len() - 1);
         let end = aims.partition_point(|&aim| aim <= stop);
         let reach = |curvature: f64| farthest(band, &nodes[..=stop], i, &aims[ahead..end], curvature);
-        let gentle = Some(ends.curvature).filter(|curvature| curvature.is_finite()).and_then(reach);
-        let (to, found) = gentle.or_else(|| reach(f64::INFINITY)).ok_or(nodes[i].at)?;
+        let least = ends.curvature;
+        let mut gentle = LOOSER.iter().map(|times| times * least).filter(|curvature| curvature.is_finite());
+        let (to, found) = gentle.find_map(reach).or_else(|| reach(f64::INFINITY)).ok_or(nodes[i].at)?;
         arcs.extend(found.into_iter().flatten());
         i = to;
     }

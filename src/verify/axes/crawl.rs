@@ -81,6 +81,8 @@ pub(in crate::verify) struct Axes {
     turn: f64,
     /// How far the controller may leave the path to round it, mm; 0 = it stops between moves or plans otherwise.
     blend: f64,
+    /// Most moves a second that the controller plans; infinite where it keeps up.
+    moves: f64,
 }
 
 impl Axes {
@@ -91,13 +93,14 @@ impl Axes {
             acceleration: x.acceleration.min(y.acceleration),
             turn: c.speed,
             blend: profile.gcode.blend_mm.unwrap_or(0.0),
+            moves: profile.gcode.max_blocks_s.unwrap_or(f64::INFINITY),
         }
     }
 
-    /// The greatest share of a limit of the axes that a move uses.
+    /// The greatest share of a limit of the axes, or of the moves of the controller, that a move uses.
     pub(in crate::verify) fn used(&self, asked: &Asked) -> f64 {
         let arc = if asked.curvature > 0.0 && self.blend > 0.0 { self.arc_speed(asked) } else { f64::INFINITY };
-        (asked.speed / self.speed.min(arc)).max(asked.turn / self.turn)
+        (asked.speed / self.speed.min(arc).min(asked.length * self.moves)).max(asked.turn / self.turn)
     }
 
     /// The speed beyond which an arc gains nothing, mm/s. Between rests it comes to sqrt(a l), a what acceleration is left
