@@ -1,10 +1,10 @@
-//! Affine maps of the plane: what insertions and transforms of drawings do to what they hold.
+//! Affine maps of the plane, as insertions and transforms of drawings apply them.
 
 use nalgebra::Matrix2;
 
 use super::{Point, Vector};
 
-/// A map of points: a linear part and a shift, mm.
+/// An affine map of points: a linear part and a translation, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Affine {
     linear: Matrix2<f64>,
@@ -12,41 +12,41 @@ pub struct Affine {
 }
 
 impl Affine {
-    /// The map that moves nothing.
+    /// The identity map.
     pub const IDENTITY: Self = Self { linear: Matrix2::new(1.0, 0.0, 0.0, 1.0), shift: Vector::new(0.0, 0.0) };
 
-    /// The linear map that takes the unit vectors along X and Y to these.
+    /// The linear map that takes the unit vectors along X and Y to the given vectors.
     pub fn of([x, y]: [Vector; 2]) -> Self {
         Self { linear: Matrix2::from_columns(&[x, y]), ..Self::IDENTITY }
     }
 
-    /// The map `x' = a x + c y + e`, `y' = b x + d y + f` of these six numbers.
+    /// The map `x' = a x + c y + e`, `y' = b x + d y + f` with the given six coefficients.
     pub fn matrix([a, b, c, d, e, f]: [f64; 6]) -> Self {
         Self { linear: Matrix2::new(a, c, b, d), shift: Vector::new(e, f) }
     }
 
-    /// A shift.
+    /// A translation by a vector, mm.
     pub fn shift(by: Vector) -> Self {
         Self { shift: by, ..Self::IDENTITY }
     }
 
-    /// A scale along each axis; negative factors mirror.
+    /// A scaling along each axis; negative factors mirror.
     pub fn scale(x: f64, y: f64) -> Self {
         Self { linear: Matrix2::new(x, 0.0, 0.0, y), ..Self::IDENTITY }
     }
 
-    /// A turn about the origin, rad, counter-clockwise positive. Quarter turns are exact.
+    /// A rotation about the origin, rad, counter-clockwise positive. Quarter turns are exact.
     pub fn turn(angle: f64) -> Self {
         let (sin, cos) = exact_sin_cos(angle);
         Self { linear: Matrix2::new(cos, -sin, sin, cos), ..Self::IDENTITY }
     }
 
-    /// A slant: X moves by the tangent of the first angle for each Y, and Y by that of the second for each X, rad.
+    /// A shear: x grows by the tangent of the first angle per unit of y, and y by the tangent of the second per unit of x, rad.
     pub fn slant(x: f64, y: f64) -> Self {
         Self { linear: Matrix2::new(1.0, x.tan(), y.tan(), 1.0), ..Self::IDENTITY }
     }
 
-    /// The map that does this one first and then another.
+    /// The composition of two maps: `self` first, then `next`.
     #[must_use]
     pub fn then(&self, next: &Self) -> Self {
         Self { linear: next.linear * self.linear, shift: next.linear * self.shift + next.shift }
@@ -62,24 +62,24 @@ impl Affine {
         self.linear * way
     }
 
-    /// The greatest factor by which it makes a length longer: the larger singular value of its linear part.
+    /// Largest factor by which the map lengthens a vector: the greater singular value of its linear part.
     pub fn stretch(&self) -> f64 {
         let [a, c, b, d] = [self.linear.m11, self.linear.m21, self.linear.m12, self.linear.m22];
         f64::midpoint((a + d).hypot(c - b), (a - d).hypot(c + b))
     }
 
-    /// Whether it turns left into right.
+    /// True if the map mirrors: left becomes right.
     pub fn mirrors(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
-    /// Whether all its numbers are finite.
+    /// True if all coefficients are finite.
     pub fn is_finite(&self) -> bool {
         self.linear.iter().chain(self.shift.iter()).all(|number| number.is_finite())
     }
 }
 
-/// Sine and cosine; those of quarter turns without the rounding of pi.
+/// Sine and cosine of an angle, rad. Quarter turns are exact: the rounding of pi does not show.
 fn exact_sin_cos(angle: f64) -> (f64, f64) {
     let quarters = angle / std::f64::consts::FRAC_PI_2;
     if (quarters - quarters.round()).abs() > f64::EPSILON * quarters.abs().max(1.0) {

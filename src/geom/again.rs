@@ -1,29 +1,29 @@
-//! The course of a line that goes along itself again and encloses nothing, as one there and back.
+//! Decomposition of a line that retraces itself and encloses nothing.
 //!
-//! Each edge of such a line is meant once. The edges make a tree; the course is the paths that draw the tree once.
+//! Each edge of such a line is meant once. The edges form a tree; the course is a set of paths that draw the tree once.
 
 use std::collections::BTreeMap;
 
 use crate::geom::{Point, bits, polyline};
 
-/// Most places of a line that has a course: those of longer lines are drawings.
+/// Maximum number of places of a line that is decomposed; longer lines are drawings.
 const MOST_PLACES: usize = 64;
-/// Places of a line every one of which is looked at.
+/// Number of places up to which every place of a line is tested for a turn back.
 const FEW_PLACES: usize = 8;
-/// Farthest that a place of a straight path lies off it, mm: the rounding of sums of decimals.
+/// Maximum distance of a place of a straight path from its chord, mm: the rounding of sums of decimals.
 const ON_LINE: f64 = 1e-6;
 
 /// Decomposition of a line that retraces itself: paths that draw each edge once, and the stretches that repeat edges.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Course {
-    /// Paths that draw every edge once.
+    /// Paths that together draw every edge once.
     pub paths: Vec<Vec<Step>>,
-    /// Stretches that draw edges again, in order.
+    /// Stretches that repeat edges, in the order in which they are drawn.
     pub again: Vec<Vec<Step>>,
 }
 
 impl Course {
-    /// The length, mm, of the one straight path that the line draws; `None` when it draws anything else.
+    /// Length of the path, mm, when the line draws a single straight one; otherwise `None`.
     pub fn straight(&self, places: &[Point]) -> Option<f64> {
         let [path] = &self.paths[..] else { return None };
         let path: Vec<Point> = path.iter().map(|step| places[step.place]).collect();
@@ -31,25 +31,25 @@ impl Course {
     }
 }
 
-/// A place of a row of steps.
+/// One place of a path or of a stretch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// The place of the line, by its number.
+    /// Index of the place in the line.
     pub place: usize,
-    /// The later end, in the line, of the edge that leads here; at the start of a row the place itself.
+    /// Index of the later end, in the line, of the edge that leads here; at the start of a path `place` itself.
     pub led: usize,
 }
 
-/// An edge that the line draws for the first time, by the numbers of its places.
+/// An edge at its first drawing, by the indices of its places.
 #[derive(Debug, Clone, Copy)]
 struct Edge {
     ends: [usize; 2],
-    /// The later of them in the line.
+    /// Index of its later end in the line.
     led: usize,
 }
 
-/// Course of a line that goes along itself again and encloses nothing; `None` for every other line. Two edges are one
-/// when their ends are equal to the bit.
+/// Course of a line that retraces itself and encloses nothing; `None` for every other line. Two edges are equal when their ends
+/// are bitwise equal.
 pub fn course(places: &[Point]) -> Option<Course> {
     if !turns_back(places.len(), |k| places[k]) {
         return None;
@@ -70,12 +70,12 @@ pub fn course(places: &[Point]) -> Option<Course> {
         }
         goes_on = is_known;
     }
-    // Edges that hang together and are one fewer than their places make no ring.
+    // A connected graph with one edge fewer than nodes is a tree: it has no ring.
     (!again.is_empty() && edges.len() + 1 == known.len()).then(|| Course { paths: paths(places, &edges), again })
 }
 
-/// Whether a line of `count` places turns back where one that has a course does: at either end, or half way, or anywhere when
-/// it has few places. Nearly every line does not, and costs a few comparisons.
+/// True if a line of `count` places may retrace itself: it turns back at either end or half way, or, with few places, anywhere.
+/// This quick test rejects nearly every line after a few comparisons.
 pub fn turns_back(count: usize, at: impl Fn(usize) -> Point) -> bool {
     (3..=MOST_PLACES).contains(&count)
         && (at(0) == at(2)
@@ -84,7 +84,7 @@ pub fn turns_back(count: usize, at: impl Fn(usize) -> Point) -> bool {
             || count <= FEW_PLACES && (1..count - 1).any(|k| at(k - 1) == at(k + 1)))
 }
 
-/// The paths of a tree of edges. At each place the two edges that go on straightest are of one path.
+/// Decomposes a tree of edges into paths. At each place, the pair of edges that continues straightest belongs to one path.
 fn paths(places: &[Point], edges: &[Edge]) -> Vec<Vec<Step>> {
     let mut next: Vec<[Option<usize>; 2]> = vec![[None; 2]; edges.len()];
     for (node, at) in places.iter().enumerate() {
@@ -105,7 +105,7 @@ fn paths(places: &[Point], edges: &[Edge]) -> Vec<Vec<Step>> {
         if is_taken[first] {
             continue;
         }
-        // Back to where the path begins, then along it.
+        // Go back to the start of the path, then follow it.
         let (mut k, mut side) = (first, 0);
         while let Some(before) = next[k][side] {
             side = usize::from(edges[before].ends[0] == edges[k].ends[side]);
@@ -126,7 +126,7 @@ fn paths(places: &[Point], edges: &[Edge]) -> Vec<Vec<Step>> {
     paths
 }
 
-/// The two of some edges that go on straightest through the place where they meet.
+/// The pair of edge ends at a place that continues straightest through it; `None` for fewer than two ends.
 fn straightest(places: &[Point], edges: &[Edge], (at, ends): (Point, &[(usize, usize)])) -> Option<[usize; 2]> {
     let away = |(edge, side): (usize, usize)| (places[edges[edge].ends[1 - side]] - at).normalize();
     let pairs = (0..ends.len()).flat_map(|one| (one + 1..ends.len()).map(move |other| [one, other]));
@@ -140,7 +140,7 @@ fn straightest(places: &[Point], edges: &[Edge], (at, ends): (Point, &[(usize, u
 mod tests {
     use super::*;
 
-    /// Rows of places, each place with the one that its edge leads to where that is another.
+    /// Expected paths: pairs of a place and the end of the edge that leads to it.
     type Rows<'a> = &'a [&'a [(usize, usize)]];
 
     fn check(places: &[[f64; 2]], expected: Option<(Rows, Rows)>) {
@@ -161,7 +161,7 @@ mod tests {
         let v: Rows = &[&[(0, 0), (1, 1), (2, 2)]];
         check(&[L, TIP, R, TIP, L], Some((v, &[&[(2, 2), (3, 3), (4, 4)]])));
         check(&[L, TIP, R, TIP, R], Some((v, &[&[(2, 2), (3, 3), (4, 4)]])));
-        // From its tip the first leg is gone back.
+        // The line starts at its tip and goes back along the first leg.
         let again: Rows = &[&[(1, 1), (2, 2)], &[(3, 3), (4, 4)]];
         check(&[TIP, L, TIP, R, TIP], Some((&[&[(3, 3), (0, 3), (1, 1)]], again)));
         check(&[L, TIP, TIP, L], Some((&[&[(0, 0), (1, 1)]], &[&[(2, 2), (3, 3)]])));

@@ -1,29 +1,29 @@
-//! Lines along each other: each of their places lies within reach of the other one. Such lines are one line that stands
-//! twice: parts never share all of their edges.
+//! Duplicate lines: pairs in which each line lies within reach of the other along its whole length. Such a pair is one line
+//! drawn twice, since parts never share all of their edges.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 
-/// Most lines that may stand where one does; more are a hatching, of which every line stays.
+/// Maximum number of lines that may coincide with one line. More are a hatching, and all of them are kept.
 const MOST_ALIKE: usize = 64;
-/// Share of the way from the least corner of a box to its greatest: far from both and from the middle.
+/// Position of the mark in a box, as a fraction of its diagonal: far from both corners and from the middle.
 const MARK: f64 = 0.618;
 
-/// Lines among which twins are looked for, in the order in which they are kept.
+/// Lines to search for twins, in order of preference: the earlier line of a pair is kept.
 #[derive(Debug)]
 pub struct Lines<Points, Alike> {
-    /// The box of each.
+    /// Bounding box of each line.
     pub extents: Vec<Extent>,
-    /// The vertices of a line, by its place in the order.
+    /// Returns the vertices of a line, given its index.
     pub points: Points,
-    /// Whether two lines may be twins, by their places in the order: their boxes nearly agree.
+    /// Quick test on two indices: true if the lines may be twins. Called only for lines with nearly equal boxes.
     pub may_be: Alike,
 }
 
 impl<Points: Fn(usize) -> Vec<Point>, Alike: Fn(usize, usize) -> bool> Lines<Points, Alike> {
-    /// Pairs of lines each of which lies within `reach`, mm, along the other: the one that is kept, and its twin. A line has
-    /// one twin that is kept. What the budget leaves unsearched has none.
+    /// Finds pairs of lines that lie within `reach` of each other, mm: the line that is kept, and its twin. Each line is the
+    /// twin of at most one kept line. Lines that the budget leaves unsearched have no twin.
     pub fn twins(&self, reach: f64, work: &mut Budget) -> Vec<[usize; 2]> {
         let boxes = Boxes::new(self.extents.iter().map(mark).collect());
         let mut is_taken = vec![false; self.extents.len()];
@@ -59,13 +59,13 @@ impl<Points: Fn(usize) -> Vec<Point>, Alike: Fn(usize, usize) -> bool> Lines<Poi
     }
 }
 
-/// A place of the box of a line by which twins are looked for: lines that share a corner or their middle have others.
+/// A point in the box of a line, used as the key of the search. Lines that share a corner or a centre have different marks.
 fn mark(Extent { min, max }: &Extent) -> Extent {
     let at = min + (max - min) * MARK;
     Extent::between(at, at)
 }
 
-/// The edges of a polyline, by their boxes.
+/// A polyline with an index of its edges.
 #[derive(Debug)]
 struct Path {
     points: Vec<Point>,
@@ -78,7 +78,7 @@ impl Path {
         Self { points, boxes }
     }
 
-    /// Whether every vertex and every middle of an edge lies within reach, mm, of another line; false once the budget is
+    /// True if every vertex and every midpoint of an edge lies within `reach` of another line, mm. False once the budget is
     /// spent.
     fn lies_along(&self, other: &Self, reach: f64, work: &mut Budget) -> bool {
         let middles = self.points.windows(2).map(|ends| ends[0] + (ends[1] - ends[0]) / 2.0);

@@ -1,29 +1,29 @@
-//! Two kinds of angle that must never be mixed: a direction, and the position of a rotary axis.
+//! Two kinds of angle that must never be mixed: a direction and the position of a rotary axis.
 
 use std::f64::consts::{PI, TAU};
 
 use super::Vector;
 
-/// Part of an angle by which rounding may seem to make it more or less.
+/// Relative tolerance of comparisons of angles, for rounding.
 const SURE_EPSILON: f64 = 1e-9;
 
 /// A direction in the plane: an angle modulo one turn, kept in `[0, 2 pi)` rad, 0 along +X, counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heading(f64);
 
-/// The position of an axis that turns: an unwrapped angle, rad. 0 and 2 pi are different positions.
+/// Position of a rotary axis: an unwrapped angle, rad. 0 and 2 pi are different positions.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Rotation(pub f64);
 
 impl Heading {
-    /// The heading at `radians` from +X, whatever the number of turns in it.
+    /// The heading at `radians` from +X; full turns are removed.
     pub fn new(radians: f64) -> Self {
         let wrapped = radians.rem_euclid(TAU);
         // `rem_euclid` of a tiny negative number rounds up to a full turn.
         Self(if wrapped >= TAU { 0.0 } else { wrapped })
     }
 
-    /// The heading of a vector; that of the zero vector is 0.
+    /// The heading of a vector; 0 for the zero vector.
     pub fn of(vector: Vector) -> Self {
         Self::new(vector.y.atan2(vector.x))
     }
@@ -33,7 +33,7 @@ impl Heading {
         self.0
     }
 
-    /// The unit vector.
+    /// Unit vector in this direction.
     pub fn unit(self) -> Vector {
         let (sin, cos) = self.0.sin_cos();
         Vector::new(cos, sin)
@@ -46,25 +46,25 @@ impl Heading {
 }
 
 impl Rotation {
-    /// The direction that the axis shows at this position.
+    /// Direction that the axis points in at this position.
     pub fn heading(self) -> Heading {
         Heading::new(self.0)
     }
 
-    /// The unit vector of that direction.
+    /// Unit vector in that direction.
     pub fn unit(self) -> Vector {
         let (sin, cos) = self.0.sin_cos();
         Vector::new(cos, sin)
     }
 
-    /// The position nearest to `self` at which the axis shows `heading`.
+    /// The position nearest to `self` at which the axis points in the direction `heading`.
     #[must_use]
     pub fn nearest(self, heading: Heading) -> Self {
         Self(self.0 + self.heading().turn_to(heading))
     }
 }
 
-/// An angle brought into `(-pi, pi]`, rad.
+/// An angle reduced to `(-pi, pi]`, rad.
 pub fn wrap(radians: f64) -> f64 {
     let wrapped = radians - TAU * (radians / TAU).round();
     if wrapped <= -PI { wrapped + TAU } else { wrapped }
@@ -75,12 +75,12 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
     super::cross(a, b).atan2(a.dot(&b))
 }
 
-/// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. One that is turned by just
-/// that, as a bend of 45 degrees is, is not, whichever way its points were computed and rounded. Most are far from any limit,
-/// so that the angle itself need not be known.
+/// True if the directions of `a` and `b` differ by more than `limit` rad, either way. An angle of exactly `limit`, such as a
+/// bend of 45 degrees, does not count, however its points were rounded. Most angles are far from the limit, so the angle itself
+/// is rarely computed.
 pub fn is_turned(a: Vector, b: Vector, limit: f64) -> bool {
     let (sine, cosine) = (super::cross(a, b).abs(), a.dot(&b));
-    // An angle is less than its tangent, and more than its sine.
+    // An angle is less than its tangent and greater than its sine.
     if sine < limit * (1.0 - SURE_EPSILON) * cosine {
         return false;
     }

@@ -1,18 +1,19 @@
-//! Boxes by the cells of a lattice, so that those around a place are found among a hundred thousand.
+//! A grid index of boxes: finds the boxes near a place among a hundred thousand.
 
 use super::slots::Slots;
 use super::{Extent, Point};
 
-/// Part of all boxes that the cells need not reach on each side: a few far away would leave all others in one cell.
+/// Fraction of the boxes that may lie beyond the grid on each side. Otherwise a few distant boxes would put all others into one
+/// cell.
 const FAR_SHARE: f64 = 0.01;
-/// Boxes that are looked at for that, at the most.
+/// Maximum number of boxes sampled to size the grid.
 const SAMPLE: usize = 500;
-/// Boxes for each cell, about.
+/// Target number of boxes per cell.
 const BOXES_A_CELL: usize = 2;
-/// Cells that a box meets on average, at the most: large ones that lie over each other would fill every cell.
+/// Maximum average number of cells per box. Large boxes on top of each other would otherwise fill every cell.
 const CELLS_A_BOX: f64 = 32.0;
 
-/// Some boxes, each known by its place among them.
+/// Indexed boxes, each known by its index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boxes {
     extents: Vec<Extent>,
@@ -21,7 +22,7 @@ pub struct Boxes {
     cell: [f64; 2],
     /// Columns and rows.
     count: [usize; 2],
-    /// The boxes that meet each cell, row by row.
+    /// Indices of the boxes that meet each cell, row by row.
     cells: Slots,
 }
 
@@ -32,13 +33,13 @@ impl Default for Boxes {
 }
 
 impl Boxes {
-    /// An index of boxes; empty ones are nowhere.
+    /// Builds the index. Empty boxes are never found.
     pub fn new(extents: Vec<Extent>) -> Self {
         let number = extents.iter().filter(|extent| !extent.is_empty()).count();
         let bulk = bulk(&extents, number.div_ceil(SAMPLE).max(1));
         let (width, height) = bulk.size();
         let cells = (number / BOXES_A_CELL).max(1) as f64;
-        // As many cells as that, about as high as wide; what is long and narrow has as many as it is long.
+        // About that many square cells. A long, narrow region is divided along its length only.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells).max(f64::MIN_POSITIVE);
         let most = (number as f64 * CELLS_A_BOX).min(u32::MAX.into());
         let mut boxes = Self::bare(extents, &bulk, side);
@@ -54,7 +55,7 @@ impl Boxes {
         boxes
     }
 
-    /// The lattice over `bulk` of cells of about this side, mm, still without the boxes.
+    /// The grid over `bulk` with cells of about `side` mm, still without the boxes.
     fn bare(extents: Vec<Extent>, bulk: &Extent, side: f64) -> Self {
         let (width, height) = bulk.size();
         let count = [width, height].map(|length| ((length / side) as usize).max(1));
@@ -62,7 +63,7 @@ impl Boxes {
         Self { extents, origin: bulk.min, cell, count, cells: Slots::default() }
     }
 
-    /// In how many cells the boxes are, at the most.
+    /// Upper bound on the number of cells occupied by the boxes, each box counted separately.
     fn filled(&self) -> f64 {
         let along = |length: f64, axis: usize| (length / self.cell[axis] + 2.0).min(self.count[axis] as f64);
         let met = |(width, height): (f64, f64)| along(width, 0) * along(height, 1);
@@ -74,39 +75,39 @@ impl Boxes {
         &self.extents
     }
 
-    /// The boxes that hold a point, in order.
+    /// Indices of the boxes that contain a point, ascending.
     pub fn at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let there = self.cells.of(self.cell_of(point)).iter().map(|&i| i as usize);
         there.filter(move |&i| self.extents[i].holds(point))
     }
 
-    /// The boxes that meet a box, each once, in no order.
+    /// Indices of the boxes that meet a box, each once, unordered.
     pub fn near(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
         self.near_from(0, extent)
     }
 
-    /// The boxes from the `first`th on that meet a box, each once, in no order.
+    /// Indices of the boxes from `first` on that meet a box, each once, unordered.
     pub fn near_from(&self, first: usize, extent: Extent) -> impl Iterator<Item = usize> + '_ {
         let those_of = |cell: usize| self.cells.of(cell).iter().map(move |&i| (cell, i as usize));
         let those = self.met(&extent).flat_map(those_of);
         let near = those.filter(move |&(_, i)| i >= first && self.extents[i].meets(&extent));
-        // Two boxes may have several cells in common: the one in which what they share begins counts.
+        // Two boxes may share several cells. Count the pair only in the cell where their intersection begins.
         let is_in_one = self.cell_of(extent.min) == self.cell_of(extent.max);
         let beginning = move |i: usize| self.cell_of(self.extents[i].min.sup(&extent.min));
         near.filter(move |&(cell, i)| is_in_one || cell == beginning(i)).map(|(_, i)| i)
     }
 
-    /// What [`Boxes::at`] costs, in comparisons of boxes.
+    /// Cost of [`Boxes::at`], in comparisons of boxes.
     pub fn cost_at(&self, point: Point) -> usize {
         self.cells.of(self.cell_of(point)).len()
     }
 
-    /// What [`Boxes::near`] costs, likewise.
+    /// Cost of [`Boxes::near`], in comparisons of boxes.
     pub fn cost_near(&self, extent: &Extent) -> usize {
         self.met(extent).map(|cell| self.cells.of(cell).len()).sum()
     }
 
-    /// The cells that a box meets, row by row; none when it is empty.
+    /// The cells that a box meets, row by row; none for an empty box.
     fn met(&self, Extent { min, max }: &Extent) -> impl Iterator<Item = usize> + use<> {
         let (columns, width) = (self.column(min.x)..self.column(max.x) + 1, self.count[0]);
         let rows = if min.x <= max.x { self.row(min.y)..self.row(max.y) + 1 } else { 0..0 };
@@ -118,21 +119,21 @@ impl Boxes {
         self.row(point.y) * self.count[0] + self.column(point.x)
     }
 
-    /// The column of a place; beyond the outermost ones it belongs to these.
+    /// The column of an x coordinate, clamped to the grid.
     fn column(&self, x: f64) -> usize {
         (((x - self.origin.x) / self.cell[0]).max(0.0) as usize).min(self.count[0] - 1)
     }
 
-    /// The row, likewise.
+    /// The row of a y coordinate, clamped to the grid.
     fn row(&self, y: f64) -> usize {
         (((y - self.origin.y) / self.cell[1]).max(0.0) as usize).min(self.count[1] - 1)
     }
 }
 
-/// The box of nearly all of some boxes, seen at each `step`th that is not empty: of all when they are few.
+/// Bounding box of nearly all boxes, from every `step`th box that is not empty.
 fn bulk(extents: &[Extent], step: usize) -> Extent {
     let mut values: Vec<f64> = Vec::with_capacity(SAMPLE);
-    // The value of a corner that only so few are beyond.
+    // The coordinate that only a fraction of `FAR_SHARE` lies beyond.
     let mut beyond = |corner: &dyn Fn(&Extent) -> f64, is_above: bool| {
         values.clear();
         values.extend(extents.iter().filter(|extent| !extent.is_empty()).step_by(step).map(corner));

@@ -1,48 +1,52 @@
-//! The closing of a line: how a line comes back to where it starts, and the ring that results.
+//! The closing of a line: how a line returns to its start, and the ring that results.
 //!
-//! Drawing programs close an outline in several ways. Its last place is its first; or it stops a little before; or it runs
-//! on past its start, since other software lays an overcut there: along its own head, from where a flag that closes it may
-//! lead back, or straight on where that turns; or it goes round twice in one stroke, or there and back.
+//! Drawing programs close an outline in several ways:
+//!
+//! - The last place is the first.
+//! - The line stops a little before its start.
+//! - The line runs on past its start, because other software adds an overcut: along its own head, from where a closing segment
+//!   may lead back, or straight on where the head turns.
+//! - The line goes round twice in one stroke, or there and back.
 
 use crate::geom::{Point, cross, polyline, ring};
 
-/// Longest overcut that goes straight on from the start of an outline, where that turns, mm.
+/// Maximum length of an overcut that goes straight on from the start of an outline at a corner, mm.
 pub const LONGEST_STRAIGHT: f64 = 10.0;
-/// Least distance within which the tail of a line lies on its head, mm: programs that compute an overcut from rounded
-/// places miss the head by that.
+/// Minimum distance within which the tail of a line counts as lying on its head, mm. Programs that compute an overcut from
+/// rounded places miss the head by as much.
 pub const LEAST_REACH: f64 = 0.2;
-/// Distance that rounding to the grid of a file may put between two places, in units: the diagonal.
+/// Maximum distance between two places due to rounding to the grid of a file, in units: the diagonal.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
-/// Places that are compared at the most, as a multiple of those of the line: later rounds may have fewer than the first.
+/// Maximum number of compared places, as a multiple of those of the line. Later rounds may have fewer places than the first.
 const MOST_COMPARED: usize = 64;
-/// Returns to the start that are looked at: a line comes back there once a round.
+/// Maximum number of returns to the start that are tested. A line returns there once per round.
 const MOST_RETURNS: usize = 8;
-/// Difference that rounding makes between the lengths of two courses along a line: in reaches, and as a share.
+/// Tolerance on the length along two courses: multiples of the reach, and a fraction of the length.
 const SLIP_REACHES: f64 = 2.0;
 const SLIP_SHARE: f64 = 0.002;
-/// Segments of a ring at least.
+/// Minimum number of segments of a ring.
 const LEAST_SEGMENTS: usize = 3;
 
-/// A line that closes and goes on along itself.
+/// A line that closes into a ring and continues along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Retrace {
-    /// The last place of its ring, which goes from there straight to the first one.
+    /// Index of the last place of the ring. A straight segment closes the ring from there to the first place.
     pub last: usize,
-    /// Times that it goes round, in either direction.
+    /// Number of rounds, in either direction.
     pub rounds: usize,
-    /// Whether it goes back on one of them.
+    /// True if one of the rounds runs backwards.
     pub is_back: bool,
-    /// Length that it goes on past its start after the last whole round, mm.
+    /// Length of the line past its start after the last whole round, mm.
     pub past: f64,
 }
 
-/// Distance within which the tail of a line lies on its head, mm, in a file with that unit.
+/// Distance within which the tail of a line counts as lying on its head, mm, in a file with that unit.
 pub fn reach(unit: f64) -> f64 {
     (DIAGONAL * unit).max(LEAST_REACH)
 }
 
-/// How a line of `count` places runs past its start or goes round again; `None` for every other line. A line that comes near
-/// its start at its end alone costs a few comparisons a place.
+/// Detects a line of `count` places that runs past its start or goes round again; `None` for every other line. A line that
+/// comes near its start only at its end costs a few comparisons per place.
 pub fn retrace(count: usize, at: impl Fn(usize) -> Point, reach: f64) -> Option<Retrace> {
     if count <= LEAST_SEGMENTS {
         return None;
@@ -55,7 +59,7 @@ pub fn retrace(count: usize, at: impl Fn(usize) -> Point, reach: f64) -> Option<
     line.returns().take(MOST_RETURNS).find_map(|last| line.followed(last).or_else(|| line.straight_on(last)))
 }
 
-/// Whether the line through three places turns back at the middle one.
+/// True if the line through three places turns back at the middle one.
 pub fn turns_back([before, at, behind]: [Point; 3]) -> bool {
     (at - before).dot(&(behind - at)) < 0.0
 }
@@ -67,10 +71,10 @@ struct Line<F> {
 }
 
 impl<F: Fn(usize) -> Point> Line<F> {
-    /// Of a line that ends where it starts: whether it has been there before.
+    /// Rounds of a line that ends at its start, if it also passed its start before.
     fn whole_rounds(&self) -> Option<Retrace> {
         let first = (self.at)(0);
-        // A plain loop over all but the ends, since every closed line comes by here.
+        // A plain loop over all places except the ends: every closed line runs through it.
         let is_near = |k: usize| {
             let at = (self.at)(k);
             (at.x - first.x).abs() <= self.reach && (at.y - first.y).abs() <= self.reach
@@ -90,7 +94,7 @@ impl<F: Fn(usize) -> Point> Line<F> {
         None
     }
 
-    /// Overrun of a line that one more segment closes, which leads straight back over the tail.
+    /// Overrun of a line whose closing segment leads straight back over its tail.
     fn run_back(&self) -> Option<Retrace> {
         if self.count <= LEAST_SEGMENTS || !turns_back([self.count - 2, self.count - 1, 0].map(&self.at)) {
             return None;
@@ -103,12 +107,12 @@ impl<F: Fn(usize) -> Point> Line<F> {
         found.filter(is_overrun)
     }
 
-    /// Segments, by their first places, at which the line comes back to its start.
+    /// Indices of the segments at which the line returns to its start, each by its first place.
     fn returns(&self) -> impl Iterator<Item = usize> {
         let first = (self.at)(0);
         let left = (1..self.count).find(|&k| ((self.at)(k) - first).amax() > self.reach).unwrap_or(self.count);
         let from = left.max(LEAST_SEGMENTS - 1);
-        // On which sides of the box around the start a place lies: a segment between two on one side is far from it.
+        // Outcode of a place relative to the box around the start. A segment with both ends beyond one side misses the box.
         let (low, high) = (first.map(|value| value - self.reach), first.map(|value| value + self.reach));
         let sides = move |at: Point| {
             u8::from(at.x < low.x)
@@ -124,8 +128,8 @@ impl<F: Fn(usize) -> Point> Line<F> {
         })
     }
 
-    /// The line as a ring that ends behind a place, if all behind it goes along that ring: whole rounds in either
-    /// direction, and less than one in that of the ring.
+    /// The ring that ends at place `last`, if the rest of the line follows that ring: whole rounds in either direction, then
+    /// less than one round forwards.
     fn followed(&self, last: usize) -> Option<Retrace> {
         let ring = last + 1;
         if ring < LEAST_SEGMENTS || self.is_flat(ring) {
@@ -155,7 +159,7 @@ impl<F: Fn(usize) -> Point> Line<F> {
         }
         let is_at_start = (self.at)(self.count - 1) == start;
         let past = if is_at_start { 0.0 } else { length - from };
-        // Farther past it than beside it.
+        // True if the ring's end passes the start by more than its distance beside it.
         let passes_start = || {
             let [from, to] = [last, ring].map(&self.at);
             let foot = from + (to - from) * polyline::foot(start, from, to);
@@ -165,7 +169,7 @@ impl<F: Fn(usize) -> Point> Line<F> {
         has_more.then_some(Retrace { last, rounds, is_back, past })
     }
 
-    /// The line as a ring that ends behind a place, if all behind it goes straight on past the start and out of the ring.
+    /// The ring that ends at place `last`, if the rest of the line goes straight on past the start and out of the ring.
     fn straight_on(&self, last: usize) -> Option<Retrace> {
         let (count, start, before) = (last + 1, (self.at)(0), (self.at)(last));
         let along = (start - before).try_normalize(self.reach)?;
@@ -183,7 +187,7 @@ impl<F: Fn(usize) -> Point> Line<F> {
         (!ring::contains(&ring, end)).then_some(Retrace { last, rounds: 1, is_back: false, past: past(end) })
     }
 
-    /// Whether the ring of the first places encloses nothing.
+    /// True if the ring of the first `ring` places encloses nothing.
     fn is_flat(&self, ring: usize) -> bool {
         let first = (self.at)(0);
         let (mut doubled, mut length) = (0.0, 0.0);
@@ -196,7 +200,7 @@ impl<F: Fn(usize) -> Point> Line<F> {
     }
 }
 
-/// A polyline with the length up to each of its places, mm.
+/// A polyline with the length up to each place, mm.
 struct Course {
     places: Vec<Point>,
     stations: Vec<f64>,
@@ -213,7 +217,7 @@ impl Course {
         self.stations[self.stations.len() - 1]
     }
 
-    /// The same from its end to its start.
+    /// The course in reverse.
     fn turned(&self) -> Self {
         Self::of(self.places.iter().rev().copied())
     }
@@ -226,19 +230,20 @@ impl Course {
         Self::of([place(from)].into_iter().chain(inner.iter().copied()).chain([place(to)]))
     }
 
-    /// Whether it goes along another one from the start of that, as far as it is long itself.
+    /// True if the whole course follows `other` from its start.
     fn goes_along(&self, other: &Self, reach: f64) -> bool {
         let length = self.length();
         self.lies_on(other, length, reach) && other.lies_on(self, length, reach)
     }
 
-    /// Whether each place of the first `length` mm lies on another course about as far along it.
+    /// True if each place of the first `length` mm lies on `other`, at about the same length along it.
     fn lies_on(&self, other: &Self, length: f64, reach: f64) -> bool {
         let places = self.places.iter().zip(&self.stations).take_while(|(_, station)| **station <= length);
         places.into_iter().all(|(place, station)| other.passes(*place, *station, reach))
     }
 
-    /// The station, about `length` mm behind another, at which the course passes a place: the nearest to that place.
+    /// Station, about `length` mm past `from`, at which the course passes nearest to a place; `None` if it misses the place by
+    /// more than `reach`.
     fn passing(&self, place: Point, [from, length]: [f64; 2], reach: f64) -> Option<f64> {
         let (slip, about) = (SLIP_REACHES * reach + SLIP_SHARE * length, from + length);
         let first = self.stations.partition_point(|&at| at < about - slip).saturating_sub(1);
@@ -253,7 +258,7 @@ impl Course {
         passings.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, station)| station)
     }
 
-    /// Whether the course passes a place about `station` mm from its start.
+    /// True if the course passes a place about `station` mm from its start.
     fn passes(&self, place: Point, station: f64, reach: f64) -> bool {
         let slip = SLIP_REACHES * reach + SLIP_SHARE * station;
         let first = self.stations.partition_point(|&at| at < station - slip).saturating_sub(1);
@@ -294,7 +299,7 @@ mod tests {
                 let found = retrace(places.len(), |k| places[k].into(), reach(0.1));
                 let found = found.map(|Retrace { last, rounds, is_back, .. }| (last, rounds, is_back));
                 assert_eq!(found, Some((count - 1, rounds, false)), "case {case}");
-                // Each round in a direction of its own.
+                // The rounds alternate in direction.
                 let back: Vec<[f64; 2]> = [ring[0]].into_iter().chain(ring[1..].iter().rev().copied()).collect();
                 let directions: Vec<bool> = (1..rounds).map(|_| random.bool()).collect();
                 let laps = directions.iter().flat_map(|&is_back| if is_back { &back } else { &ring });
@@ -313,7 +318,7 @@ mod tests {
         check(&[A, B, C, D, [0.0, -0.1]], Some((3, 1, 0.1)));
         check(&[A, B, C, D, [0.0, 0.1]], None);
         check(&[A, B, C, D, [-0.1, 0.0]], None);
-        // Beside the head by a unit; past a corner; with a start amid an edge that no place of the end repeats.
+        // Beside the head by a unit; past a corner; with a start inside an edge that the end does not repeat.
         check(&[A, B, C, D, [0.1, 0.0], [5.0, 0.1]], Some((3, 1, 5.001)));
         check(&[[90.0, 0.0], B, C, D, A, [90.0, 0.0], B, [100.0, 5.0]], Some((4, 1, 15.0)));
         check(&[[50.0, 0.0], B, C, D, A, [70.0, 0.0]], Some((4, 1, 20.0)));
@@ -348,7 +353,7 @@ mod tests {
         check(&[[50.0, 0.0], B, C, D, A, [70.0, 0.0], [50.0, 0.0]], Some((4, 1, 20.0)));
         check(&[A, B, C, D, A, B, C, D, A, [5.0, 0.0], A], Some((3, 2, 0.0)));
         check(&[A, B, C, D, [0.1, 0.0], A], None);
-        // Back across the ring.
+        // The line goes back across the ring.
         check(&[A, B, C, D, A, B, [100.0, 20.0], A], None);
     }
 
@@ -366,7 +371,7 @@ mod tests {
         check(&[A, B, C, D, A, [0.0, 5.0]], None);
         check(&[A, B, C, D, A, [0.0, -15.0]], None);
         check(&[A, B, C, D, A, [3.0, -5.0]], None);
-        // Straight on into the ring, where that has a bay: a slit.
+        // The line goes straight on into the ring, at a bay: a slit.
         check(&[[50.0, 10.0], A, D, C, B, [50.0, 10.0], [45.0, 11.0]], None);
         check(&[A, B, C, D, A, B, [100.0, 5.0], [95.0, 5.0]], None);
     }

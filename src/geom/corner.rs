@@ -1,22 +1,21 @@
-//! Corners of a polyline whose points are rounded: a turn is one only where rounding cannot feign it.
+//! Corners of a polyline with rounded points. A turn is a corner only if rounding cannot produce it.
 
 use super::{Point, angle, polyline};
 
-/// How far from a vertex its neighbours are looked for, in units of the rounding: points that lie nearer to each other
-/// turn by rounding alone.
+/// Distances from a vertex to the neighbours that are compared, in units of the rounding. Points closer together turn by
+/// rounding alone.
 const WINDOWS: [f64; 3] = [3.0, 6.0, 12.0];
-/// How far a vertex stands beside the line from its one neighbour to its other where it is a corner, in units: three points
-/// of a straight line, each off by half a diagonal of the unit, feign sqrt(2).
+/// Minimum height of a corner above the line between its neighbours, in units. Rounding alone gives up to sqrt(2): three points
+/// of a straight line, each off by half a diagonal of the unit.
 const HEIGHT: f64 = 1.5;
-/// Points on either side that are looked at, at the most: a line that goes to and fro on the spot must not be walked along
-/// from each of its points.
+/// Maximum number of points examined on either side. It bounds the cost of a line that goes to and fro on the spot.
 const LOOK: usize = 64;
 
-/// Whether a polyline turns at a point by more than `limit` rad; `before` and `behind` are its points from there back
-/// and on, and all of them are rounded to multiples of `unit` mm (0 = not at all).
+/// True if a polyline turns at a point by more than `limit` rad. `before` and `behind` are its other points, walking back and
+/// on from there. All points are rounded to multiples of `unit` mm (0 = not rounded).
 ///
-/// A curve that was drawn with points as near as its unit goes up and down in steps, each of which turns by 45 degrees or
-/// more. There a corner must be one as seen from neighbours farther away, too, and stand out farther than rounding.
+/// A curve drawn with points as close as its unit climbs in steps that each turn by 45 degrees or more. There a corner must
+/// also turn when seen from neighbours farther away, and must stand out by more than rounding.
 pub fn is_corner(
     at: Point,
     before: &(impl Iterator<Item = Point> + Clone),
@@ -44,7 +43,7 @@ pub fn is_corner(
     })
 }
 
-/// The first of some points that is far enough, or the last that is looked at.
+/// The first point that is far enough, or the last of the first `LOOK` points.
 fn neighbour(points: impl Iterator<Item = Point> + Clone, is_far: impl Fn(Point) -> bool) -> Option<Point> {
     let near = points.take(LOOK);
     near.clone().find(|&point| is_far(point)).or_else(|| near.last())
@@ -66,12 +65,12 @@ mod tests {
 
     #[test]
     fn steps_of_rounding_are_no_corners_and_small_notches_are() {
-        // A slanting line in steps of a unit.
+        // A slanted line in steps of one unit.
         let steps: Vec<(f64, f64)> =
             (0..40).map(|i| (f64::from(i / 2 + i % 2) * 0.1, f64::from(i / 2) * 0.1)).collect();
         assert!(corners(&steps, 0.1).is_empty());
         assert_eq!(corners(&steps, 0.0).len(), 38);
-        // A V three units high, and a right angle between points as near as three units.
+        // A V three units high, and a right angle between points three units apart.
         assert_eq!(corners(&[(0.0, 0.0), (6.0, 0.0), (6.4, 0.3), (6.8, 0.0), (9.0, 0.0)], 0.1), [2]);
         let dense: Vec<(f64, f64)> = (0..20)
             .map(|i| 0.3 * f64::from(i))

@@ -1,7 +1,7 @@
-//! How something fades along a way without a jolt at either end.
+//! Smooth fading along a path, without a jolt at either end.
 
-/// What is left at the part `x` of a way, 0 to 1, and its first three derivatives by x: 1 - S(x), S the step of degree 7
-/// with three vanishing derivatives at both ends.
+/// Remaining fraction at `x`, 0 to 1, of a fade, and its first three derivatives by x: 1 - S(x), with S the step of degree 7
+/// (smoothstep) that has three vanishing derivatives at both ends.
 pub fn left_of(x: f64) -> [f64; 4] {
     let x = x.clamp(0.0, 1.0);
     let y = x * (1.0 - x);

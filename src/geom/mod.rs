@@ -1,7 +1,7 @@
-//! Points, angles, polylines and splines of the plane, in mm and rad. Home of nalgebra.
+//! Points, angles, polylines and splines of the plane, in mm and rad. The only home of nalgebra.
 //!
-//! Receives plain numbers, promises exact conventions (which angle is wrapped, which end of a segment is included),
-//! never knows what the geometry is for.
+//! The module works on plain numbers, follows exact conventions (which angle is wrapped, which end of a segment is included)
+//! and does not know what the geometry is for.
 
 pub mod affine;
 pub mod again;
@@ -34,22 +34,23 @@ pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// The vector turned a quarter to the left.
+/// The vector rotated by a quarter turn to the left.
 pub fn left(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
-/// The bits of a point's coordinates: the same for points that are equal, since zero has one sign here.
+/// Bit patterns of a point's coordinates. Equal points have equal bits, since both zeros map to one.
 pub fn bits(point: Point) -> [u64; 2] {
     [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
 }
 
-/// The lesser of two coordinates. Of numbers alone, which coordinates are, it takes one instruction; `f64::min` takes four.
+/// The lesser of two coordinates. For numbers, which coordinates always are, it compiles to one instruction; `f64::min` takes
+/// four.
 fn lesser(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 
-/// The greater of two coordinates, likewise.
+/// The greater of two coordinates, in one instruction.
 fn greater(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
@@ -64,13 +65,13 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// The box that holds nothing.
+    /// The empty box.
     pub const EMPTY: Self =
         Self { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
 
-    /// The box of some points.
+    /// Bounding box of some points.
     pub fn of(points: &[Point]) -> Self {
-        // Four at once: in one box each point waits for the one before.
+        // Four boxes at once: with a single box each point waits for the one before.
         let (fours, rest) = points.as_chunks::<4>();
         let mut boxes = [Self::EMPTY; 4];
         for four in fours {
@@ -84,7 +85,7 @@ impl Extent {
         all
     }
 
-    /// The box whose corners are two points.
+    /// The box with two opposite corners.
     pub fn between(a: Point, b: Point) -> Self {
         Self {
             min: Point::new(lesser(a.x, b.x), lesser(a.y, b.y)),
@@ -104,35 +105,35 @@ impl Extent {
         self.max = Point::new(greater(self.max.x, other.max.x), greater(self.max.y, other.max.y));
     }
 
-    /// The box with so much more on all sides, mm.
+    /// The box enlarged by `reach` on all sides, mm.
     #[must_use]
     pub fn grown(&self, reach: f64) -> Self {
         let reach = Vector::new(reach, reach);
         Self { min: self.min - reach, max: self.max + reach }
     }
 
-    /// Whether the two boxes have more than a part of their edges in common: only then a line in the one may cross a line
-    /// in the other. (Lines in boxes that touch at an edge meet along it at most.)
+    /// True if the two boxes share more than parts of their edges. Only then can a line in one cross a line in the other: lines
+    /// in boxes that touch at an edge can only meet along it.
     pub fn overlaps(&self, other: &Self) -> bool {
         self.min.x < other.max.x && other.min.x < self.max.x && self.min.y < other.max.y && other.min.y < self.max.y
     }
 
-    /// Whether the two boxes have a point in common, be it of their edges.
+    /// True if the two boxes share a point, edges included.
     pub fn meets(&self, other: &Self) -> bool {
         self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
     }
 
-    /// Whether another box lies in this one.
+    /// True if another box lies within this one.
     pub fn covers(&self, other: &Self) -> bool {
         self.holds(other.min) && self.holds(other.max)
     }
 
-    /// Whether a point lies in the box or on its edge.
+    /// True if a point lies in the box or on its edge.
     pub fn holds(&self, point: Point) -> bool {
         (self.min.x..=self.max.x).contains(&point.x) && (self.min.y..=self.max.y).contains(&point.y)
     }
 
-    /// What of a segment lies in the box, from its start on; `None` when it does not meet that.
+    /// The part of a segment inside the box, in its direction; `None` when there is none.
     pub fn clip(&self, [from, to]: [Point; 2]) -> Option<[Point; 2]> {
         let way = to - from;
         let (mut low, mut high) = (0.0, 1.0);
@@ -147,12 +148,12 @@ impl Extent {
             let [a, b] = [near, far].map(|away| away / way[axis]);
             (low, high) = (greater(low, lesser(a, b)), lesser(high, greater(a, b)));
         }
-        // An end that lies in the box stays what it is.
+        // Keep an end inside the box bit for bit.
         let place = |share: f64| if share == 1.0 { to } else { from + way * share };
         (low <= high).then(|| [place(low), place(high)])
     }
 
-    /// Whether nothing was added yet.
+    /// True if nothing has been added yet.
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x
     }

@@ -1,41 +1,41 @@
-//! Moments of lines: sums over everything that is drawn, which do not depend on the order in which it is drawn, nor on
-//! where a straight line is divided, and which change when a part of it moves, turns or is mirrored.
+//! Moments of lines: sums over everything that is drawn. They do not depend on the order of drawing or on the division of
+//! straight lines, and they change when a part moves, turns or is mirrored.
 
 use std::ops::{AddAssign, Mul, Sub, SubAssign};
 
 use super::Point;
 
-/// The integrals of `x^i y^j` along lines up to the third degree: length, mm, then those of first, second and third degree,
-/// mm2 to mm4. A part that is turned by half about its middle keeps all of even degree, so the third is among them.
+/// The integrals of `x^i y^j` along lines up to the third degree: length, mm, then those of first, second and third degree, mm2
+/// to mm4. The third degree is needed because a half turn of a part about its middle keeps all moments of even degree.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moments([f64; TERMS]);
 
-/// How many integrals there are, and the degree of each.
+/// Number of integrals, and the degree of each.
 const TERMS: usize = 10;
 const DEGREES: [i32; TERMS] = [0, 1, 1, 2, 2, 2, 3, 3, 3, 3];
 
 /// A comparison of moments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// How far off the worst of them is, as a distance, mm.
+    /// Difference of the worst moment, as a distance, mm.
     pub distance: f64,
-    /// How far off it may be, mm.
+    /// Allowed difference of that moment, mm.
     pub limit: f64,
 }
 
-/// How exactly moments must agree.
+/// Tolerance for a comparison of moments.
 #[derive(Debug, Clone, Copy)]
 pub struct Allowance<'a> {
-    /// Farthest coordinate, mm.
+    /// Greatest coordinate, mm.
     pub reach: f64,
-    /// Rounding of sums, as a part of them.
+    /// Relative rounding error of the sums.
     pub epsilon: f64,
-    /// What each may differ beside that; none is negative.
+    /// Additional tolerance of each moment; never negative.
     pub slack: &'a Moments,
 }
 
 impl Moments {
-    /// Those of a straight line.
+    /// Moments of a straight line.
     pub fn line(from: Point, to: Point) -> Self {
         let way = to - from;
         let length = way.norm();
@@ -57,7 +57,7 @@ impl Moments {
         Self(means.map(|mean| length * mean))
     }
 
-    /// Those of a chain of straight lines.
+    /// Moments of a polyline.
     pub fn of(points: impl IntoIterator<Item = Point>) -> Self {
         let mut points = points.into_iter();
         let mut sum = Self::default();
@@ -69,8 +69,10 @@ impl Moments {
         sum
     }
 
-    /// Most that moments may change where a line of that length, mm, no place of which is farther than `reach` along an axis, is
-    /// led up to `off` beside itself and becomes up to `lack` shorter: of degree `d` by `length d reach^(d-1) off + reach^d lack`.
+    /// Upper bound on the change of the moments when a line is displaced sideways by up to `off` and shortened by up to `lack`,
+    /// mm. The line is `length` mm long and no coordinate exceeds `reach`. The bound of degree `d` is the following:
+    ///
+    /// `length d reach^(d-1) off + reach^d lack`
     pub fn beside(length: f64, reach: f64, [off, lack]: [f64; 2]) -> Self {
         let of = |degree: i32| {
             let turned = if degree > 0 { length * f64::from(degree) * reach.powi(degree - 1) * off } else { 0.0 };
@@ -84,13 +86,13 @@ impl Moments {
         self.0[0]
     }
 
-    /// Without their signs.
+    /// Absolute values.
     #[must_use]
     pub fn magnitudes(self) -> Self {
         Self(self.0.map(f64::abs))
     }
 
-    /// Compares moments; the worst is the one that differs most for what it may.
+    /// Compares moments and returns the worst one, relative to its tolerance.
     pub fn compare(&self, other: &Self, Allowance { reach, epsilon, slack }: Allowance) -> Difference {
         let length = self.length().abs().max(other.length().abs());
         let of = |i: usize| {
@@ -158,7 +160,7 @@ mod tests {
         let way = to - from;
         let powers = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3)];
         for (found, (i, j)) in found.into_iter().zip(powers) {
-            // The midpoint rule with many steps.
+            // Midpoint rule with many steps.
             const STEPS: u32 = 10_000;
             let at = |k: u32| from + way * ((f64::from(k) + 0.5) / f64::from(STEPS));
             let mean = (0..STEPS).map(|k| at(k).x.powi(i) * at(k).y.powi(j)).sum::<f64>() / f64::from(STEPS);
@@ -196,7 +198,7 @@ mod tests {
             check("shifted", &|p| Point::new(p.x + 1e-6, p.y));
             let swapped = random.usize(0..points.len());
             check("swapped", &|p| if p == points[swapped] { Point::new(p.y, p.x) } else { p });
-            // About their own middle, lines keep every moment of even degree.
+            // A half turn of lines about their own middle keeps every moment of even degree.
             let moments = Moments::of(points.iter().copied()).0;
             let middle = [moments[1] / moments[0], moments[2] / moments[0]];
             check("turned about its middle", &|p| Point::new(2.0 * middle[0] - p.x, 2.0 * middle[1] - p.y));

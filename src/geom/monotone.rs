@@ -1,11 +1,11 @@
-//! Where polylines cross. Each is cut into chains along which neither x nor y turns back; a chain does not cross itself,
-//! and the box of any part of it is that of its two ends, so halving finds the crossings of two chains fast.
-//! (Monotone chains: Park & Shin, "Self-intersection elimination by monotone chains", CAD 34, 2002.)
+//! Crossings of polylines. Each polyline is divided into chains that are monotone in x and in y. A chain does not cross itself,
+//! and the box of any part of it is that of its two ends, so bisection finds the crossings of two chains fast. (Monotone
+//! chains: Park & Shin, "Self-intersection elimination by monotone chains", CAD 34, 2002.)
 
 use super::budget::Budget;
 use super::{Extent, Point, Vector, cross};
 
-/// A stretch of a polyline along which neither x nor y turns back: indices of its first and last point.
+/// A stretch of a polyline that is monotone in x and in y: indices of its first and last point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Chain {
     /// Index of its first point.
@@ -17,24 +17,24 @@ pub struct Chain {
 /// A crossing of two segments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Indices of the points where the two segments start.
+    /// Indices of the start points of the two segments.
     pub segments: [usize; 2],
-    /// Where they cross.
+    /// Point of intersection.
     pub at: Point,
 }
 
 impl Chain {
-    /// The box around it.
+    /// Bounding box of the chain.
     pub fn extent(self, points: &[Point]) -> Extent {
         Extent::between(points[self.first as usize], points[self.last as usize])
     }
 
-    /// Number of its segments.
+    /// Number of segments.
     pub fn segments(self) -> usize {
         (self.last - self.first) as usize
     }
 
-    /// The chain, where `by` points stand before those of its polyline.
+    /// The chain after `by` points have been inserted before those of its polyline.
     #[must_use]
     pub fn moved(self, by: u32) -> Self {
         Self { first: self.first + by, last: self.last + by }
@@ -46,7 +46,7 @@ impl Chain {
     }
 }
 
-/// The chains of a polyline in order, each as soon as its end is known; none when it has no segment.
+/// The chains of a polyline in order, computed lazily; none for a polyline without segments.
 pub fn chains(points: &[Point]) -> impl Iterator<Item = Chain> {
     let mut first = 0;
     std::iter::from_fn(move || {
@@ -57,23 +57,23 @@ pub fn chains(points: &[Point]) -> impl Iterator<Item = Chain> {
     })
 }
 
-/// Where the first chain of a polyline that has a segment ends.
+/// Index of the last point of the first chain. The polyline must have a segment.
 fn turning(points: &[Point]) -> usize {
-    // The signs of dx and dy so far; 0 as long as there is none.
+    // Only the signs of dx and dy so far count; 0 means none yet.
     let mut so_far = Vector::zeros();
     for (i, (from, to)) in points.iter().zip(&points[1..]).enumerate() {
         let way = to - from;
         if way.x * so_far.x < 0.0 || way.y * so_far.y < 0.0 {
             return i;
         }
-        // Only the signs count; a sum of numbers of one sign has it.
+        // A sum of numbers of one sign keeps that sign.
         so_far += way;
     }
     points.len() - 1
 }
 
-/// The first crossing of a chain of one polyline with a chain of another (or the same) that `wanted` accepts. Segments
-/// that merely touch, or lie in one line, do not cross. `None` when there is no work left, too.
+/// The first crossing of two chains, of one polyline or two, that `wanted` accepts. Segments that merely touch or are collinear
+/// do not cross. Also `None` once the budget is spent.
 pub fn crossing(
     points: [&[Point]; 2],
     [a, b]: [Chain; 2],
@@ -85,7 +85,7 @@ pub fn crossing(
     if may_cross { crossing_in(points, [(a, boxes[0]), (b, boxes[1])], work, wanted) } else { None }
 }
 
-/// The same of chains whose boxes, which stand beside them, overlap.
+/// Finds a crossing as [`crossing`] does, for chains with known, overlapping boxes.
 fn crossing_in(
     points: [&[Point]; 2],
     [(mut a, mut box_a), (mut b, mut box_b)]: [(Chain, Extent); 2],
@@ -118,8 +118,8 @@ fn crossing_in(
     cross_at(ends(0), ends(1)).map(|at| Crossing { segments, at }).filter(wanted)
 }
 
-/// Whether two chains may come as near to each other as `slack` mm: the boxes of two of their segments do. So they may when
-/// there is no work left.
+/// True if two chains may come within `slack` mm of each other: the boxes of two of their segments do. Also true once the
+/// budget is spent.
 pub fn come_near(points: [&[Point]; 2], [a, b]: [Chain; 2], slack: f64, work: &mut Budget) -> bool {
     if !work.spend(1) {
         return true;
@@ -134,10 +134,10 @@ pub fn come_near(points: [&[Point]; 2], [a, b]: [Chain; 2], slack: f64, work: &m
     halves.into_iter().any(|pair| come_near(points, pair, slack, work))
 }
 
-/// Nearer to a line than this a point lies on it, mm: rounding of coordinates of some metres.
+/// Distance below which a point counts as on a line, mm: rounding of coordinates of some metres.
 const ON_LINE_EPSILON: f64 = 1e-9;
 
-/// Where two segments cross; `None` when an end of one lies on the other.
+/// Intersection of two segments; `None` when an end of one lies on the other.
 fn cross_at(a: [Point; 2], b: [Point; 2]) -> Option<Point> {
     let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
     let is_split = |sides: [f64; 2], length: f64| {

@@ -2,9 +2,9 @@
 
 use super::{Point, Vector, angle};
 
-/// Longest chord that a flattened curve is believed to have, mm: CAD flattens to small sagittas.
+/// Maximum chord length of a flattened curve, mm. CAD flattens to small sagittas, so longer segments are straight lines.
 pub const CURVE_CHORD_MAX: f64 = 25.0;
-/// Part of a turn by which rounding may seem to make it less.
+/// Relative tolerance of comparisons of turns, for rounding.
 const SURE_EPSILON: f64 = 1e-9;
 
 /// Length of a polyline, mm.
@@ -30,8 +30,8 @@ pub fn turn_at(before: Point, vertex: Point, after: Point) -> f64 {
     angle::turn(vertex - before, after - vertex)
 }
 
-/// Whether the turns of a polyline at its inner vertices, to either side, sum to less than `limit` rad. Of most the angles need
-/// not be known.
+/// True if the absolute turns at the inner vertices of a polyline sum to less than `limit` rad. The angles themselves are
+/// rarely computed.
 pub fn turns_by_less(points: &[Point], limit: f64) -> bool {
     // An angle is less than its tangent.
     let tangent = |w: &[Point]| {
@@ -43,7 +43,7 @@ pub fn turns_by_less(points: &[Point], limit: f64) -> bool {
         || points.windows(3).map(|w| turn_at(w[0], w[1], w[2]).abs()).sum::<f64>() < limit
 }
 
-/// The foot of `point` on the segment from `a` to `b`, as a fraction of the segment in `[0, 1]`.
+/// Foot of the perpendicular from `point` on the segment from `a` to `b`, as a fraction of the segment clamped to `[0, 1]`.
 pub fn foot(point: Point, a: Point, b: Point) -> f64 {
     let along = b - a;
     let square = along.norm_squared();
@@ -55,12 +55,12 @@ pub fn distance_to_segment(point: Point, a: Point, b: Point) -> f64 {
     (point - (a + (b - a) * foot(point, a, b))).norm()
 }
 
-/// Distance of a point from the line through another along a unit vector, mm.
+/// Distance of a point from the line through `from` along a unit vector, mm.
 pub fn distance_to_line(point: Point, from: Point, along: Vector) -> f64 {
     super::cross(along, point - from).abs()
 }
 
-/// Distance of two segments, mm: nothing where they cross.
+/// Distance between two segments, mm; 0 where they cross.
 pub fn distance_of_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     let side = |from: Point, to: Point, point: Point| super::cross(to - from, point - from);
     let parts = |from: Point, to: Point, p: Point, q: Point| side(from, to, p) * side(from, to, q) < 0.0;
@@ -71,18 +71,17 @@ pub fn distance_of_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     ends.into_iter().map(|(point, from, to)| distance_to_segment(point, from, to)).fold(f64::INFINITY, f64::min)
 }
 
-/// Distance from a point to a polyline of two points at least, mm.
+/// Distance from a point to a polyline of at least two points, mm.
 pub fn distance(point: Point, points: &[Point]) -> f64 {
     points.windows(2).map(|ends| distance_to_segment(point, ends[0], ends[1])).fold(f64::INFINITY, f64::min)
 }
 
-/// The place at a station of a polyline of two points at least, given with their [`stations`], mm; beyond its ends the nearer
-/// of them.
+/// Point at a station, mm, on a polyline of at least two points with its [`stations`]; clamped to its ends.
 pub fn place(points: &[Point], stations: &[f64], station: f64) -> Point {
     on_chord(points, stations, station, stations.partition_point(|&passed| passed < station))
 }
 
-/// Place at a station, looked for from a near vertex on.
+/// Point at a station, mm; the search starts at the vertex index `vertex`, which should be near.
 pub fn place_near(points: &[Point], stations: &[f64], station: f64, vertex: usize) -> Point {
     let mut next = vertex;
     while next > 0 && stations[next - 1] >= station {
@@ -94,7 +93,7 @@ pub fn place_near(points: &[Point], stations: &[f64], station: f64, vertex: usiz
     on_chord(points, stations, station, next)
 }
 
-/// The place at a station on the chord that ends at the vertex `next`, or on the nearest one.
+/// Point at a station on the chord that ends at the vertex `next`, or on the nearest chord that exists.
 fn on_chord(points: &[Point], stations: &[f64], station: f64, next: usize) -> Point {
     let next = next.clamp(1, points.len() - 1);
     let (from, to) = (stations[next - 1], stations[next]);
@@ -102,27 +101,26 @@ fn on_chord(points: &[Point], stations: &[f64], station: f64, next: usize) -> Po
     points[next - 1] + (points[next] - points[next - 1]) * share
 }
 
-/// Unit vector along a segment; `None` when it has no length.
+/// Unit vector along a segment; `None` for a segment of zero length.
 pub fn direction(a: Point, b: Point) -> Option<Vector> {
     (b - a).try_normalize(0.0)
 }
 
-/// How much a polyline turns, to either side, at the inner vertices nearer than `distance` to its first point, before it
-/// first leaves them, rad.
+/// Total absolute turn at the inner vertices of a polyline up to the first one `distance` or more from the start, rad.
 pub fn turn_within(points: &[Point], distance: f64) -> f64 {
     let inner = points.windows(3).take_while(|w| (w[1] - points[0]).norm() < distance);
     inner.map(|w| turn_at(w[0], w[1], w[2]).abs()).sum()
 }
 
-/// Where a polyline first comes to `distance` from its first point: the point, and the index of its chord. `None` when
-/// it stays nearer.
+/// The first point of a polyline at `distance` from its start, and the index of its chord. `None` when the polyline stays
+/// nearer.
 pub fn first_at_distance(points: &[Point], distance: f64) -> Option<(Point, usize)> {
     let from = *points.first()?;
     for (i, ends) in points.windows(2).enumerate() {
         if (ends[1] - from).norm() < distance {
             continue;
         }
-        // |a + x d - from| = distance, the root that lies ahead: the chord starts nearer and ends farther.
+        // Solve |a + x d - from| = distance for the root ahead: the chord starts nearer and ends farther.
         let (a, d) = (ends[0] - from, ends[1] - ends[0]);
         let (square, half, rest) = (d.norm_squared(), a.dot(&d), a.norm_squared() - distance * distance);
         let x = (-half + (half * half - square * rest).max(0.0).sqrt()) / square;
@@ -131,13 +129,14 @@ pub fn first_at_distance(points: &[Point], distance: f64) -> Option<(Point, usiz
     None
 }
 
-/// How far an arc bows away from its chord of a length, mm, when it turns by an angle, rad: up to a half circle, beyond
-/// which no chord is looked at. For small turns that is the length times an eighth of the turn.
+/// Sagitta of an arc over a chord, mm, for a turn of the arc in rad, up to a half circle; greater turns are clamped. For small
+/// turns it is an eighth of the turn times the chord.
 pub fn sagitta(chord: f64, turn: f64) -> f64 {
     chord / 2.0 * (turn.min(std::f64::consts::PI) / 4.0).tan()
 }
 
-/// Whether the polyline is straight: every vertex within `tolerance` of the chord between its ends, and none going back.
+/// True if the polyline is straight: every vertex lies within `tolerance` of the chord between its ends, and no segment goes
+/// back.
 pub fn is_straight(points: &[Point], tolerance: f64) -> bool {
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return true };
     let Some(along) = direction(first, last) else { return points.len() < 2 };

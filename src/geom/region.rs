@@ -1,5 +1,5 @@
-//! Regions of the plane, each bounded by the rings of one owner by the even-odd rule, and how far one may go straight on
-//! before entering one. Every question looks at what is near only, so that asking it everywhere is nearly linear.
+//! Regions of the plane, each bounded by the rings of one owner under the even-odd rule, and the clear distance along a ray
+//! before it enters a region. Every query visits nearby edges only, so querying everywhere is nearly linear.
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -10,57 +10,58 @@ use super::boxes::Boxes;
 use super::slots::Slots;
 use super::{Extent, Point, Vector, cross, polyline};
 
-/// Edges that a band of a region holds on average, at the least.
+/// Minimum average number of edges per band of a region.
 const EDGES_A_BAND: usize = 4;
-/// Bands that an edge reaches into on average, at the most: long ones side by side would fill every band.
+/// Maximum average number of bands per edge. Long edges side by side would otherwise fill every band.
 const BANDS_AN_EDGE: f64 = 4.0;
-/// Places nearer than this are the same, mm: rounding of coordinates of some metres.
+/// Distance below which two places are equal, mm: rounding of coordinates of some metres.
 const SAME_EPSILON: f64 = 1e-9;
-/// How deep a place may lie in a strip and still be at its edge, in widths of that.
+/// Maximum depth in a strip that still counts as its edge, in widths of the strip.
 const STRIP_SHARE: f64 = 0.25;
-/// Least cosine between the two edges of a strip (10 degrees): of those of a corner one ends where the other begins.
+/// Minimum cosine between the two edges of a strip (10 degrees). It excludes the edges at a corner, where one ends where the
+/// other begins.
 const PARALLEL: f64 = 0.985;
-/// Number of places between two crossings at which it is seen whether a way lies well inside, at the least, and their greatest
-/// distance, mm: no farther than the corner of a small notch is deep.
+/// Sampling between two crossings, to see if a ray lies well inside: minimum number of samples, and maximum distance between
+/// them, mm, at most the depth of the corner of a small notch.
 const PROBES: f64 = 4.0;
 const PROBE_STEP: f64 = 0.25;
 
-/// Regions, indexed.
+/// An index of regions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Regions<'a> {
-    /// Each owner's region, in order.
+    /// The region of each owner, in the given order.
     owners: Vec<Region<'a>>,
-    /// Their boxes.
+    /// Index of their boxes.
     boxes: Boxes,
 }
 
-/// A straight way.
+/// A straight line segment, given by its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Start point.
     pub from: Point,
-    /// Its direction, a unit vector.
+    /// Direction, a unit vector.
     pub along: Vector,
     /// Its length, mm.
     pub reach: f64,
 }
 
-/// How far a way goes before it enters a region, mm; infinite when it does not.
+/// Length of a ray before it enters a region, mm; infinite when it enters none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Room {
-    /// Before it enters the region of its own owner.
+    /// Length before it enters the region of its own owner.
     pub own: f64,
-    /// Before it enters that of another.
+    /// Length before it enters the region of another owner.
     pub other: f64,
 }
 
 impl Room {
-    /// Before it enters any, mm.
+    /// Length before it enters any region, mm.
     pub fn least(self) -> f64 {
         self.own.min(self.other)
     }
 
-    /// Room behind the first `way` mm.
+    /// Remaining room after the first `way` mm.
     #[must_use]
     pub fn without(self, way: f64) -> Self {
         let [own, other] = [self.own, self.other].map(|room| (room - way).max(0.0));
@@ -80,23 +81,24 @@ struct Edge {
 struct Region<'a> {
     owner: u32,
     extent: Extent,
-    /// Its rings, one behind the other; each ends with the point that it begins with. Nearly all are one ring like that.
+    /// The rings, one after the other; each ends with its first point. Nearly all regions have a single ring in this form
+    /// already.
     points: Cow<'a, [Point]>,
     bands: Bands,
 }
 
-/// Edges by the band along Y that they reach into: all that a ray along X can meet.
+/// Edges by horizontal band, so that a ray along X only visits the edges that it can meet.
 #[derive(Debug, Clone, PartialEq)]
 struct Bands {
     bottom: f64,
     height: f64,
     count: usize,
-    /// The edges of each band by the place of their first point.
+    /// Edges of each band, by the index of their first point.
     edges: Slots,
 }
 
 impl Bands {
-    /// Puts the edges between points, but for those that no edge begins at, into the bands of their box.
+    /// Sorts the edges into the bands of the box. `ends` holds the last index of each ring; no edge starts there.
     fn new(points: &[Point], ends: &[usize], extent: Extent) -> Self {
         let edges = points.len() - ends.len();
         let count = (edges / EDGES_A_BAND).max(1);
@@ -116,23 +118,22 @@ impl Bands {
         bands
     }
 
-    /// The bands between two heights.
+    /// The bands between two heights, clamped to the box.
     fn met(&self, low: f64, high: f64) -> RangeInclusive<usize> {
         let [low, high] =
             [low, high].map(|y| (((y - self.bottom) / self.height).max(0.0) as usize).min(self.count - 1));
         low..=high
     }
 
-    /// The edges of the bands between two heights; some more than once.
+    /// Edges of the bands between two heights; some appear more than once.
     fn near(&self, low: f64, high: f64) -> &[u32] {
         self.edges.of_all(self.met(low, high))
     }
 }
 
 impl<'a> Regions<'a> {
-    /// The regions of owners, in this order, each bounded by the rings that `rings` gives for it; whether a ring
-    /// repeats its first point does not matter. They are asked for one owner at a time, so that not all are there at
-    /// once.
+    /// The regions of `owners`, in this order, each bounded by the rings from `rings`. Rings may repeat their first point or
+    /// not. They are requested one owner at a time, so that not all are in memory at once.
     pub fn new(owners: impl IntoIterator<Item = u32>, rings: impl Fn(u32) -> Vec<Cow<'a, [Point]>> + Sync) -> Self {
         let owners: Vec<u32> = owners.into_iter().collect();
         let owners: Vec<Region<'a>> =
@@ -140,7 +141,7 @@ impl<'a> Regions<'a> {
         Self { boxes: Boxes::new(owners.iter().map(|region| region.extent).collect()), owners }
     }
 
-    /// The owners in whose region a point lies, in order. A point on an edge may count either way.
+    /// The owners whose region contains a point, ascending. A point on an edge may count either way.
     pub fn owners_at(&self, point: Point) -> Vec<u32> {
         let near = self.boxes.at(point).map(|i| &self.owners[i]);
         let mut owners: Vec<u32> = near.filter(|region| region.holds(point)).map(|region| region.owner).collect();
@@ -148,13 +149,13 @@ impl<'a> Regions<'a> {
         owners
     }
 
-    /// The owners in whose region a point lies, each with how far the point is from the edges of that, mm, `reach` at the most.
+    /// The owners whose region contains a point, each with the distance of the point from the edges, mm, at most `reach`.
     pub fn depths_at(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.depths_at_of(point, reach).map(|(region, depth)| (region.owner, depth))
     }
 
-    /// The owners in whose region a point lies, or at most `reach` mm outside, each with how deep it lies there: mm from the
-    /// edges, at most `reach`, negative outside.
+    /// The owners whose region contains a point or lies less than `reach` mm from it, each with the depth of the point: its
+    /// distance from the edges, mm, at most `reach`, negative outside.
     pub fn depths_about(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
         let near = self.boxes.near(around(point, reach)).map(|i| &self.owners[i]);
         near.filter_map(move |region| {
@@ -164,7 +165,8 @@ impl<'a> Regions<'a> {
         })
     }
 
-    /// The same, of those in which a point lies deeper than `slack` mm, or than a quarter of the width of a strip.
+    /// The owners in whose region a point lies deeper than `slack` mm, or, in a strip, deeper than a quarter of its width. Each
+    /// comes with the distance of the point from the edges, mm, at most `reach`.
     pub fn deep_at(&self, point: Point, reach: f64, slack: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.depths_at_of(point, reach).filter_map(move |(region, depth)| {
             let is_in_strip = || {
@@ -180,14 +182,14 @@ impl<'a> Regions<'a> {
         near.filter(move |region| region.holds(point)).map(move |region| (region, region.depth(point, reach)))
     }
 
-    /// What [`Regions::owners_at`] costs, in comparisons of boxes and of edges.
+    /// Cost of [`Regions::owners_at`], in comparisons of boxes and of edges.
     pub fn cost_at(&self, point: Point) -> usize {
         let near = self.boxes.at(point).map(|i| self.owners[i].bands.near(point.y, point.y).len());
         self.boxes.cost_at(point) + near.sum::<usize>()
     }
 
-    /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm, into
-    /// its own and into another, or than a quarter of the width of a strip, enters nothing: it lies along an edge.
+    /// Room of a ray of `owner` before it enters a region. `slack`, mm, applies to its own region and to others. A stretch no
+    /// deeper than `slack`, or than a quarter of the width of a strip, lies along an edge and does not enter.
     pub fn room(&self, ray: &Ray, owner: u32, slack: [f64; 2]) -> Room {
         let mut room = Room { own: f64::INFINITY, other: f64::INFINITY };
         let mut extent = around(ray.from, SAME_EPSILON);
@@ -226,14 +228,14 @@ impl<'a> Regions<'a> {
     }
 }
 
-/// The box of all places that are nearer to a point than `reach` mm along each axis.
+/// The box of half width `reach` around a point, mm.
 fn around(point: Point, reach: f64) -> Extent {
     let reach = Vector::new(reach, reach);
     Extent { min: point - reach, max: point + reach }
 }
 
 impl<'a> Region<'a> {
-    /// The region that the rings of one owner bound; `None` when they have no edges.
+    /// The region bounded by the rings of one owner; `None` when they have no edges.
     fn new(owner: u32, mut rings: Vec<Cow<'a, [Point]>>) -> Option<Self> {
         if let [ring] = &mut rings[..]
             && let [first, .., last] = **ring
@@ -258,7 +260,7 @@ impl<'a> Region<'a> {
                 }
             }
             if points.len() - first < 2 {
-                // A point bounds nothing.
+                // A single point bounds nothing.
                 points.truncate(first);
             } else {
                 ends.push(points.len() - 1);
@@ -273,32 +275,30 @@ impl<'a> Region<'a> {
         Edge { from: self.points[i], to: self.points[i + 1] }
     }
 
-    /// The edges whose boxes meet a box; some more than once.
+    /// Edges whose boxes meet a box; some appear more than once.
     fn near(&self, extent: Extent) -> impl Iterator<Item = Edge> + '_ {
         let edges = if self.extent.meets(&extent) { self.bands.near(extent.min.y, extent.max.y) } else { &[] };
         edges.iter().map(|&i| self.edge(i)).filter(move |edge| edge.extent().meets(&extent))
     }
 
-    /// Whether a point that lies in it is farther than `slack` mm from its edges, or than a quarter of its width where it is a
-    /// strip.
+    /// True if a point inside lies deeper than `slack` mm, or, where the region is a strip, deeper than a quarter of its width.
     fn is_deep(&self, point: Point, slack: f64) -> bool {
         self.nearest(point, slack).is_none_or(|(away, edge)| away > self.edge_of_strip(point, edge, slack))
     }
 
-    /// The edge that is nearest to a point, and how far that is, mm, where it is no farther than `reach`.
+    /// The edge nearest to a point, and its distance, mm; `None` beyond `reach`.
     fn nearest(&self, point: Point, reach: f64) -> Option<(f64, Edge)> {
         let near = self.near(around(point, reach)).map(|edge| (edge.distance(point), edge));
         near.filter(|(away, _)| *away <= reach).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// How deep a point may lie in a strip and still be at its edge, mm; infinite where it is in none that is so narrow that
-    /// this were less than `slack`.
+    /// Maximum depth of a point in a strip that still counts as its edge, mm. Infinite where there is no strip, or where the
+    /// strip is so wide that this depth would exceed `slack`.
     fn edge_of_strip(&self, point: Point, nearest: Edge, slack: f64) -> f64 {
         STRIP_SHARE * self.width_at(point, nearest, slack / STRIP_SHARE)
     }
 
-    /// How wide it is across a point and the edge that is nearest to that, mm; infinite where it is no strip there, or one that
-    /// is wider than `most`.
+    /// Width across a point and its nearest edge, mm. Infinite where the region is no strip, or one wider than `most`.
     fn width_at(&self, point: Point, edge: Edge, most: f64) -> f64 {
         let Some(along) = polyline::direction(edge.from, edge.to) else { return f64::INFINITY };
         let away = cross(along, point - edge.from);
@@ -316,13 +316,13 @@ impl<'a> Region<'a> {
         away.abs() + ways.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// How far a point that lies in it is from its edges, mm, `reach` at the most.
+    /// Distance of a point inside from the edges, mm, at most `reach`.
     fn depth(&self, point: Point, reach: f64) -> f64 {
         let near = self.near(around(point, reach));
         near.map(|edge| edge.distance(point)).fold(reach, f64::min)
     }
 
-    /// Whether a ray to the right of a point crosses its edges an odd number of times.
+    /// True if a ray to the right of a point crosses the edges an odd number of times.
     fn holds(&self, point: Point) -> bool {
         let crossed = |&&i: &&u32| {
             let Edge { from, to } = self.edge(i);
@@ -342,7 +342,7 @@ impl Edge {
         polyline::distance_to_segment(point, self.from, self.to)
     }
 
-    /// Adds how far along a way it crosses or touches it.
+    /// Appends the distance along a ray at which it crosses or touches the edge.
     fn crossings(&self, ray: &Ray, cuts: &mut Vec<f64>) {
         let (a, b) = (self.from - ray.from, self.to - ray.from);
         let (side_a, side_b) = (cross(ray.along, a), cross(ray.along, b));
@@ -394,10 +394,10 @@ mod tests {
         let from_corner = room(&east(10.0, 5.0), 1);
         assert!((from_corner.other - 0.5).abs() < 1e-9 && from_corner.own == f64::INFINITY);
         assert_eq!(room(&east(0.0, 5.0), 1).own, 0.0);
-        // Along the edge, and nearer to it than the slack, it enters nothing.
+        // Along the edge, and nearer to it than the slack, the ray enters nothing.
         assert_eq!(room(&east(10.0, 0.0), 1).least(), f64::INFINITY);
         assert_eq!(room(&east(10.0, 0.04), 1).least(), f64::INFINITY);
-        // What begins in another region has no room there.
+        // A ray that starts in another region has no room there.
         assert_eq!(room(&east(12.0, 5.0), 1), Room { own: f64::INFINITY, other: 0.0 });
     }
 
@@ -412,7 +412,7 @@ mod tests {
                 Regions::new([1, 2], |owner| vec![if owner == 1 { strip(width) } else { square(50.0, 0.0, 5.0) }]);
             let room = |ray: &Ray| regions.room(ray, 2, [0.05, 0.2]).other;
             assert!((room(&east(0.0, 10.0)) - 5.0).abs() < 1e-9, "across {width} mm");
-            // Along its edge, a fifth of its width or of the band inside.
+            // Along its edge, at a fifth of its width or of the band inside.
             let inside = 5.0 + 0.2 * width.min(0.2);
             let up = Ray { from: Point::new(inside, 1.0), along: Vector::new(0.0, 1.0), reach: 20.0 };
             assert_eq!(room(&up), f64::INFINITY, "along {width} mm");

@@ -1,11 +1,11 @@
-//! Closed polylines: area and inside. A ring is given by its vertices; whether the first is repeated does not matter.
+//! Closed polylines: area and containment. A ring is given by its vertices and may repeat the first one or not.
 
 use super::{Point, Vector, cross};
 
 /// Area, mm2; positive when the ring runs counter-clockwise.
 pub fn area(ring: &[Point]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
-    // Seen from a vertex, so that far from the table's origin no digits are lost.
+    // Relative to a vertex, so that no digits are lost far from the table's origin.
     let mut before = Vector::zeros();
     let doubled = ring[1..].iter().map(|&vertex| {
         let after = vertex - origin;
@@ -14,8 +14,8 @@ pub fn area(ring: &[Point]) -> f64 {
     doubled.sum::<f64>() / 2.0
 }
 
-/// Whether a point lies inside, by the even-odd rule: how often a ray along +X meets the ring. A point on the ring itself
-/// may count either way.
+/// True if a point lies inside by the even-odd rule: a ray along +X crosses the ring an odd number of times. A point on the
+/// ring itself may count either way.
 pub fn contains(ring: &[Point], point: Point) -> bool {
     let Some(&last) = ring.last() else { return false };
     let mut inside = false;

@@ -1,32 +1,32 @@
-//! Shapes that rings bound: where they lie, and a place well inside.
+//! Shapes bounded by rings: their box and a point well inside.
 
 use super::{Extent, Point};
 
-/// Where between the bottom and the top of a shape a point inside it is looked for: seldom at the height of an edge.
+/// Height of the scan line for a point inside, as a fraction of the height of the shape; seldom the height of an edge.
 const LEVEL: f64 = 0.381_966;
 
-/// A shape: what there is to know of the rings that bound it by the even-odd rule.
+/// Box and inner point of a shape that rings bound by the even-odd rule.
 #[derive(Debug, Clone)]
 pub struct Shape {
     extent: Extent,
-    /// A point well inside; `None` when there is no inside.
+    /// A point well inside; `None` when the shape has no interior.
     inner: Option<Point>,
 }
 
 impl Shape {
-    /// The shape that rings bound; whether they repeat their first points does not matter.
+    /// The shape bounded by the rings, which may repeat their first points or not.
     pub fn new<R: AsRef<[Point]>>(rings: &[R]) -> Self {
         let mut extent = Extent::EMPTY;
         rings.iter().flat_map(AsRef::as_ref).for_each(|&point| extent.add(point));
         Self { extent, inner: inner_point(rings, extent) }
     }
 
-    /// The box around it.
+    /// Bounding box.
     pub fn extent(&self) -> Extent {
         self.extent
     }
 
-    /// A point well inside; `None` when there is no inside.
+    /// A point well inside; `None` when the shape has no interior.
     pub fn inner(&self) -> Option<Point> {
         self.inner
     }

@@ -1,21 +1,21 @@
-//! Items by the slots that they belong to, in one block: as many small lists as slots would each have memory of its own.
+//! Items grouped by slot in one block (CSR). A list per slot would need an allocation each.
 
 use std::ops::RangeInclusive;
 
 /// Items, slot by slot.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Slots {
-    /// Where the items of each slot begin, and where those of the last one end.
+    /// Index of the first item of each slot, then the number of all items.
     starts: Vec<u32>,
     items: Vec<u32>,
 }
 
 impl Slots {
-    /// Sorts items, fewer than 2^32, into `count` slots by counting, first how many, then where. `each` calls out the
-    /// slot and the item of all, each time the same; in a slot they stay in this order.
+    /// Sorts items, fewer than 2^32, into `count` slots by counting sort. `each` reports the slot and the item of all; it is
+    /// called twice and must report the same both times. Within a slot the items keep this order.
     pub fn new(count: usize, each: impl Fn(&mut dyn FnMut(usize, u32))) -> Self {
-        // A slot's count stands two places on, so that what is counted up one place on is where it begins, then where
-        // it ends.
+        // The count of a slot is stored two positions on. The prefix sum one position on is then the start of the slot while it
+        // is filled, and its end afterwards.
         let mut starts = vec![0_u32; count + 2];
         each(&mut |slot, _| starts[slot + 2] += 1);
         for i in 2..starts.len() {
@@ -31,17 +31,17 @@ impl Slots {
         Self { starts, items }
     }
 
-    /// How many slots there are.
+    /// Number of slots.
     pub fn count(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
-    /// The items of a slot.
+    /// Items of a slot.
     pub fn of(&self, slot: usize) -> &[u32] {
         self.of_all(slot..=slot)
     }
 
-    /// The items of slots that follow each other, slot by slot.
+    /// Items of consecutive slots, slot by slot.
     pub fn of_all(&self, slots: RangeInclusive<usize>) -> &[u32] {
         &self.items[self.starts[*slots.start()] as usize..self.starts[slots.end() + 1] as usize]
     }

@@ -11,7 +11,7 @@ pub fn clamped_knots<const K: usize>(breaks: &[f64]) -> Vec<f64> {
     knots
 }
 
-/// Length below which a span at the end of a slice is dropped: rounding of where it is cut.
+/// Length below which a span at the end of a slice is dropped: rounding of the cut.
 pub const SLICE_EPSILON: f64 = 1e-9;
 
 /// Number of control values of a spline of order `K` over `breaks`.
@@ -19,7 +19,7 @@ pub fn control_count<const K: usize>(breaks: &[f64]) -> usize {
     breaks.len() + K - 2
 }
 
-/// The span of `u`: the index of the last break not behind `u`, the last break excluded.
+/// The span of `u`: the index of the last break that is not greater than `u`, without the last break of all.
 pub fn span(breaks: &[f64], u: f64) -> usize {
     breaks.partition_point(|&b| b <= u).clamp(1, breaks.len() - 1) - 1
 }
@@ -85,7 +85,7 @@ pub fn basis<const K: usize, const D: usize>(knots: &[f64], span: usize, u: f64)
     ders
 }
 
-/// A curve in `N` dimensions of polynomials of order `K`, one a span, in powers of the distance from the span's start.
+/// A curve in `N` dimensions made of polynomials of order `K`, one per span, in powers of the distance from the span's start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piecewise<const K: usize, const N: usize> {
     breaks: Vec<f64>,
@@ -115,7 +115,7 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         Self { breaks, pieces }
     }
 
-    /// The straight line from one value to another over `ends` of the parameter.
+    /// The straight line between two values over the parameter interval `ends`.
     pub fn line(ends: [f64; 2], [from, to]: [[f64; N]; 2]) -> Self {
         const { assert!(K > 1, "a line needs a slope") };
         let mut piece = [[0.0; N]; K];
@@ -124,8 +124,8 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         Self { breaks: ends.to_vec(), pieces: vec![piece] }
     }
 
-    /// The curve from one parameter to a greater one, which become 0 and their distance. Spans shorter than
-    /// [`SLICE_EPSILON`] at its ends join their neighbours.
+    /// The curve over a parameter interval, shifted to start at 0. Spans shorter than [`SLICE_EPSILON`] at its ends join their
+    /// neighbours.
     #[must_use]
     pub fn slice(&self, [from, to]: [f64; 2]) -> Self {
         let inner = |at: &f64| *at > from + SLICE_EPSILON && *at < to - SLICE_EPSILON;
@@ -136,7 +136,7 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
             .map(|at| at - from)
             .collect();
         let mut pieces = self.pieces[first..first + breaks.len() - 1].to_vec();
-        // Taylor's series about the new start of the first one.
+        // Taylor series about the new start of the first piece.
         let mut factorial = 1.0;
         for (k, row) in self.derivatives_on::<K>(first, from).into_iter().enumerate() {
             factorial *= k.max(1) as f64;
@@ -145,7 +145,7 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         Self { breaks, pieces }
     }
 
-    /// Where the polynomials meet, ends included.
+    /// Breaks between the polynomials, ends included.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
     }
@@ -155,7 +155,7 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         self.derivatives_on(span(&self.breaks, u), u)
     }
 
-    /// The same, when the span of `u` is known.
+    /// Value and derivatives up to order `D - 1` at `u`, for a known span of `u`.
     pub fn derivatives_on<const D: usize>(&self, span: usize, u: f64) -> [[f64; N]; D] {
         let piece = &self.pieces[span];
         let x = u - self.breaks[span];
