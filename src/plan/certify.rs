@@ -1,36 +1,35 @@
-//! The check that no sample leaves without: finite differences of the setpoints against the limits of the axes.
+//! Certification: finite differences of the setpoints against the limits of the axes. Every emitted sample passes this check.
 //!
-//! A finite difference of order k, divided by h^k, is a weighted mean of the k-th derivative over its support, so a
-//! motion that keeps its limits between the samples also keeps them here, and stretching time by rho lowers the k-th
-//! difference by rho^k.
+//! A finite difference of order k, divided by h^k, is a weighted mean of the k-th derivative over its support. So a motion that
+//! keeps its limits between the samples also keeps them here, and stretching time by rho lowers the k-th difference by rho^k.
 //!
-//! Hence a motion in closed form, whose greatest derivatives are known, needs no samples but where it meets others.
+//! For the same reason a motion in closed form with known peak derivatives needs samples only where it meets other motions.
 
 use crate::ir::motion::{Derivatives, Phase, Poses};
 use crate::ir::toolpath::Pose;
 use crate::machine::Limits;
 
-/// Relative excess over a limit that is rounding of the differences themselves.
+/// Relative excess over a limit that is rounding of the differences.
 pub(super) const EXCESS_EPSILON: f64 = 1e-6;
 
-/// A greatest speed, acceleration or jerk of an axis beside its limit, in mm or rad, and s.
+/// Peak speed, acceleration or jerk of an axis and its limit, in mm or rad, and s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Peak {
-    /// The greatest value.
+    /// Peak value.
     pub worst: f64,
-    /// What was allowed where it was seen.
+    /// Limit in force at the peak.
     pub limit: f64,
 }
 
-/// The greatest speed, acceleration and jerk of x, y and c: of each the one that comes nearest to its limit.
+/// Peak speed, acceleration and jerk of x, y and c, each where it comes nearest to its limit.
 pub type Peaks = [[Peak; 3]; 3];
 
-/// Which limits hold.
+/// Set of limits in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Regime {
-    /// Those of cutting: the knife is commanded down.
+    /// Limits of cutting: the knife is commanded down.
     Cut,
-    /// Those of travel.
+    /// Limits of travel.
     Rapid,
 }
 
@@ -41,24 +40,23 @@ pub(super) struct Allowed {
     pub(super) rapid: [Limits; 3],
 }
 
-/// Setpoints that a difference of order 3 joins.
+/// Number of setpoints in a third difference.
 const SUPPORT: u32 = 4;
 
-/// Greatest differences of order 1 to 3 of each axis.
+/// Maximum differences of order 1 to 3 of each axis.
 type Rows = [[f64; 3]; 3];
 
-/// Follows setpoints and keeps the greatest differences. Before the first setpoint the axes rest.
+/// Tracks setpoints and records the peak differences. Before the first setpoint the axes are at rest.
 #[derive(Debug, Clone)]
 pub(super) struct Differences {
     period: f64,
-    /// The greatest differences that are allowed in a cut, in a rapid, and where the one passes into the other at rest:
-    /// there the wider of both hold.
+    /// Permitted differences in a cut, in a rapid, and in the transition between the two at rest, where the wider limits hold.
     allowed: [Rows; 3],
-    /// The last setpoint and its differences of order 1 and 2, axis by axis.
+    /// Last setpoint of each axis, with its differences of order 1 and 2.
     last: Option<Rows>,
-    /// The regimes of the last setpoints.
+    /// Regimes of the last three setpoints.
     regimes: [Regime; 3],
-    /// Greatest differences in parts of what is allowed, and which of `allowed` that was.
+    /// Peak differences relative to the permitted ones, each with its index into `allowed`.
     greatest: [[(f64, usize); 3]; 3],
 }
 
@@ -78,7 +76,7 @@ impl Differences {
         }
     }
 
-    /// Takes the next setpoint.
+    /// Adds the next setpoint.
     pub(super) fn push(&mut self, pose: Pose, regime: Regime) {
         let here = row(pose);
         let Some(last) = &mut self.last else {
@@ -107,8 +105,8 @@ impl Differences {
         }
     }
 
-    /// Takes a phase. Of one in closed form the setpoints at both ends, because they meet what is before and behind, and
-    /// between them its greatest derivatives, which no difference exceeds.
+    /// Adds a phase. For a phase in closed form the setpoints at both ends are added, because they meet other phases; in
+    /// between, its peak derivatives bound all differences.
     pub(super) fn pass(&mut self, phase: &Phase, regime: Regime) {
         let bounds = phase.poses.derivatives(f64::from(phase.ticks) * self.period);
         let Some(bounds) = bounds.filter(|_| phase.ticks > 2 * SUPPORT) else {
@@ -126,7 +124,7 @@ impl Differences {
         (behind..phase.ticks).for_each(|i| self.push(phase.pose(i), regime));
     }
 
-    /// Takes the greatest derivatives of a stretch of one regime.
+    /// Adds the peak derivatives of a stretch in one regime.
     fn cover(&mut self, bounds: &Derivatives, regime: Regime) {
         let which = match regime {
             Regime::Cut => 0,
@@ -143,14 +141,14 @@ impl Differences {
         }
     }
 
-    /// Takes the last setpoint: behind it the axes rest.
+    /// Adds the last setpoint, after which the axes are at rest.
     pub(super) fn rest(&mut self, pose: Pose, regime: Regime) {
         for _ in 0..3 {
             self.push(pose, regime);
         }
     }
 
-    /// The greatest speed, acceleration and jerk so far.
+    /// Peak speed, acceleration and jerk so far.
     pub(super) fn peaks(&self) -> Peaks {
         let powers = [self.period, self.period.powi(2), self.period.powi(3)];
         std::array::from_fn(|axis| {
@@ -162,7 +160,7 @@ impl Differences {
         })
     }
 
-    /// By how much time must be stretched for all differences so far to be allowed: 1 or less when they are.
+    /// Factor by which time must be stretched to permit all differences so far; at most 1 when they are permitted.
     pub(super) fn excess(&self) -> f64 {
         let of_axis =
             |[speed, acceleration, jerk]: &[(f64, usize); 3]| speed.0.max(acceleration.0.sqrt()).max(jerk.0.cbrt());
@@ -175,7 +173,7 @@ fn row(pose: Pose) -> [f64; 3] {
     [pose.centre.x, pose.centre.y, pose.c.0]
 }
 
-/// By how much time must be stretched for a cut in closed form to keep its limits: 1 or less when it does.
+/// Factor by which time must be stretched for a cut in closed form to keep its limits; at most 1 when it keeps them.
 pub(super) fn excess_of_derivatives(bounds: &Derivatives, limits: &[Limits; 3]) -> f64 {
     let of_axis = |(&[speed, acceleration, jerk], limits): (&[f64; 3], &Limits)| {
         let (second, third) = (acceleration / limits.acceleration, jerk / limits.jerk);
@@ -184,7 +182,7 @@ pub(super) fn excess_of_derivatives(bounds: &Derivatives, limits: &[Limits; 3]) 
     bounds.iter().zip(limits).map(of_axis).fold(0.0, f64::max)
 }
 
-/// By how much time must be stretched for a cut from rest to rest to keep its limits: 1 or less when it does.
+/// Factor by which time must be stretched for a cut from rest to rest to keep its limits; at most 1 when it keeps them.
 pub(super) fn excess_of(poses: &[Pose], period: f64, limits: &[Limits; 3]) -> f64 {
     let mut differences = Differences::new(period, &Allowed { cut: *limits, rapid: *limits });
     for &pose in poses {

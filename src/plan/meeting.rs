@@ -1,34 +1,34 @@
-//! Ends of runs that meet at a vertex of their contour: how near to its line each tip keeps, so that the cuts cross there.
+//! Runs that meet at a vertex of their contour: permitted deviation of each tip there, so that the cuts cross.
 //!
-//! Each tip may be off its line by the tolerance, and two cuts that lie beside each other leave a thread between them. An
-//! overlap begins and ends at a known place. One of length o that leads back over a line under the angle a begins o sin a
-//! beside it, so the other cut passes between that place and the vertex when it is off its own line by less. At the tip of a
-//! needle both overlaps lead ahead of the vertex, and an own overlap of length p comes to no more than p tan a. Where o sin a or
-//! p tan a is less than the tolerance - the contour hardly turns at a lift, or an overlap has no room - the tip keeps that near.
+//! Each tip may deviate from its line by the tolerance, and two cuts beside each other leave a thread between them. An overlap
+//! has known ends. An overlap of length o that leads back over a line at the angle a starts o sin a beside that line. The other
+//! cut passes between this start and the vertex if it deviates by less. At a needle-shaped tip both overlaps lead ahead of the
+//! vertex, and an overlap of length p reaches at most p tan a. Where o sin a or p tan a is less than the tolerance (the contour
+//! hardly turns at the lift, or an overlap has no room), the deviation of the tip is limited to it.
 
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{End, PlungeCut, Run, Shape, Side, Step, Toolpath};
 use crate::machine::Job;
 use crate::plan::spline::Near;
 
-/// Least deviation that a tip keeps to, in widths of the widest thread: two tips off to opposite sides are then 0.9 of a width
-/// apart.
+/// Minimum deviation required of a tip, in widths of the widest uncut thread. Two tips that deviate to opposite sides are then
+/// 0.9 of a width apart.
 const LEAST: f64 = 0.45;
-/// Stretch before the vertex on which the tip keeps near, in tolerances, in addition to both overlaps: from there it may leave
-/// its line as far as the tolerance.
+/// Length before the vertex with limited deviation, in tolerances, in addition to both overlaps. Before that stretch the full
+/// tolerance holds.
 const STRETCH: f64 = 2.0;
 
-/// Places that are nearer to each other are one, mm: rounding.
+/// Distance below which two places are equal, mm: rounding.
 pub(super) const SAME_EPSILON: f64 = 1e-6;
 
-/// A cut as its neighbours on the contour see it: a run or a plunge cut.
+/// A cut as seen by its neighbours on the contour: a run or a plunge cut.
 #[derive(Clone, Copy)]
 struct Stroke<'a> {
     points: &'a [Point],
     ends: [End; 2],
     turned: bool,
     run: Option<&'a Run>,
-    /// The plunge cut, whose straight blade lies along its points.
+    /// The plunge cut, whose straight blade lies along its points; `None` for a run.
     plunge: Option<&'a PlungeCut>,
 }
 
@@ -48,12 +48,12 @@ impl<'a> Stroke<'a> {
     }
 }
 
-/// A place at which a stroke ends.
+/// One end of a stroke.
 struct Place {
     at: Point,
-    /// Unit vector along its overlap, away from the stroke.
+    /// Unit vector along the overlap, away from the stroke.
     beyond: Vector,
-    /// Length of its overlap, mm.
+    /// Length of the overlap, mm.
     overlap: f64,
 }
 
@@ -73,7 +73,7 @@ impl Place {
         Self { at: cut.points[at], beyond, overlap }
     }
 
-    /// Distance from its line at which a cut still crosses that of another place, mm.
+    /// Maximum deviation at which this cut still crosses the cut of another end, mm.
     fn beside(&self, other: &Self) -> f64 {
         let sin = cross(self.beyond, other.beyond).abs();
         let reach = other.overlap * sin;
@@ -82,7 +82,7 @@ impl Place {
     }
 }
 
-/// How near the tips keep at the starts and at the ends of the runs of a toolpath, in order.
+/// Limits on the deviation of the tip at the start and the end of each run of a toolpath, in order.
 pub(super) fn near(toolpath: &Toolpath, job: &Job) -> Vec<[Near; 2]> {
     let tolerance = toolpath.tolerance;
     let strokes: Vec<Stroke> = toolpath.steps.iter().filter_map(Stroke::of_step).collect();
@@ -109,7 +109,7 @@ pub(super) fn near(toolpath: &Toolpath, job: &Job) -> Vec<[Near; 2]> {
             Near { length: length.max(near.length), share: (beside / tolerance).max(least).min(near.share) }
         })
     };
-    // Over a stretch that two strokes share neither crosses the other.
+    // Along a stretch that two strokes share, neither crosses the other.
     let shared = |before: usize, behind: usize| {
         let length = shared(strokes[before], strokes[behind])?.length;
         Some(Near { length: length + STRETCH * tolerance, share: least })
@@ -124,21 +124,21 @@ pub(super) fn near(toolpath: &Toolpath, job: &Job) -> Vec<[Near; 2]> {
     (0..).zip(of_runs).map(ends).collect()
 }
 
-/// The stretch over which two runs lie.
+/// Common stretch of two runs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Overlap {
-    /// The chord of the first run on which the second one begins.
+    /// Index of the chord of the first run on which the second run starts.
     pub(super) chord: usize,
-    /// mm.
+    /// Length of the stretch, mm.
     pub(super) length: f64,
 }
 
-/// The stretch over which a run ends and another one begins; `None` where it does not go on along it.
+/// The common stretch of the end of a run and the start of another; `None` where the second run does not continue the first.
 pub(super) fn overlap(before: &Run, behind: &Run) -> Option<Overlap> {
     shared(Stroke::of(before), Stroke::of(behind))
 }
 
-/// The stretch over which one stroke ends and another one begins.
+/// The common stretch of the end of a stroke and the start of another.
 fn shared(before: Stroke, behind: Stroke) -> Option<Overlap> {
     let is_lifted = |end: End| end.bare && end.side == Side::Contour;
     let is_open = |run: Option<&Run>| run.is_none_or(|run| run.shape == Shape::Open);
@@ -166,8 +166,8 @@ fn shared(before: Stroke, behind: Stroke) -> Option<Overlap> {
     None
 }
 
-/// Whether the places at the end of a run are those behind the first one of another, up to the last, which lies amid a chord,
-/// and that one goes on.
+/// True if the vertices at the end of a stroke are those after the first vertex of another stroke. The last vertex may lie
+/// inside a chord of the other stroke, which must continue beyond it.
 fn goes_along(end: &[Point], start: &[Point]) -> bool {
     let (last, inner) = end.split_last().expect("a chord has an end");
     start.len() > end.len()
@@ -218,12 +218,12 @@ mod tests {
             [front, heel].map(|near| [near.length, near.share].map(|value| (value * 1e6).round() / 1e6))
         };
         assert_eq!(contour(90.0, [0.5, 0.8]), [[0.0, 1.0]; 2]);
-        // The tip of the one keeps as near as the overlap of the other is long.
+        // The tip of each run deviates by at most the overlap of the other.
         assert_eq!(contour(90.0, [0.03, 0.8]), [[0.0, 1.0], [0.93, 0.6]]);
         assert_eq!(contour(30.0, [0.05, 0.05]), [[0.2, 0.5]; 2]);
         assert_eq!(contour(0.0, [3.0, 3.0]), [[6.1, 0.09]; 2]);
         assert_eq!(contour(170.0, [0.0, 3.0]), [[3.1, 0.09]; 2]);
-        // At a needle both overlaps lead the same way: the shorter one counts.
+        // At a needle both overlaps lead the same way, so the shorter one counts.
         assert_eq!(contour(178.0, [0.8, 4.5]), [[5.4, 0.558_732], [5.4, 0.558_392]]);
     }
 }

@@ -1,10 +1,10 @@
-//! Planning: from what the knife does to when the axes are where.
+//! Planning: from the path of the knife to the motion of the axes over time.
 //!
-//! Receives the toolpath of one contour, promises a motion whose every setpoint keeps the limits of the axes, with the
-//! tip inside the tolerance band of the path. Runs are solved first, in any order ([`solve`]), each alone but for those that
-//! are lifted amid a line (`rejoin`), and so that their cuts cross where they meet (`meeting`); then a [`Planner`] joins them
-//! in order by turns and rapids between the states that they really have. For controllers that plan for themselves [`arcs`]
-//! makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
+//! The input is the toolpath of one contour. The output is a motion whose every setpoint keeps the limits of the axes, with the
+//! tip inside the tolerance band of the path. Runs are solved first ([`solve`]), in any order and independently, except for
+//! runs that are lifted in the middle of a line (`rejoin`) and for the crossings where cuts meet (`meeting`). A [`Planner`]
+//! then joins them in order by turns and rapids between their actual states. For controllers with a planner of their own,
+//! [`arcs`] makes untimed arcs and lines from the same toolpath. Planning never changes the line that is cut.
 
 pub mod arcs;
 mod certify;
@@ -26,7 +26,7 @@ use crate::diagnostic::Diagnostic;
 use crate::ir::toolpath::Toolpath;
 use crate::machine::Job;
 
-/// The runs of a toolpath as they will be cut, in order; a diagnostic for each that cannot be.
+/// Solves the runs of a toolpath, in order. The error has a diagnostic for each run that cannot be cut.
 pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
     rejoin::solve(toolpath, job)
 }

@@ -1,4 +1,4 @@
-//! Solved runs are joined to a motion by turns and rapids, by plunges and lifts at rest.
+//! Joins solved runs to a motion by turns and rapids, and by plunges and lifts at rest.
 
 use super::certify::{Allowed, Differences, EXCESS_EPSILON, Peaks, Regime};
 use super::rapid;
@@ -12,7 +12,7 @@ use crate::source::Span;
 use crate::units::number::fixed;
 use crate::units::rad;
 
-/// Joins solved runs to a program: knows where the axes stand and what time it is.
+/// Joins solved runs to a program, tracking the pose of the axes and the time.
 #[derive(Debug)]
 pub struct Planner<'a> {
     job: &'a Job,
@@ -21,10 +21,10 @@ pub struct Planner<'a> {
     tick: u64,
     steps: u64,
     time: f64,
-    /// Time that the blade still needs until it is all the way up, s: it may be clear of the cloth before.
+    /// Time until the blade is fully up, s; it may be clear of the cloth before.
     rising: f64,
     differences: Differences,
-    /// Way of the cloth so far, mm: runs have their places on the cloth, the axes theirs over the table.
+    /// Advance of the cloth so far, mm. Runs have coordinates on the cloth, the axes have coordinates over the table.
     station: u32,
 }
 
@@ -38,13 +38,13 @@ impl<'a> Planner<'a> {
         Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences, station: 0 }
     }
 
-    /// A program that begins over cloth with a way of `moved_on` mm behind it.
+    /// A program that starts when the cloth has already advanced by `moved_on` mm.
     #[must_use]
     pub fn over(self, moved_on: u32) -> Self {
         Self { station: moved_on, ..self }
     }
 
-    /// The timed motion of a toolpath whose runs were solved.
+    /// The timed motion of a toolpath with its solved runs.
     pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
         let mut motion = self.begin([toolpath.piece, toolpath.part]);
         let mut cuts = cuts.into_iter();
@@ -53,7 +53,7 @@ impl<'a> Planner<'a> {
             match step {
                 Step::Turn(rapid) | Step::Travel(rapid) => {
                     kind = if matches!(step, Step::Turn(_)) { Kind::Turn } else { Kind::Travel };
-                    // What follows a move decides where it ends; one that nothing follows ends where it says.
+                    // The step after a move decides where it ends; a move with no such step ends at its own target.
                     if next.is_none_or(|next| matches!(next, Step::Turn(_) | Step::Travel(_))) {
                         self.go(kind, self.on_table(rapid.to), &mut motion);
                     }
@@ -80,7 +80,7 @@ impl<'a> Planner<'a> {
         motion
     }
 
-    /// The end of the program: to the park pose if there is one, and a last setpoint at rest.
+    /// The end of the program: a move to the park pose, if any, and a last setpoint at rest.
     pub fn finish(&mut self) -> Motion {
         let mut motion = self.begin([0; 2]);
         if let Some([x, y, c]) = self.job.profile.park {
@@ -92,12 +92,12 @@ impl<'a> Planner<'a> {
         motion
     }
 
-    /// The greatest speed, acceleration and jerk of the program so far.
+    /// Peak speed, acceleration and jerk of the program so far.
     pub fn peaks(&self) -> Peaks {
         self.differences.peaks()
     }
 
-    /// Whether the whole program keeps the limits: the last word, over every setpoint in order.
+    /// Final check of every setpoint in order against the limits.
     pub fn certify(&self) -> Result<(), Diagnostic> {
         let rho = self.differences.excess();
         if rho <= 1.0 + EXCESS_EPSILON {
@@ -110,23 +110,23 @@ impl<'a> Planner<'a> {
         ))
     }
 
-    /// The way of the cloth so far, mm.
+    /// Advance of the cloth so far, mm.
     fn moved_on(&self) -> Vector {
         Vector::new(f64::from(self.station), 0.0)
     }
 
-    /// A pose over a place of the cloth.
+    /// The pose over the table for a pose on the cloth.
     fn on_table(&self, pose: Pose) -> Pose {
         Pose { centre: pose.centre - self.moved_on(), ..pose }
     }
 
-    /// A motion that begins now.
+    /// An empty motion that starts now.
     fn begin(&self, [piece, part]: [u32; 2]) -> Motion {
         let (first_tick, first_step, first_time) = (self.tick, self.steps, self.time);
         Motion { piece, part, first_tick, first_step, first_time, phases: Vec::new(), tasks: Vec::new() }
     }
 
-    /// To the start of a run, down, along it and up; `kind` is that of the rapid before it.
+    /// Moves to the start of a run, plunges, cuts along it and lifts; `kind` is that of the rapid before it.
     fn run(&mut self, kind: Kind, mut cut: Cut, motion: &mut Motion) {
         cut.turn(self.job.profile.knife.yaw());
         cut.shift(-self.moved_on());
@@ -136,7 +136,7 @@ impl<'a> Planner<'a> {
         self.lift(motion);
     }
 
-    /// To a plunge cut, down and up.
+    /// Moves to a plunge cut, plunges and lifts.
     fn plunge_cut(&mut self, kind: Kind, plunge_cut: &PlungeCut, motion: &mut Motion) {
         self.go(kind, yawed(self.on_table(plunge_cut.pose), self.job), motion);
         let block = plunge_cut.spans.last().map_or(0, |span| span.block);
@@ -144,13 +144,13 @@ impl<'a> Planner<'a> {
         self.lift(motion);
     }
 
-    /// With the drill over a hole, and drill.
+    /// Moves the drill over a hole and drills.
     fn drill(&mut self, kind: Kind, drill: &Drill, motion: &mut Motion) {
         let keys = &self.job.profile.drill;
         let [x, y] = keys.offset_mm;
         let there = self.on_table(Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0));
         if there == self.pose {
-            // The drill goes up for a period at least, so that two holes at one place are two.
+            // Raise the drill for at least one period, so that two holes at one place are distinct.
             self.hold(Kind::Travel, 0.0, 0, motion);
         }
         self.go(kind, there, motion);
@@ -158,7 +158,7 @@ impl<'a> Planner<'a> {
         self.hold(Kind::Drill(drill.tool), keys.dwell(), 0, motion);
     }
 
-    /// A rapid to a pose, when it is another one.
+    /// A rapid to a pose; nothing if the axes are already there.
     fn go(&mut self, kind: Kind, to: Pose, motion: &mut Motion) {
         if to == self.pose {
             return;
@@ -173,27 +173,27 @@ impl<'a> Planner<'a> {
         );
     }
 
-    /// Down, once the blade is all the way up.
+    /// Plunges once the blade is fully up.
     fn plunge(&mut self, block: u32, motion: &mut Motion) {
         self.rise(motion);
         self.hold(Kind::Plunge, self.job.profile.knife.plunge(), block, motion);
     }
 
-    /// Up: the axes rest until the blade is clear of the cloth.
+    /// Lifts: the axes rest until the blade is clear of the cloth.
     fn lift(&mut self, motion: &mut Motion) {
         let knife = &self.job.profile.knife;
         self.hold(Kind::Lift, knife.clear(), 0, motion);
         self.rising = knife.lift() - knife.clear();
     }
 
-    /// At rest until the blade is all the way up.
+    /// Rests until the blade is fully up.
     fn rise(&mut self, motion: &mut Motion) {
         if self.rising > 0.0 {
             self.hold(Kind::Wait, self.rising, 0, motion);
         }
     }
 
-    /// At rest for a time, at least one period.
+    /// Rests for a duration, rounded up to at least one period.
     fn hold(&mut self, kind: Kind, duration: f64, block: u32, motion: &mut Motion) {
         let ticks = whole_periods(duration, self.job.profile.time.period());
         let spells = vec![Spell { first: 0, block }];
@@ -201,7 +201,7 @@ impl<'a> Planner<'a> {
         self.emit(phase, self.pose, motion);
     }
 
-    /// Along a run, when it has a way.
+    /// Cuts along a run; nothing if it has no length.
     fn cut(&mut self, cut: Cut, motion: &mut Motion) {
         if let Some((phase, end)) = cut.phase() {
             self.emit(phase, end, motion);
@@ -215,7 +215,7 @@ impl<'a> Planner<'a> {
         phase.station = self.station;
         let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Rapid };
         self.differences.pass(&phase, regime);
-        // What lasts longer than its due in whole periods lets the blade rise farther.
+        // A phase rounded up to whole periods lets the blade rise farther.
         self.rising = (self.rising - f64::from(phase.ticks) * self.job.profile.time.period()).max(0.0);
         self.tick += u64::from(phase.ticks);
         self.steps += u64::from(phase.kind.begins_step());
@@ -225,7 +225,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// What a run is for.
+/// Task of a run.
 fn task_of_run(run: &Run) -> Task {
     let Run { front, heel, turned, edge, orientation, .. } = *run;
     let sides = run.ends.map(|end| end.side);
@@ -241,30 +241,30 @@ fn task_of_run(run: &Run) -> Task {
     }
 }
 
-/// What a plunge cut is for.
+/// Task of a plunge cut.
 fn task_of_plunge_cut(plunge_cut: &PlungeCut) -> Task {
     let PlungeCut { front, heel, turned, edge, overcut, .. } = *plunge_cut;
     let sides = plunge_cut.ends.map(|end| end.side);
     Task { blocks: ends(&plunge_cut.spans), front, heel, sides, turned, edge, overcut, orientation: None }
 }
 
-/// The first and the last block of a chain.
+/// The first and the last block of a chain; 0 when it is empty.
 fn ends(spans: &[Span]) -> [u32; 2] {
     [spans.first(), spans.last()].map(|span| span.map_or(0, |span| span.block))
 }
 
-/// The pose of the axes that puts the blade into a pose: C is corrected by the yaw.
+/// Pose of the axes for a pose of the blade: C is corrected by the yaw.
 fn yawed(pose: Pose, job: &Job) -> Pose {
     Pose { c: Rotation(pose.c.0 + job.profile.knife.yaw()), ..pose }
 }
 
-/// Pose at which programs start, over cloth with a way of `moved_on` mm behind it.
+/// Start pose of a program when the cloth has already advanced by `moved_on` mm.
 pub fn home_over(moved_on: u32, job: &Job) -> Pose {
     let [x, y, c] = job.profile.home;
     Pose::new(x + f64::from(moved_on), y, rad(c))
 }
 
-/// Pose at which programs start, over cloth that lies still.
+/// Start pose of a program on cloth that has not advanced.
 pub fn home(job: &Job) -> Pose {
     home_over(0, job)
 }

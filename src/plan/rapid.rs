@@ -1,4 +1,4 @@
-//! Moves with the knife up: x and y along the straight line, C beside them.
+//! Moves with the knife up: x and y along a straight line, C independently.
 
 use crate::ir::motion::Glide;
 use crate::ir::toolpath::Pose;

@@ -1,7 +1,7 @@
-//! Runs that are lifted amid a line and go on along it: their curves are stretches of one.
+//! Runs that are lifted in the middle of a line and continue along it: their curves are parts of one curve.
 //!
-//! The end of one run and the start of the next lie over the same stretch of the contour. Smoothed by themselves, each inside
-//! the band, they would run beside each other there, and a thread of cloth would stay between the two cuts.
+//! The end of one run and the start of the next lie on the same stretch of the contour. If each were smoothed by itself within
+//! the band, they would run side by side there and leave a thread of cloth between the two cuts.
 
 use super::meeting::{self, Overlap, SAME_EPSILON, overlap};
 use super::run::{self, Curved, Cut, Order};
@@ -12,14 +12,15 @@ use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Shape, Toolpath};
 use crate::machine::Job;
 
-/// Shares of the tolerance that are tried where blades plunge, when all of it would let the curve turn from one.
+/// Fractions of the tolerance to try under plunging blades, when with the full tolerance the curve turns away from the blade.
 const NARROWER: [f64; 3] = [0.4, 0.15, 0.05];
-/// Shares of the tolerance within which the curve keeps to the chords, when no curve that bulges beyond them will do.
+/// Fractions of the tolerance to try around the chords, when no curve with sagittas works.
 const CHORDS: [f64; 2] = [1.0, 0.4];
-/// Part of the greatest heading that a curve may turn from a plunged blade more than its line does.
+/// Maximum additional turn of a curve away from a plunged blade, beyond that of its line, as a fraction of the greatest heading
+/// error.
 const LEAD_SHARE: f64 = 0.9;
 
-/// Solves the runs of a toolpath, in order. Those whose common line is too tight for one curve are solved each by itself.
+/// Solves the runs of a toolpath, in order. Runs whose common line is too tight for one curve are solved separately.
 pub(super) fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
     let (runs, tolerance) = (&toolpath.runs().collect::<Vec<&Run>>()[..], toolpath.tolerance);
     let mut cuts: Vec<Option<Cut>> = runs.iter().map(|_| None).collect();
@@ -44,8 +45,8 @@ pub(super) fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diag
     if refused.is_empty() { Ok(cuts.into_iter().flatten().collect()) } else { Err(refused) }
 }
 
-/// The runs of a contour by their places, together and in order where each goes on along the stretch over which the one before
-/// ends. The last one may go on over the first.
+/// Groups the runs of a contour, by index: in each group every run continues the one before it. The last run may continue over
+/// the start of the first.
 fn groups(runs: &[&Run]) -> Vec<Vec<usize>> {
     let count = runs.len();
     if count == 0 {
@@ -63,25 +64,25 @@ fn groups(runs: &[&Run]) -> Vec<Vec<usize>> {
     starts.map(group).collect()
 }
 
-/// The band about a polyline.
+/// Constructor of the band around a polyline.
 type Band<'a> = dyn Fn(&[Point]) -> ToleranceBand + 'a;
 
-/// The line of several runs.
+/// The common line of several runs.
 struct Line<'a> {
     points: Vec<Point>,
     junctions: Vec<bool>,
     parts: Vec<Part<'a>>,
-    /// How near to it the tip keeps at its ends.
+    /// Limits on the deviation of the tip at its ends.
     near: [Near; 2],
-    /// The lap that the runs go round, when the last one ends over the first: a ring.
+    /// The ring that the runs form, when the last one ends over the first.
     ring: Option<Run>,
 }
 
-/// A run and where it lies on its line.
+/// A run and its position on the common line.
 struct Part<'a> {
     run: &'a Run,
     extended: Extended,
-    /// Station at which it begins, mm.
+    /// Station of its start, mm.
     start: f64,
 }
 
@@ -102,7 +103,7 @@ impl<'a> Line<'a> {
                 }
                 _ => (0.0, 0),
             };
-            // The last place of the run before lies amid a chord of this one.
+            // The last vertex of the previous run lies inside a chord of this one.
             line.points.pop();
             line.junctions.pop();
             line.points.extend(&extended.points[known..]);
@@ -114,13 +115,13 @@ impl<'a> Line<'a> {
         line
     }
 
-    /// The ring that the runs go round.
+    /// The ring that the runs form; `None` when the line is open.
     fn lap(&self) -> Option<Run> {
         let [first, last] = [&self.parts[0], &self.parts[self.parts.len() - 1]];
         let Overlap { chord, length } = overlap(last.run, first.run)?;
         let chord = self.points.len() - (last.run.points.len() - chord);
         let start = self.points[0];
-        // The run may begin at a vertex.
+        // The run may start at a vertex.
         let last = chord + usize::from((self.points[chord] - start).norm() > SAME_EPSILON);
         let points: Vec<Point> = self.points[..last].iter().copied().chain([start]).collect();
         let (count, run) = (points.len() - 1, first.run);
@@ -137,7 +138,7 @@ impl<'a> Line<'a> {
         })
     }
 
-    /// The cuts of its runs; `None` where no curve along all of it was found or one of them cannot be cut along that.
+    /// The cuts of the runs; `None` where no common curve was found or one of the runs cannot be cut along it.
     fn cuts(&self, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let ends = [self.points[0], self.points[self.points.len() - 1]];
         let length = polyline::length(&self.points);
@@ -162,14 +163,14 @@ impl<'a> Line<'a> {
         found.or_else(|| CHORDS.into_iter().find_map(|share| self.cuts_within(&within(share), tolerance, job)))
     }
 
-    /// The cuts of its runs along one curve within a band; `None` where none was found.
+    /// The cuts of the runs along one curve within a band; `None` where no such curve was found.
     fn cuts_within(&self, band: &Band, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
-        // Where the curve of a ring cannot be led onto its own start, it keeps near to its line there.
+        // Where the curve of a ring cannot be closed, limit its deviation at the ends instead.
         let ring = self.ring.as_ref().and_then(|ring| self.cuts_along(Some(ring), band, tolerance, job));
         ring.or_else(|| self.cuts_along(None, band, tolerance, job))
     }
 
-    /// The cuts of its runs along one curve within a band: that of the ring that they go round, if one is given.
+    /// The cuts of the runs along one curve within a band: the closed curve of `ring`, if given.
     fn cuts_along(&self, ring: Option<&Run>, band: &Band, tolerance: f64, job: &Job) -> Option<Vec<Cut>> {
         let mut shares: Vec<f64> = vec![1.0; self.parts.len()];
         loop {
@@ -184,8 +185,8 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// The chords of a polyline under the blade where a part begins. The line begins at station `first` of it, and `lap` is the
-    /// length of the ring that it goes round, mm.
+    /// Flags the chords of a polyline under the blade at the start of a part. The line starts at station `first`, and `lap` is
+    /// the length of its ring, mm.
     fn under_plunge(part: &Part, points: &[Point], first: f64, lap: Option<f64>, width: f64) -> Vec<bool> {
         let stations = polyline::stations(points);
         let lap = lap.unwrap_or(2.0 * (stations[stations.len() - 1] + width));
@@ -196,8 +197,8 @@ impl<'a> Line<'a> {
         stations.windows(2).map(is_under).collect()
     }
 
-    /// A smooth curve along the line within a band, with a share of the tolerance under the blade where each part begins, and
-    /// the parameter at which the line begins.
+    /// A smooth curve along the line within a band, with a fraction of the tolerance under the blade at the start of each part.
+    /// Returned with the parameter at which the line starts.
     fn smooth(
         &self,
         ring: Option<&Run>,
@@ -222,14 +223,14 @@ impl<'a> Line<'a> {
             let parts = self.parts.iter().zip(shares).filter(|(_, share)| **share < 1.0);
             smooth(&parts.fold(band(), |band, (part, &share)| band.with_junctions(&under(part), share)))
         };
-        // The curve of a ring that is not closed is worth nothing where its ends leave the line.
+        // A ring whose curve is not closed is useless if its ends leave the line.
         let is_parted = ring.is_none() && self.ring.is_some();
         let found = along(&band).or_else(|tight| if is_parted { Err(tight) } else { along(&plain) });
         Some((first, found.ok()?))
     }
 
-    /// The cuts of its runs along a curve on which the line begins at a parameter; `None` of each whose blade would plunge too
-    /// far beside its line, or askew to the curve where the line is straight.
+    /// The cuts of the runs along a curve on which the line starts at the parameter `first`. A cut is `None` if its blade would
+    /// plunge too far beside its line, or at too great an angle to the curve where the line is straight.
     fn along(&self, smooth: &Smooth, first: f64, tolerance: f64, job: &Job) -> Vec<Option<Cut>> {
         let slack = LEAD_SHARE * job.profile.verify.max_heading_deg.to_radians();
         let band = ToleranceBand::new(self.points.clone(), tolerance, &job.profile);
@@ -245,8 +246,8 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Turn of a line under a blade that plunges at its start and at the first vertex ahead of it, which a curve comes to before
-/// that, rad.
+/// Turn of a line under a blade that plunges at its start, including the first vertex ahead of it, where a curve turns earlier,
+/// rad.
 fn turned(extended: &Extended, width: f64) -> f64 {
     let under = extended.stations().take_while(|(_, station)| *station < width).count();
     let ahead = extended.stations().skip(under).take_while(|(_, station)| *station < 2.0 * width).take(1).count();
@@ -256,7 +257,7 @@ fn turned(extended: &Extended, width: f64) -> f64 {
 }
 
 impl Part<'_> {
-    /// The stretch of its line's curve that is its own, where the line begins at a parameter.
+    /// The part of the common curve that belongs to this run; `first` is the parameter at which the line starts.
     fn stretch_of(&self, smooth: &Smooth, first: f64) -> Smooth {
         let from = first + self.start;
         Smooth { curve: smooth.curve.slice([from, from + self.extended.end]), sagitta: smooth.sagitta }

@@ -1,5 +1,5 @@
-//! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
-//! the motion samples, and the samples are certified.
+//! One run, from the plunge to the lift: the polyline with its overlaps becomes a curve, the curve a motion, the motion
+//! samples, and the samples are certified.
 
 use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
 use crate::analysis::plunge::Deviation;
@@ -20,34 +20,34 @@ use crate::plan::timing::{Bounds, profile};
 use crate::source::Span;
 use crate::units::number::fixed;
 
-/// Part of the slower axis' speed below which a run does not move, but crawls: on what winds tighter than any cloth is cut.
+/// Fraction of the speed of the slower axis below which a run crawls: its line winds tighter than any real cut.
 const CRAWL: f64 = 1e-4;
-/// Time that any run may take, s.
+/// Time that every run may take, s.
 const PATIENCE: f64 = 10.0;
 
 /// A run as it will be cut.
 #[derive(Debug)]
 pub struct Cut {
-    /// The poses at its ticks, but for the one at its end.
+    /// Poses at its ticks, without the last.
     poses: Poses,
-    /// Number of periods; 0 when the blade plunges and lifts without a way.
+    /// Number of periods; 0 when the blade plunges and lifts without moving.
     ticks: u32,
-    /// The pose at its end.
+    /// Pose at its end.
     end: Pose,
-    /// The source blocks being cut, in order; one at least.
+    /// Source blocks being cut, in order; at least one.
     pub(super) spells: Vec<Spell>,
-    /// Time from rest to rest before it was stretched to whole periods, s.
+    /// Time from rest to rest before rounding up to whole periods, s.
     pub duration: f64,
-    /// Way of the tip, mm.
+    /// Length of the tip's path, mm.
     pub length: f64,
-    /// Greatest chord sagitta that the curve uses, mm.
+    /// Greatest chord sagitta used by the curve, mm.
     pub sagitta: f64,
-    /// What keeps it from being faster, in ticks.
+    /// Number of ticks bound by each limit.
     pub shares: Shares,
 }
 
 impl Cut {
-    /// A run that was planned elsewhere: the poses at its ticks, the one at its end included, and the blocks being cut.
+    /// A run planned elsewhere: the poses at its ticks, including the last, and the blocks being cut.
     pub fn sampled(mut poses: Vec<Pose>, spells: Vec<Spell>, period: f64) -> Self {
         let length = poses.windows(2).map(|pair| (pair[1].centre - pair[0].centre).norm()).sum();
         let end = poses.pop().expect("a run has an end");
@@ -57,34 +57,34 @@ impl Cut {
         Self { poses, ticks, end, spells, duration, length, sagitta: 0.0, shares }
     }
 
-    /// The source blocks being cut, in order; one at least.
+    /// Source blocks being cut, in order; at least one.
     pub fn spells(&self) -> &[Spell] {
         &self.spells
     }
 
-    /// The poses at its ticks, the one at its end included.
+    /// Poses at its ticks, including the last.
     pub fn poses(&self) -> impl Iterator<Item = Pose> + '_ {
         (0..self.ticks).map(|i| self.poses.at(i, self.ticks)).chain([self.end])
     }
 
-    /// The pose at its start.
+    /// Pose at its start.
     pub(super) fn start(&self) -> Pose {
         if self.ticks == 0 { self.end } else { self.poses.at(0, self.ticks) }
     }
 
-    /// Moves the cut by a vector, mm.
+    /// Translates the cut by a vector, mm.
     pub(super) fn shift(&mut self, by: Vector) {
         self.poses.shift(by);
         self.end.centre += by;
     }
 
-    /// Turns C by an angle all along, rad.
+    /// Adds an angle to C along the whole cut, rad.
     pub(super) fn turn(&mut self, by: f64) {
         self.poses.turn(by);
         self.end.c = Rotation(self.end.c.0 + by);
     }
 
-    /// The phase of it, and the pose at its end; none when it has no way.
+    /// The phase of the cut, and the pose at its end; `None` when it has no length.
     pub(super) fn phase(self) -> Option<(Phase, Pose)> {
         let Self { poses, ticks, end, spells, duration, length, .. } = self;
         (ticks > 0).then_some((Phase { kind: Kind::Cut, ticks, poses, spells, duration, length, station: 0 }, end))
@@ -97,26 +97,27 @@ impl Cut {
     }
 }
 
-/// Part of the tolerance within which a polyline counts as straight.
+/// Fraction of the tolerance within which a polyline counts as straight.
 const STRAIGHT_SHARE: f64 = 0.9;
-/// Part of the tolerance that is left where the path lies as far beside the plunged blade as it may: rows have decimals.
+/// Fraction of the tolerance kept in reserve for the distance of the path beside the plunged blade, because output has
+/// decimals.
 const RESERVE_SHARE: f64 = 0.03;
-/// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
+/// Fractions of the tolerance to smooth within when the path otherwise takes the plunged blade too far off its line.
 const NARROWER: [f64; 2] = [0.4, 0.15];
-/// Smaller turns are none, rad.
+/// Turn below which a vertex is straight, rad.
 const TURN_EPSILON: f64 = 1e-6;
-/// Most laps before the start and behind the end of a ring.
+/// Maximum number of laps before the start and after the end of a ring.
 const LEADS: u32 = 4;
-/// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
+/// Maximum rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
 const ROUNDS: usize = 12;
-/// Steps towards the seam of a ring, and the longest of them, mm: the gap is below two tolerances, and a step closes nearly
-/// all of it because the parameter is nearly the way.
+/// Number of steps towards the seam of a ring, and their maximum length, mm. The gap is below two tolerances, and a step closes
+/// nearly all of it because the parameter nearly equals the length.
 const SEAM_STEPS: usize = 8;
 const SEAM_STEP: f64 = 1.0;
-/// Part of a period by which a duration may exceed a whole number of them without taking one more: rounding.
+/// Fraction of a period by which a duration may exceed a whole number of periods: rounding.
 const PERIOD_EPSILON: f64 = 1e-9;
 
-/// A run that is being solved.
+/// A run being solved.
 pub(super) struct Order<'a> {
     run: &'a Run,
     job: &'a Job,
@@ -158,13 +159,12 @@ pub(super) fn solve(run: &Run, near: [Near; 2], tolerance: f64, job: &Job) -> Re
     Ok(curved.cut)
 }
 
-/// Part of the tolerance within which a polyline counts as straight that crosses other cuts about some of its chords.
+/// Fraction of the tolerance within which a polyline counts as straight, given its junctions with other cuts.
 pub(super) fn straight_share(junctions: &[bool]) -> f64 {
     if junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] }
 }
 
-/// Whether the straight line between the ends of a run with its overlaps stays within the share of the tolerance that holds
-/// near each end.
+/// True if the straight line between the ends of a run with its overlaps keeps the reduced tolerance near each end.
 pub(super) fn passes_ends(points: &[Point], near: [Near; 2], tolerance: f64) -> bool {
     if near == [Near::default(); 2] {
         return true;
@@ -181,13 +181,13 @@ pub(super) fn passes_ends(points: &[Point], near: [Near; 2], tolerance: f64) -> 
     })
 }
 
-/// The curve of a straight run, over its length.
+/// The curve of a straight run of a length, mm.
 pub(super) fn straight_curve(length: f64, ends: [Point; 2]) -> Curve {
     Curve::line([0.0, length], ends.map(|point| [point.x, point.y]))
 }
 
-/// The smoothest curve in a band, nearer to its chords about junctions. Where all that is too tight it keeps to its band, and
-/// the verifier measures whether the cuts cross.
+/// The smoothest curve in a band that is reduced at junctions. If all reduced bands are too tight, the curve uses the full
+/// band, and the verifier measures whether the cuts cross.
 pub(super) fn smoothed(band: &dyn Fn() -> ToleranceBand, junctions: &[bool]) -> Result<Smooth, spline::TooTight> {
     let mut shares = JUNCTION_SHARES.iter().filter(|_| !junctions.is_empty());
     let nearer = |&share: &f64| smooth(&band().with_junctions(junctions, share)).ok();
@@ -197,13 +197,13 @@ pub(super) fn smoothed(band: &dyn Fn() -> ToleranceBand, junctions: &[bool]) -> 
 /// A run along a smooth curve.
 pub(super) struct Curved {
     pub(super) cut: Cut,
-    /// How far its polyline lies beside the plunged blade, mm.
+    /// Maximum distance of its polyline from the plunged blade, mm.
     pub(super) beside: f64,
     /// Turn from the plunged blade to the curve, left positive, rad.
     pub(super) lead: f64,
 }
 
-/// A run with its overlaps; a ring goes as far round as closing its curve takes.
+/// The run with its overlaps. A ring is extended by as many laps as closing its curve takes.
 pub(super) fn extended(run: &Run, tolerance: f64, width: f64) -> Extended {
     let most = f64::from(LEADS) * polyline::length(&run.points);
     let mut lead = LEAD;
@@ -218,20 +218,20 @@ pub(super) fn extended(run: &Run, tolerance: f64, width: f64) -> Extended {
     }
 }
 
-/// The curve of a ring ends before it comes back to its start.
+/// The curve of a ring ends before it returns to its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct OpenSeam {
-    /// By how much, mm.
+    /// Remaining gap, mm.
     missing: f64,
 }
 
-/// Where a ring that should end at parameter `end` really closes: smoothing may have drawn its end back from its start, and
-/// the tip must come as far as that. Beside its way, the band holds both to one place.
+/// Parameter at which a ring closes, near its nominal end `end`. Smoothing may shorten the end of the curve, and the tip must
+/// advance until it is level with the start. Sideways, the band keeps both at one place.
 fn closed(curve: &Curve, start: f64, end: f64) -> Result<f64, OpenSeam> {
     reaching(curve, curve.derivatives::<2>(start), end)
 }
 
-/// The first parameter from `end` on at which the curve is as far as a place along the direction there.
+/// The first parameter from `end` on at which the curve is level with a place, along the direction given there.
 fn reaching(curve: &Curve, place: [[f64; 2]; 2], end: f64) -> Result<f64, OpenSeam> {
     let [from, along] = place.map(|v| Vector::new(v[0], v[1]));
     let short = |u: f64| {
@@ -248,19 +248,19 @@ fn reaching(curve: &Curve, place: [[f64; 2]; 2], end: f64) -> Result<f64, OpenSe
 }
 
 impl<'a> Order<'a> {
-    /// A run with its overlaps on a machine.
+    /// The problem of a run with its overlaps.
     pub(super) fn new(run: &'a Run, Extended { points, blocks, feeds, .. }: &Extended, job: &'a Job) -> Self {
         let stations = polyline::stations(points);
         let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
         Self { run, job, blocks: Blocks::new(&stations, blocks), bounds }
     }
 
-    /// Whether its tip may be as fast everywhere.
+    /// True if its speed cap is constant.
     pub(super) fn has_one_feed(&self) -> bool {
         self.bounds.feed.constant().is_some()
     }
 
-    /// How far its polyline may lie beside the plunged blade, mm.
+    /// Maximum distance of its polyline from the plunged blade, mm.
     pub(super) fn most_beside(&self, tolerance: f64) -> f64 {
         let Self { run, job, .. } = self;
         let most = match run.shape {
@@ -273,9 +273,9 @@ impl<'a> Order<'a> {
         most - RESERVE_SHARE * tolerance
     }
 
-    /// Whether a curve whose tangent leads the plunged blade by `lead` rad bows away from the first bend of its line by more than
-    /// it may: a way that stays within t of a straight line on a length l has at most the curvature 16 t / l^2, and leads the
-    /// blade by half of that times its width.
+    /// True if a curve bows away from the first bend of its line by more than it may; its tangent leads the plunged blade by
+    /// `lead` rad. A path within t of a straight line of length l has at most the curvature 16 t / l^2, and leads the blade by
+    /// half of that times the blade's width.
     fn bows_back(&self, extended: &Extended, lead: f64, tolerance: f64) -> bool {
         let (points, width) = (&extended.points, self.job.profile.knife.width_mm);
         let turns = extended.stations().skip(1).zip(points.windows(3));
@@ -285,7 +285,7 @@ impl<'a> Order<'a> {
         self.run.shape == Shape::Open && straight > width && lead * turn < 0.0 && lead.abs() > may_bow
     }
 
-    /// A straight run in closed form: the tightest axis decides. It is certified by its greatest derivatives.
+    /// A straight run in closed form, limited by the tightest axis and certified by its peak derivatives.
     pub(super) fn straight(&self, [first, last]: [Point; 2]) -> Result<Cut, Diagnostic> {
         let Self { run, job, blocks, bounds } = self;
         let knife = &job.profile.knife;
@@ -360,8 +360,8 @@ impl<'a> Order<'a> {
         Ok(Curved { cut: Cut { sagitta: *sagitta, ..self.along(&way)? }, beside, lead: way.lead() })
     }
 
-    /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its
-    /// limit, and the tip its feed.
+    /// Samples the fastest motion along a path over a whole number of periods, stretched until every difference and the tip
+    /// keep their limits.
     fn along(&self, way: &Way) -> Result<Cut, Diagnostic> {
         let Self { run, job, blocks, bounds } = self;
         let turned = |pose: Pose| Pose { c: Rotation(pose.c.0 + run.edge.turn()), ..pose };
@@ -421,7 +421,7 @@ impl<'a> Order<'a> {
     }
 }
 
-/// The least number of periods, at least 1, that last `duration`.
+/// The smallest number of periods, at least 1, that lasts `duration`.
 pub(super) fn whole_periods(duration: f64, period: f64) -> u32 {
     ((duration / period - PERIOD_EPSILON).ceil() as u32).max(1)
 }

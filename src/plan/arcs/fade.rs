@@ -1,76 +1,77 @@
-//! A blade that plunged as a chord comes to the tangent of its way: C and the way of its axis, part by part.
+//! Fade of a blade that plunged as a chord to the tangent of its path: C and the path of its axis, step by step.
 //!
-//! What is left of the lead is [`left_of`] the fade. On each part C turns evenly. The axis goes beside the tip by the
-//! radius of the blade, and while that swings, its way does not turn as the tip's does: each part has the arc on which
-//! the tip is as little askew at its start as at its end, and parts are halved until that is little enough.
+//! The remaining lead follows [`left_of`]. Within each step C turns uniformly. The axis runs beside the tip at the radius of
+//! the blade; while that radius swings, the path of the axis turns differently from that of the tip. Each step uses the arc
+//! whose tip direction error is the same at both ends. Steps are halved until that error is small enough.
 
 use super::fit::Arc;
 use crate::geom::fade::left_of;
 use crate::geom::{Rotation, Vector, angle, left};
 use crate::ir::toolpath::Pose;
 
-/// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
+/// Maximum second derivative of the fade by the fraction of its length, per unit of lead.
 const FADE_BEND: f64 = 7.6;
-/// Smaller leads are none, rad.
+/// Lead below which no fade is needed, rad.
 const LEAD_EPSILON: f64 = 1e-6;
-/// Part of the permitted angle by which C may be off its orientation on a part; the way of the tip may be off by as much.
+/// Fraction of the permitted angle that C may deviate within a step. The direction of the tip's path may deviate by the same
+/// amount.
 const BEND_SHARE: f64 = 0.5;
-/// Shorter ways are none, mm.
+/// Length below which a fade is ignored, mm.
 const LENGTH_EPSILON: f64 = 1e-3;
-/// Steps of the secant method that finds an arc: it is nearly a line.
+/// Secant iterations to find the turn of an arc; the function is nearly linear.
 const SECANTS: usize = 2;
-/// By how much the way of the axis may turn more or less than the tip's on a part, rad.
+/// Maximum difference between the turns of the axis and of the tip on a step, rad.
 const TURN_MAX: f64 = 0.3;
-/// Turns that differ by less are the same, rad.
+/// Change of the direction error below which the secant iteration stops, rad.
 const TURN_EPSILON: f64 = 1e-12;
 
 /// The fade of one run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fade {
-    /// How far the tangent is ahead of the blade at the plunge, rad.
+    /// Angle from the blade to the tangent at the plunge, rad.
     pub(super) lead: f64,
-    /// Way of the tip over which that fades, mm.
+    /// Length of the tip's path over which the lead fades, mm.
     pub(super) length: f64,
-    /// From the axis to the tip, mm.
+    /// Distance from the axis to the tip, mm.
     pub(super) radius: f64,
-    /// By how much C and the way of the tip may be off, rad.
+    /// Permitted deviation of C and of the direction of the tip's path, rad.
     pub(super) permitted: f64,
 }
 
-/// A part of an arc of the tip on which C turns evenly.
+/// A step: a part of an arc of the tip with uniform turning of C.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FadeStep {
-    /// Where it ends on the arc, mm.
+    /// End of the step on the arc, mm from the start of the arc.
     pub(super) to: f64,
-    /// C there, rad.
+    /// C at that end, rad.
     pub(super) c: f64,
-    /// How far the way of the axis turns on it, rad.
+    /// Turn of the axis path on the step, rad.
     pub(super) turn: f64,
 }
 
-/// An arc of the tip, and where it lies on its run.
+/// An arc of the tip and its position on the run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beside<'a> {
     pub(super) arc: &'a Arc,
-    /// Direction at its start, rad, unwrapped.
+    /// Direction at the start of the arc, rad, unwrapped.
     pub(super) tangent: f64,
-    /// Way of the tip up to it, mm.
+    /// Length of the tip's path before the arc, mm.
     pub(super) done: f64,
 }
 
 impl Fade {
-    /// The fade of a lead over at most `width` mm of a way.
+    /// The fade of a lead over the width of the blade, or over the whole path where that is shorter, mm.
     pub(super) fn new(lead: f64, [width, way]: [f64; 2], radius: f64, permitted: f64) -> Self {
         Self { lead, length: if lead.abs() > LEAD_EPSILON { width.min(way) } else { 0.0 }, radius, permitted }
     }
 
-    /// C at a length of an arc, rad.
+    /// C at a length along an arc, rad.
     pub(super) fn c(&self, beside: Beside, s: f64) -> f64 {
         let lag = if self.length > 0.0 { self.lead * left_of((beside.done + s) / self.length)[0] } else { 0.0 };
         beside.tangent + beside.arc.curvature * s - lag
     }
 
-    /// The parts of an arc: those that the blade fades on, and the rest, none shorter than `least` but the last.
+    /// Divides an arc into the steps of the fade and the remainder. No step but the last is shorter than `least` mm.
     pub(super) fn parts(&self, beside: Beside, least: f64) -> Vec<FadeStep> {
         let Beside { arc, done, .. } = beside;
         let rest = FadeStep { to: arc.length, c: self.c(beside, arc.length), turn: arc.turn() };
@@ -94,7 +95,7 @@ impl Fade {
         parts
     }
 
-    /// The first `fading` mm of an arc in equal parts, and how far the tip is askew on them at the most, rad.
+    /// The first `fading` mm of an arc in equal steps, and the maximum direction error of the tip on them, rad.
     fn divided(&self, beside: Beside, fading: f64, count: usize) -> (Vec<FadeStep>, f64) {
         let arc = beside.arc;
         let mut worst = 0.0_f64;
@@ -116,12 +117,12 @@ impl Fade {
         End { pose: Pose { centre: beside.arc.at(s) - c.unit() * self.radius, c }, along: beside.arc.along_at(s) }
     }
 
-    /// How far the way of the axis turns between two ends on which C turns evenly, when the tip is as little askew as can
-    /// be, and how far that is, rad; `turn` is the tip's.
+    /// Turn of the axis path between two ends with uniform turning of C, chosen to minimise the direction error of the tip, and
+    /// that error, rad. `turn` is the turn of the tip's path.
     fn arc(&self, [from, to]: [End; 2], turn: f64) -> (f64, f64) {
         let chord = to.pose.centre - from.pose.centre;
         let swing = self.radius * (to.pose.c.0 - from.pose.c.0);
-        // The tip's way at both ends for an arc of the axis that turns by `turn`, against what it should be.
+        // Direction error of the tip at both ends when the axis follows an arc that turns by `turn`.
         let askew = |turn: f64| {
             let half = 0.5 * turn;
             let stretch = if half == 0.0 { 1.0 } else { half / half.sin() };
@@ -145,15 +146,15 @@ impl Fade {
             (low, gap_low, at) = (at, gap_at, next);
         }
         let [found, of_tip] = [worst(askew(at)), worst(as_tip)];
-        // On a very short part rounding alone may ask for any turn.
+        // On a very short step rounding alone may suggest any turn.
         if (at - turn).abs() < TURN_MAX && found < of_tip { (at, found) } else { (turn, of_tip) }
     }
 }
 
-/// An end of a part.
+/// One end of a step.
 #[derive(Debug, Clone, Copy)]
 struct End {
     pose: Pose,
-    /// Unit vector along the tip's way.
+    /// Unit vector along the tip's path.
     along: Vector,
 }

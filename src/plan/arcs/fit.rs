@@ -1,61 +1,62 @@
-//! A polyline as few arcs and lines that meet without a kink, inside its band.
+//! Approximation of a polyline by few arcs and lines that join tangentially and stay in its band.
 //!
-//! Between two places with known directions lies a biarc: two arcs of one tangent where they meet (K. M. Bolton,
-//! *Biarc curves*, Computer-Aided Design 7, 1975; here with tangents of equal length at both ends). The places are
-//! the middles of chords, where the direction of the curve is that of the chord, and the shoulders of bends that a
-//! rounding takes inside the band. From each place the farthest one is taken whose biarc stays in the band.
+//! Two nodes with known directions are joined by a biarc: two arcs with a common tangent where they meet (K. M. Bolton, *Biarc
+//! curves*, Computer-Aided Design 7, 1975; here with tangents of equal length at both ends). The nodes are the middles of
+//! chords, where the curve has the direction of the chord, and the shoulders of bends that can be rounded within the band. From
+//! each node the fit takes the farthest node whose biarc stays in the band.
 
 use super::band::{Stretch, ToleranceBand};
 use crate::geom::{Point, Vector, angle, cross};
 
-/// Part of the tolerance that the fit may use: the rest is for decimals, and for arcs that are no parabolas.
+/// Fraction of the tolerance available to the fit. The rest covers decimals and the difference between arcs and parabolas.
 const SHARE: f64 = 0.92;
-/// Part of the tolerance that a bend alone is rounded by.
+/// Fraction of the tolerance used to round a single bend.
 const ROUNDING_SHARE: f64 = 0.75;
-/// Part of a chord that a shoulder may take, so that the middle stands between two of them.
+/// Maximum length of a shoulder as a fraction of its chord, so that the middle lies between two shoulders.
 const SHOULDER_SHARE: f64 = 0.45;
-/// Smaller turns need no shoulder of their own, rad.
+/// Turn below which a vertex needs no shoulder, rad.
 const TURN_EPSILON: f64 = 1e-9;
-/// Greatest turn of an arc, rad: controllers confuse the ways of longer ones.
+/// Maximum turn of an arc, rad: controllers confuse the direction of longer ones.
 const SWEEP_MAX: f64 = 2.8;
-/// Least scalar product of the directions at both ends of a biarc.
+/// Minimum dot product of the directions at both ends of a biarc.
 const OPPOSED: f64 = -0.7;
-/// An arc that leaves its chord by less is a line, mm.
+/// Sagitta below which an arc becomes a line, mm.
 const LINE_EPSILON: f64 = 1e-5;
-/// Two arcs whose directions at the end differ by less than this from that of one arc through both ends are one, rad.
+/// Maximum direction error at the ends for which a single arc replaces a biarc, rad.
 const SAME_EPSILON: f64 = 2e-4;
-/// Lengths below this are none, mm.
+/// Length below which there is no arc, mm.
 const LENGTH_EPSILON: f64 = 1e-9;
-/// Tangents at both ends of a biarc that differ by less, as one less their scalar product, twice, are parallel.
+/// Tangents at the ends of a biarc are parallel when 2 (1 - dot product) is below this.
 const PARALLEL_EPSILON: f64 = 1e-12;
-/// Curvatures that are tried where the gentlest one leaves the band, in times of that: rounding turns short lines on a tight
-/// arc the more the tighter it is.
+/// Curvature limits that are tried in turn, as multiples of the gentlest one: rounding turns short lines on a tight arc the
+/// more the tighter it is.
 const LOOSER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
-/// Neighbouring places that are tried when no aim can be reached.
+/// Number of following nodes to try when no aim can be reached.
 const FIRST_TRIES: usize = 4;
 
-/// One arc, or the two of a biarc.
+/// A single arc, or the two arcs of a biarc.
 type Found = [Option<Arc>; 2];
 
-/// An arc, or a line when its curvature is 0.
+/// An arc; a line when its curvature is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Arc {
-    /// Where it starts.
+    /// Start point.
     pub(super) from: Point,
-    /// Unit vector along it there.
+    /// Unit vector along it at the start.
     pub(super) along: Vector,
-    /// Its length, mm.
+    /// Length, mm.
     pub(super) length: f64,
-    /// Left positive, per mm.
+    /// Curvature, left positive, per mm.
     pub(super) curvature: f64,
-    /// The last chord that it lies beside.
+    /// Index of the last chord beside it.
     pub(super) chord: usize,
-    /// Whether it ends at the end of that.
+    /// True if it ends at the end of that chord.
     pub(super) stops: bool,
 }
 
 impl Arc {
-    /// The arc from a point and direction through another point; `None` when it would turn too far.
+    /// The arc that leaves a point in a direction and passes through another point. `None` when the points coincide or the arc
+    /// would turn by more than [`SWEEP_MAX`].
     fn through(from: Point, along: Vector, to: Point) -> Option<Self> {
         let way = to - from;
         let chord = way.norm();
@@ -69,28 +70,28 @@ impl Arc {
         if chord * half.abs() / 4.0 < LINE_EPSILON {
             return Some(Self { from, along: way / chord, length: chord, curvature: 0.0, chord: 0, stops: false });
         }
-        // The chord is 2 R sin(half), and the product of the two vectors chord sin(half).
+        // The chord is 2 R sin(half); the cross product of the two vectors is chord sin(half).
         let curvature = 2.0 * cross(along, way) / (chord * chord);
         Some(Self { from, along, length: 2.0 * half / curvature, curvature, chord: 0, stops: false })
     }
 
-    /// Unit vector along it where it ends, which is at `to`: that at its start, mirrored at the chord.
+    /// Unit vector along it at its end point `to`: the direction at its start, mirrored at the chord.
     fn along_at_end(&self, to: Point) -> Vector {
         if self.curvature == 0.0 { self.along } else { mirrored(self.along, to - self.from) }
     }
 
-    /// How far it turns, rad.
+    /// Turn, rad.
     pub(super) fn turn(&self) -> f64 {
         self.curvature * self.length
     }
 
-    /// Unit vector along it at a length.
+    /// Unit vector along it at a length from its start.
     pub(super) fn along_at(&self, s: f64) -> Vector {
         let (sin, cos) = (self.curvature * s).sin_cos();
         Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos)
     }
 
-    /// The point at a length.
+    /// Point at a length from its start.
     pub(super) fn at(&self, s: f64) -> Point {
         let half = 0.5 * self.curvature * s;
         let (sin, cos) = half.sin_cos();
@@ -99,70 +100,70 @@ impl Arc {
             + Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos) * chord
     }
 
-    /// How far a point beside it lies to its left, mm.
+    /// Signed distance of a point from it, positive to the left, mm.
     fn left_of(&self, point: Point) -> f64 {
         let away = point - self.from;
         let side = cross(self.along, away);
         if self.curvature == 0.0 {
             return side;
         }
-        // |away - radius n| - radius, in a form that stays exact as the radius grows.
+        // |away - radius n| - radius, in a form that stays accurate for large radii.
         let bent = away.norm_squared() * self.curvature - 2.0 * side;
         -bent / (1.0 + (1.0 + bent * self.curvature).max(0.0).sqrt())
     }
 }
 
-/// A place that an arc may start or end at.
+/// A place where an arc may start or end.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     at: Point,
     along: Vector,
     station: f64,
-    /// The chord that it lies on.
+    /// Index of its chord.
     chord: usize,
     kind: Kind,
-    /// Whether an arc must end here: it stands at the end of its chord, where the feed changes.
+    /// True if an arc must end here: the node is at the end of its chord, and the feed changes there.
     stops: bool,
 }
 
-/// What a place is on.
+/// Kind of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// The curve that the polyline stands for.
+    /// A place on the curve that the polyline approximates.
     Aim,
     /// The shoulder of a bend.
     Shoulder,
-    /// A shoulder of any other vertex, for when nothing else can be reached: from one to the next a line or an arc fits.
+    /// A shoulder of any other vertex, used as a last resort. A line or an arc always fits from one to the next.
     Spare,
 }
 
-/// A vertex at which an arc must end.
+/// A vertex where an arc must end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stop {
-    /// Its place among the points of the band.
+    /// Index of the vertex in the band.
     pub(super) vertex: usize,
-    /// Unit vector along the way there; `None` = between the two chords.
+    /// Unit vector along the path there; `None` = midway between the directions of its two chords.
     pub(super) along: Option<Vector>,
 }
 
-/// What is asked of a way beside its band.
+/// Boundary conditions and options of a fit.
 #[derive(Debug, Clone)]
 pub(super) struct Ends {
-    /// Unit vectors along it where it starts and where it ends.
+    /// Unit vectors along the path at its start and its end.
     pub(super) start: Vector,
     pub(super) end: Vector,
-    /// Vertices at which an arc must end, in order.
+    /// Vertices where an arc must end, in order.
     pub(super) stops: Vec<Stop>,
-    /// Greatest curvature where a gentler way stays in the band, per mm: infinite where arcs are told as they are.
+    /// Maximum curvature to prefer where a gentler path stays in the band, per mm. Infinite where the controller takes arcs.
     pub(super) curvature: f64,
-    /// Whether every vertex has shoulders, for where no other place can be reached.
+    /// True if every vertex gets shoulders, as a last resort.
     pub(super) spares: bool,
-    /// How far about a place on a shorter chord the way is looked at for its direction, in tolerances; 0 = on the chord
-    /// alone.
+    /// Half length of the secant that gives the direction at nodes on shorter chords, as a multiple of the tolerance; 0 = use
+    /// the chord itself.
     pub(super) reach: f64,
 }
 
-/// The arcs along a band; otherwise the point at which none stays inside.
+/// Fits arcs to a band. The error is the node from which no arc stays inside.
 pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> {
     let nodes = nodes(band, ends);
     let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].kind == Kind::Aim).collect();
@@ -184,13 +185,13 @@ pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> 
     Ok(arcs)
 }
 
-/// The farthest place that a biarc from place `i` reaches, none of its arcs of more than a curvature, and that biarc;
-/// `aims` are those behind it that lie on the curve.
+/// The farthest node that a biarc from node `i` reaches with arcs up to a curvature, and that biarc. `aims` are the nodes on
+/// the curve after `i`.
 fn farthest(band: &ToleranceBand, nodes: &[Node], i: usize, aims: &[usize], curvature: f64) -> Option<(usize, Found)> {
     let is_gentle = |found: &Found| found.iter().flatten().all(|arc| arc.curvature.abs() <= curvature);
     let try_to = |j: usize| biarc(band, &nodes[i], &nodes[j]).filter(is_gentle);
     let mut best: Option<(usize, Found)> = None;
-    // Twice as far each time, then halving between what fits and what does not.
+    // Double the distance until a biarc fails, then bisect.
     let (mut reached, mut bad) = (0, aims.len() + 1);
     let mut step = 1;
     while step < bad {
@@ -207,7 +208,7 @@ fn farthest(band: &ToleranceBand, nodes: &[Node], i: usize, aims: &[usize], curv
             None => bad = middle,
         }
     }
-    // A shoulder behind it, if there is one, ends a straight line at the bend.
+    // A shoulder beyond that node, if any, ends a straight line at the bend.
     let from = best.map_or(i, |(reached, _)| reached);
     let next = aims.get(reached).copied().unwrap_or(from);
     let mut shoulders = (from + 1..next.max(from + 1)).rev().filter(|&j| nodes[j].kind == Kind::Shoulder);
@@ -218,7 +219,7 @@ fn farthest(band: &ToleranceBand, nodes: &[Node], i: usize, aims: &[usize], curv
     })
 }
 
-/// The places along a band.
+/// The nodes along a band.
 fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
     let last = band.chords();
     let node = |chord: usize, (at, along): (Point, Vector), station: f64| Node {
@@ -229,11 +230,11 @@ fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
         kind: Kind::Aim,
         stops: false,
     };
-    // Two shoulders and a middle a chord at the most, but for where the feed changes.
+    // At most two shoulders and a middle per chord, plus the nodes where the feed changes.
     let mut nodes = Vec::with_capacity(3 * last + 2);
     nodes.push(node(0, (band.points[0], ends.start), 0.0));
-    // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
-    // curve it is none.
+    // For a bend of turn t, a rounding that touches both chords at a distance w from the vertex passes the vertex at w tan(t /
+    // 4). Vertices of a curve get no shoulder.
     let shoulder = |chord: usize, vertex: usize| {
         let turn = band.turns[vertex].abs();
         let way = ROUNDING_SHARE * band.tolerance_at(vertex) / (turn / 4.0).tan();
@@ -252,7 +253,7 @@ fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
         let place = |way: f64| node(chord, (a + along * way, along), band.stations[chord] + way);
         nodes.extend(shoulder(chord, chord).map(|(way, kind)| Node { kind, ..place(way) }));
         let middle = place(0.5 * length);
-        // Of chords as short as numbers of a file are coarse only several together show where the curve goes.
+        // Chords as short as the resolution of the file only show the direction of the curve in groups.
         let reach = ends.reach * band.tolerance;
         let along = if length < reach { band.around(middle.station, reach) } else { along };
         nodes.push(Node { at: middle.at + band.middle(chord), along, ..middle });
@@ -268,7 +269,7 @@ fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
     nodes
 }
 
-/// The arcs between two places, when they stay in the band.
+/// The arcs between two nodes; `None` when they leave the band.
 fn biarc(band: &ToleranceBand, from: &Node, to: &Node) -> Option<Found> {
     let way = to.at - from.at;
     let (t0, t1) = (from.along, to.along);
@@ -302,18 +303,18 @@ fn biarc(band: &ToleranceBand, from: &Node, to: &Node) -> Option<Found> {
     stays(band, &arcs, (middle, meet), [from, to]).then_some(arcs)
 }
 
-/// The unit vector along an arc where it ends, `way` from where it has another: that, mirrored at the chord.
+/// The direction at the end of an arc with chord `way`: the direction `along` at its other end, mirrored at the chord.
 fn mirrored(along: Vector, way: Vector) -> Vector {
     way * (2.0 * along.dot(&way) / way.norm_squared()) - along
 }
 
-/// Whether arcs that meet at a place stay in the band: beside every chord, and the parts of chords that they start and end
-/// on.
+/// True if arcs that meet at a place stay in the band, beside every chord and beside the parts of the chords that they start
+/// and end on.
 fn stays(band: &ToleranceBand, arcs: &Found, meet: (Point, Vector), [from, to]: [&Node; 2]) -> bool {
     let allowed = SHARE * band.tolerance;
     let [Some(first), second] = arcs else { return false };
     let second = second.as_ref().unwrap_or(first);
-    // Where the arcs run beside a vertex, left of it, and how the one that does bends.
+    // Offset of the arcs at a vertex, to its left, and the curvature of the arc there.
     let beside = |vertex: usize| {
         let point = band.points[vertex];
         let arc = if (point - meet.0).dot(&meet.1) < 0.0 { first } else { second };
@@ -332,7 +333,7 @@ fn stays(band: &ToleranceBand, arcs: &Found, meet: (Point, Vector), [from, to]: 
         let holds = if curvature == bent {
             band.holds(&stretch([start, station], [left, offset]), bent, allowed)
         } else {
-            // They meet beside this chord.
+            // The arcs meet beside this chord.
             let at = band.stations[chord] + (meet.0 - band.points[chord]).dot(&band.direction(chord));
             let (at, between) = (at.max(start).min(station), left_of_chord(chord, meet.0));
             band.holds(&stretch([start, at], [left, between]), bent, allowed)
@@ -374,7 +375,7 @@ mod tests {
         arcs
     }
 
-    /// By a measure that is not the fit's own: every place against the nearest chord and the height of its sagitta.
+    /// Checks by an independent measure: the distance of every place from the nearest chord and the height of its sagitta.
     fn check(band: &ToleranceBand, arcs: &[Arc]) {
         for pair in arcs.windows(2) {
             assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
@@ -419,7 +420,7 @@ mod tests {
     fn a_flattened_circle_is_few_arcs_again() {
         let around = |i: i32| f64::from(i) * std::f64::consts::TAU / 40.0;
         let arcs = fitted((0..=40).map(|i| Point::new(30.0 * around(i).cos(), 30.0 * around(i).sin())).collect());
-        // Two at each end, where the direction is that of the chord.
+        // Two arcs at each end, where the direction is that of the chord.
         assert!(arcs.len() <= 8, "{} arcs", arcs.len());
     }
 

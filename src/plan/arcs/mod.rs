@@ -1,9 +1,9 @@
-//! Few arcs and lines for controllers that plan for themselves: a polyline becomes biarcs inside its tolerance band.
+//! Paths of few arcs and lines for controllers that plan for themselves: a polyline becomes biarcs inside its tolerance band.
 //!
-//! Receives the toolpath of one contour and how the controller can be told a path, promises pieces along which C turns
-//! evenly and the blade keeps its orientation, few because planners crawl over many short ones where a rotary axis moves.
-//! With the C axis behind the tip by r its way along an arc of radius R is an arc of radius sqrt(R^2 + r^2) around the same
-//! centre. Never plans speeds: what it says of them are caps.
+//! The input is the toolpath of one contour and the kinds of motion that the controller understands. The output is pieces along
+//! which C turns uniformly and the blade keeps its orientation. The pieces are few, because planners crawl over many short ones
+//! when a rotary axis moves. While the tip follows an arc of radius R with the C axis a distance r behind it, the axis follows
+//! an arc of radius sqrt(R^2 + r^2) around the same centre. The module does not plan speeds; its speeds are caps.
 
 mod band;
 mod fade;
@@ -19,10 +19,10 @@ use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
 use crate::ir::toolpath::{OrientationMode, Step, Toolpath};
 use crate::machine::Job;
 
-/// The path of each run and plunge cut of a toolpath, in order; otherwise the runs that have none.
+/// The path of each run and plunge cut of a toolpath, in order. The error lists the runs without a path.
 pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> Result<Arcs, Vec<Unfit>> {
     let (mut paths, mut unfit) = (Vec::new(), Vec::new());
-    // The axis stands askew to the blade by that.
+    // Fixed angle between the axis and the blade, rad.
     let yaw = job.profile.knife.yaw();
     let mut strokes = stroke::of(toolpath, job).into_iter();
     for step in &toolpath.steps {
@@ -43,7 +43,7 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
 
 fn path_of(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
     let run = stroke.run;
-    // On a straight run both orientation modes are the same.
+    // On a straight run both orientation modes are equal.
     let orientation =
         if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
     match orientation {

@@ -1,4 +1,4 @@
-//! The path of a run: arcs of the tip inside the tolerance band, and beside each the pieces of the C axis.
+//! The path of a run: arcs of the tip inside the tolerance band, and the corresponding pieces of the C axis.
 
 use super::band::ToleranceBand;
 use super::fade::{Beside, Fade};
@@ -13,34 +13,35 @@ use crate::machine::Job;
 use crate::plan::spline::JUNCTION_SHARES;
 use crate::units::rad;
 
-/// Part of the permitted angle by which C may be off where it turns evenly along arcs; the rest is for decimals.
+/// Fraction of the permitted angle that C may deviate while it turns uniformly along arcs; the rest covers decimals.
 const TURN_SHARE: f64 = 0.9;
-/// The same where lines stand for arcs, which are off by as much again.
+/// Fraction of the permitted angle where lines approximate arcs, which adds an error of the same size.
 const LINE_SHARE: f64 = 0.45;
-/// The part of that which joining a piece too short to be told may take.
+/// Fraction of that angle available for merging a piece that is too short to be written.
 const ASKEW_SHARE: f64 = 0.25;
-/// Part of the tolerance that chords which stand for an arc may leave it by, beside what the fit may use: numbers of a file
-/// are rounded by nearly as much as that, and in a narrower band its curves would waver.
+/// Fraction of the tolerance by which chords may leave the arc that they approximate, in addition to the share of the fit.
+/// Coordinates of a file are rounded by nearly as much; in a narrower band the curves would waver.
 const CHORD_SHARE: f64 = 0.03;
-/// Part of the angle that a blade is judged by that joining a piece may take where it could be told by itself.
+/// Fraction of the verified angle available for merging a piece that could be written by itself.
 const FAIR_SHARE: f64 = 0.4;
-/// Part of the tolerance that joining a piece too short to be told may take.
+/// Fraction of the tolerance available for merging a piece that is too short to be written.
 const OFF_SHARE: f64 = 0.02;
-/// Curvature of a way that straight lines of a few decimals can still follow, per mm: on a tighter one rounding turns short
-/// lines, and long ones lie askew to it.
+/// Maximum curvature that straight lines of a few decimals still follow, per mm. On tighter curves rounding turns short lines,
+/// and long lines are skewed.
 const GENTLE: f64 = 0.4;
-/// How far about a place its direction is looked for on such a way, in tolerances, the first that leads to its end.
+/// Half lengths of the secants tried for directions on a gentle path, in tolerances. The first that leads to the end of the run
+/// is used.
 const GENTLE_REACHES: [f64; 4] = [10.0, 5.0, 20.0, 3.0];
-/// Shortest part of a fade, mm: shorter ones are no truer, because places are rounded.
+/// Minimum step of a fade, mm. Shorter steps gain no accuracy because places are rounded.
 const FADING_MIN: f64 = 0.02;
-/// Shortest piece that is written where it can be joined with its neighbour, in steps of the last decimal: rounding turns
-/// its direction by less than a fifth of a degree.
+/// Minimum length of a piece that could be merged with its neighbour, in steps of the last decimal. At this length rounding
+/// turns its direction by less than a fifth of a degree.
 const STEPS_MIN: f64 = 400.0;
-/// Shortest piece that is written at all: rounding would make a turn on the spot of one that is much shorter.
+/// Minimum length of any piece, in steps of the last decimal. Rounding would turn a much shorter one into a turn on the spot.
 const STEPS_LEAST: f64 = 50.0;
 
-/// The path of a run that comes by the start of the next one, where that goes on along it; otherwise the point from which no
-/// arc stays inside the tolerance band.
+/// The path of a run. Where the next run continues this one, the path passes through its start. The error is the point from
+/// which no arc stays inside the tolerance band.
 pub(super) fn path(stroke: &Stroke, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Point> {
     let run = stroke.run;
     let knife = &job.profile.knife;
@@ -52,7 +53,7 @@ pub(super) fn path(stroke: &Stroke, tolerance: f64, interpolation: &Interpolatio
     };
     let TipArcs { arcs, start, from } = tip_arcs(stroke, &line, tolerance, interpolation, job)?;
     let TipLine { chords, heel, .. } = line;
-    // Plunged as a chord, the blade lags behind its way and fades into it over its width.
+    // A blade that plunged as a chord lags behind the tangent and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
     let lead = heel.map_or(0.0, |heel| angle::turn(from - heel, start));
     let first = Heading::new(start.y.atan2(start.x) - lead);
@@ -94,12 +95,12 @@ pub(super) fn path(stroke: &Stroke, tolerance: f64, interpolation: &Interpolatio
 /// The arcs of the tip along a run.
 struct TipArcs {
     arcs: Vec<Arc>,
-    /// Unit vector along the first one where it starts, and that place.
+    /// Unit vector along the first arc at its start, and its start point.
     start: Vector,
     from: Point,
 }
 
-/// Arcs inside the tolerance band of the line of the tip; otherwise the point from which none stays inside.
+/// Fits arcs inside the tolerance band of the tip's line. The error is the point from which none stays inside.
 fn tip_arcs(
     stroke: &Stroke,
     line: &TipLine,
@@ -111,7 +112,7 @@ fn tip_arcs(
     let lap = run.points.len() - 1;
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
-    // A ring ends on its own start: what goes on over that is the same way again.
+    // A ring ends at its own start: the overlap repeats the same path.
     let (points, chords) =
         if ring { (&line.points[..=lap], &line.chords[..lap]) } else { (&line.points[..], &line.chords[..]) };
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
@@ -135,7 +136,7 @@ fn tip_arcs(
         arcs.or_else(|_| fit(band, &Ends { spares: true, ..ends.clone() }))
     };
     let nearer = |&share: &f64| fitted(&band.clone().with_junctions(chords.iter().map(is_junction), share)).ok();
-    // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
+    // If the reduced bands are all too tight, the run uses its full band, and the verifier measures whether the cuts cross.
     let mut arcs = shares.find_map(nearer).map_or_else(|| fitted(band), Ok).or_else(|_| fitted(&plain))?;
     if ring {
         // The feed may change at the seam.
@@ -147,8 +148,8 @@ fn tip_arcs(
     Ok(TipArcs { arcs, start, from: band.points[0] })
 }
 
-/// The overlap of a ring: its first arcs repeated over `length` mm. `lap` is its number of chords, `last` the last chord of the
-/// overlap.
+/// The overlap of a ring: its first arcs repeated over `length` mm. `lap` is the number of chords of the ring, `last` the index
+/// of the last chord of the overlap.
 fn again(arcs: &[Arc], length: f64, [lap, last]: [usize; 2]) -> Vec<Arc> {
     let (mut left, mut found) = (length, Vec::new());
     for arc in arcs {
@@ -163,7 +164,7 @@ fn again(arcs: &[Arc], length: f64, [lap, last]: [usize; 2]) -> Vec<Arc> {
     found
 }
 
-/// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
+/// Direction of a ring at its start: that of the circle through its first point and both neighbours.
 fn at_seam(run: &Run) -> Vector {
     let n = run.points.len();
     let (to, from) = (run.points[0] - run.points[n - 2], run.points[1] - run.points[0]);
@@ -171,7 +172,7 @@ fn at_seam(run: &Run) -> Vector {
     (to * (b / a) + from * (a / b)).normalize()
 }
 
-/// Turn of a ring where it starts, rad.
+/// Turn of a ring at its start, rad.
 fn seam_turn(run: &Run) -> f64 {
     let n = run.points.len();
     polyline::turn_at(run.points[n - 2], run.points[0], run.points[1])

@@ -1,70 +1,70 @@
-//! Pieces of a path, one for each way of the tip that is long enough to be told.
+//! Pieces of a path, one per motion of the tip that is long enough to be written.
 
 use super::tip::LENGTH_EPSILON;
 use crate::geom::{Point, Vector, angle, cross, left};
 use crate::ir::arcs::{Arc, Path, Piece};
 use crate::ir::toolpath::Pose;
 
-/// An arc that turns by less is a line, rad: controllers take those of a millionth for whole turns.
+/// Turn below which an arc becomes a line, rad: controllers take arcs of a millionth for full circles.
 const TURN_MIN: f64 = 2e-5;
-/// An arc with a smaller chord sagitta is a line, mm.
+/// Chord sagitta below which an arc becomes a line, mm.
 const SAGITTA_MIN: f64 = 1e-5;
 
-/// A way of the tip.
+/// A motion of the tip along one arc or line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tip {
-    /// Where it starts and ends.
+    /// Start and end point.
     pub(super) ends: [Point; 2],
-    /// Unit vector along it where it starts.
+    /// Unit vector along it at the start.
     pub(super) along: Vector,
-    /// How far it turns, rad.
+    /// Turn, rad.
     pub(super) turn: f64,
-    /// How much more the way of the C axis turns beside it, rad: where the blade fades from chord to tangent.
+    /// Additional turn of the path of the C axis, rad, while the blade fades from chord to tangent.
     pub(super) more: f64,
-    /// mm.
+    /// Length, mm.
     pub(super) length: f64,
-    /// Its greatest speed, mm/s.
+    /// Maximum speed, mm/s.
     pub(super) feed: f64,
 }
 
-/// What joining pieces may cost, and which are joined.
+/// Limits for merging pieces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Joining {
-    /// Shorter pieces are joined when that costs little, mm.
+    /// Length below which a piece is merged if that costs little, mm.
     pub(super) length_min: f64,
-    /// Shorter ones always are, mm.
+    /// Length below which a piece is always merged, mm.
     pub(super) length_least: f64,
-    /// One that would lie farther askew to the way of the tip is joined with what is before it if that is better, rad.
+    /// Direction error above which a piece is merged with the one before it, if that is better than the one after, rad.
     pub(super) askew_max: f64,
-    /// By how much a joined piece may lie askew to the way of the tip where it could be told by itself, rad.
+    /// Maximum direction error from merging a piece that could be written by itself, rad.
     pub(super) askew_fair: f64,
-    /// By how much that may leave the way of the tip, mm.
+    /// Maximum distance from the tip's path that such a merge may cause, mm.
     pub(super) off_fair: f64,
 }
 
-/// What joining two ways of the tip costs.
+/// Errors caused by merging two motions of the tip.
 #[derive(Debug, Clone, Copy)]
 struct Joined {
-    /// By how much it lies askew to the way of the tip, rad.
+    /// Direction error, rad.
     askew: f64,
-    /// How far it leaves that where they are joined and in the middle of each, mm.
+    /// Maximum distance from the original path at the joint and at the middle of each motion, mm.
     off: f64,
 }
 
-/// Joins what is too short to be told with what comes behind it; with what is before it at the end, and where one arc for
-/// both would lie less askew to them. Where either would leave the way of the tip it is told as short as it is.
+/// Merges pieces that are too short to be written with the following piece. At the end, and where one common arc has a smaller
+/// direction error, the previous piece is used. A short piece stays as it is where both merges would leave the tip's path.
 pub(super) struct Pieces {
     path: Path,
-    /// Where the last piece begins, and what the tip does on it.
+    /// Start of the last piece, and the motion of the tip on it.
     last: Option<(Pose, Tip)>,
-    /// Where the next piece begins.
+    /// Start of the next piece.
     next: Pose,
-    /// What the tip did since, and where that ends: too short to be told.
+    /// Pending motion that is too short to be written, and its end.
     short: Option<(Pose, Tip)>,
     joining: Joining,
 }
 
-/// The piece from a pose along which the tip goes a way that turns.
+/// The piece of the axis path from `from` to `to` that corresponds to a motion of the tip.
 fn piece(from: Pose, to: Pose, tip: Tip) -> Piece {
     let chord = to.centre - from.centre;
     let turn = tip.turn + tip.more;
@@ -80,7 +80,7 @@ fn piece(from: Pose, to: Pose, tip: Tip) -> Piece {
 }
 
 impl Pieces {
-    /// None yet, with room for so many.
+    /// An empty path with capacity for `pieces` pieces.
     pub(super) fn with_room(pieces: usize, start: Pose, joining: Joining) -> Self {
         let path = Path { pieces: Vec::with_capacity(pieces), ..Path::plunge(start) };
         Self { path, last: None, next: start, short: None, joining }
@@ -116,23 +116,23 @@ impl Pieces {
         }
     }
 
-    /// Whether joining costs so little that a piece need not be told.
+    /// True if a merge costs so little that the piece need not be written by itself.
     fn is_fair(&self, joined: &Joined) -> bool {
         joined.askew <= self.joining.askew_fair && joined.off <= self.joining.off_fair
     }
 
-    /// Whether a piece from the last one to a pose is long enough to be told.
+    /// True if a piece from the end of the last one to a pose is long enough to be written.
     fn is_told(&self, to: Pose) -> bool {
         (to.centre - self.next.centre).norm() >= self.joining.length_least
     }
 
-    /// Adds a piece.
+    /// Appends a piece.
     fn add(&mut self, to: Pose, tip: Tip) {
         self.path.pieces.push(piece(self.next, to, tip));
         (self.last, self.next) = (Some((self.next, tip)), to);
     }
 
-    /// Makes what the tip does up to a pose part of the last piece.
+    /// Merges a motion that ends at a pose into the last piece.
     fn join(&mut self, to: Pose, tip: Tip) {
         let (from, tip) = self.last.map_or((self.next, tip), |(from, last)| (from, last.and(tip)));
         self.path.pieces.pop();
@@ -161,26 +161,26 @@ impl Tip {
         }
     }
 
-    /// What joining it with the next one costs.
+    /// Errors of merging it with the next motion.
     fn joined(self, next: Self) -> Joined {
         let both = self.and(next);
         let off = [next.ends[0], self.middle(), next.middle()].map(|place| both.off(place));
         Joined { askew: both.askew(), off: off.into_iter().fold(0.0, f64::max) }
     }
 
-    /// The place in its middle.
+    /// Point at its middle.
     fn middle(&self) -> Point {
         let chord = self.ends[1] - self.ends[0];
         self.ends[0] + chord * 0.5 - left(chord) * (self.turn / 8.0)
     }
 
-    /// By how much one arc from its start to its end lies askew to it at both, rad: none when it is that arc.
+    /// Direction error at both ends of a single arc from its start to its end, rad; 0 for an exact arc.
     fn askew(&self) -> f64 {
         let chord = self.ends[1] - self.ends[0];
         angle::wrap(angle::turn(self.along, chord) - 0.5 * self.turn).abs()
     }
 
-    /// How far a place on it lies beside one arc from its start to its end that turns as it does, mm.
+    /// Distance of a place from a single arc with its ends and its turn, mm.
     fn off(&self, place: Point) -> f64 {
         let [start, end] = self.ends;
         let chord = end - start;
@@ -189,7 +189,7 @@ impl Tip {
         if width <= LENGTH_EPSILON {
             return away.norm();
         }
-        // A parabola of that turn: its middle lies beside the chord by an eighth of the turn.
+        // Approximate the arc by a parabola: its middle is an eighth of the turn times the chord away from the chord.
         let share = away.dot(&chord) / (width * width);
         let sagitta = -0.5 * self.turn * share * (1.0 - share) * width;
         (cross(chord, away) / width - sagitta).abs()
@@ -221,10 +221,10 @@ mod tests {
             assert_eq!((path.pieces.len(), path.pieces[1].to.centre), (2, at));
             assert!((path.pieces[0].length - expected).abs() < 1e-6, "{}", path.pieces[0].length);
         };
-        // One arc for the end of a turn to the left and a turn to the right would be askew to both.
+        // One arc for the end of a left turn and a right turn would be skewed to both.
         check([0.5, 0.5, -0.5], 0.68);
         check([-0.5, 0.5, 0.5], 0.66);
-        // Where it hardly would, it is joined with what comes.
+        // With a small error, it is merged with the following piece.
         check([0.01, 0.01, -0.01], 0.66);
     }
 }

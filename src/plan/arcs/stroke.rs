@@ -1,15 +1,15 @@
-//! Strokes: the runs of a toolpath, each with what the runs beside it ask of its path.
+//! Strokes: the runs of a toolpath, each with the constraints that its neighbours put on its path.
 
 use crate::ir::toolpath::{Run, Toolpath};
 use crate::machine::Job;
 use crate::plan::meeting;
 
-/// A run among the others of its contour.
+/// A run in the context of its contour.
 pub(super) struct Stroke<'a> {
     pub(super) run: &'a Run,
-    /// The run that goes on along its end: the next one, or the first one of a ring that is cut in several runs.
+    /// The run that continues along the end of this one: the next run, or the first run of a ring that is cut in several runs.
     pub(super) next: Option<&'a Run>,
-    /// The part of the tolerance that is used along the overlap at its end.
+    /// Fraction of the tolerance to use along the overlap at its end.
     pub(super) share: f64,
 }
 

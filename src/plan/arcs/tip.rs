@@ -1,20 +1,20 @@
-//! The line of the tip: where it goes along the polyline of a run, from the plunge to the lift.
+//! The line of the tip along the polyline of a run, from the plunge to the lift.
 
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::toolpath::{Run, Shape};
 
-/// Shorter ways are none, mm.
+/// Length below which a stretch is empty, mm.
 pub(super) const LENGTH_EPSILON: f64 = 1e-3;
-/// Distance within which a point lies on a chord, mm: rounding.
+/// Distance within which a point counts as on a chord, mm: rounding.
 const ON_EPSILON: f64 = 1e-6;
 
 /// The line of the tip from plunge to lift.
 pub(super) struct TipLine {
-    /// No two in a row equal.
+    /// Vertices; consecutive ones differ.
     pub(super) points: Vec<Point>,
-    /// The chord of the run that each of its chords lies on.
+    /// Index of the chord of the run under each of its chords.
     pub(super) chords: Vec<usize>,
-    /// Where the heel plunges, when the blade stands as a chord of the run.
+    /// Point where the heel plunges; `None` when the blade does not stand as a chord of the run.
     pub(super) heel: Option<Point>,
     /// Index of the point at the start of the next run, and the unit vector along that run there; `None` where the next run does
     /// not continue this one.
@@ -22,7 +22,7 @@ pub(super) struct TipLine {
 }
 
 impl TipLine {
-    /// That of a run that a blade of a width cuts, mm.
+    /// The line of a run cut by a blade of a width, mm.
     pub(super) fn new(run: &Run, width: f64) -> Self {
         match run.shape {
             Shape::Ring => Self::of_ring(run),
@@ -30,9 +30,9 @@ impl TipLine {
         }
     }
 
-    /// The same without bends so near to its start that no piece can be told before them: there the blade, plunged as a chord
-    /// of what is behind it, would turn on the spot. They are no farther than `reach` mm from the start, and `off` mm from a way
-    /// without them.
+    /// Removes bends so near to the start that no piece can be written before them. There the blade, plunged as a chord of the
+    /// following line, would turn on the spot. Only bends within `reach` mm of the start and within `off` mm of a straight line
+    /// are removed.
     pub(super) fn without_bend_at_start(mut self, [reach, off]: [f64; 2]) -> Self {
         let is_straightened = |points: &[Point]| match *points {
             [start, bend, next, ..] => {
@@ -63,7 +63,7 @@ impl TipLine {
         self
     }
 
-    /// Once around, and on past the start by the front overlap.
+    /// The line of a ring: once around, then on past the start by the front overlap.
     fn of_ring(run: &Run) -> Self {
         let n = run.points.len();
         let mut points = run.points.clone();
@@ -81,7 +81,7 @@ impl TipLine {
         Self { points, chords, heel: None, meets: None }
     }
 
-    /// From where the tip stands while the heel plunges at the start of the heel overlap.
+    /// The line of an open run. It starts at the tip's position while the heel plunges at the start of the heel overlap.
     fn of_open(run: &Run, width: f64) -> Self {
         let n = run.points.len();
         let extended = run.extended();
@@ -103,7 +103,7 @@ impl TipLine {
             }
         }
         if points.len() < 2 {
-            // The tip stands at its end already: a way too short to be told from none.
+            // The tip is already at its end: use a line of negligible length.
             let along = polyline::direction(extended[last - 1], extended[last]).unwrap_or(Vector::new(1.0, 0.0));
             points.push(tip + along * LENGTH_EPSILON);
             chords.push(chord_of(last - 1));

@@ -1,50 +1,49 @@
-//! The chord mode: tip and heel both on the path, the blade a chord of it.
+//! The chord mode: tip and heel both on the path, with the blade as its chord.
 //!
-//! The tip is at p(u), the heel at p(t) with D = p(u) - p(t), |D| = w; t follows u by Newton's method. With ' = d/du and p'
-//! of t meaning dp/dt at t, differentiating D . D = w^2 gives t' = D.p'(u) / D.p'(t), and so on for D', D'', D''' (see
-//! [`Chord::at`]). The blade's angle then has c' = n.D'/w, c'' = n.D''/w, c''' = n.D'''/w + c'^3, n the normal to the left
-//! of D, and the centre is p - (r/w) D in every order. It needs only p''', and is smoother than the tangent mode.
+//! The tip is at p(u), the heel at p(t) with D = p(u) - p(t), |D| = w; t is found for each u by Newton's method. With ' = d/du,
+//! and p' at t meaning dp/dt, differentiating D . D = w^2 gives t' = D.p'(u) / D.p'(t), and so on for D', D'', D''' (see
+//! [`Chord::at`]). The blade's angle then has c' = n.D'/w, c'' = n.D''/w, c''' = n.D'''/w + c'^3, with n the normal to the left
+//! of D, and the centre is p - (r/w) D in every order. The mode needs only p''', and is smoother than the tangent mode.
 
 use super::axes::{Axes, Blade};
 use crate::geom::{Point, Rotation, Vector, angle, left, spline};
 use crate::plan::spline::Curve;
 
-/// Nodes a span between which the heel is found by Newton's method.
+/// Nodes per span; between them the heel is found by Newton's method.
 const NODES_A_SPAN: usize = 8;
-/// Steps of Newton's method: it converges quadratically from a place between two nodes.
+/// Maximum number of Newton steps; from a place between two nodes convergence is quadratic.
 const NEWTON_STEPS: usize = 12;
-/// A shorter step of the heel is none, mm: rounding of places on a table of metres.
+/// Step of the heel below which Newton's method has converged, mm: rounding of places on a table of metres.
 const HEEL_EPSILON: f64 = 1e-12;
-/// Halvings that find a place between two others, at most a few mm apart: to a billionth of that. Newton's method does the
-/// rest.
+/// Bisection steps between two places a few mm apart; they reach a billionth of that distance. Newton's method does the rest.
 const BISECTIONS: usize = 32;
-/// Least cosine between the blade and the path at its heel: below it the heel darts along the path as the tip moves, and
-/// derivatives grow without bound. Runs that come under 0.4 on their polyline are not given this mode; smoothing takes a
-/// little of that.
+/// Minimum cosine between the blade and the path at its heel. Below it the heel darts along the path as the tip moves, and
+/// derivatives grow without bound. Runs with less than 0.4 on their polyline do not get this mode; smoothing takes a little of
+/// the difference.
 const COSINE_MIN: f64 = 0.2;
-/// Least cosine between the blade and the path at its tip: the heel never comes to rest, or goes back.
+/// Minimum cosine between the blade and the path at its tip. It keeps the heel from stopping or going back.
 const FORWARD_MIN: f64 = 0.01;
-/// The longest step by which a heel is looked for, in widths of the blade.
+/// Maximum step of the search for a heel, in widths of the blade.
 const LOOK_SHARE: f64 = 1.0 / 64.0;
 
-/// The blade cannot be a chord of the path all along: it is too tight for that.
+/// The path is too tight: the blade cannot be its chord everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::plan) struct TooTight {
-    /// The tip where that is found.
+    /// Position of the tip where the chord fails.
     pub(in crate::plan) at: Point,
 }
 
-/// The way of a blade that is a chord of its path.
+/// Motion of a blade that is a chord of its path.
 #[derive(Debug)]
 pub(super) struct Chord {
     blade: Blade,
     nodes: Vec<Node>,
 }
 
-/// A place of the way that is known.
+/// A precomputed place of the motion.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    /// Parameter of the tip, and of the heel.
+    /// Parameters of the tip and of the heel.
     u: f64,
     t: f64,
     /// Unwrapped angle of the blade, rad.
@@ -56,7 +55,7 @@ fn path<const N: usize>(curve: &Curve, u: f64) -> [Vector; N] {
     curve.derivatives::<N>(u).map(|d| Vector::new(d[0], d[1]))
 }
 
-/// The heel at the distance `width` behind the tip at parameter `tip`; `None` when the path has none before.
+/// Parameter of the heel at the distance `width` behind the tip at parameter `tip`; `None` when the path starts nearer.
 pub(super) fn heel_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
     let [p] = path::<1>(curve, tip);
     let away = |t: f64| (p - path::<1>(curve, t)[0]).norm() - width;
@@ -72,7 +71,7 @@ pub(super) fn heel_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
     None
 }
 
-/// Where a function passes zero from `low`, where it is negative, to `high`, where it is not.
+/// Zero of a function between `low`, where it is negative, and `high`, where it is not.
 fn root(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = f64::midpoint(low, high);
@@ -86,7 +85,7 @@ fn root(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 impl Chord {
-    /// The way from parameter `from` of the tip, where the heel is at `heel`, to `to`.
+    /// The motion for the tip from parameter `from`, with the heel at parameter `heel`, to parameter `to`.
     pub(super) fn new(curve: &Curve, [heel, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
         let inner = curve.breaks().windows(2).flat_map(|ends| {
             let step = (ends[1] - ends[0]) / NODES_A_SPAN as f64;
@@ -105,7 +104,7 @@ impl Chord {
         Ok(chord)
     }
 
-    /// The first place behind `before` at which the heel can be when the tip is at `u`.
+    /// The first parameter of the heel after `before` when the tip is at `u`.
     fn next_heel(&self, curve: &Curve, u: f64, before: f64) -> Result<f64, TooTight> {
         let width = self.blade.width;
         let [p] = path::<1>(curve, u);
@@ -122,7 +121,7 @@ impl Chord {
         Err(TooTight { at: Point::from(p) })
     }
 
-    /// The node of a tip and a heel, when the blade can be a chord there.
+    /// The node for parameters of tip and heel; an error where the blade cannot be a chord.
     fn node(curve: &Curve, [u, t]: [f64; 2], before: Option<Node>) -> Result<Node, TooTight> {
         let [p, p1] = path::<2>(curve, u);
         let [heel, heel1] = path::<2>(curve, t);
@@ -137,12 +136,12 @@ impl Chord {
         Ok(Node { u, t, c: before.map_or(c, |before| before.c + angle::wrap(c - before.c)) })
     }
 
-    /// Turns the way by an angle, rad: whole turns.
+    /// Adds an angle to the blade's angle along the whole motion, rad; it must be a whole number of turns.
     pub(super) fn turn(&mut self, by: f64) {
         self.nodes.iter_mut().for_each(|node| node.c += by);
     }
 
-    /// The parameter of the heel, and the angle of a blade near to the one there, rad.
+    /// Parameter of the heel, and the angle of the blade at a nearby node, rad.
     fn heel(&self, curve: &Curve, u: f64, p: Vector) -> (f64, f64) {
         let i = self.nodes.partition_point(|node| node.u <= u).clamp(1, self.nodes.len() - 1);
         let (a, b) = (self.nodes[i - 1], self.nodes[i]);
@@ -159,12 +158,12 @@ impl Chord {
                 return (t, a.c);
             }
         }
-        // Where Newton's method does not settle, halving does.
+        // Fall back on bisection where Newton's method does not converge.
         let near = |t: f64| self.blade.width - (p - path::<1>(curve, t)[0]).norm();
         (root(&near, a.t, b.t), a.c)
     }
 
-    /// The axes at a parameter.
+    /// State of the axes at a parameter.
     pub(super) fn at(&self, curve: &Curve, u: f64) -> Axes {
         let Blade { width, radius } = self.blade;
         let span = spline::span(curve.breaks(), u);
@@ -204,7 +203,7 @@ mod tests {
 
     const BLADE: Blade = Blade { width: 6.6, radius: 4.4 };
 
-    /// A smooth curve through places of a parameter from 0 to 1.
+    /// A smooth curve through points given by a parameter from 0 to 1.
     fn curve(place: impl Fn(f64) -> (f64, f64)) -> Curve {
         let points = (0..=120).map(|i| place(f64::from(i) / 120.0)).map(|(x, y)| Point::new(x, y)).collect();
         smooth(&ToleranceBand::new(points, 0.02, &MachineProfile::default())).expect("a curve").curve
@@ -241,7 +240,7 @@ mod tests {
             let pose = way.pose(u);
             assert!((pose.ahead(BLADE.radius) - way.point(u)).norm() < 1e-9);
             let heel = pose.ahead(BLADE.radius - BLADE.width);
-            // The nearest place of the path, from the last one on.
+            // The nearest point of the path, from the last one on.
             let places = (0..=4000).map(|k| from + 1.0 * f64::from(k) / 4000.0);
             let best = places.min_by(|&a, &b| (way.point(a) - heel).norm().total_cmp(&(way.point(b) - heel).norm()));
             from = best.expect("there are places");

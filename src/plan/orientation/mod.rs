@@ -1,7 +1,7 @@
-//! How the blade lies along the curve of its tip: as its tangent or as a chord of it.
+//! Orientation of the blade along the curve of its tip: tangent or chord.
 //!
-//! Receives a curve and an orientation mode, promises the positions of the axes x, y, c and their derivatives up to the
-//! third at any parameter ([`Way`]), or the place where the blade is too wide for its mode. Never knows time.
+//! The input is a curve and an orientation mode. The output is the positions of the axes x, y, c and their derivatives up to
+//! the third at any parameter ([`Way`]), or the place where the blade is too wide for its mode. Time plays no role here.
 
 mod axes;
 mod chord;

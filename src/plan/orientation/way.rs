@@ -1,9 +1,9 @@
-//! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
+//! Machine coordinates along a path: with an eccentric knife the axes do not follow the tip.
 //!
-//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. In the chord mode ([`Chord`]) the heel is on the
-//! path, too. In the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the
-//! tangent over the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n =
-//! x'^2 + y'^2, c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
+//! The centre is q(u) = p(u) - r (cos c, sin c), with c the blade's angle. In the chord mode ([`Chord`]) the heel is on the
+//! path too. In the tangent mode c is the path's tangent; after a plunge as a chord it fades from the chord to the tangent over
+//! the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2, c' = X / n,
+//! c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
 use super::axes::{Axes, Blade};
 use super::chord::{self, Chord, TooTight};
@@ -12,56 +12,56 @@ use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
 use crate::ir::toolpath::{OrientationMode, Pose};
 use crate::plan::spline::Curve;
 
-/// Samples a span when a place or an angle is searched along the curve.
+/// Samples per span in searches for a place or an angle along the curve.
 const SEARCH_A_SPAN: usize = 8;
-/// Halvings that place the plunge: down to rounding from any span.
+/// Bisection steps that locate the plunge, down to rounding for any span.
 const BISECTIONS: usize = 60;
 
-/// The way of the axes along a curve, from the plunge to the lift.
+/// Motion of the axes along a curve, from the plunge to the lift.
 #[derive(Debug)]
 pub(in crate::plan) struct Way<'a> {
     curve: &'a Curve,
-    /// Parameter at the plunge and at the lift.
+    /// Parameters at the plunge and at the lift.
     pub(in crate::plan) from: f64,
     pub(in crate::plan) to: f64,
     blade: Blade,
-    /// Unwrapped tangent angle where each span starts, rad.
+    /// Unwrapped tangent angle at the start of each span, rad.
     tangents: Vec<f64>,
-    /// How far the tangent is ahead of a blade that plunged as a chord.
+    /// Lead of the tangent over the blade after a plunge as a chord; `None` without such a plunge.
     fade: Option<Fade>,
-    /// The blade as a chord of the path, when that is its orientation mode.
+    /// The chord motion, in the chord mode.
     chord: Option<Chord>,
 }
 
-/// What is asked of a way along a curve.
+/// Boundary conditions of a motion along a curve.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Course {
-    /// How the blade lies.
+    /// Orientation mode of the blade.
     pub(in crate::plan) orientation: OrientationMode,
-    /// How it enters the path.
+    /// Entry of the blade into the path.
     pub(in crate::plan) entry: Entry,
     /// Parameter at the lift.
     pub(in crate::plan) to: f64,
     pub(in crate::plan) blade: Blade,
-    /// C starts at the equivalent of its heading nearest to this.
+    /// Reference for the turns of C: it starts at the equivalent of its heading nearest to this.
     pub(in crate::plan) near: Rotation,
 }
 
-/// How the blade enters the path.
+/// Entry of the blade into a path.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) enum Entry {
-    /// As a chord whose heel stands at the start of the curve.
+    /// As a chord, with the heel at the start of the curve.
     Plunge,
-    /// As its orientation mode has it, with the tip at this parameter.
+    /// In its orientation mode, with the tip at this parameter.
     Steady(f64),
 }
 
-/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and
-/// no mode bears on that.
+/// Length below which there is no motion, mm: below the resolution of a machine and any tolerance. The blade then only plunges,
+/// in any orientation mode.
 pub(in crate::plan) const WAY_EPSILON: f64 = 1e-3;
 
 impl<'a> Way<'a> {
-    /// The way along a curve as it is asked for.
+    /// The motion along a curve for the given conditions.
     pub(in crate::plan) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
         let Course { orientation, entry, to, blade, near } = *course;
         let tangents = tangents(curve);
@@ -90,13 +90,13 @@ impl<'a> Way<'a> {
         Ok(way)
     }
 
-    /// How far the tangent is ahead of the blade where that plunges as a chord, rad.
+    /// Angle from the blade to the tangent at a plunge as a chord, rad; 0 without one.
     pub(in crate::plan) fn lead(&self) -> f64 {
         self.fade.as_ref().map_or(0.0, Fade::lead)
     }
 
-    /// Moves the start to the first point at distance `width` from the curve's own start, and remembers how far the
-    /// tangent there is ahead of the chord.
+    /// Moves the start to the first point at the distance `width` from the start of the curve, and stores the lead of the
+    /// tangent over the chord there.
     fn enter_as_chord(&mut self, width: f64) {
         if width <= 0.0 {
             return;
@@ -123,7 +123,7 @@ impl<'a> Way<'a> {
         self.fade = Some(Fade::new(self.curve, [self.from, self.to], lead, width));
     }
 
-    /// Where the distance from `start` passes `width` between two parameters.
+    /// The parameter between two others at which the distance from `start` exceeds `width`.
     fn crossing(&self, start: Point, width: f64, mut low: f64, mut high: f64) -> f64 {
         for _ in 0..BISECTIONS {
             let middle = f64::midpoint(low, high);
@@ -136,12 +136,12 @@ impl<'a> Way<'a> {
         high
     }
 
-    /// A walk along the way that begins at a parameter.
+    /// A walk along the motion that starts at a parameter.
     pub(in crate::plan) fn walk(&self, from: f64) -> Walk<'_> {
         Walk { way: self, span: spline::span(self.curve.breaks(), from) }
     }
 
-    /// The tip at a parameter.
+    /// Position of the tip at a parameter.
     pub(in crate::plan) fn point(&self, u: f64) -> Point {
         let [[x, y]] = self.curve.derivatives::<1>(u);
         Point::new(x, y)
@@ -154,12 +154,12 @@ impl<'a> Way<'a> {
         self.tangents[span] + angle::wrap(d[1].atan2(d[0]) - self.tangents[span])
     }
 
-    /// The axes at a parameter.
+    /// State of the axes at a parameter.
     pub(in crate::plan) fn at(&self, u: f64) -> Axes {
         self.at_on(spline::span(self.curve.breaks(), u), u)
     }
 
-    /// The same, when the span of the curve is known.
+    /// State of the axes at a parameter on a known span of the curve.
     fn at_on(&self, span: usize, u: f64) -> Axes {
         if let Some(chord) = &self.chord {
             return chord.at(self.curve, u);
@@ -200,15 +200,14 @@ impl<'a> Way<'a> {
         self.at(u).pose()
     }
 
-    /// Where the path's own polynomials meet, between the plunge and the lift, those two included.
+    /// Breaks between the path's own polynomials from the plunge to the lift, both included.
     pub(in crate::plan) fn breaks(&self) -> Vec<f64> {
         let inner = self.curve.breaks().iter().copied().filter(|&b| b > self.from && b < self.to);
         std::iter::once(self.from).chain(inner).chain(std::iter::once(self.to)).collect()
     }
 }
 
-/// Places along a way, none before the last one: in the tangent mode each is found without a search, however long
-/// the way.
+/// Places along a motion at ascending parameters. In the tangent mode each is found without a search, however long the motion.
 #[derive(Debug)]
 pub(in crate::plan) struct Walk<'a> {
     way: &'a Way<'a>,
@@ -216,7 +215,7 @@ pub(in crate::plan) struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// The span of the curve on which a parameter lies.
+    /// The span of the curve at a parameter, which must not be before the last one.
     fn reach(&mut self, u: f64) -> usize {
         let breaks = self.way.curve.breaks();
         while self.span + 2 < breaks.len() && breaks[self.span + 1] <= u {
@@ -225,13 +224,13 @@ impl Walk<'_> {
         self.span
     }
 
-    /// The axes at a parameter.
+    /// State of the axes at a parameter.
     pub(in crate::plan) fn at(&mut self, u: f64) -> Axes {
         let span = self.reach(u);
         self.way.at_on(span, u)
     }
 
-    /// The tip at a parameter.
+    /// Position of the tip at a parameter.
     pub(in crate::plan) fn point(&mut self, u: f64) -> Point {
         let span = self.reach(u);
         let [[x, y]] = self.way.curve.derivatives_on::<1>(span, u);
@@ -239,7 +238,7 @@ impl Walk<'_> {
     }
 }
 
-/// Tangent angle where each span starts, without jumps, rad.
+/// Unwrapped tangent angle at the start of each span, rad.
 fn tangents(curve: &Curve) -> Vec<f64> {
     let mut angles = Vec::with_capacity(curve.breaks().len() - 1);
     let mut angle = f64::NAN;
@@ -276,7 +275,7 @@ pub(in crate::plan) mod tests {
             .expect("a tangent is everywhere")
     }
 
-    /// The derivatives of a way are the differences of what they are derivatives of.
+    /// Checks the derivatives of a motion against finite differences.
     pub(in crate::plan) fn differences_agree(way: &Way, what: &str) {
         let h = 1e-4;
         for i in 1..40 {

@@ -1,9 +1,9 @@
-//! Symmetric positive definite band matrices: what the spline and the timing spend their time on.
+//! Symmetric positive definite band matrices, where the spline and the timing spend most of their time.
 //!
-//! Cholesky, row by row (Golub & Van Loan, *Matrix Computations*, 4th ed., section 4.3.5), after scaling to a unit
-//! diagonal, because spline bases over graded knots differ by many orders of magnitude.
+//! The factorisation is Cholesky's, row by row (Golub & Van Loan, *Matrix Computations*, 4th ed., section 4.3.5), after scaling
+//! to a unit diagonal, because spline bases over graded knots differ by many orders of magnitude.
 
-/// A symmetric matrix whose entries vanish farther than `W - 1` from the diagonal: the lower half, row by row.
+/// A symmetric matrix of half bandwidth `W - 1`: its lower triangle, row by row.
 ///
 /// `rows[i][W - 1 - k]` is the entry in row `i`, column `i - k`.
 #[derive(Debug, Clone)]
@@ -11,11 +11,11 @@ pub(in crate::plan) struct BandMatrix<const W: usize> {
     rows: Vec<[f64; W]>,
 }
 
-/// The matrix is not positive definite, in floating point.
+/// The matrix is not positive definite in floating point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) struct Indefinite;
 
-/// Added to the unit diagonal: far above the rounding of a factorisation, far below what moves a Newton step.
+/// Added to the unit diagonal: far above the rounding of a factorisation, far too small to affect a Newton step.
 const DIAGONAL_EPSILON: f64 = 1e-13;
 
 impl<const W: usize> BandMatrix<W> {
@@ -24,7 +24,7 @@ impl<const W: usize> BandMatrix<W> {
         Self { rows: vec![[0.0; W]; n] }
     }
 
-    /// Adds `weight * v v^T` at the rows `first ..`.
+    /// Adds `weight * v v^T` at the rows from `first` on.
     pub(in crate::plan) fn add_square<const K: usize>(&mut self, first: usize, v: &[f64; K], weight: f64) {
         for (i, &vi) in v.iter().enumerate() {
             let scaled = weight * vi;
@@ -35,7 +35,7 @@ impl<const W: usize> BandMatrix<W> {
         }
     }
 
-    /// Adds the lower half of a symmetric block at the rows `first ..`.
+    /// Adds the lower triangle of a symmetric block at the rows from `first` on.
     pub(in crate::plan) fn add_block<const K: usize>(&mut self, first: usize, block: &[[f64; K]; K]) {
         let rows = self.rows[first..].first_chunk_mut::<K>().expect("the block lies inside the matrix");
         for (i, (row, add)) in rows.iter_mut().zip(block).enumerate() {
@@ -69,8 +69,8 @@ impl<const W: usize> BandMatrix<W> {
         self.rows.len()
     }
 
-    /// Makes row and column `i` those of the unit matrix, so that unknown `i` keeps its value; its couplings are handed
-    /// to `dropped(row, entry)` first.
+    /// Replaces row and column `i` by those of the unit matrix, so that unknown `i` keeps its value. Each coupling is passed to
+    /// `dropped(row, entry)` first.
     pub(in crate::plan) fn fix(&mut self, i: usize, mut dropped: impl FnMut(usize, f64)) {
         for k in 1..W.min(i + 1) {
             dropped(i - k, self.rows[i][W - 1 - k]);
@@ -103,7 +103,7 @@ impl<const W: usize> BandMatrix<W> {
         out
     }
 
-    /// Scales to a unit diagonal and factors; the matrix is used up.
+    /// Scales the matrix to a unit diagonal and factors it, consuming the matrix.
     pub(in crate::plan) fn factor(mut self) -> Result<Factor<W>, Indefinite> {
         let scale: Vec<f64> = self.rows.iter().map(|row| 1.0 / row[W - 1].sqrt()).collect();
         if scale.iter().any(|s| !s.is_finite()) {
@@ -119,7 +119,7 @@ impl<const W: usize> BandMatrix<W> {
             *row = if let Some(before) = before.last_chunk::<W>() {
                 eliminate(row, before)?
             } else {
-                // Rows before the first, as those of the unit matrix.
+                // Rows before the first are those of the unit matrix.
                 let mut unit = [0.0; W];
                 unit[W - 1] = 1.0;
                 let mut padded = [unit; W];
@@ -131,8 +131,8 @@ impl<const W: usize> BandMatrix<W> {
     }
 }
 
-/// A row of the factor, from that of the matrix and the ones `before` it: the row's own column `k` is
-/// that of `before[k + 1]`. The diagonal is kept as its inverse.
+/// A row of the factor, from the row of the matrix and the factor's rows `before` it. Column `k` of the row corresponds to
+/// `before[k + 1]`. The diagonal is stored as its inverse.
 fn eliminate<const W: usize>(row: &[f64; W], before: &[[f64; W]; W]) -> Result<[f64; W], Indefinite> {
     let mut row = *row;
     for column in 0..W - 1 {
@@ -160,7 +160,7 @@ pub(in crate::plan) struct Factor<const W: usize> {
 }
 
 impl<const W: usize> Factor<W> {
-    /// Solves for the right-hand side in place, column by column of the points.
+    /// Solves for a right-hand side in place, separately for each coordinate of the points.
     pub(in crate::plan) fn solve<const N: usize>(&self, x: &mut [[f64; N]]) {
         for i in 0..x.len() {
             let mut value = x[i].map(|v| v * self.scale[i]);

@@ -1,33 +1,33 @@
-//! The primal-dual barrier method with Newton steps: the one kernel of both solvers of this stage.
+//! Primal-dual barrier method with Newton steps: the kernel of both solvers of this stage.
 //!
-//! The objective, weighed more and more, is minimised beside the logarithms of the slacks s of the constraints (Boyd &
-//! Vandenberghe, *Convex Optimization*, section 11.3). Each constraint has a multiplier z, too, that follows 1 / s by
-//! Newton steps of its own (Nocedal & Wright, *Numerical Optimization*, 2nd ed., section 19.3): with z / s instead of
-//! 1 / s^2 a step still knows which constraints held back the ones before, and a round takes half as many. The method
-//! starts strictly inside the constraints and every iterate stays there, so it may be stopped at any time.
+//! The method minimises the objective, with an increasing weight, minus the logarithms of the slacks s of the constraints (Boyd
+//! & Vandenberghe, *Convex Optimization*, section 11.3). Each constraint also has a multiplier z that follows 1 / s by Newton
+//! steps of its own (Nocedal & Wright, *Numerical Optimization*, 2nd ed., section 19.3). With z / s instead of 1 / s^2 a step
+//! still knows which constraints held back the previous ones, and a round takes half as many steps. The method starts strictly
+//! inside the constraints and every iterate stays there, so it may be stopped at any time.
 
 /// A smooth objective under inequality constraints, over control values of `N` coordinates.
 pub(in crate::plan) trait Problem<const N: usize> {
-    /// What is to be minimised; positive, and no number where it has no meaning.
+    /// The objective to minimise; positive, and NaN where it is undefined.
     fn objective(&self, x: &[[f64; N]]) -> f64;
 
-    /// The slacks of the constraints, in order, all positive.
+    /// Computes the slacks of the constraints, in order, all positive; an error when a constraint is violated.
     fn slacks(&self, x: &[[f64; N]], slacks: &mut Vec<f64>) -> Result<(), Outside>;
 
-    /// How many of the constraints bound nothing, with slacks of 1: they only fill what is worked out at once.
+    /// Number of constraints that are mere padding, with a slack of 1, and bound nothing.
     fn idle(&self) -> usize {
         0
     }
 
-    /// The Newton direction and the square of its decrement; `None` when the numbers break down.
+    /// The Newton direction and the squared Newton decrement; `None` on a numerical breakdown.
     fn newton(&self, x: &[[f64; N]], forces: &Forces) -> Option<(Vec<[f64; N]>, f64)>;
 }
 
-/// A place breaks a constraint.
+/// The point violates a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) struct Outside;
 
-/// What bears on an iterate.
+/// Weight and constraints of a Newton step.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Forces<'a> {
     /// Weight of the objective.
@@ -36,7 +36,7 @@ pub(in crate::plan) struct Forces<'a> {
     pub(in crate::plan) walls: Walls<'a>,
 }
 
-/// Constraints, seen from an iterate, in order: of each what a [`Wall`] has.
+/// Constraints at an iterate, in order: the fields of [`Wall`] as arrays.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Walls<'a> {
     pub(in crate::plan) slopes: &'a [f64],
@@ -44,64 +44,64 @@ pub(in crate::plan) struct Walls<'a> {
 }
 
 impl<'a> Walls<'a> {
-    /// One by one.
+    /// The constraints one by one.
     pub(in crate::plan) fn iter(self) -> impl Iterator<Item = Wall> + 'a {
         self.slopes.iter().zip(self.shares).map(|(&slope, &share)| Wall { slope, share })
     }
 
-    /// Those before a place, and those from it on.
+    /// The constraints before an index, and those from it on.
     pub(in crate::plan) fn split_at(self, place: usize) -> [Self; 2] {
         let ((before, behind), (shares, others)) = (self.slopes.split_at(place), self.shares.split_at(place));
         [Self { slopes: before, shares }, Self { slopes: behind, shares: others }]
     }
 }
 
-/// A constraint, seen from an iterate.
+/// A constraint at an iterate.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Wall {
-    /// 1 / s: the slope of -log s by s, with the other sign.
+    /// 1 / s: the negative derivative of -log s by s.
     pub(in crate::plan) slope: f64,
-    /// z s: 1 where the multiplier is that of the barrier, greater where the next steps are held back.
+    /// z s: 1 where the multiplier equals that of the barrier, greater where the constraint holds back the next steps.
     pub(in crate::plan) share: f64,
 }
 
 impl Wall {
-    /// What stands for the second derivative of -log s by s: z / s.
+    /// z / s, used in place of the second derivative of -log s by s.
     pub(in crate::plan) fn bend(&self) -> f64 {
         self.share * self.slope * self.slope
     }
 }
 
-/// How the weight of the objective is raised, and when it is enough.
+/// Schedule of the weight of the objective, and the stopping criteria.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Schedule {
-    /// First weight, in parts of constraints over objective.
+    /// Initial weight, as a multiple of the number of constraints over the objective.
     pub(in crate::plan) start: f64,
-    /// Growth of the weight from round to round.
+    /// Growth of the weight per round.
     pub(in crate::plan) growth: f64,
-    /// The end: the duality gap in parts of the objective.
+    /// Final duality gap relative to the objective.
     pub(in crate::plan) gap: f64,
-    /// A round ends with the step before which the square of the Newton decrement is below this, in parts of the number of
-    /// constraints: about so much of the gap is then left to be won, however many there are.
+    /// Squared Newton decrement that ends a round, as a multiple of the number of constraints. About that share of the gap then
+    /// remains to be gained, independent of their number.
     pub(in crate::plan) decrement: f64,
-    /// Bound on the Newton steps of a round: a guard, above what is needed.
+    /// Maximum number of Newton steps per round: a guard, above the usual need.
     pub(in crate::plan) steps_a_round: usize,
-    /// Bound on all Newton steps: a guard, far above what is seen.
+    /// Maximum number of Newton steps in total: a guard, far above the usual need.
     pub(in crate::plan) steps: usize,
 }
 
-/// Sufficient decrease of a line search, as a part of what the slope promises.
+/// Sufficient decrease in a line search, as a fraction of the decrease predicted by the slope.
 const ARMIJO: f64 = 1e-4;
 /// Factor on the step of a line search that went too far.
 const BACKTRACK: f64 = 0.8;
-/// Least factor of a line search: a smaller step makes no progress.
+/// Minimum step of a line search; a smaller step makes no progress.
 const STEP_EPSILON: f64 = 1e-8;
-/// Bound on [`Wall::share`] and on its inverse: no wall outweighs the others by more than its square.
+/// Bound on [`Wall::share`] and on its inverse. It limits the ratio of two walls to its square.
 const SHARE_MAX: f64 = 100.0;
-/// Part of the last weight that is as good as the whole.
+/// Fraction of the final weight that counts as reached.
 const WEIGHT_SHARE: f64 = 0.95;
 
-/// From a strictly feasible `x` to the optimum, as near as the schedule says; `None` when `x` is not feasible.
+/// Goes from a strictly feasible `x` to the optimum, within the gap of the schedule; `None` when `x` is not feasible.
 pub(in crate::plan) fn minimise<const N: usize>(
     problem: &impl Problem<N>,
     x: Vec<[f64; N]>,
@@ -118,7 +118,7 @@ pub(in crate::plan) fn minimise<const N: usize>(
     }
 }
 
-/// From a strictly feasible `x` towards the middle of the constraints: one round with the first weight of the schedule;
+/// Moves a strictly feasible `x` towards the centre of the constraints, by one round with the first weight of the schedule;
 /// `None` when `x` is not feasible.
 pub(in crate::plan) fn centre<const N: usize>(
     problem: &impl Problem<N>,
@@ -130,28 +130,28 @@ pub(in crate::plan) fn centre<const N: usize>(
     Some(descent.x)
 }
 
-/// A way down.
+/// State of a descent.
 struct Descent<'a, P, const N: usize> {
     problem: &'a P,
     schedule: Schedule,
     x: Vec<[f64; N]>,
-    /// The objective, weighed, less the logarithms of the slacks.
+    /// Weighted objective minus the logarithms of the slacks.
     value: f64,
     weight: f64,
-    /// Of each constraint what a [`Wall`] has.
+    /// Fields of [`Wall`], by constraint.
     slopes: Vec<f64>,
     shares: Vec<f64>,
-    /// How many constraints bound anything.
+    /// Number of constraints without the padding.
     count: f64,
     /// Newton steps so far.
     steps: usize,
-    /// Where a line search looks, and the slacks there.
+    /// Trial point of a line search, and its slacks.
     next: Vec<[f64; N]>,
     slacks: Vec<f64>,
 }
 
 impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
-    /// At the start, with the multipliers of the barrier; `None` when that is not feasible.
+    /// The start, with the multipliers of the barrier; `None` when it is not feasible.
     fn new(problem: &'a P, x: Vec<[f64; N]>, schedule: Schedule) -> Option<Self> {
         let mut slacks = Vec::new();
         problem.slacks(&x, &mut slacks).ok()?;
@@ -166,7 +166,7 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
         finite.then_some(Self { problem, schedule, x, value, weight, slopes, shares, count, steps: 0, next, slacks })
     }
 
-    /// Newton steps with one weight until the iterate is near the optimum for it.
+    /// Newton steps at constant weight until the iterate is near its optimum.
     fn round(&mut self) {
         let near = self.schedule.decrement * self.count;
         for _ in 0..self.schedule.steps_a_round {
@@ -182,7 +182,8 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
         }
     }
 
-    /// Shortens the step until the value falls enough, and goes there; how long it is then, `None` when it never does.
+    /// Shortens the step until the value falls enough, and moves there. Returns the step length; `None` when the value never
+    /// falls.
     fn search(&mut self, direction: &[[f64; N]], decrement: f64) -> Option<f64> {
         let mut step = 1.0;
         while step > STEP_EPSILON {
@@ -202,8 +203,8 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
         None
     }
 
-    /// The whole Newton step of the multipliers beside a `step` of the iterate: with `ratio` that of the slack behind and
-    /// before, (z s) becomes ratio (1 + (z s) (1 - ratio) / step).
+    /// Newton step of the multipliers after a `step` of the iterate. With `ratio` = new slack / old slack, (z s) becomes ratio
+    /// (1 + (z s) (1 - ratio) / step).
     fn follow(&mut self, step: f64) {
         let pace = 1.0 / step;
         for ((slope, share), slack) in self.slopes.iter_mut().zip(&mut self.shares).zip(&self.slacks) {
@@ -213,17 +214,17 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
         }
     }
 
-    /// By how much the weight must still grow.
+    /// Remaining growth factor of the weight.
     fn missing(&self) -> f64 {
         let objective = self.problem.objective(&self.x);
         if objective <= 0.0 {
-            // Of one that rounding leaves nothing of nothing is to be won, as on a straight.
+            // Rounding leaves nothing of the objective, as on a straight: there is nothing to gain.
             return 0.0;
         }
         self.count / (self.schedule.gap * objective) / self.weight
     }
 
-    /// Raises the weight; the multipliers, which are in parts of it, grow as much.
+    /// Raises the weight. The multipliers are relative to it and grow by the same factor.
     fn raise(&mut self, growth: f64) {
         self.value += (growth - 1.0) * self.weight * self.problem.objective(&self.x);
         self.weight *= growth;
@@ -231,14 +232,14 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
     }
 }
 
-/// Numbers whose product is taken at once.
+/// Number of factors multiplied before the range check.
 const FACTORS: usize = 8;
-/// A product beyond these is taken as it stands: the next factors could carry it out of range.
+/// Range of a product; beyond it the next factors could overflow or underflow.
 const PRODUCT_MIN: f64 = 1e-150;
 const PRODUCT_MAX: f64 = 1e150;
 
-/// The sum of the logarithms of positive numbers: those of their products, taken before a product leaves the range of
-/// numbers. A logarithm costs as much as all else that is done for a constraint.
+/// Sum of the logarithms of positive numbers, computed as logarithms of products within range. A logarithm costs as much as all
+/// other work for a constraint.
 fn logarithms(numbers: &[f64]) -> f64 {
     let (mut sum, mut product) = (0.0, 1.0_f64);
     for factors in numbers.chunks(FACTORS) {
@@ -255,7 +256,7 @@ fn logarithms(numbers: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Least sum of x and 1/x inside 0 < x < 1: the optimum lies at the bound.
+    /// Minimum of x + 1/x inside 0 < x < 1: the optimum lies at the bound.
     struct Bounded;
 
     impl Problem<1> for Bounded {

@@ -1,7 +1,7 @@
-//! Numeric kernels that the spline and the timing share: band matrices, the barrier method, windows over long problems.
+//! Numeric kernels shared by the spline and the timing: band matrices, the barrier method, windows over long problems.
 //!
-//! Receives convex problems as numbers, promises a feasible point at every step and the same result on every machine.
-//! Never knows what the numbers stand for.
+//! The input is a convex problem as numbers. The iterate is feasible at every step, and the result is the same on every
+//! machine. The kernels do not know the meaning of the numbers.
 
 pub(super) mod banded;
 pub(super) mod barrier;

@@ -1,24 +1,24 @@
-//! The tolerance band: where the tip may run while it follows a polyline.
+//! Tolerance band of the tip around a polyline.
 //!
-//! A cutter file is a curve that CAD flattened, so its chords cut the curve's corners. On a chord that lies on a curve
-//! the band is therefore wider towards the outside, by the sagitta of the arc that the turns at its ends suggest;
-//! everywhere else it is the plain neighbourhood of the chord.
+//! A cutter file contains curves flattened by CAD, so its chords cut the corners of the curve. On a chord of a curve the band
+//! is therefore wider towards the outside, by the sagitta of the arc estimated from the turns at its ends. Elsewhere the band
+//! is the plain neighbourhood of the chord.
 
 use super::lap::Lap;
 use crate::analysis::bulge::bulge;
 use crate::geom::{Point, Vector, left, polyline, spline};
 use crate::machine::MachineProfile;
 
-/// The part of the tolerance that is used on chords by a junction, and what is tried where that is too tight. Cuts reach past
-/// each other by one tolerance; two tips that are each off by a quarter use half of that.
+/// Fraction of the tolerance to use on chords near a junction, and a fallback where that is too tight. Cuts overlap by one
+/// tolerance; two tips that each deviate by a quarter use half of that.
 pub(in crate::plan) const JUNCTION_SHARES: [f64; 2] = [0.25, 0.5];
 
-/// How near to its line a tip keeps at an end.
+/// Limit on the deviation of a tip at an end of its line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::plan) struct Near {
-    /// Length from the end of the overlap, mm; 0 = nowhere.
+    /// Length from the end of the overlap, mm; 0 = no limit.
     pub(in crate::plan) length: f64,
-    /// The part of the tolerance that is used there.
+    /// Fraction of the tolerance to use there.
     pub(in crate::plan) share: f64,
 }
 
@@ -28,35 +28,35 @@ impl Default for Near {
     }
 }
 
-/// The neighbourhood of a polyline in which the tip must stay.
+/// Neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct ToleranceBand {
-    /// The polyline, no two points in a row equal.
+    /// Vertices of the polyline; consecutive ones differ.
     pub(super) points: Vec<Point>,
     /// Chord length from the first point to each point, mm.
     pub(super) stations: Vec<f64>,
     /// Turn at each point, rad; 0 at the ends.
     pub(super) turns: Vec<f64>,
-    /// Chord sagitta of each chord: the outward normal times the height in its middle, mm.
+    /// Chord sagitta of each chord: the outward normal times the height at its middle, mm.
     sagittas: Vec<Vector>,
-    /// The part of the tolerance that each chord may use.
+    /// Fraction of the tolerance that each chord may use.
     shares: Vec<f64>,
-    /// How near to it the tip keeps at its start and at its end.
+    /// Limits on the deviation at its start and at its end.
     near: [Near; 2],
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
-    /// The lap of a ring, whose curve closes.
+    /// Lap of a ring, whose curve closes.
     pub(super) lap: Option<Lap>,
 }
 
-/// A cross-section of the band: the segment of points that count as on the path there.
+/// A cross-section of the band: the segment of points that count as on the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section {
-    /// The point on the chord.
+    /// Point on the chord.
     pub(super) base: Point,
-    /// From there to the far end of the sagitta, mm.
+    /// Vector from `base` to the far end of the sagitta, mm.
     pub(super) sagitta: Vector,
-    /// The part of the tolerance that may be used there.
+    /// Fraction of the tolerance that may be used here.
     pub(super) share: f64,
 }
 
@@ -71,7 +71,7 @@ impl ToleranceBand {
         Self { points, stations, turns, sagittas, shares, near: [Near::default(); 2], tolerance, lap: None }
     }
 
-    /// The band with a smaller share of the tolerance on chords at junctions, if it has any.
+    /// Reduces the tolerance to a fraction, without sagitta, on the flagged chords.
     pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool], share: f64) -> Self {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
             (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share.min(self.shares[chord]));
@@ -79,19 +79,19 @@ impl ToleranceBand {
         self
     }
 
-    /// The band narrowed at its start and its end.
+    /// Limits the deviation at the start and the end.
     pub(in crate::plan) fn with_ends(mut self, near: [Near; 2]) -> Self {
         self.near = near;
         self
     }
 
-    /// The band of a ring.
+    /// Sets the lap of a ring.
     pub(in crate::plan) fn with_lap(mut self, lap: Option<Lap>) -> Self {
         self.lap = lap;
         self
     }
 
-    /// The band of a polyline.
+    /// The band of a polyline, with sagittas.
     pub(in crate::plan) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
         let mut band = Self::plain(points, tolerance);
         let ends = band.points.windows(2).zip(band.turns.windows(2));
@@ -103,7 +103,7 @@ impl ToleranceBand {
         band
     }
 
-    /// How far the curve that a chord stands for turns from it at the ends, by its sagitta, rad: a parabola's 4 h / L.
+    /// Angle between a chord and its curve at the ends of the chord, estimated from the sagitta, rad: 4 h / L for a parabola.
     pub(in crate::plan) fn bow_at(&self, station: f64) -> f64 {
         let chord = spline::span(&self.stations, station);
         4.0 * self.sagittas[chord].norm() / (self.stations[chord + 1] - self.stations[chord])
@@ -114,14 +114,13 @@ impl ToleranceBand {
         self.stations[self.stations.len() - 1]
     }
 
-    /// The chord on which station `u` lies.
+    /// Index of the chord at station `u`.
     #[cfg(test)]
     pub(super) fn chord(&self, u: f64) -> usize {
         spline::span(&self.stations, u)
     }
 
-    /// What counts as on the path at station `u`: with x the fraction of the chord, the arc stands 4 x (1 - x) of the
-    /// sagitta above it.
+    /// The cross-section at station `u`. At the fraction x of the chord, the arc is 4 x (1 - x) of the sagitta above it.
     pub(super) fn section(&self, chord: usize, u: f64) -> Section {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
@@ -139,12 +138,12 @@ impl ToleranceBand {
 }
 
 impl Section {
-    /// The middle of what counts as on the path.
+    /// Middle of the points that count as on the path.
     pub(super) fn middle(&self) -> Point {
         self.base + self.sagitta * 0.5
     }
 
-    /// The deviation of a point as a vector, mm; and how much of the sagitta it uses, mm.
+    /// The deviation of a point as a vector, and the sagitta that it uses, mm.
     pub(super) fn deviation(&self, point: Point) -> (Vector, f64) {
         let away = point - self.base;
         let height = self.sagitta.norm();
@@ -156,7 +155,7 @@ impl Section {
         (away - outward * used, used)
     }
 
-    /// The outward unit normal when a point lies beside the sagitta, so that moving along it changes nothing.
+    /// The outward unit normal, if the point lies beside the sagitta, where moving along it does not change the deviation.
     pub(super) fn free_direction(&self, point: Point) -> Option<Vector> {
         let height = self.sagitta.norm();
         let outward = self.sagitta.try_normalize(0.0)?;

@@ -1,4 +1,4 @@
-//! The polyline that the tip and, in the plunge, the heel follow: a run with its overlaps.
+//! The polyline followed by the tip and, during the plunge, by the heel: a run with its overlaps.
 
 use super::lap::Lap;
 use crate::geom::{Point, polyline};
@@ -9,21 +9,21 @@ use crate::ir::toolpath::{OrientationMode, Run, Shape};
 #[derive(Debug)]
 pub(in crate::plan) struct Extended {
     pub(in crate::plan) points: Vec<Point>,
-    /// The block of each chord.
+    /// Source block of each chord.
     pub(in crate::plan) blocks: Vec<u32>,
-    /// Greatest speed of the tip on each chord, mm/s.
+    /// Speed cap of the tip on each chord, mm/s.
     pub(in crate::plan) feeds: Vec<f64>,
-    /// The chords about which the run crosses cuts of other parts; empty = none.
+    /// True for each chord near which the run crosses cuts of other parts; empty = none.
     pub(in crate::plan) junctions: Vec<bool>,
-    /// Station at which the run proper starts, mm.
+    /// Station of the start of the run proper, mm.
     pub(in crate::plan) start: f64,
-    /// Station at which the tip is lifted, mm.
+    /// Station where the tip is lifted, mm.
     pub(in crate::plan) end: f64,
 }
 
 impl Extended {
-    /// The run with its overlaps, as one polyline; `width` is that of the blade, mm. A ring goes on along itself before its
-    /// start and behind its end by `lead` mm at least.
+    /// The run with its overlaps, as one polyline; `width` is that of the blade, mm. A ring is extended along itself by at
+    /// least `lead` mm before its start and after its end.
     pub(in crate::plan) fn new(run: &Run, width: f64, lead: f64) -> Self {
         match (run.shape, run.orientation) {
             (Shape::Open, _) => open(run),
@@ -32,12 +32,12 @@ impl Extended {
         }
     }
 
-    /// The lap of a ring.
+    /// The lap of a ring; `None` for an open run.
     pub(in crate::plan) fn lap(&self, run: &Run) -> Option<Lap> {
         Lap::of(run, self.start, self.end + SEAM)
     }
 
-    /// Its points, each with its station, mm.
+    /// The vertices, each with its station, mm.
     pub(in crate::plan) fn stations(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         let mut station = 0.0;
         self.points.iter().enumerate().map(move |(i, &point)| {
@@ -47,7 +47,7 @@ impl Extended {
     }
 }
 
-/// Overlaps run straight on along the end chords.
+/// An open run. Overlaps continue straight along the end chords.
 fn open(run: &Run) -> Extended {
     let points = run.extended();
     let mut blocks: Vec<u32> = run.spans.iter().map(|s| s.block).collect();
@@ -69,25 +69,25 @@ fn open(run: &Run) -> Extended {
     Extended { points, blocks, feeds, junctions, start: 0.0, end }
 }
 
-/// Least length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
-/// what it is elsewhere, mm; and the fewest chords of it.
+/// Minimum length of contour added before the start and after the end of a ring, mm, so that the curve has its usual shape
+/// there; and the minimum number of chords.
 pub(in crate::plan) const LEAD: f64 = 8.0;
 const LEAD_CHORDS: usize = 3;
-/// Most laps that join it at either end.
+/// Maximum number of laps added at either end.
 const MOST_LAPS: usize = 4;
-/// Length behind the end of a ring up to which its curve may be cut, mm: smoothing may have drawn it back.
+/// Length after the end of a ring that may still be cut, mm: smoothing may have shortened the curve.
 const SEAM: f64 = 1.0;
 
-/// How far behind its tip along a curve the heel of a blade may lie, in widths of the blade: on the tightest curve whose
-/// chord it can be, with the radius of 0.55 widths, it is 1.26.
+/// Maximum length of curve between the tip and the heel of a blade, in widths of the blade. On the tightest curve for the chord
+/// mode, of radius 0.55 widths, it is 1.26.
 const HEEL_REACH: f64 = 1.3;
 
-/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path behind, and goes past its
+/// A ring. It overlaps along itself: it starts in its orientation mode, with the heel on the path behind, and ends past its
 /// start by the front overlap.
 fn ring(run: &Run, [lead_before, lead_behind]: [f64; 2]) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
-    // Chords of the contour, walked on and on until they are as long as asked.
+    // Walk along the chords of the contour until the required length is reached.
     let lead = |length: f64, next: &dyn Fn(usize) -> usize| {
         let (mut chords, mut sum) = (0, 0.0);
         while (sum < length || chords < LEAD_CHORDS) && chords < MOST_LAPS * n {
@@ -109,17 +109,17 @@ fn ring(run: &Run, [lead_before, lead_behind]: [f64; 2]) -> Extended {
     Extended { points, blocks, feeds, junctions, start, end }
 }
 
-/// The source blocks of a run by station.
+/// Source blocks of a run by station.
 #[derive(Debug)]
 pub(in crate::plan) struct Blocks {
-    /// Station from which each block holds, mm; the first is 0.
+    /// Station where each block starts, mm; the first is 0.
     starts: Vec<f64>,
-    /// The blocks. No two in a row are equal.
+    /// The blocks; consecutive ones differ.
     blocks: Vec<u32>,
 }
 
 impl Blocks {
-    /// The blocks of chords between `stations`, one more than `blocks`.
+    /// The blocks of the chords between `stations`, of which there is one more than `blocks`.
     pub(in crate::plan) fn new(stations: &[f64], blocks: &[u32]) -> Self {
         let mut of_run = Self { starts: Vec::new(), blocks: Vec::new() };
         for (&start, &block) in stations.iter().zip(blocks) {
@@ -136,7 +136,7 @@ impl Blocks {
         self.blocks[self.starts.partition_point(|&start| start <= u).max(1) - 1]
     }
 
-    /// The blocks of a motion of `ticks` periods of which `at` says the station at each tick, never falling.
+    /// The blocks of a motion of `ticks` periods; `at` gives the station at each tick and must not decrease.
     pub(in crate::plan) fn spells(&self, ticks: u32, at: impl Fn(u32) -> f64) -> Vec<Spell> {
         let mut spells = vec![Spell { first: 0, block: self.blocks[0] }];
         for (&start, &block) in self.starts.iter().zip(&self.blocks).skip(1) {
@@ -156,8 +156,8 @@ impl Blocks {
     }
 }
 
-/// The first tick that `is_behind` something, when all after it are; the end of the range when there is none. The search
-/// doubles its steps before it halves them, so that what is near is found at once.
+/// The first tick of the range for which `is_behind`, which then holds for all later ticks; the end of the range when there is
+/// none. The search doubles its steps before it bisects, so near results are found at once.
 fn first_behind(ticks: std::ops::Range<u32>, is_behind: impl Fn(u32) -> bool) -> u32 {
     let (mut low, mut step) = (ticks.start, 1);
     let mut high = low;

@@ -1,30 +1,31 @@
-//! Where the knots of the path spline stand: they follow the shape, not the length.
+//! Knots of the path spline: their spacing depends on the shape, not on the length.
 //!
 //! At a vertex with turn `th` the rounding inside a band of `tol` is about `4 tol / th` long, so the spacing there is a
-//! part of that; away from vertices it grows in proportion to the distance. Long straight chords cost next to nothing.
+//! fraction of that. Away from vertices the spacing grows in proportion to the distance. Long straight chords cost next to
+//! nothing.
 
 use std::ops::Range;
 
 use super::band::ToleranceBand;
 use super::lap::Lap;
 
-/// Knot spacing at a vertex, as a part of the length of its rounding.
+/// Knot spacing at a vertex, as a fraction of the length of its rounding.
 const SHARE_OF_ROUNDING: f64 = 0.5;
 /// Growth of the spacing with the distance from a vertex.
 const GROWTH: f64 = 0.5;
-/// Least spacing, mm: far below any tolerance.
+/// Minimum spacing, mm: far below any tolerance.
 const SPACING_MIN: f64 = 0.02;
-/// Least turn that is told from none, rad.
+/// Turn below which a vertex is treated as straight, rad.
 const TURN_EPSILON: f64 = 1e-4;
-/// Spacing at the ends of a run, mm, and as a part of its length.
+/// Maximum spacing at the ends of a run, mm, and as a fraction of its length.
 const END_SPACING: f64 = 2.0;
 const END_SHARE: f64 = 1.0 / 6.0;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-6;
-/// Fewest spans of a spline.
+/// Minimum number of spans of a spline.
 const SPANS_MIN: usize = 5;
 
-/// The breaks of a spline over the band's stations; `finer` multiplies the spacing at each vertex.
+/// The breaks of a spline over the band's stations; `finer` has a factor on the spacing at each vertex.
 pub(super) fn breaks(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     match &band.lap {
         None => spread(&spacing_at_vertices(band, finer), &band.stations),
@@ -32,7 +33,7 @@ pub(super) fn breaks(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     }
 }
 
-/// The breaks of a ring: those of its lap, again and again, and the ends of its polyline.
+/// The breaks of a ring: those of its lap repeated, and the ends of its polyline.
 fn repeated(band: &ToleranceBand, finer: &[f64], lap: &Lap) -> Vec<f64> {
     let vertex = |station: f64| band.stations.partition_point(|&at| at < station - STATION_EPSILON);
     let [from, to] = [vertex(lap.start), vertex(lap.start + lap.length)];
@@ -48,7 +49,8 @@ fn repeated(band: &ToleranceBand, finer: &[f64], lap: &Lap) -> Vec<f64> {
     breaks
 }
 
-/// Spacing at the vertices of a lap, the last one of which is the first again, mm: the least of what their images in other laps have.
+/// Spacing at the vertices of a lap, mm, whose last vertex is its first one again. Each is the minimum over the images of the
+/// vertex in all laps.
 fn spacing_on_lap(band: &ToleranceBand, finer: &[f64], lap: Range<usize>) -> Vec<f64> {
     let (count, last) = (lap.len(), band.points.len() - 1);
     let mut spacing = vec![f64::INFINITY; count];
@@ -57,7 +59,7 @@ fn spacing_on_lap(band: &ToleranceBand, finer: &[f64], lap: Range<usize>) -> Vec
         spacing[j] = spacing[j].min(at_vertex(band, i) * finer);
     }
     let chord = |j: usize| band.stations[lap.start + j + 1] - band.stations[lap.start + j];
-    // Twice round, so that each vertex has felt all others.
+    // Twice round, so that each vertex influences all others.
     for k in 0..2 * count {
         let (j, next) = (k % count, (k + 1) % count);
         spacing[next] = spacing[next].min(spacing[j] + GROWTH * chord(j));
@@ -70,7 +72,7 @@ fn spacing_on_lap(band: &ToleranceBand, finer: &[f64], lap: Range<usize>) -> Vec
     spacing
 }
 
-/// Breaks over stations, with a spacing at each, from the first to the last.
+/// Breaks from the first to the last station, for a spacing at each station.
 fn spread(spacing: &[f64], stations: &[f64]) -> Vec<f64> {
     let steps: Vec<Step> = spacing.windows(2).zip(stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
     let total: f64 = steps.iter().map(Step::count).sum();
@@ -90,13 +92,13 @@ fn spread(spacing: &[f64], stations: &[f64]) -> Vec<f64> {
     breaks
 }
 
-/// Spacing at a vertex by its own turn, mm.
+/// Spacing at a vertex due to its own turn, mm.
 fn at_vertex(band: &ToleranceBand, vertex: usize) -> f64 {
     let rounding = 4.0 * band.tolerance / band.turns[vertex].abs().max(TURN_EPSILON);
     (SHARE_OF_ROUNDING * rounding).max(SPACING_MIN)
 }
 
-/// Spacing at each vertex, mm, such that it nowhere grows faster than [`GROWTH`].
+/// Spacing at each vertex, mm, with growth limited to [`GROWTH`].
 fn spacing_at_vertices(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     let last = band.points.len() - 1;
     let end = END_SPACING.min(band.length() * END_SHARE);
@@ -112,7 +114,7 @@ fn spacing_at_vertices(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     spacing
 }
 
-/// One chord: the spacing grows from both ends and is greatest at `top`; the number of spans up to a place is the
+/// Spacing along one chord. It grows from both ends up to its maximum at `top`; the number of spans up to a place is the
 /// integral of 1 / spacing.
 struct Step {
     start: f64,
@@ -137,7 +139,7 @@ impl Step {
         self.rising() + (1.0 + GROWTH * (self.length - self.top) / self.to).ln() / GROWTH
     }
 
-    /// The station at which `count` spans lie behind, seen from the chord's start.
+    /// The station where `count` spans have passed since the chord's start.
     fn place(&self, count: f64) -> f64 {
         let rising = self.rising();
         let x = if count <= rising {

@@ -1,7 +1,7 @@
-//! The path of the tip: the polyline of a run, with its overlaps, becomes a smooth curve inside the tolerance band.
+//! The path of the tip: the polyline of a run with its overlaps becomes a smooth curve inside the tolerance band.
 //!
-//! Receives a run, promises a spline of degree 5 that stays in its [`ToleranceBand`] everywhere, or the least deviation
-//! that it found. Never asks how fast anything moves, or how the blade lies.
+//! The input is a run. The output is a spline of degree 5 that stays in its [`ToleranceBand`] everywhere, or the least
+//! deviation found. Speeds and the orientation of the blade play no role here.
 
 mod band;
 mod extended;

@@ -1,11 +1,10 @@
-//! The smoothest curve inside a tolerance band: a degree-5 B-spline r(u) over the chord length that minimises the
-//! integral of
-//! |r'''|^2 with its deviation below the tolerance at dense samples, end points fixed.
+//! The smoothest curve inside a tolerance band: a degree-5 B-spline r(u) over the chord length that minimises the integral of
+//! |r'''|^2, with its deviation below the tolerance at dense samples and fixed end points.
 //!
-//! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its
-//! direction; arcs, lines and cubic fits are not. Two phases: penalised least squares gives a strictly feasible start,
-//! then a barrier with Newton steps ([`barrier`]) brings it to the optimum, window by window. All matrices are banded, so
-//! time and memory are linear in the number of knots.
+//! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its direction;
+//! arcs, lines and cubic fits are not. The method has two phases: penalised least squares gives a strictly feasible start, then
+//! a barrier with Newton steps ([`barrier`]) brings it to the optimum, window by window. All matrices are banded, so time and
+//! memory are linear in the number of knots.
 
 use std::ops::Range;
 
@@ -19,29 +18,29 @@ use crate::plan::solver::windows::{self, Chain, LENGTH_FELT, Windows};
 
 /// Order of the spline: degree 5, so that curvature has two continuous derivatives and a third one almost everywhere.
 const ORDER: usize = 6;
-/// Half-bandwidth + 1 of the systems in one coordinate, and in both interleaved.
+/// Half bandwidth + 1 of the systems in one coordinate, and in both interleaved.
 const BAND: usize = ORDER;
 const BAND_XY: usize = 2 * ORDER;
-/// The derivative whose square is minimised: order 3 beat 2 and 4 in program time.
+/// Order of the derivative whose square is minimised: 3 beat 2 and 4 in program time.
 const PENALTY_ORDER: usize = 3;
-/// Part of the tolerance that the samples may use; the rest is for what happens between them.
+/// Fraction of the tolerance that the samples may use; the rest covers the curve between them.
 const SHARE: f64 = 0.94;
-/// By how much that part shrinks when the curve swings out between the samples.
+/// Reduction of that fraction when the curve leaves the band between the samples.
 const SHARE_STEP: f64 = 0.03;
-/// Samples a span of the spline, besides the vertices.
+/// Samples per span of the spline, besides the vertices.
 const SAMPLES_A_SPAN: usize = 3;
-/// Samples a span of the check between them.
+/// Samples per span in the check between them.
 const CHECKS_A_SPAN: usize = 9;
-/// Attempts with finer and finer knots, and the factor on the spacing near what was not reached.
+/// Maximum attempts with ever finer knots, and the factor on the spacing near violations.
 const ATTEMPTS: usize = 8;
 const FINER: f64 = 0.6;
-/// To a five-hundredth of the penalty: twice that makes random runs slower by 0.2 % in the mean, half of it makes the
-/// scores' contours slower again.
+/// Gap of a five-hundredth of the penalty. Twice that makes random runs slower by 0.2 % on average; half of it makes the
+/// contours of the benchmark scores slower again.
 const SCHEDULE: Schedule =
     Schedule { start: 0.05, growth: 15.0, gap: 2e-3, decrement: 0.03, steps_a_round: 12, steps: 90 };
-/// An end is felt over some ten control points.
+/// The overlap covers the influence of an end, some ten control points.
 const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 60 };
-/// Least distance of two samples, as a part of the length: nearer ones say the same.
+/// Minimum distance of two samples, as a fraction of the length; closer ones are redundant.
 const SAMPLE_EPSILON: f64 = 1e-7;
 
 /// A smooth path: position over chord length, mm.
@@ -50,16 +49,16 @@ pub(in crate::plan) type Curve = Piecewise<ORDER, 2>;
 /// No curve was found inside the band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::plan) struct TooTight {
-    /// The least deviation that was reached, mm.
+    /// Least deviation reached, mm.
     pub(in crate::plan) deviation: f64,
 }
 
-/// What was found.
+/// Result of the smoothing.
 #[derive(Debug)]
 pub(in crate::plan) struct Smooth {
     /// The curve; its parameter runs from 0 to the band's length.
     pub(in crate::plan) curve: Curve,
-    /// Greatest part of a chord sagitta that the curve uses, mm.
+    /// Greatest part of a chord sagitta used by the curve, mm.
     pub(in crate::plan) sagitta: f64,
 }
 
@@ -97,12 +96,12 @@ pub(in crate::plan) fn smooth(band: &ToleranceBand) -> Result<Smooth, TooTight> 
     Err(TooTight { deviation: worst })
 }
 
-/// Whether the polyline of a ring goes round far enough for its curve to be closed.
+/// True if the polyline of a ring extends far enough for its curve to be closed.
 pub(in crate::plan) fn has_room(band: &ToleranceBand) -> bool {
     band.lap.is_none_or(|lap| lap.has_room(&knots::breaks(band, &vec![1.0; band.points.len()])))
 }
 
-/// Makes the spacing finer at the vertices near trouble.
+/// Reduces the spacing at the vertices near violations.
 fn refine(band: &ToleranceBand, finer: &mut [f64], trouble: &[f64], median_span: f64) {
     let reach = (2.0 * median_span).max(1.0);
     for (factor, &station) in finer.iter_mut().zip(&band.stations) {
@@ -116,20 +115,20 @@ fn refine(band: &ToleranceBand, finer: &mut [f64], trouble: &[f64], median_span:
 
 type Control = Vec<[f64; 2]>;
 
-/// One place at which the deviation is bounded.
+/// A place where the deviation is bounded.
 struct Sample {
-    /// Chord length.
+    /// Station, mm of chord length.
     u: f64,
-    /// First of the control points that move it.
+    /// Index of the first of its control points.
     first: usize,
-    /// Their weights.
+    /// Weights of its control points.
     weights: [f64; ORDER],
-    /// What counts as on the path.
+    /// Cross-section of the band.
     section: Section,
 }
 
 impl Sample {
-    /// Where it is, by the control points from the first that moves it on.
+    /// Position, given the control points from `first` on.
     fn point(&self, control: &[[f64; 2]]) -> Point {
         let control: &[[f64; 2]; ORDER] = control.first_chunk().expect("each sample has as many as the order");
         let mut point = Point::origin();
@@ -144,29 +143,28 @@ impl Sample {
         self.section.deviation(self.point(control)).0
     }
 
-    /// How much of the tolerance is used, as mm of the whole: a deviation divided by its share.
+    /// Use of the tolerance, scaled to the full one, mm: the deviation divided by its share.
     fn used(&self, control: &[[f64; 2]]) -> f64 {
         self.deviation(control).norm() / self.section.share
     }
 }
 
-/// One attempt: a choice of knots with everything that does not change over the iterations.
+/// One attempt: a choice of knots, with everything that is constant over the iterations.
 struct Problem<'a> {
     band: &'a ToleranceBand,
     breaks: Vec<f64>,
-    /// The breaks, those at the ends as often as the spline's order.
+    /// Breaks, with those at the ends repeated to the order of the spline.
     knots: Vec<f64>,
     samples: Vec<Sample>,
-    /// Length that each sample stands for in least squares.
+    /// Length represented by each sample in least squares, mm.
     shares: Vec<f64>,
     /// Sum of squares of the samples, and the penalty, as matrices in one coordinate.
     squares: BandMatrix<BAND>,
     penalty: BandMatrix<BAND>,
     /// Bound on the deviation of the samples, mm.
     bound: f64,
-    /// The penalty of a curve that counts as smooth: 36 t^2 / L^5, that of r = t (u/L)^3 with the tolerance t and the
-    /// length L. A short run lies in its band as a parabola, whose penalty is none: what is left is then the barrier's
-    /// choice.
+    /// Penalty of a curve that counts as smooth: 36 t^2 / L^5, that of r = t (u/L)^3 with the tolerance t and the length L. A
+    /// short run fits its band as a parabola, which has no penalty; the rest is then the barrier's choice.
     least: f64,
 }
 
@@ -213,7 +211,7 @@ impl<'a> Problem<'a> {
         Piecewise::from_control(self.breaks.clone(), control)
     }
 
-    /// Penalised least squares through the middle of the band, ends fixed; `None` when the system is singular.
+    /// Penalised least squares through the middle of the band, with fixed ends; `None` when the system is singular.
     fn least_squares(&self, weight: f64) -> Option<Control> {
         let n = self.squares.len();
         let mut matrix = self.squares.clone();
@@ -239,7 +237,7 @@ impl<'a> Problem<'a> {
         Some(x)
     }
 
-    /// The fixed control points.
+    /// The fixed control points: indices and positions.
     fn ends(&self) -> [(usize, [f64; 2]); 2] {
         let points = &self.band.points;
         let end = |p: Point| [p.x, p.y];
@@ -250,7 +248,8 @@ impl<'a> Problem<'a> {
         self.samples.iter().map(|s| s.used(&control[s.first..])).fold(0.0, f64::max)
     }
 
-    /// A curve strictly inside the band, with the weight of the penalty that gave it; otherwise where it leaves the band.
+    /// A curve strictly inside the band, with the weight of the penalty that gave it. The error has the stations near the bound
+    /// or beyond it, and the least deviation found, mm.
     fn feasible_start(&self) -> Result<(Control, f64), (Vec<f64>, f64)> {
         let mut weight = START_WEIGHT * self.band.tolerance;
         let mut best: Option<(Control, f64)> = None;
@@ -270,7 +269,7 @@ impl<'a> Problem<'a> {
         Err((self.samples.iter().filter(out).map(|s| s.u).collect(), deviation))
     }
 
-    /// Raises the weight of the penalty while the curve stays well inside the band: a start near the optimum.
+    /// Raises the weight of the penalty while the curve stays well inside the band, for a start near the optimum.
     fn relax(&self, mut control: Control, mut weight: f64) -> Control {
         for _ in 0..RELAX_ROUNDS {
             weight *= 3.0;
@@ -283,8 +282,8 @@ impl<'a> Problem<'a> {
         control
     }
 
-    /// Where the curve that is needed leaves the whole tolerance between the samples, its greatest deviation and the greatest sagitta
-    /// that it uses, mm.
+    /// Checks the needed part of the curve between the samples against the full tolerance. Returns the stations of violations,
+    /// the greatest deviation and the greatest sagitta used, mm.
     fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
         let mut violations = Vec::new();
         let (mut deviation, mut sagitta) = (0.0_f64, 0.0_f64);
@@ -311,7 +310,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// The integral of |r'''|^2 over some spans, as a matrix of the control points that have a say there.
+/// The integral of |r'''|^2 over some spans, as a matrix of the control points with influence there.
 fn penalty(knots: &[f64], spans: Range<usize>) -> BandMatrix<BAND> {
     let mut penalty = BandMatrix::zero(spans.len() + ORDER - 1);
     for span in spans.clone() {
@@ -342,29 +341,30 @@ impl Chain<2> for Problem<'_> {
         let samples = &self.samples[first(spans.start)..first(spans.end)];
         let near = spans.start..spans.end + ORDER - 1;
         let penalty = penalty(&self.knots, spans);
-        // A run in one window counts from where the file counts.
+        // A run in a single window uses the origin of the file.
         let origin = if free == self.free() { Point::origin() } else { samples[0].section.base };
         let (bound, least) = (self.bound, self.least);
         (Window { samples, penalty, origin, bound, least, near: near.clone(), free }, near)
     }
 }
 
-/// Some control points of a problem, the others standing still.
+/// A window of a problem: some control points are free, the others fixed.
 struct Window<'a> {
-    /// The samples that they move, and the penalty of the spans that they shape.
+    /// Samples that depend on the free control points, and the penalty of their spans.
     samples: &'a [Sample],
     penalty: BandMatrix<BAND>,
-    /// What the penalty counts places from: in a run of kilometres the square of a place leaves no digits for its bends.
+    /// Origin of the coordinates in the penalty. In a run of kilometres the square of a coordinate would leave no digits for
+    /// its bends.
     origin: Point,
     bound: f64,
     least: f64,
-    /// The control points that are known, and those of them that are free.
+    /// Indices of the control points in the tables, and of the free ones among them.
     near: Range<usize>,
     free: Range<usize>,
 }
 
 impl Window<'_> {
-    /// The control points as the penalty counts them, and its product with them.
+    /// The control points relative to the origin, and their product with the penalty.
     fn penalised(&self, control: &[[f64; 2]]) -> (Control, Control) {
         let control: Control = control.iter().map(|c| [c[0] - self.origin.x, c[1] - self.origin.y]).collect();
         let product = self.penalty.times(&control);
@@ -373,7 +373,7 @@ impl Window<'_> {
 }
 
 impl barrier::Problem<2> for Window<'_> {
-    /// Half of the integral of |r'''|^2, on top of what counts as none.
+    /// Half of the integral of |r'''|^2, plus the negligible penalty of a smooth curve.
     fn objective(&self, control: &[[f64; 2]]) -> f64 {
         let (control, product) = self.penalised(control);
         let penalty: f64 = product.iter().zip(&control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum();
@@ -433,17 +433,17 @@ impl barrier::Problem<2> for Window<'_> {
     }
 }
 
-/// Slope and bend of the barrier by the control points of a span.
+/// Gradient and Hessian of the barrier by the control points of a span.
 #[derive(Default)]
 struct Block {
     slope: [[f64; 2]; ORDER],
-    /// Of each pair of control points the derivatives by x and x, x and y, y and y: the lower half.
+    /// Second derivatives of each pair of control points by x and x, x and y, y and y: the lower triangle.
     bend: [[[f64; 3]; ORDER]; ORDER],
 }
 
 impl Block {
-    /// Adds what a sample says: with e its deviation and s its slack the slope is 2 e / s, and the bend
-    /// z (2 P + 4 e e^T / s), P the projection off the direction that changes nothing.
+    /// Adds the contribution of a sample. With e its deviation, s its slack and P the projection that removes the free
+    /// direction, the gradient is 2 e / s and the Hessian is z (2 P + 4 e e^T / s).
     fn add(&mut self, sample: &Sample, near: &[[f64; 2]], wall: &Wall) {
         let point = sample.point(near);
         let e = sample.section.deviation(point).0;
@@ -469,7 +469,7 @@ impl Block {
         }
     }
 
-    /// The bend by x and y in turn.
+    /// The Hessian with x and y interleaved.
     fn lower_half(&self) -> [[f64; BAND_XY]; BAND_XY] {
         let mut half = [[0.0; BAND_XY]; BAND_XY];
         for i in 0..ORDER {
@@ -488,22 +488,22 @@ impl Block {
 /// Nodes and weights of Gauss-Legendre quadrature with three points: exact for the square of a third derivative.
 const GAUSS_3: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
-/// Least share of a sample in least squares, as a part of the length: no sample is without a say.
+/// Minimum weight of a sample in least squares, as a fraction of the length, so that every sample counts.
 const SHARE_MIN: f64 = 1e-6;
-/// First weight of the penalty as a part of the tolerance, the rounds that lower it tenfold, and how far inside the bound
-/// the start must lie.
+/// Initial weight of the penalty relative to the tolerance, the number of rounds that lower it tenfold, and the fraction of the
+/// bound below which the start must lie.
 const START_WEIGHT: f64 = 1e-6;
 const START_ROUNDS: usize = 14;
 const START_SHARE: f64 = 0.999;
-/// A sample beyond this part of the bound asks for finer knots near it.
+/// Fraction of the bound beyond which a sample requests finer knots near it.
 const TROUBLE_SHARE: f64 = 0.94;
-/// Rounds that raise the weight threefold, and how far inside the bound they must stay.
+/// Maximum number of rounds that raise the weight threefold, and the fraction of the bound below which they must stay.
 const RELAX_ROUNDS: usize = 80;
 const RELAX_SHARE: f64 = 0.8;
-/// Part of the tolerance that the curve may use anywhere: the rest is for rounding of the emitted numbers.
+/// Fraction of the tolerance that the curve may use anywhere; the rest covers rounding of the output.
 const CHECK_SHARE: f64 = 0.995;
 
-/// The vertices and [`SAMPLES_A_SPAN`] places a span, in order, none nearer than [`SAMPLE_EPSILON`] to another.
+/// The vertices and [`SAMPLES_A_SPAN`] places per span, in order, at least [`SAMPLE_EPSILON`] apart.
 fn sample_stations(band: &ToleranceBand, breaks: &[f64]) -> Vec<f64> {
     let inner = breaks
         .windows(2)
@@ -573,7 +573,7 @@ mod tests {
     #[test]
     fn window_by_window_a_curve_is_as_smooth_as_at_once() {
         let mut at_once = None;
-        // Then far from where the file counts from, as the end of a run of kilometres is.
+        // Again far from the origin of the file, like the end of a run of kilometres.
         for away in [0.0, 1e6] {
             let wave = |i: i32| (away + 2.0 * f64::from(i), 5.0 * (0.2 * f64::from(i)).sin());
             let band =

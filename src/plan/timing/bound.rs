@@ -1,4 +1,4 @@
-//! What keeps a cut from being faster, tick by tick.
+//! Limits that bind the speed of a cut, tick by tick.
 
 use std::ops::Range;
 
@@ -7,31 +7,30 @@ use crate::ir::motion::{BOUNDS, Bound, Shares};
 use crate::ir::toolpath::Pose;
 use crate::machine::Limits;
 
-/// Relative change of speed from tick to tick that is none.
+/// Relative change of speed per tick that still counts as constant.
 const SPEED_EPSILON: f64 = 1e-6;
-/// Ticks at each end of a cruise at constant speed that a difference of order 3 joins with what is before and behind.
+/// Number of ticks at each end of a cruise where a third difference also covers ticks outside it.
 const SEAM: usize = 4;
 
-/// A cut, tick by tick.
+/// A cut sampled in ticks.
 pub(in crate::plan) struct Cutting<'a> {
     /// Number of periods.
     pub(in crate::plan) ticks: usize,
-    /// Their length, s.
+    /// Length of a period, s.
     pub(in crate::plan) period: f64,
     /// Limits of x, y, c.
     pub(in crate::plan) limits: &'a [Limits; 3],
-    /// The pose at a tick, up to the one at the end.
+    /// Pose at a tick, up to and including the last.
     pub(in crate::plan) pose: &'a dyn Fn(usize) -> Pose,
-    /// Way of the tip from a tick to the next, mm.
+    /// Distance of the tip from a tick to the next, mm.
     pub(in crate::plan) way: &'a dyn Fn(usize) -> f64,
-    /// Greatest speed of the tip from a tick to the next, mm/s.
+    /// Speed cap of the tip from a tick to the next, mm/s.
     pub(in crate::plan) feed: &'a dyn Fn(usize) -> f64,
 }
 
 impl Cutting<'_> {
-    /// How many ticks each limit decides. From rest up to where the tip is first as fast as it gets there, and from its
-    /// last such place down to rest, the cut is bound by its start and its stop; in between by the limit that is used up
-    /// most.
+    /// Number of ticks bound by each limit. While the tip speeds up from rest, and while it slows down to rest, the cut is
+    /// bound by its ends; in between by the limit with the highest use.
     pub(in crate::plan) fn shares(&self) -> Shares {
         let pairs = self.ticks.saturating_sub(1);
         let start = (0..pairs).take_while(|&i| self.rises(i)).count();
@@ -42,8 +41,8 @@ impl Cutting<'_> {
         shares
     }
 
-    /// The same of a cut that speeds up, cruises and slows down, without a look at each tick: it speeds up for about
-    /// `rise` ticks, and slows down for as many.
+    /// As [`Cutting::shares`], but for a cut that accelerates, cruises and decelerates, without a look at each tick. `rise` is
+    /// the approximate number of ticks of the acceleration and of the deceleration.
     pub(in crate::plan) fn shares_of_cruise(&self, rise: usize) -> Shares {
         let pairs = self.ticks.saturating_sub(1);
         let start = last_near(rise, pairs, |i| self.rises(i));
@@ -54,19 +53,19 @@ impl Cutting<'_> {
         if inner.is_empty() {
             cruise.for_each(|i| shares.add(self.bound(i), 1));
         } else {
-            // All ticks between the seams are the same.
+            // All ticks between the seams are equal.
             (cruise.start..inner.start).chain(inner.end..cruise.end).for_each(|i| shares.add(self.bound(i), 1));
             shares.add(self.bound(inner.start), inner.len() as u64);
         }
         shares
     }
 
-    /// Whether the tip is faster in the period behind period `i`.
+    /// True if the tip is faster in the period after period `i`.
     fn rises(&self, i: usize) -> bool {
         (self.way)(i + 1) > (self.way)(i) * (1.0 + SPEED_EPSILON)
     }
 
-    /// Whether it is slower in the period behind, period `i` counted from the end.
+    /// True if the tip is slower in the following period; `i` counts periods from the end.
     fn falls(&self, i: usize) -> bool {
         let last = self.ticks - 1;
         (self.way)(last - i - 1) > (self.way)(last - i) * (1.0 + SPEED_EPSILON)
@@ -82,7 +81,7 @@ impl Cutting<'_> {
         shares
     }
 
-    /// The limit that is used up most in a period.
+    /// The limit with the highest use in a period.
     fn bound(&self, i: usize) -> Bound {
         let at = |i: usize| {
             let Pose { centre, c: Rotation(c) } = (self.pose)(i.min(self.ticks));
@@ -107,7 +106,7 @@ impl Cutting<'_> {
     }
 }
 
-/// How many numbers from 0, below `end`, hold in a row, when that is about as many as `guess`.
+/// Number of consecutive integers from 0, below `end`, for which `holds`. The search starts at `guess`, which should be close.
 fn last_near(guess: usize, end: usize, holds: impl Fn(usize) -> bool) -> usize {
     let mut count = guess.min(end);
     while count > 0 && !holds(count - 1) {

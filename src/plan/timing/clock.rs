@@ -1,11 +1,11 @@
-//! The parameter as a function of time: quintic pieces that match place, speed and acceleration at dense nodes.
+//! Path parameter as a function of time: quintic pieces that match position, speed and acceleration at dense nodes.
 
 use super::grid;
 
-/// Nodes a knot span: the pieces then reproduce the motion to far below any rounding of the emitted numbers.
+/// Nodes per knot span. The pieces then reproduce the motion to far below the rounding of the output.
 const NODES_A_SPAN: usize = 3;
 
-/// A motion along a way, u(t), from rest to rest.
+/// A motion along a path, u(t), from rest to rest.
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct Clock {
     nodes: Vec<Node>,
@@ -20,8 +20,8 @@ struct Node {
 }
 
 impl Clock {
-    /// The motion of which `pace(span, s)` gives b = (du/dt)^2 and db/du on each span of `breaks`, s counted from
-    /// parameter `start`.
+    /// The motion with b = (du/dt)^2 and db/du given by `pace(span, s)` on each span of `breaks`; s counts from the parameter
+    /// `start`.
     pub(super) fn new(start: f64, breaks: &[f64], pace: impl Fn(usize, f64) -> (f64, f64)) -> Self {
         let length = breaks[breaks.len() - 1];
         let mut nodes = vec![Node { t: 0.0, u: [start, 0.0, 0.0] }];
@@ -42,12 +42,12 @@ impl Clock {
         Self { nodes }
     }
 
-    /// Time from rest to rest, s.
+    /// Duration from rest to rest, s.
     pub(in crate::plan) fn duration(&self) -> f64 {
         self.nodes[self.nodes.len() - 1].t
     }
 
-    /// The parameter at each of `count` times, evenly from the start to the end, both included.
+    /// Parameter at `count` equally spaced times from start to end, both included.
     pub(in crate::plan) fn sample(&self, count: usize) -> Vec<f64> {
         let mut piece = 0;
         let mut samples = Vec::with_capacity(count);
@@ -63,7 +63,7 @@ impl Clock {
     }
 }
 
-/// The polynomial of degree 5 through place, speed and acceleration of two nodes, at time `t` between them.
+/// Value at time `t` of the quintic through position, speed and acceleration of two nodes.
 fn hermite(a: Node, b: Node, t: f64) -> f64 {
     let h = b.t - a.t;
     if h <= 0.0 {

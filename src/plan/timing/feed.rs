@@ -1,16 +1,16 @@
-//! The greatest speed of the tip along a run: a cap that changes from chord to chord.
+//! Speed cap of the tip along a run, constant on each chord.
 
-/// The caps of a run by station.
+/// Speed caps of a run by station.
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct Feed {
-    /// Station from which each cap holds, mm; the first is 0.
+    /// Station where each cap begins, mm; the first is 0.
     starts: Vec<f64>,
-    /// The caps, mm/s; infinite where nothing caps the tip. No two in a row are equal.
+    /// Caps, mm/s; infinite where the tip is not capped. Consecutive caps differ.
     caps: Vec<f64>,
 }
 
 impl Feed {
-    /// The caps of chords between `stations`, one more than `caps`.
+    /// The caps of the chords between `stations`, of which there is one more than `caps`.
     pub(in crate::plan) fn new(stations: &[f64], caps: &[f64]) -> Self {
         let mut feed = Self { starts: Vec::new(), caps: Vec::new() };
         for (&start, &cap) in stations.iter().zip(caps) {
@@ -22,26 +22,26 @@ impl Feed {
         feed
     }
 
-    /// The cap, when it is one and the same everywhere.
+    /// The cap, if it is constant along the run.
     pub(in crate::plan) fn constant(&self) -> Option<f64> {
         if let [cap] = self.caps[..] { Some(cap) } else { None }
     }
 
-    /// The cap at a station; where two meet, the lower one.
+    /// Cap at a station; the lower one where two caps meet.
     pub(in crate::plan) fn at(&self, u: f64) -> f64 {
         let next = self.starts.partition_point(|&start| start <= u).max(1);
         let here = self.caps[next - 1];
         if next > 1 && self.starts[next - 1] == u { here.min(self.caps[next - 2]) } else { here }
     }
 
-    /// The greatest cap from station `a` to station `b`.
+    /// Greatest cap from station `a` to station `b`.
     pub(in crate::plan) fn greatest(&self, a: f64, b: f64) -> f64 {
         let first = self.starts.partition_point(|&start| start <= a).max(1) - 1;
         let last = self.starts.partition_point(|&start| start < b).max(first + 1);
         self.caps[first..last].iter().copied().fold(0.0, f64::max)
     }
 
-    /// The stations at which the cap changes.
+    /// Stations where the cap changes.
     pub(in crate::plan) fn changes(&self) -> &[f64] {
         &self.starts[1..]
     }

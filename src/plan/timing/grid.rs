@@ -1,46 +1,47 @@
-//! Where the motion along a way is resolved: knots, collocation places and quadrature cells in the path parameter,
-//! counted from the start of the run.
+//! Discretisation of a motion along a path: knots, collocation places and quadrature cells in the path parameter, counted from
+//! the start of the run.
 
 use crate::plan::orientation::Way;
 use crate::plan::solver::windows::LENGTH_FELT;
 
-/// Turn of C between two knots, rad (4 degrees).
+/// Turn of C per knot, rad (4 degrees).
 const TURN_A_KNOT: f64 = 0.069_813_170_079_773_18;
-/// Change of C's slope between two knots, rad (8 degrees).
+/// Change of C's slope per knot, rad (8 degrees).
 const BEND_A_KNOT: f64 = 0.139_626_340_159_546_36;
-/// Most knots a mm that a change of slope asks for, and most in all.
+/// Maximum number of knots per mm due to a change of slope, and in total.
 const BEND_KNOTS_MAX: f64 = 20.0;
 const KNOTS_MAX: f64 = 200.0;
-/// Knots a unit of log distance towards the ends.
+/// Knots per unit of the logarithm of the distance from an end.
 const END_KNOTS: f64 = 1.2;
-/// Nearest that end grading goes, in parts of the reach of an end.
+/// Distance from an end below which grading stops, as a fraction of the reach of an end.
 const END_NEAREST: f64 = 1e-3;
-/// Nearest that grading goes towards a change of the speed cap, mm.
+/// Distance from a change of the speed cap below which grading stops, mm.
 const CHANGE_NEAREST: f64 = 0.1;
-/// Greatest spacing: a part of the length, but no finer than 0.25 mm.
+/// Maximum spacing: a fraction of the length, but at least 0.25 mm.
 const SPACING_SHARE: f64 = 1.0 / 60.0;
 const SPACING: f64 = 0.25;
-/// Fewest knots.
+/// Minimum number of knots.
 const KNOTS_MIN: usize = 24;
-/// Places at which the density of knots is taken, a span of the path, over all, and towards each end.
+/// Number of samples of the knot density: per span of the path, along the whole run, and towards each end.
 const DENSITY_A_SPAN: usize = 8;
 const DENSITY_OVERALL: usize = 200;
 const DENSITY_AT_END: usize = 80;
-/// Parts of a knot span at which limits hold, besides the knots themselves, and nearest to the ends.
+/// Fractions of a knot span where limits hold, starting at its first knot; and additional fractions of the first and the last
+/// span, near the ends.
 const PLACES_A_SPAN: [f64; 3] = [0.0, 1.0 / 3.0, 2.0 / 3.0];
 const PLACES_AT_END: [f64; 2] = [1e-3, 0.1];
 
-/// How finely a motion is resolved.
+/// Resolution of a motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grid {
-    /// Length over which an end is felt, mm.
+    /// Length over which an end of the run has influence, mm.
     pub(super) reach: f64,
-    /// Knots as a multiple of what is known to be enough.
+    /// Factor on the usual number of knots.
     pub(super) density: f64,
 }
 
-/// The knots of a motion: dense where C turns or its turn changes, and in proportion to the distance from the ends and from
-/// the `changes` of the speed cap. `path_breaks` hold the changes, too.
+/// The knots of a motion. They are dense where C turns or its slope changes, and graded towards the ends and the `changes` of
+/// the speed cap. `path_breaks` must include those changes.
 pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], grid: &Grid) -> Vec<f64> {
     let reach = grid.reach;
     let length = way.to - way.from;
@@ -94,8 +95,8 @@ pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], grid: &Gri
     breaks
 }
 
-/// The places at which the limits hold: three a span, near the ends, and where the path's own polynomials meet, because
-/// the slope of the curvature bends there.
+/// The collocation places, where the limits hold: three per span, some near the ends, and the breaks of the path's own
+/// polynomials, where the slope of the curvature jumps.
 pub(super) fn places(breaks: &[f64], path_breaks: &[f64], nearest: f64) -> Vec<f64> {
     let last = breaks.len() - 1;
     let length = breaks[last];
@@ -116,12 +117,12 @@ pub(super) fn places(breaks: &[f64], path_breaks: &[f64], nearest: f64) -> Vec<f
     places
 }
 
-/// A span of the knots as an interval of z, the cube root of the distance to the nearer end: there the integrand of the
-/// duration, du / sqrt(b) = 3 z^2 dz / sqrt(b), is smooth, since b ~ u^(4/3).
+/// A knot span as an interval of z, the cube root of the distance to the nearer end. In z the integrand of the duration, du /
+/// sqrt(b) = 3 z^2 dz / sqrt(b), is smooth, since b ~ u^(4/3).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
     z: [f64; 2],
-    /// The end that z counts from: the run's length when it counts backward.
+    /// Position of the end of the run when z counts backward from there; `None` when z counts from the start.
     from_end: Option<f64>,
 }
 
@@ -136,19 +137,19 @@ pub(super) fn cell(breaks: &[f64], span: usize) -> Cell {
     }
 }
 
-/// The cells of the knots, in order.
+/// The cells of all spans, in order.
 pub(super) fn cells(breaks: &[f64]) -> impl Iterator<Item = Cell> + '_ {
     (0..breaks.len() - 1).map(|span| cell(breaks, span))
 }
 
-/// Nodes of the quadrature of a cell.
+/// Number of quadrature nodes per cell.
 pub(super) const GAUSS: usize = 4;
 /// Positive nodes and weights of Gauss-Legendre quadrature with four points.
 const GAUSS_4: [(f64, f64); 2] =
     [(0.339_981_043_584_856_3, 0.652_145_154_862_546_1), (0.861_136_311_594_052_6, 0.347_854_845_137_453_85)];
 
 impl Cell {
-    /// The part of the cell from fraction `a` to fraction `b`.
+    /// The part of the cell between the fractions `a` and `b`.
     pub(super) fn part(&self, a: f64, b: f64) -> Self {
         let [z0, z1] = self.z;
         Self { z: [z0 + (z1 - z0) * a, z0 + (z1 - z0) * b], ..*self }
@@ -165,7 +166,7 @@ impl Cell {
         self.place(self.z[1])
     }
 
-    /// Places and weights for an integral over the parameter.
+    /// Nodes and weights for an integral over the parameter.
     pub(super) fn gauss(&self) -> [(f64, f64); GAUSS] {
         let [z0, z1] = self.z;
         let (middle, half) = (f64::midpoint(z0, z1), (z1 - z0) / 2.0);

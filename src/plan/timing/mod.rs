@@ -1,7 +1,7 @@
-//! When the tip is where on its way: the near time-optimal motion within limits of speed, acceleration and jerk.
+//! Position of the tip over time: the near time-optimal motion within limits of speed, acceleration and jerk.
 //!
-//! Receives the way of the axes and the limits, promises the parameter as a function of time from rest to rest
-//! ([`profile()`]), and says what bounds it, tick by tick ([`Cutting`]). Never changes the way.
+//! The input is the path of the axes and the limits. The output is the parameter as a function of time from rest to rest
+//! ([`profile()`]), and the limit that binds each tick ([`Cutting`]). The path itself is never changed.
 
 mod bound;
 mod clock;

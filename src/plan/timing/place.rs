@@ -1,41 +1,40 @@
-//! Limits at places of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
-//! which all limits of a place follow (see [`super::profile()`]), and the slopes of the barrier with them. They are worked out
-//! for some places at once.
+//! Limits at places of a run. All limits of a place, and the gradients of the barrier, follow from three numbers: the unknown b
+//! and its first two derivatives b' and b'' (see [`super::profile()`]). Several places are evaluated at once.
 
 use wide::f64x4;
 
 use crate::machine::Limits;
 use crate::plan::orientation::Axes;
 
-/// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
+/// Number of constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
 pub(super) const BOUNDS: usize = 13;
-/// Where in them those of each kind begin: the three axes one way, then the other way.
+/// Index of the first constraint of each kind: three axes with one sign, then with the other.
 const ACCELERATION: usize = 1;
 const JERK: usize = 7;
-/// Least derivative of an axis that bounds its speed: smaller ones allow any.
+/// Minimum slope of an axis that bounds its speed; smaller slopes allow any speed.
 const SLOPE_EPSILON: f64 = 1e-12;
 
-/// Places that are worked out at once.
+/// Number of places evaluated at once.
 pub(super) const LANES: usize = 4;
 
 /// b, b' and b''.
 pub(super) type Pace = [f64; 3];
 
-/// The constraints of some places: those of one kind beside each other.
+/// Constraint values at several places, one SIMD lane per place.
 pub(super) type Bounded = [f64x4; BOUNDS];
 
-/// The limits at a place.
+/// Coefficients of the limits at a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Load {
-    /// 1 / (greatest b that the speeds allow).
+    /// Inverse of the greatest b that the speed limits allow.
     speed: f64,
-    /// Acceleration of each axis in parts of its limit, by b and b'.
+    /// Acceleration of each axis relative to its limit, as coefficients of b and b'.
     acceleration: [[f64; 2]; 3],
-    /// Jerk of each axis in parts of its limit, without the factor sqrt(b), by b, b' and b''.
+    /// Jerk of each axis relative to its limit, without the factor sqrt(b), as coefficients of b, b' and b''.
     jerk: [[f64; 3]; 3],
 }
 
-/// The limits at some places.
+/// Coefficients of the limits at several places.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Loads {
     speed: f64x4,
@@ -43,24 +42,24 @@ pub(super) struct Loads {
     jerk: [[f64x4; 3]; 3],
 }
 
-/// The second-order models of the barrier by b, b' and b'' at some places.
+/// Second-order models of the barrier by b, b' and b'' at several places.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Models {
     slope: [[f64; LANES]; 3],
-    /// The lower half, row by row.
+    /// Lower triangle of the Hessian, row by row.
     bend: [[f64; LANES]; 6],
 }
 
-/// The second-order model of the barrier at one place.
+/// Second-order model of the barrier at one place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Model {
     pub(super) slope: [f64; 3],
-    /// The lower half, row by row.
+    /// Lower triangle of the Hessian, row by row.
     pub(super) bend: [f64; 6],
 }
 
 impl Load {
-    /// The limits where the axes are so; `feed` is the greatest speed of the tip, mm/s.
+    /// The limits for a state of the axes; `feed` is the speed cap of the tip, mm/s.
     pub(super) fn new(axes: &Axes, limits: &[Limits; 3], feed: f64) -> Self {
         let [_, q1, q2, q3] = axes.q;
         let mut speed = (axes.pace / feed).powi(2);
@@ -72,8 +71,8 @@ impl Load {
         Self { speed, acceleration, jerk }
     }
 
-    /// The greatest parts of the limits on speed, acceleration and jerk that are used up. When b, b' and b'' grow together,
-    /// the first two grow as much and the last as the power 3/2.
+    /// Greatest use of the limits on speed, acceleration and jerk, as fractions. When b, b' and b'' grow by one factor, the
+    /// first two grow by it and the last by its power 3/2.
     pub(super) fn parts(&self, pace: &Pace) -> [f64; 3] {
         let greatest = |parts: [f64; 3]| parts.iter().fold(0.0_f64, |greatest, part| greatest.max(part.abs()));
         let a = greatest(self.acceleration.map(|a| acceleration(&a, pace)));
@@ -86,18 +85,18 @@ fn acceleration(c: &[f64; 2], pace: &Pace) -> f64 {
     c[0] * pace[0] + c[1] * pace[1]
 }
 
-/// Without the factor sqrt(b).
+/// Jerk without the factor sqrt(b).
 fn jerk(c: &[f64; 3], pace: &Pace) -> f64 {
     c[0] * pace[0] + c[1] * pace[1] + c[2] * pace[2]
 }
 
-/// One number of some places; 0 beyond the last.
+/// One coefficient at several places; 0 in unused lanes.
 fn lanes(loads: &[Load], part: impl Fn(&Load) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(|lane| loads.get(lane).map_or(0.0, &part)))
 }
 
 impl Loads {
-    /// Those of some places; nothing is limited beyond the last.
+    /// The limits at several places; unused lanes are unlimited.
     pub(super) fn of(loads: &[Load]) -> Self {
         Self {
             speed: lanes(loads, |load| load.speed),
@@ -108,7 +107,7 @@ impl Loads {
         }
     }
 
-    /// The slacks of all constraints; not positive where one is broken.
+    /// Slacks of all constraints; zero or negative where a constraint is violated.
     pub(super) fn slacks(&self, pace: &[f64x4; 3]) -> Bounded {
         let root = pace[0].sqrt();
         let a = self.acceleration.map(|c| c[0] * pace[0] + c[1] * pace[1]);
@@ -124,8 +123,8 @@ impl Loads {
         slacks
     }
 
-    /// The models of the barrier there, whose walls have these slopes and shares. They take g g^T for each constraint, so that
-    /// they are positive definite everywhere.
+    /// The models of the barrier for walls with these slopes and shares. They use g g^T for each constraint, so they are
+    /// positive definite everywhere.
     pub(super) fn models(&self, pace: &[f64x4; 3], slopes: &Bounded, shares: &Bounded) -> Models {
         let bends: Bounded = std::array::from_fn(|i| shares[i] * slopes[i] * slopes[i]);
         let root = pace[0].sqrt();
@@ -142,7 +141,7 @@ impl Loads {
             bend[0] += stiffness * c0 * c0;
             bend[1] += stiffness * c0 * c1;
             bend[2] += stiffness * c1 * c1;
-            // The slope of sqrt(b) (c . pace).
+            // Gradient of sqrt(b) (c . pace).
             let c = &self.jerk[k];
             let whole = c[0] * pace[0] + c[1] * pace[1] + c[2] * pace[2];
             let g = [root * c[0] + half * whole, root * c[1], root * c[2]];
@@ -171,7 +170,7 @@ impl Models {
 }
 
 impl Model {
-    /// The product of the bend with b, b' and b'', each of several at once.
+    /// The product of the Hessian with vectors of b, b' and b'', one per lane.
     pub(super) fn times(&self, v: &[f64x4; 3]) -> [f64x4; 3] {
         let [b00, b10, b11, b20, b21, b22] = self.bend.map(f64x4::splat);
         [
@@ -195,7 +194,7 @@ mod tests {
 
     const PACE: Pace = [9e4, 300.0, -40.0];
 
-    /// The slacks at one place, the last of some that are not all there.
+    /// Slacks at one place, in the last used lane of a partly filled set.
     fn slacks(load: Load, pace: &Pace) -> [f64; BOUNDS] {
         let slacks = Loads::of(&[load; LANES - 1]).slacks(&pace.map(f64x4::splat));
         assert!(slacks.iter().all(|slacks| slacks.to_array()[LANES - 1] == 1.0), "nothing is limited beyond the last");
@@ -228,7 +227,7 @@ mod tests {
             let [before, behind] = [-step, step].map(|by| barrier(&moved(by)));
             let numeric = (behind - before) / (2.0 * step);
             assert!((model.slope[k] / numeric - 1.0).abs() < 1e-5, "{k}: {} {numeric}", model.slope[k]);
-            // By b'' all constraints are straight, by b' likewise.
+            // In b'' all constraints are linear, and in b' too.
             let unit = std::array::from_fn(|i| f64x4::splat(f64::from(u8::from(i == k))));
             let numeric = (behind - 2.0 * barrier(&PACE) + before) / (step * step);
             let bend = model.times(&unit)[k].to_array()[0];

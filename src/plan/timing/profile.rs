@@ -1,4 +1,4 @@
-//! The near time-optimal jerk-limited motion along a way: u(t) from rest to rest.
+//! The near time-optimal jerk-limited motion along a path: u(t) from rest to rest.
 //!
 //! The unknown is b(u) = (du/dt)^2, so that u'' = b'/2 and u''' = sqrt(b) b''/2, and on each axis
 //!
@@ -6,11 +6,10 @@
 //! - acceleration: |q' b'/2 + q'' b| <= A
 //! - jerk: sqrt(b) |q' b''/2 + 3/2 q'' b' + q''' b| <= J
 //!
-//! and |p'|^2 b <= feed^2 for the tip. From rest b ~ u^(4/3), so b = w(u) beta(u) with w carrying that singularity and
-//! beta a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a barrier with Newton steps from a
-//! strictly feasible start ([`barrier`]; the change of variable after Verscheure et al., *Time-Optimal Path Tracking for
-//! Robots: A Convex Optimization Approach*, 2009). A constant beta, small enough, is always feasible, so there is no run
-//! without a motion.
+//! and |p'|^2 b <= feed^2 for the tip. From rest b ~ u^(4/3), so b = w(u) beta(u), where w carries that singularity and beta is
+//! a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a barrier with Newton steps from a strictly
+//! feasible start ([`barrier`]; the change of variable after Verscheure et al., *Time-Optimal Path Tracking for Robots: A
+//! Convex Optimization Approach*, 2009). A small enough constant beta is always feasible, so every run has a motion.
 
 use std::ops::Range;
 
@@ -30,29 +29,29 @@ use crate::plan::solver::windows::{self, Chain, Windows};
 
 /// Order of beta: cubic.
 const ORDER: usize = 4;
-/// To a third of a thousandth of the duration in about twenty steps, whatever the size.
+/// Reaches a third of a thousandth of the duration in about twenty steps, whatever the size.
 const SCHEDULE: Schedule =
     Schedule { start: 0.3, growth: 10.0, gap: 3e-4, decrement: 0.03, steps_a_round: 12, steps: 150 };
-/// What follows bears on no more than the knots over which the axes come to rest: at most some 270 a second of turning C,
-/// and some ten over which the barrier's own choice fades.
+/// The overlap covers the influence of the rest of the run. It reaches back over the knots within which the axes come to rest:
+/// at most some 270 per second of turning C, and some ten over which the barrier's own choice fades.
 const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 120 };
-/// How far inside the limits the start lies.
+/// Scale of the start relative to the limits.
 const START_SHARE: f64 = 0.7;
-/// Length over which an end of a run is felt at most, mm.
+/// Maximum length over which an end of a run has influence, mm.
 const END_REACH: f64 = 2.0;
-/// Least difference of two collocation places, mm: nearer ones say the same.
+/// Minimum distance of two collocation places, mm; closer ones are redundant.
 const PLACE_EPSILON: f64 = 1e-7;
 
-/// No motion was found: a fault of the numbers, since a slow enough motion always exists.
+/// No motion was found: a numerical failure, since a slow enough motion always exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) struct NoMotion;
 
-/// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip.
+/// Limits of a motion: those of the axes (x, y, c) and the speed cap of the tip.
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct Bounds {
     /// Limits of x, y, c in mm, rad, s.
     pub(in crate::plan) axes: [Limits; 3],
-    /// Greatest speed of the tip, by the parameter of the way.
+    /// Speed cap of the tip along the path parameter.
     pub(in crate::plan) feed: Feed,
 }
 
@@ -61,7 +60,7 @@ pub(in crate::plan) fn profile(way: &Way, bounds: &Bounds) -> Result<Clock, NoMo
     profile_on(way, bounds, 1.0)
 }
 
-/// The same with `density` times as many knots.
+/// The motion with `density` times the usual number of knots.
 fn profile_on(way: &Way, bounds: &Bounds, density: f64) -> Result<Clock, NoMotion> {
     Problem::new(way, bounds, density).fastest(WINDOWS)
 }
@@ -69,9 +68,9 @@ fn profile_on(way: &Way, bounds: &Bounds, density: f64) -> Result<Clock, NoMotio
 /// The weight w(u) = (g(u) g(L - u))^(4/3), g = u / (u + u0): the behaviour of b near both ends.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Ends {
-    /// Length of the way in the parameter, mm.
+    /// Length of the path in the parameter, mm.
     pub(in crate::plan) length: f64,
-    /// Length over which an end is felt, mm.
+    /// Length over which an end has influence, mm.
     pub(in crate::plan) reach: f64,
 }
 
@@ -90,43 +89,44 @@ impl Ends {
     }
 }
 
-/// One run. What is known at its places is worked out window by window: all of it at once would not fit into the caches.
+/// The optimisation problem of one run. Tables at its places are computed window by window: all at once would not fit into the
+/// caches.
 struct Problem<'a> {
     way: &'a Way<'a>,
     bounds: &'a Bounds,
     breaks: Vec<f64>,
-    /// The breaks, those at the ends as often as the spline's order.
+    /// Breaks, with those at the ends repeated to the order of the spline.
     knots: Vec<f64>,
-    /// Where the limits hold, mm from the start.
+    /// Stations where the limits hold, mm from the start.
     stations: Vec<f64>,
     ends: Ends,
 }
 
 /// A place where the limits hold.
 struct LimitPlace {
-    /// First of the control values that matter there.
+    /// Index of the first of its four control values.
     first: usize,
     /// b, b' and b'', as rows over four control values.
     rows: [[f64; ORDER]; 3],
 }
 
-/// Some places where the limits hold.
+/// A set of places where the limits hold, evaluated at once.
 struct LimitPlaces {
-    /// One or more, up to [`LANES`].
+    /// At least one, at most [`LANES`].
     all: ArrayVec<LimitPlace, LANES>,
     loads: Loads,
 }
 
-/// The nodes of a span in the integral for the duration.
+/// Quadrature nodes of a span in the integral for the duration.
 struct Nodes {
-    /// First of the control values that matter there.
+    /// Index of the first of its four control values.
     first: usize,
     /// b at all nodes, as a row over four control values.
     row: [f64x4; ORDER],
     weight: f64x4,
 }
 
-/// The four control values from the first of some on.
+/// The first four control values of a slice.
 fn four(control: &[[f64; 1]]) -> [f64; ORDER] {
     control.as_flattened().first_chunk().copied().expect("each span has four control values")
 }
@@ -167,7 +167,7 @@ impl<'a> Problem<'a> {
         ]
     }
 
-    /// The places of some spans.
+    /// The collocation places of some spans.
     fn places(&self, spans: Range<usize>) -> Vec<LimitPlaces> {
         let last = self.breaks.len() - 1;
         let first = |span: usize| match span {
@@ -193,7 +193,7 @@ impl<'a> Problem<'a> {
         places
     }
 
-    /// The nodes of some spans.
+    /// The quadrature nodes of some spans.
     fn nodes(&self, spans: Range<usize>) -> Vec<Nodes> {
         let of_span = |span: usize| {
             let gauss = grid::cell(&self.breaks, span).gauss();
@@ -256,26 +256,26 @@ impl Chain<1> for Problem<'_> {
     }
 }
 
-/// Some control values of a problem, the others standing still.
+/// A window of a problem: some control values are free, the others fixed.
 struct Window {
-    /// The places and the nodes on which they bear.
+    /// Places and nodes that depend on the free control values.
     places: Vec<LimitPlaces>,
     nodes: Vec<Nodes>,
-    /// The control values that are known, and those of them that are free.
+    /// Indices of the control values in the tables, and of the free ones among them.
     near: Range<usize>,
     free: Range<usize>,
 }
 
-/// Slope and bend by the four control values of a span.
+/// Gradient and Hessian by the four control values of a span.
 #[derive(Default)]
 struct Block {
     slope: f64x4,
-    /// Column by column; of each only what lies in the lower half counts.
+    /// Hessian, column by column; only the lower triangle is used.
     bend: [f64x4; ORDER],
 }
 
 impl Block {
-    /// Adds what the nodes of a span say about the duration. It is exact.
+    /// Adds the exact contribution of the nodes of a span to the duration.
     fn add_nodes(&mut self, nodes: &Nodes, control: &[f64; ORDER], weight: f64) {
         let b = nodes.paces(control);
         let slopes = f64x4::splat(-0.5 * weight) * nodes.weight / (b * b.sqrt());
@@ -292,7 +292,7 @@ impl Block {
         }
     }
 
-    /// Adds what a place says about the limits.
+    /// Adds the contribution of the limits at a place.
     fn add_place(&mut self, place: &LimitPlace, model: &Model) {
         let rows = place.rows.map(f64x4::new);
         let [g0, g1, g2] = model.slope.map(f64x4::splat);
@@ -304,7 +304,7 @@ impl Block {
         }
     }
 
-    /// The bend, row by row.
+    /// The Hessian, row by row.
     fn rows(&self) -> [[f64; ORDER]; ORDER] {
         let columns = self.bend.map(f64x4::to_array);
         std::array::from_fn(|i| columns.map(|column| column[i]))
@@ -327,14 +327,14 @@ impl barrier::Problem<1> for Window {
         for (places, slacks) in self.places.iter().zip(of_places.as_chunks_mut::<LANES>().0.as_chunks_mut::<BOUNDS>().0)
         {
             let here = places.loads.slacks(&places.paces(control, self.near.start));
-            // A root of a negative b is no number, and no slack is positive then.
+            // The root of a negative b is NaN, so that no slack is positive.
             let is_positive = |slack: &f64x4| slack.simd_gt(f64x4::ZERO);
             if !here[1..].iter().fold(is_positive(&here[0]), |all, slack| all & is_positive(slack)).all() {
                 return Err(Outside);
             }
             slacks.iter_mut().zip(here).for_each(|(slack, here)| *slack = here.to_array());
         }
-        // A B-spline lies between its control values: b stays positive between the nodes, too.
+        // A B-spline lies within the hull of its control values, so b is positive between the nodes too.
         positive.copy_from_slice(control.as_flattened());
         if positive.iter().all(|&value| value > 0.0) { Ok(()) } else { Err(Outside) }
     }
@@ -386,7 +386,7 @@ impl barrier::Problem<1> for Window {
     }
 }
 
-/// The walls of places that are worked out at once: their slopes and their shares.
+/// The walls of the places that are evaluated together: their slopes and their shares.
 fn bounded(walls: Walls<'_>) -> impl Iterator<Item = [Bounded; 2]> {
     let of_lanes = |values: &[[f64; LANES]; BOUNDS]| values.map(f64x4::new);
     let [slopes, shares] = [walls.slopes, walls.shares].map(|values| values.as_chunks().0.as_chunks().0.iter());
@@ -394,7 +394,7 @@ fn bounded(walls: Walls<'_>) -> impl Iterator<Item = [Bounded; 2]> {
 }
 
 impl LimitPlaces {
-    /// b, b' and b'' at each; 1 beyond the last.
+    /// b, b' and b'' at each place; 1 in unused lanes.
     fn paces(&self, control: &[[f64; 1]], near: usize) -> [f64x4; 3] {
         let mut paces = [[1.0; LANES]; 3];
         for (lane, place) in self.all.iter().enumerate() {
@@ -408,7 +408,7 @@ impl LimitPlaces {
 }
 
 impl Nodes {
-    /// b at each.
+    /// b at each node.
     fn paces(&self, control: &[f64; ORDER]) -> f64x4 {
         let [c0, c1, c2, c3] = control.map(f64x4::splat);
         self.row[0] * c0 + self.row[1] * c1 + self.row[2] * c2 + self.row[3] * c3
@@ -442,7 +442,7 @@ mod tests {
         points
     }
 
-    /// A way along a curve and its bounds; the blade's radius is 0 or 4.4 mm in turn.
+    /// A path along a curve, with bounds; the blade's radius alternates between 0 and 4.4 mm.
     fn task(curve: &Curve, seed: u64) -> (Way<'_>, Bounds) {
         let end = curve.breaks()[curve.breaks().len() - 1];
         let blade = Blade { width: 6.6, radius: [0.0, 4.4][(seed % 2) as usize] };
