@@ -1,4 +1,5 @@
-//! Every invariant of marker, toolpath, arcs and motion; collects all that is broken, never stops at the first.
+//! Checks of all invariants of marker, toolpath, arcs and motion. They collect every violation instead of stopping at the
+//! first.
 
 use super::arcs::{Arc, Arcs, Piece};
 use super::marker::{Marker, Notch};
@@ -6,10 +7,10 @@ use super::motion::{Motion, Poses};
 use super::toolpath::{Pose, Run, Step, Toolpath};
 use crate::geom::Point;
 
-/// What is broken, a sentence each; empty when the form is sound.
+/// Violations, one sentence each; empty when the form is sound.
 pub type Faults = Vec<String>;
 
-/// Checks a marker as it stands after the pass `weld`.
+/// Checks a marker as it is after the pass `weld`.
 pub fn marker(marker: &Marker) -> Faults {
     let mut faults = Faults::new();
     let mut owners = std::collections::HashSet::new();
@@ -81,7 +82,7 @@ fn cut_faults(marker: &Marker) -> Faults {
     faults
 }
 
-/// Checks a toolpath as it stands after every toolpath pass.
+/// Checks a toolpath as it is after all toolpath passes.
 pub fn toolpath(toolpath: &Toolpath) -> Faults {
     let mut faults = Faults::new();
     for (i, step) in toolpath.steps.iter().enumerate() {
@@ -116,7 +117,7 @@ pub fn toolpath(toolpath: &Toolpath) -> Faults {
     faults
 }
 
-/// How far a unit vector may be from length 1: a few roundings.
+/// Permitted deviation of a unit vector from length 1: a few roundings.
 const UNIT_EPSILON: f64 = 1e-9;
 
 fn run_faults(run: &Run) -> Vec<&'static str> {
@@ -143,8 +144,7 @@ fn run_faults(run: &Run) -> Vec<&'static str> {
     faults
 }
 
-/// How far an arc may miss the places that it joins, and a length what it is of, as a part of it: a few roundings, of arcs
-/// that hardly bend.
+/// Relative tolerance for the ends of an arc, and for the length of a piece: a few roundings, for arcs with little curvature.
 const ARC_EPSILON: f64 = 1e-6;
 
 /// Checks the arcs of a toolpath.

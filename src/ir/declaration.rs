@@ -1,7 +1,7 @@
-//! What a program does beside the drawing because it cannot do otherwise, as it says itself.
+//! Declared deviations: everything a program does that is not in the drawing because it is unavoidable.
 //!
-//! A compile declares each deviation that it chose; the verifier measures the program and holds what it finds against
-//! these, and these against bounds of its own.
+//! A compile declares each deviation that it chose. The verifier measures the program and compares its findings with these
+//! declarations, and the declarations with bounds of its own.
 
 use std::fmt;
 
@@ -13,50 +13,51 @@ use crate::units::number::fixed;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Declaration {
-    /// What it is.
+    /// Kind of deviation.
     pub kind: Kind,
-    /// The cut that it is of: its place among the cuts of the marker, from 0.
+    /// Index of its cut among the cuts of the marker, from 0.
     pub cut: u32,
-    /// From where to where along that cut, mm from its start as it is drawn.
+    /// Start of the affected stretch, mm from the start of the cut as drawn.
     pub from_mm: f64,
-    /// See `from_mm`; on a closed cut it may be the lesser of both.
+    /// End of the affected stretch, as `from_mm`; may be less than `from_mm` on a closed cut.
     pub to_mm: f64,
-    /// The end of the cut stretch that it is at.
+    /// End of the cut stretch at which it occurs; `None` when it is not at an end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<Which>,
-    /// The part that it is in: the place of the piece in the marker, from 0.
+    /// Part in which it occurs: index of the piece in the marker, from 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<u32>,
-    /// How much it is, mm; what that measures is said by the kind.
+    /// Magnitude, mm, as defined by the kind.
     pub magnitude_mm: f64,
 }
 
-/// What a deviation is.
+/// Kind of a deviation; it defines the meaning of the magnitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// An overlap that lies in a part, as the profile asks: how deep at the most.
+    /// An overlap that lies in a part, as the profile requires. Magnitude: maximum depth.
     Overcut,
-    /// An overlap that is shorter than the profile asks for: by how much.
+    /// An overlap that is shorter than the profile requires. Magnitude: missing length.
     Shortened,
-    /// A plunge on a curve: how far blade and line are apart.
+    /// A plunge on a curve. Magnitude: distance between blade and line.
     Plunge,
-    /// A plunge cut that is longer than its line and has no room: how deep the rest lies in a part.
+    /// A plunge cut longer than its line, without room. Magnitude: depth of the excess in a part.
     Surplus,
-    /// The body of the blade on a curve that is tighter than it, or at a bend without a lift: how far it leaves the line.
+    /// The body of the blade on a curve tighter than the blade, or at a bend without a lift. Magnitude: distance from the line.
     Swing,
-    /// A plunge amid a line whose tip then moves no farther than smoothing may move it: the length of its cut.
+    /// A plunge in the middle of a line after which the tip moves no farther than smoothing may move it. Magnitude: length of
+    /// its cut.
     Nibbled,
-    /// A plunge or a lift where the drawing has no end: nothing.
+    /// A plunge or a lift where the drawing has no end. Magnitude: 0.
     Lift,
 }
 
 impl Kind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Self; 7] =
         [Self::Overcut, Self::Shortened, Self::Plunge, Self::Surplus, Self::Swing, Self::Nibbled, Self::Lift];
 
-    /// What one is, and what many are, in words.
+    /// Name of the kind in words, singular and plural.
     pub fn words(self) -> [&'static str; 2] {
         match self {
             Self::Overcut => ["overlap into a part", "overlaps into parts"],
@@ -70,23 +71,23 @@ impl Kind {
     }
 }
 
-/// All declarations of a kind, summed up.
+/// Summary of all declarations of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Total {
     /// The kind.
     pub kind: Kind,
-    /// How many there are.
+    /// Number of declarations.
     pub count: usize,
-    /// Of how many pieces.
+    /// Number of pieces with such a declaration.
     pub pieces: usize,
-    /// The greatest of them, mm; what it measures is said by the kind.
+    /// Greatest magnitude, mm, as defined by the kind.
     pub worst_mm: f64,
-    /// The number of the piece that this is of.
+    /// Number of the piece with the greatest magnitude.
     pub piece: u32,
-    /// The copy of the marker that this is of, from 1; 0, and not there, where there is but one.
+    /// Copy of the marker with the greatest magnitude, from 1; 0, and omitted, when there is only one copy.
     #[serde(skip_serializing_if = "is_only")]
     pub copy: u32,
-    /// Where it begins, mm.
+    /// Start of the stretch with the greatest magnitude, mm.
     pub at_mm: [f64; 2],
 }
 
@@ -115,9 +116,9 @@ fn is_only(copy: &u32) -> bool {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Which {
-    /// Where it is plunged.
+    /// The plunge.
     Start,
-    /// Where it is lifted.
+    /// The lift.
     End,
 }
 

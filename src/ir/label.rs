@@ -1,4 +1,4 @@
-//! A text of a piece.
+//! Texts of pieces.
 
 use crate::geom::{Heading, Point};
 use crate::source::Span;
@@ -6,12 +6,12 @@ use crate::source::Span;
 /// A text that belongs to a piece; never cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// Where it stands; `None` when the file gives no place.
+    /// Position; `None` when the file gives none.
     pub at: Option<Point>,
-    /// Its direction, when the file gives a second point.
+    /// Direction; `None` when the file gives no second point.
     pub heading: Option<Heading>,
-    /// The bytes of the text in the source.
+    /// Bytes of the text in the source.
     pub span: Span,
-    /// The bytes of the form that it takes on mirrored pieces, when the file gives one.
+    /// Bytes of the form for mirrored pieces; `None` when the file gives none.
     pub mirrored: Option<Span>,
 }

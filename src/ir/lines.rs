@@ -1,33 +1,33 @@
-//! Lines of a segment list as they were appended, with their monotone chains and the boxes around these.
+//! Lines of a segment list as they were appended, with their monotone chains and the boxes of the chains.
 //!
-//! Most passes ask for chains, and most lines stay as they were appended.
+//! Most passes need the chains, and most lines are never edited.
 
 use std::borrow::Cow;
 
 use crate::geom::monotone::{self, Chain};
 use crate::geom::{Extent, Point};
 
-/// Usual number of segments of a chain, for the room that is made.
+/// Typical number of segments per chain, used to reserve capacity.
 const SEGMENTS_A_CHAIN: usize = 8;
 
-/// Monotone chains of some points.
+/// Monotone chains of a polyline.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chains<'a> {
-    /// The chains, as indices of the points.
+    /// The chains, as point indices.
     pub all: Cow<'a, [Chain]>,
-    /// The box around each.
+    /// Bounding box of each chain.
     pub boxes: Cow<'a, [Extent]>,
 }
 
 impl Chains<'_> {
-    /// Chains of a line.
+    /// The chains of a polyline.
     pub(super) fn of(points: &[Point]) -> Self {
         let (all, boxes): (Vec<_>, Vec<_>) =
             monotone::chains(points).map(|chain| (chain, chain.extent(points))).unzip();
         Self { all: all.into(), boxes: boxes.into() }
     }
 
-    /// Chains with their boxes.
+    /// The chains with their boxes.
     pub fn each(&self) -> impl Iterator<Item = (&Chain, &Extent)> {
         self.all.iter().zip(&*self.boxes)
     }
@@ -41,34 +41,34 @@ pub(super) struct LineId(u32);
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lines {
     all: Vec<Line>,
-    /// The chains of all, as indices of the points of their line.
+    /// Chains of all lines, as point indices of their line.
     chains: Vec<Chain>,
-    /// The box around each.
+    /// Bounding box of each chain.
     boxes: Vec<Extent>,
 }
 
-/// A line.
+/// A line as it was appended.
 #[derive(Debug, Clone)]
 pub(super) struct Line {
-    /// Its first and its last segment, as ids.
+    /// Ids of its first and its last segment.
     ends: [u32; 2],
-    /// Its chains, by their places among those of all lines.
+    /// Range of its chains among those of all lines.
     chains: [u32; 2],
-    /// The box around it.
+    /// Bounding box.
     pub(super) extent: Extent,
-    /// Whether a point of it was moved since: then chains and boxes are out of date.
+    /// True once a point of it has been moved: its chains and boxes are then out of date.
     is_moved: bool,
 }
 
 impl Lines {
-    /// Makes room for more segments in some lines.
+    /// Reserves capacity for more segments in more lines.
     pub(super) fn reserve(&mut self, segments: usize, lines: usize) {
         self.all.reserve(lines);
         self.chains.reserve(segments / SEGMENTS_A_CHAIN);
         self.boxes.reserve(segments / SEGMENTS_A_CHAIN);
     }
 
-    /// Adds a line behind all others, by the ids of its first and its last segment.
+    /// Appends a line, given the ids of its first and its last segment.
     pub(super) fn add(&mut self, ends: [u32; 2], points: &[Point]) -> LineId {
         let first = self.chains.len();
         self.chains.extend(monotone::chains(points));
@@ -80,7 +80,7 @@ impl Lines {
         LineId(self.all.len() as u32 - 1)
     }
 
-    /// The line with these ends, unless a point of it was moved.
+    /// The line with these ends; `None` once a point of it has been moved.
     pub(super) fn get(&self, LineId(id): LineId, ends: [u32; 2]) -> Option<&Line> {
         self.all.get(id as usize).filter(|line| line.ends == ends && !line.is_moved)
     }
@@ -91,7 +91,7 @@ impl Lines {
         Chains { all: Cow::Borrowed(&self.chains[first..end]), boxes: Cow::Borrowed(&self.boxes[first..end]) }
     }
 
-    /// Forgets the chains of a line of which a point is moved: the end of that segment, or the start of the next one.
+    /// Marks the chains of a line as out of date when the end of segment `id`, or the start of the next one, is moved.
     pub(super) fn forget(&mut self, id: u32) {
         let place = self.all.partition_point(|line| line.ends[1] < id);
         if let Some(line) = self.all.get_mut(place).filter(|line| line.ends[0] <= id + 1) {
@@ -99,7 +99,7 @@ impl Lines {
         }
     }
 
-    /// Forgets all lines, as all points are moved.
+    /// Drops all lines, because all points are moved.
     pub(super) fn clear(&mut self) {
         self.all.clear();
         self.chains.clear();

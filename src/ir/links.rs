@@ -1,11 +1,11 @@
-//! Who stands beside whom in the segment list, as ids.
+//! Neighbours in the segment list, as ids.
 //!
-//! Nearly all segments stay where they were appended, between the ones with the next lower and the next higher id: a large
-//! marker that nothing moves in needs no room for links.
+//! Nearly all segments stay between the segments with the next lower and the next higher id, as they were appended. A large
+//! marker that is never edited needs no memory for links.
 
 use super::scattered::Scattered;
 
-/// The neighbours of a segment.
+/// Neighbours of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Link {
     pub(super) prev: u32,
@@ -13,25 +13,25 @@ pub(super) struct Link {
 }
 
 impl Link {
-    /// Of a segment that stands where it was appended. (What is beside the ends of a range nobody asks.)
+    /// The neighbours of a segment in its original position. Neighbours beyond the ends of a range are never read.
     pub(super) fn in_order(id: u32) -> Self {
         Self { prev: id.wrapping_sub(1), next: id.wrapping_add(1) }
     }
 }
 
-/// The neighbours of all segments.
+/// Neighbours of all segments.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Links {
     moved: Scattered<Link>,
 }
 
 impl Links {
-    /// The neighbours of a segment.
+    /// Neighbours of a segment.
     pub(super) fn of(&self, id: u32) -> Link {
         self.moved.get(id).unwrap_or(Link::in_order(id))
     }
 
-    /// Puts `next` right behind `prev`.
+    /// Links `next` directly after `prev`.
     pub(super) fn join(&mut self, prev: u32, next: u32) {
         self.moved.get_mut(prev, Link::in_order).next = next;
         self.moved.get_mut(next, Link::in_order).prev = prev;

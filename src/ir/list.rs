@@ -1,10 +1,10 @@
-//! The doubly linked segment list: data in vectors, order as ids of neighbours beside them.
+//! The doubly linked segment list: data in vectors, order as neighbour ids beside them.
 //!
-//! The segments of a range join, since each is kept as its end alone; links are kept only where something was moved,
-//! and what the file asks for only where it asks for something: twenty-eight bytes, and some five for the monotone chains that
-//! passes ask for, since large markers are as slow to read as they are large in memory. Ids are never reused. Nobody
-//! outside this file sees a link; others walk a [`Range`] or edit through a [`Cursor`], whose every operation takes
-//! constant time.
+//! Consecutive segments of a range share a point, so only the end of each is stored. Links are stored only where something was
+//! moved, and requests of the file only where there are any. A segment takes twenty-eight bytes, plus about five for the
+//! monotone chains that passes need; the size matters because reading time of large markers grows with their memory. Ids are
+//! never reused. Links are private to this file: other modules walk a [`Range`] or edit through a [`Cursor`], whose operations
+//! all take constant time.
 
 use std::borrow::Cow;
 
@@ -14,35 +14,35 @@ use super::scattered::Scattered;
 use crate::geom::{Extent, Point};
 use crate::source::Span;
 
-/// A straight piece of a contour as the file says it, mm.
+/// A straight piece of a contour as given by the file, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Where it starts.
+    /// Start point.
     pub from: Point,
-    /// Where it ends.
+    /// End point.
     pub to: Point,
-    /// The block that its end came from.
+    /// Source block of its end.
     pub span: Span,
-    /// What the file asks for where it starts.
+    /// Requests of the file at its start.
     pub joint: Joint,
-    /// Its speed in percent of the speed of the piece, 1 to 100.
+    /// Speed in percent of the speed of the piece, 1 to 100.
     pub percent: u8,
 }
 
-/// [`Segment::percent`] where the file asks for nothing.
+/// [`Segment::percent`] where the file requests no speed.
 pub const FULL_SPEED: u8 = 100;
 
-/// What the file asks for at the joint where a segment starts.
+/// Requests of the file at the joint where a segment starts.
 ///
-/// The joint of a contour's first segment speaks for both of its ends, open or closed: `full_advance` for the plunge at
-/// the start, `no_overcut` for the lift at the end.
+/// The joint of a contour's first segment applies to both ends of the contour, open or closed: `full_advance` to the plunge at
+/// the start, `no_overcut` to the lift at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Joint {
-    /// The knife is lifted here whatever the angle (a lift that the file writes, or M46).
+    /// Lift the knife here at any angle (an explicit lift in the file, or M46).
     pub lift: bool,
-    /// The plunge here goes without heel overlap (M17, M19).
+    /// Plunge here without heel overlap (M17, M19).
     pub full_advance: bool,
-    /// The lift here goes without front overlap (M18, M19).
+    /// Lift here without front overlap (M18, M19).
     pub no_overcut: bool,
 }
 
@@ -52,49 +52,49 @@ impl Segment {
         (self.to - self.from).norm()
     }
 
-    /// Whether the file asks for anything on it.
+    /// True if the file requests anything on it.
     fn asks(&self) -> bool {
         let Joint { lift, full_advance, no_overcut } = self.joint;
         lift || full_advance || no_overcut || self.percent != FULL_SPEED
     }
 }
 
-/// Names a segment of one [`SegmentList`].
+/// Id of a segment in one [`SegmentList`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SegmentId(u32);
 
-/// What the file asks for on a segment.
+/// Requests of the file on a segment.
 #[derive(Debug, Clone, Copy)]
 struct Asked {
     joint: Joint,
     percent: u8,
 }
 
-/// As most files do on nearly all of their segments.
+/// No requests: the usual case.
 const NOTHING_ASKED: Asked =
     Asked { joint: Joint { lift: false, full_advance: false, no_overcut: false }, percent: FULL_SPEED };
 
-/// The id of the node at a place of the list.
+/// The id of the node at an index of the list.
 fn id(place: usize) -> SegmentId {
     assert!(place < u32::MAX as usize, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
     SegmentId(place as u32)
 }
 
-/// A contour's part of the list: from its first segment to its last, walked in one of two directions. A copy that was made
-/// before the range was edited is worth nothing.
+/// A contour's part of the list, from its first segment to its last, in one of two directions. A copy made before the range was
+/// edited is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
     first: SegmentId,
     last: SegmentId,
     backward: bool,
-    /// Whether its segments stand beside each other as they were appended.
+    /// True if its segments are adjacent in their original order.
     in_order: bool,
-    /// Name of the line as which it was appended.
+    /// Id of the line under which the range was appended; `None` for a range that is not such a line.
     line: Option<LineId>,
 }
 
 impl Range {
-    /// The same segments, walked the other way.
+    /// The same segments in reverse.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self { backward: !self.backward, ..self }
@@ -104,27 +104,26 @@ impl Range {
 /// All segments of a marker.
 #[derive(Debug, Clone, Default)]
 pub struct SegmentList {
-    /// Where each ends; where it starts, the one before it ends. In front of the first segment of a range stands a node
-    /// that is none: its end is where the range starts.
+    /// End point of each segment; the segment starts where the previous one ends. A sentinel node precedes each range and
+    /// stores its start point.
     ends: Vec<Point>,
-    /// The block that each end came from.
+    /// Source block of each end point.
     spans: Vec<Span>,
     asked: Scattered<Asked>,
     links: Links,
-    /// Lines that [`SegmentList::append_line`] made, with their chains.
+    /// Lines appended by [`SegmentList::append_line`], with their chains.
     lines: Lines,
 }
 
 impl SegmentList {
-    /// Makes room for so many more segments in so many ranges.
+    /// Reserves capacity for more segments in more ranges.
     pub fn reserve(&mut self, segments: usize, ranges: usize) {
         self.ends.reserve(segments + ranges);
         self.spans.reserve(segments + ranges);
         self.lines.reserve(segments, ranges);
     }
 
-    /// Appends a chain of segments, each of which starts where the one before it ends, as a range of its own; `None` when
-    /// there are none.
+    /// Appends a chain of connected segments as a new range; `None` when the chain is empty.
     pub fn append(&mut self, chain: impl IntoIterator<Item = Segment, IntoIter: Clone>) -> Option<Range> {
         let chain = chain.into_iter();
         let start = chain.clone().next()?.from;
@@ -137,7 +136,7 @@ impl SegmentList {
         );
         self.spans.push(Span::default());
         self.spans.extend(chain.clone().map(|segment| segment.span));
-        // Mostly nothing is, and to see that takes less time than to keep it.
+        // Usually there are no requests, and checking is faster than storing.
         if chain.clone().any(|segment| segment.asks()) {
             for (Segment { joint, percent, .. }, place) in chain.zip(front + 1..) {
                 *self.asked_mut(id(place)) = Asked { joint, percent };
@@ -147,8 +146,8 @@ impl SegmentList {
         Some(Range { first, last, backward: false, in_order: true, line: None })
     }
 
-    /// Appends the segments between points as a range of their own; `None` when there are none. Beside each point
-    /// stands the block that it came from; the file asks for nothing on them.
+    /// Appends the polyline through some points as a new range; `None` for fewer than two points. `spans` has the source block
+    /// of each point. The segments have no requests.
     pub fn append_line(&mut self, points: &[Point], spans: &[Span]) -> Option<Range> {
         let (_, [_, ..]) = points.split_first()? else { return None };
         debug_assert_eq!(points.len(), spans.len(), "a block stands beside each point");
@@ -161,36 +160,37 @@ impl SegmentList {
         Some(Range { first, last, backward: false, in_order: true, line: Some(line) })
     }
 
-    /// The box around a range, mm. Of most it is known.
+    /// Bounding box of a range, mm; precomputed for most ranges.
     pub fn extent(&self, range: Range) -> Extent {
         self.known(range).map_or_else(|| Extent::of(&self.points(range)), |line| line.extent)
     }
 
-    /// The monotone chains of a range in its direction. Of most ranges they are known.
+    /// Monotone chains of a range in its direction; precomputed for most ranges.
     pub fn chains(&self, range: Range) -> Chains<'_> {
         self.known(range).map_or_else(|| Chains::of(&self.points(range)), |line| self.lines.chains(line))
     }
 
-    /// Line of a range that still stands as it was appended.
+    /// The line of a range that is still in its original order; otherwise `None`.
     fn known(&self, range: Range) -> Option<&Line> {
         let Range { first, last, backward, in_order, line } = range;
         line.filter(|_| in_order && !backward).and_then(|line| self.lines.get(line, [first.0, last.0]))
     }
 
-    /// Moves every point.
+    /// Applies a map to every point.
     pub fn move_points(&mut self, to: impl Fn(Point) -> Point) {
         self.lines.clear();
         self.ends.iter_mut().for_each(|end| *end = to(*end));
     }
 
-    /// Walks a range in its direction. A segment that is walked backward comes out turned round.
+    /// Walks a range in its direction. Segments walked backward are reversed.
     pub fn walk(&self, range: Range) -> Walk<'_> {
         let (at, end) = if range.backward { (range.last, range.first) } else { (range.first, range.last) };
         Walk { list: self, range, at: Some(at), from: self.start(range), end }
     }
 
-    /// The points of a range in its direction: one more than its segments. Nearly all ranges have them side by side.
-    #[inline] // every stage asks for those of every outline
+    /// The points of a range in its direction, one more than its segments. They are borrowed where they are adjacent, as in
+    /// nearly all ranges.
+    #[inline] // every stage needs the points of every outline
     pub fn points(&self, range: Range) -> Cow<'_, [Point]> {
         if range.in_order && !range.backward {
             Cow::Borrowed(&self.ends[range.first.0 as usize - 1..=range.last.0 as usize])
@@ -201,13 +201,13 @@ impl SegmentList {
 
     fn gathered(&self, range: Range) -> Vec<Point> {
         let nodes = || self.nodes(range);
-        // Counted first: large markers have little room for what a vector grows by.
+        // Count first: large markers leave little memory for the growth of a vector.
         let mut points = Vec::with_capacity(nodes().count());
         points.extend(nodes().map(|id| self.ends[id as usize]));
         points
     }
 
-    /// The blocks that the segments of a range came from, in its direction.
+    /// Source blocks of the segments of a range, in its direction.
     pub fn spans(&self, range: Range) -> Cow<'_, [Span]> {
         if range.in_order && !range.backward {
             return Cow::Borrowed(&self.spans[range.first.0 as usize..=range.last.0 as usize]);
@@ -215,7 +215,8 @@ impl SegmentList {
         self.walk(range).map(|(_, segment)| segment.span).collect()
     }
 
-    /// The points of a range in its direction, each with the span of the segment that leads there; to the first none does.
+    /// The points of a range in its direction, each with the span of the segment that leads there; the default span for the
+    /// first.
     pub fn vertices(&self, range: Range) -> impl Iterator<Item = (Point, Span)> {
         let mut before = Span::default();
         self.nodes(range).map(move |id| {
@@ -232,17 +233,17 @@ impl SegmentList {
         points.filter_map(move |point| before.replace(point).map(|before| [before, point]))
     }
 
-    /// The two ends of a segment, in the order of the list.
+    /// The two ends of a segment, in list order.
     pub fn ends(&self, SegmentId(id): SegmentId) -> [Point; 2] {
         [self.links.of(id).prev, id].map(|id| self.ends[id as usize])
     }
 
-    /// Where a range starts and where it ends, in its direction.
+    /// Start and end of a range, in its direction.
     pub fn ends_of(&self, range: Range) -> [Point; 2] {
         [self.start(range), self.start(range.reversed())]
     }
 
-    /// Where a range starts, in its direction.
+    /// Start of a range, in its direction.
     fn start(&self, range: Range) -> Point {
         let id = if range.backward { range.last.0 } else { self.front(range) };
         self.ends[id as usize]
@@ -256,7 +257,7 @@ impl SegmentList {
         self.asked.get_mut(id, |_| NOTHING_ASKED)
     }
 
-    /// The node in front of the first segment of a range.
+    /// The sentinel node before the first segment of a range.
     fn front(&self, range: Range) -> u32 {
         self.beside(range, range.first.0).prev
     }
@@ -266,7 +267,7 @@ impl SegmentList {
         if range.in_order { Link::in_order(id) } else { self.links.of(id) }
     }
 
-    /// The nodes of a range in its direction: one more than its segments.
+    /// The nodes of a range in its direction, one more than its segments.
     fn nodes(&self, range: Range) -> impl Iterator<Item = u32> {
         let front = self.front(range);
         let (start, end) = if range.backward { (range.last.0, front) } else { (front, range.last.0) };
@@ -276,8 +277,8 @@ impl SegmentList {
         })
     }
 
-    /// Makes one range of two: `first`, then `second`, in the direction that both are walked in. `None`, and nothing
-    /// changed, when their directions differ, they are the same range or do not meet.
+    /// Joins two ranges into one: `first`, then `second`, in their common direction. `None`, without any change, when their
+    /// directions differ, they are the same range or they do not meet.
     pub fn join(&mut self, first: Range, second: Range) -> Option<Range> {
         if first.backward != second.backward || first.first == second.first {
             return None;
@@ -290,13 +291,13 @@ impl SegmentList {
         Some(Range { first: ahead.first, last: behind.last, backward: first.backward, in_order: false, line: None })
     }
 
-    /// A cursor on the first segment of a range, in the order of the list.
+    /// A cursor on the first segment of a range, in list order.
     pub fn cursor<'a>(&'a mut self, range: &'a mut Range) -> Cursor<'a> {
         let at = range.first;
         Cursor { list: self, range, at }
     }
 
-    /// Whether the links between the ends of a range agree in both directions and lead from its first to its last.
+    /// True if the links within a range agree in both directions and lead from its first segment to its last.
     pub fn is_linked(&self, range: Range) -> bool {
         let mut at = self.links.of(range.first.0).prev;
         if self.links.of(at).next != range.first.0 {
@@ -323,7 +324,7 @@ pub struct Walk<'a> {
     list: &'a SegmentList,
     range: Range,
     at: Option<SegmentId>,
-    /// Where that one starts.
+    /// Start of the segment `at`.
     from: Point,
     end: SegmentId,
 }
@@ -337,8 +338,8 @@ impl Iterator for Walk<'_> {
         let span = self.list.spans[id.0 as usize];
         let Asked { mut joint, percent } = self.list.asked(id);
         let (to, following) = if self.range.backward {
-            // Turned round it starts at the joint that its successor in the list starts with; the contour's own end, which
-            // has no successor, shares its joint with the start.
+            // Reversed, a segment starts at the joint of its successor in the list. The last segment has no successor: the
+            // contour's end shares the joint of its start.
             let after = if id == self.range.last { self.range.first } else { SegmentId(next) };
             joint = self.list.asked(after).joint;
             (prev, prev)
@@ -352,7 +353,7 @@ impl Iterator for Walk<'_> {
     }
 }
 
-/// Edits a range in place; stands on one segment of it.
+/// Edits a range in place; positioned on one of its segments.
 #[derive(Debug)]
 pub struct Cursor<'a> {
     list: &'a mut SegmentList,
@@ -369,25 +370,25 @@ impl Cursor<'_> {
         Segment { from, to, span, joint, percent }
     }
 
-    /// Where the segment under the cursor starts and the one before it ends, to change.
+    /// Start of the current segment, which is also the end of the previous one, for modification.
     pub fn from_mut(&mut self) -> &mut Point {
         let before = self.link().prev;
         self.list.lines.forget(before);
         &mut self.list.ends[before as usize]
     }
 
-    /// Where the segment under the cursor ends and the next one starts, to change.
+    /// End of the current segment, which is also the start of the next one, for modification.
     pub fn to_mut(&mut self) -> &mut Point {
         self.list.lines.forget(self.at.0);
         &mut self.list.ends[self.at.0 as usize]
     }
 
-    /// What the file asks for where the segment under the cursor starts, to change.
+    /// Requests of the file at the start of the current segment, for modification.
     pub fn joint_mut(&mut self) -> &mut Joint {
         &mut self.list.asked_mut(self.at).joint
     }
 
-    /// The speed of the segment under the cursor, to change.
+    /// Speed of the current segment in percent, for modification.
     pub fn percent_mut(&mut self) -> &mut u8 {
         &mut self.list.asked_mut(self.at).percent
     }
@@ -405,12 +406,12 @@ impl Cursor<'_> {
         true
     }
 
-    /// Whether the segment under the cursor is the last in list order.
+    /// True if the current segment is the last in list order.
     pub fn is_last(&self) -> bool {
         self.at == self.range.last
     }
 
-    /// Splits the segment under the cursor at `point`; the cursor stays on the first part.
+    /// Splits the current segment at `point` and returns the id of the second part; the cursor stays on the first.
     pub fn split(&mut self, point: Point) -> SegmentId {
         let Asked { percent, .. } = self.list.asked(self.at);
         let behind = id(self.list.ends.len());
@@ -433,15 +434,15 @@ impl Cursor<'_> {
         behind
     }
 
-    /// Takes the segment under the cursor out and moves to the next one, or to the one before when it was the last. One
-    /// that others stand around is bridged by the next. `false`, and nothing changed, when it is the only one.
+    /// Removes the current segment and moves to the next one, or to the previous one at the end. A gap inside the range is
+    /// bridged by the next segment. `false`, without any change, for the only segment.
     pub fn remove(&mut self) -> bool {
         let Link { prev, next } = self.link();
         let [prev, next] = [prev, next].map(SegmentId);
         match (self.at == self.range.first, self.is_last()) {
             (true, true) => return false,
             (false, true) => (self.range.last, self.at) = (prev, prev),
-            // It ends where the range now starts: that makes it the node in front.
+            // The removed segment ends where the range now starts, so it becomes the sentinel node.
             (true, false) => (self.range.first, self.at) = (next, next),
             (false, false) => {
                 self.list.links.join(prev.0, next.0);

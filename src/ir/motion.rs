@@ -1,7 +1,7 @@
-//! When the axes are where: the timed form.
+//! Motion of the axes over time: the timed form.
 //!
-//! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and says what the outputs are
-//! from its first tick until the next phase begins; the pose at tick `i` is that at time `i * period`.
+//! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and defines the outputs from its first
+//! tick until the next phase begins; the pose at tick `i` is the pose at time `i * period`.
 
 mod poses;
 
@@ -12,79 +12,79 @@ use super::toolpath::{Edge, Event, OrientationMode, Overcut, Pose, Side};
 /// The phases of one toolpath, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Motion {
-    /// The number of the piece that it belongs to.
+    /// Number of its piece.
     pub piece: u32,
-    /// The place of that piece in the marker, from 0: numbers may come again.
+    /// Index of that piece in the marker, from 0; piece numbers may repeat.
     pub part: u32,
-    /// Tick at which its first phase begins, counted from the start of the program.
+    /// Tick of the start of its first phase, counted from the start of the program.
     pub first_tick: u64,
-    /// Steps of the program before its first.
+    /// Number of steps of the program before its first one.
     pub first_step: u64,
-    /// Time that the program took before its first phase, not stretched to whole periods, s.
+    /// Duration of the program before its first phase, before rounding up to whole periods, s.
     pub first_time: f64,
     /// The phases.
     pub phases: Vec<Phase>,
-    /// What each plunge and each drill in them is for, in order.
+    /// Task of each plunge and each drill in the phases, in order.
     pub tasks: Vec<Task>,
 }
 
-/// What a plunge or a drill is for.
+/// Task of a plunge or a drill.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Task {
     /// The first and the last source block that it cuts or drills.
     pub blocks: [u32; 2],
-    /// How far the tip goes past the end, mm; 0 for a drill.
+    /// Length of the tip's path past the end, mm; 0 for a drill.
     pub front: f64,
-    /// How far the heel starts before the start, mm; 0 for a drill.
+    /// Distance of the heel before the start, mm; 0 for a drill.
     pub heel: f64,
-    /// Where the overlaps of start and end go.
+    /// Direction of the overlaps at start and end.
     pub sides: [Side; 2],
-    /// Whether it is cut the other way round than the file has it.
+    /// True if it is cut in reverse to the file.
     pub turned: bool,
-    /// The edge of the blade that goes first.
+    /// Leading edge of the blade.
     pub edge: Edge,
-    /// How far the blade of a plunge cut cuts into parts before the start and past the end.
+    /// Depth of a plunge cut in parts before its start and past its end.
     pub overcut: [Overcut; 2],
-    /// How the blade lies on the way of a cut; `None` when it only plunges, and for a drill.
+    /// Orientation of the blade along a cut; `None` for a plunge without motion and for a drill.
     pub orientation: Option<OrientationMode>,
 }
 
-/// A stretch of time in which the outputs do not change.
+/// A period of time with constant outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
-    /// What happens.
+    /// Kind of activity.
     pub kind: Kind,
     /// Number of periods; at least 1.
     pub ticks: u32,
-    /// Where the axes are at its ticks.
+    /// Poses of the axes at its ticks.
     pub poses: Poses,
-    /// The source blocks being cut, in order; none when the knife is up.
+    /// Source blocks being cut, in order; empty when the knife is up.
     pub spells: Vec<Spell>,
-    /// Time before it was stretched to whole periods, s.
+    /// Duration before rounding up to whole periods, s.
     pub duration: f64,
-    /// Way of the tip in a cut, of the C axis in the air, mm.
+    /// Length of the path, mm: of the tip in a cut, of the C axis in the air.
     pub length: f64,
-    /// Way of the cloth so far, mm: X on the cloth less X on the table.
+    /// Advance of the cloth so far, mm: X on the cloth minus X on the table.
     pub station: u32,
 }
 
-/// The ticks of a phase in which one source block is being cut: from its first one until the next spell begins.
+/// The ticks of a phase in which one source block is being cut, from `first` until the next spell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Spell {
-    /// The first tick, counted from the start of the phase; 0 in the first spell.
+    /// First tick, counted from the start of the phase; 0 in the first spell.
     pub first: u32,
-    /// The block.
+    /// Source block.
     pub block: u32,
 }
 
-/// What happens in a phase.
+/// Kind of activity in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Knife up, axes at rest: the end of a program.
     Rest,
-    /// Knife up, axes at rest until the blade is all the way up; the dwells of a program that keeps the knife up.
+    /// Knife up, axes at rest until the blade is fully up; also the dwells of a program that keeps the knife up.
     Wait,
-    /// Knife up, from anywhere to anywhere.
+    /// Knife up, between any two poses.
     Travel,
     /// Knife up, at a corner of a contour.
     Turn,
@@ -101,8 +101,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Number of the part of a program's time that a phase of the kind counts to: cutting, travelling, turning, plunging,
-    /// lifting, drilling, waiting.
+    /// Index of the category of program time to which a phase counts: cutting, travelling, turning, plunging, lifting,
+    /// drilling, waiting.
     pub fn part(self) -> usize {
         match self {
             Self::Cut => 0,
@@ -115,7 +115,7 @@ impl Kind {
         }
     }
 
-    /// Whether the knife is commanded down.
+    /// True if the knife is commanded down.
     pub fn knife_down(self) -> bool {
         match self {
             Self::Plunge | Self::Cut => true,
@@ -123,8 +123,8 @@ impl Kind {
         }
     }
 
-    /// Whether a step of the program begins with it: a cut goes on from its plunge to its lift, and the rest at the end
-    /// is no step.
+    /// True if a phase of the kind begins a step of the program. A cut belongs to the step of its plunge, up to its lift, and
+    /// the rest at the end is no step.
     pub fn begins_step(self) -> bool {
         match self {
             Self::Travel | Self::Turn | Self::Plunge | Self::Drill(_) | Self::Event(_) => true,
@@ -132,7 +132,7 @@ impl Kind {
         }
     }
 
-    /// What happens instead when knife and drills stay up: the axes do the same.
+    /// The kind with knife and drills kept up; the axes move as before.
     #[must_use]
     pub fn raised(self) -> Self {
         match self {
@@ -142,12 +142,12 @@ impl Kind {
         }
     }
 
-    /// The drill that is commanded, 1 to 4; 0 = none.
+    /// The commanded drill, 1 to 4; 0 = none.
     pub fn drill(self) -> u8 {
         if let Self::Drill(tool) = self { tool } else { 0 }
     }
 
-    /// The event as the setpoint formats number it: 0 none, 1 stop, 2 advance.
+    /// Code of the event in the setpoint formats: 0 none, 1 stop, 2 advance.
     pub fn event(self) -> u8 {
         match self {
             Self::Event(Event::Stop) => 1,
@@ -186,23 +186,23 @@ impl Motion {
     }
 }
 
-/// What keeps a cut from being faster.
+/// Limit that binds the speed of a cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
-    /// It has to start from rest and to come to rest.
+    /// The start from rest and the stop at the end.
     Ends,
-    /// The greatest speed of the tip.
+    /// The speed cap of the tip.
     Feed,
-    /// The greatest speed, acceleration or jerk (order 0 to 2) of x, y or c (axis 0 to 2).
+    /// The maximum speed, acceleration or jerk (order 0 to 2) of x, y or c (axis 0 to 2).
     Axis {
-        /// Which axis.
+        /// Axis: 0 = x, 1 = y, 2 = c.
         axis: u8,
-        /// Which of its limits.
+        /// Limit: 0 = speed, 1 = acceleration, 2 = jerk.
         order: u8,
     },
 }
 
-/// Every bound; the axes' own stand behind the first two, axis by axis.
+/// All bounds: the first two, then those of each axis.
 pub const BOUNDS: [Bound; 11] = {
     const fn of(axis: u8, order: u8) -> Bound {
         Bound::Axis { axis, order }
@@ -211,30 +211,30 @@ pub const BOUNDS: [Bound; 11] = {
     [Bound::Ends, Bound::Feed, of(x, 0), of(x, 1), of(x, 2), of(y, 0), of(y, 1), of(y, 2), of(c, 0), of(c, 1), of(c, 2)]
 };
 
-/// How many ticks each bound decides.
+/// Number of ticks bound by each limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Shares([u64; BOUNDS.len()]);
 
 impl Shares {
-    /// Counts more ticks of a bound.
+    /// Adds ticks of a bound.
     pub fn add(&mut self, bound: Bound, ticks: u64) {
         self.0[place(bound)] += ticks;
     }
 
-    /// Counts what another cut counted.
+    /// Adds the counts of another cut.
     pub fn merge(&mut self, other: &Self) {
         for (sum, more) in self.0.iter_mut().zip(other.0) {
             *sum += more;
         }
     }
 
-    /// The ticks of a bound.
+    /// Number of ticks of a bound.
     pub fn of(&self, bound: Bound) -> u64 {
         self.0[place(bound)]
     }
 }
 
-/// Where a bound stands in [`BOUNDS`].
+/// Index of a bound in [`BOUNDS`].
 fn place(bound: Bound) -> usize {
     match bound {
         Bound::Ends => 0,

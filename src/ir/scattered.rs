@@ -1,14 +1,14 @@
-//! Values of ids of which nearly all have the usual one, such as the neighbours of a segment.
+//! Sparse values by id: nearly all ids have a default, such as the original neighbours of a segment.
 //!
-//! Only blocks of ids in which one is not as usual are kept: a large marker in which all are needs no room for them.
+//! Only blocks that contain another value are stored. A large marker with defaults only needs no memory for them.
 
-/// Ids of a block.
+/// Number of ids per block.
 const BLOCK: usize = 1024;
 
 /// Values by id.
 #[derive(Debug, Clone)]
 pub(super) struct Scattered<T> {
-    /// A block is empty as long as all of its values are the usual ones.
+    /// Blocks of values; a block is empty while all of its values are defaults.
     blocks: Vec<Vec<T>>,
 }
 
@@ -19,13 +19,13 @@ impl<T> Default for Scattered<T> {
 }
 
 impl<T: Copy> Scattered<T> {
-    /// The value of an id; `None` = the usual one, as far as is known.
+    /// The value of an id; `None` in a block with defaults only.
     pub(super) fn get(&self, id: u32) -> Option<T> {
         let block = self.blocks.get(id as usize / BLOCK);
         block.and_then(|block| block.get(id as usize % BLOCK)).copied()
     }
 
-    /// The value of an id, to change; `usual` gives those of all ids beside it.
+    /// The value of an id, for modification; `usual` gives the default of each id in its block.
     pub(super) fn get_mut(&mut self, id: u32, usual: impl Fn(u32) -> T) -> &mut T {
         let place = id as usize / BLOCK;
         if self.blocks.len() <= place {

@@ -1,16 +1,16 @@
-//! What the knife does, untimed: a sequence of steps.
+//! Work of the knife, untimed: a sequence of steps.
 //!
-//! A toolpath holds the steps of one contour, notch or drill: the pipeline makes, plans and emits them one after the
-//! other, so that a program of any length needs little memory. It holds polylines; smooth curves belong to `plan`.
+//! A toolpath holds the steps of one contour, notch or drill. The pipeline makes, plans and emits toolpaths one by one, so that
+//! a program of any length needs little memory. Toolpaths hold polylines; smooth curves belong to `plan`.
 
 use super::list::Joint;
 use crate::geom::{Point, Rotation, Vector, polyline};
 use crate::source::Span;
 
-/// Where the axes stand: the C axis over the table, and its position.
+/// Pose of the axes: the position of the C axis over the table, and of C.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// The C axis, mm.
+    /// Position of the C axis, mm.
     pub centre: Point,
     /// Position of C.
     pub c: Rotation,
@@ -37,21 +37,21 @@ impl Default for Pose {
 /// The steps of one contour, notch or drill, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Toolpath {
-    /// The number of the piece that it belongs to.
+    /// Number of its piece.
     pub piece: u32,
-    /// The place of that piece in the marker, from 0: numbers may come again.
+    /// Index of that piece in the marker, from 0; piece numbers may repeat.
     pub part: u32,
     /// Permitted deviation of the tip, mm.
     pub tolerance: f64,
-    /// Where the axes stand before the first step, as far as it is known before planning.
+    /// Pose before the first step, as far as it is known before planning.
     pub entry: Pose,
     /// The steps.
     pub steps: Vec<Step>,
 }
 
 impl Toolpath {
-    /// Where the axes stand behind the last step over the cloth, as far as it is known before planning: where that is moved
-    /// on, they come to stand as much farther on it.
+    /// Nominal pose after the last step, in coordinates of the cloth, as far as it is known before planning. An advance of the
+    /// cloth moves it on along the cloth by the same length.
     pub fn exit(&self) -> Pose {
         let mut advance = 0;
         let end = |step: &Step| match step {
@@ -77,73 +77,73 @@ impl Toolpath {
     }
 }
 
-/// One thing that the machine does.
+/// One action of the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
     /// Plunge, follow a path with the knife down, lift.
     Run(Run),
     /// One plunge without motion.
     PlungeCut(PlungeCut),
-    /// Knife up, C to the next heading and the centre to the next start, at a corner inside a contour.
+    /// Knife up, at a corner inside a contour: C to the next heading and the C axis to the next start.
     Turn(Air),
-    /// Knife up, from anywhere to anywhere.
+    /// Knife up, between any two poses.
     Travel(Air),
     /// A hole.
     Drill(Drill),
-    /// Something for the controller or the operator.
+    /// A signal to the controller or the operator.
     Event(Event),
 }
 
-/// A move with the knife up. Its ends are nominal: `plan` goes between the states that the runs really have.
+/// A move with the knife up. Its ends are nominal: `plan` moves between the actual states of the runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
-    /// Where it starts.
+    /// Start.
     pub from: Pose,
-    /// Where it ends.
+    /// End.
     pub to: Pose,
 }
 
 /// A path between two corners, cut without lifting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The polyline as the file has it, mm: no overlaps. A closed run ends with its first point.
+    /// The polyline as given by the file, mm, without overlaps. A closed run ends with its first point.
     pub points: Vec<Point>,
-    /// The block of each chord: one less than points.
+    /// Source block of each chord; one fewer than points.
     pub spans: Vec<Span>,
-    /// What the file asks for at each point.
+    /// Requests of the file at each point.
     pub joints: Vec<Joint>,
-    /// How it begins and ends.
+    /// Open, or a ring.
     pub shape: Shape,
-    /// How the blade lies on curves.
+    /// Orientation of the blade on curves.
     pub orientation: OrientationMode,
-    /// How far the tip goes past the end, mm.
+    /// Length of the tip's path past the end, mm.
     pub front: f64,
-    /// How far the heel starts before the start, mm; without meaning on a closed run.
+    /// Distance of the heel before the start, mm; unused on a closed run.
     pub heel: f64,
-    /// Greatest speed of the tip on each chord, mm/s; infinite when nothing caps it.
+    /// Speed cap of the tip on each chord, mm/s; infinite without a cap.
     pub feeds: Vec<f64>,
-    /// The chords about which it crosses cuts of other parts; the tip keeps nearer to these. Empty = none.
+    /// True for each chord near which the run crosses cuts of other parts; the tip keeps closer to these chords. Empty = none.
     pub junctions: Vec<bool>,
-    /// What its two ends are.
+    /// Its start and its end.
     pub ends: [End; 2],
-    /// Whether it is cut the other way round than the file has it.
+    /// True if it is cut in reverse to the file.
     pub turned: bool,
-    /// The edge that goes first; `place` chooses.
+    /// Leading edge of the blade; `place` chooses it.
     pub edge: Edge,
-    /// Where the axes stand at the plunge, as the polyline has it; smoothing moves it a little.
+    /// Nominal pose at the plunge, from the polyline; smoothing moves it slightly.
     pub start: Pose,
-    /// Where they stand at the lift.
+    /// Nominal pose at the lift.
     pub end: Pose,
 }
 
 impl Run {
-    /// The polyline of an open run with its overlaps: the heel straight back along the first chord, the front straight on
-    /// along the last. The heel plunges at its first point, the tip is lifted at its last.
+    /// The polyline of an open run with its overlaps: the heel straight back along the first chord, the front straight on along
+    /// the last. The heel plunges at its first point, the tip is lifted at its last.
     pub fn extended(&self) -> Vec<Point> {
         self.extended_by([self.heel, self.front])
     }
 
-    /// The same with overlaps of other lengths at its start and its end, mm.
+    /// The polyline of an open run with overlaps of other lengths at its start and its end, mm.
     pub fn extended_by(&self, [heel, front]: [f64; 2]) -> Vec<Point> {
         let n = self.points.len();
         let direction = |a: Point, b: Point| polyline::direction(a, b).expect("no chord of a run has length zero");
@@ -159,7 +159,7 @@ impl Run {
     }
 }
 
-/// How the blade lies on a curve.
+/// Orientation of the blade on a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OrientationMode {
     /// Tip on the path, blade along the tangent.
@@ -168,19 +168,19 @@ pub enum OrientationMode {
     Chord,
 }
 
-/// An edge of the blade. One that is sharp at its back may be turned by half a turn: then its heel goes first, and what is
-/// said of tip and heel holds the other way round.
+/// A cutting edge of the blade. A blade with a sharp back may be rotated by half a turn. Its heel then leads, and the roles of
+/// tip and heel are exchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Edge {
-    /// The one at the tip.
+    /// The edge at the tip.
     #[default]
     Front,
-    /// The one at the heel.
+    /// The edge at the heel.
     Back,
 }
 
 impl Edge {
-    /// How far C is ahead of the way that the blade cuts, rad.
+    /// Angle from the direction of the cut to C, rad.
     pub fn turn(self) -> f64 {
         match self {
             Self::Front => 0.0,
@@ -188,7 +188,7 @@ impl Edge {
         }
     }
 
-    /// From the centre to the end of the blade that goes first, mm, of one whose tip and heel are so far from it.
+    /// Distance from the C axis to the leading end of the blade, mm, given the distances of tip and heel.
     pub fn lead(self, [tip, heel]: [f64; 2]) -> f64 {
         match self {
             Self::Front => tip,
@@ -197,112 +197,112 @@ impl Edge {
     }
 }
 
-/// Whether a run closes on itself.
+/// Shape of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// From one point to another, or around a contour that has a corner where it starts.
+    /// From one point to another, or around a contour with a corner at its start.
     Open,
-    /// Around a smooth closed contour: no end has a corner.
+    /// Around a smooth closed contour, without a corner at its ends.
     Ring,
 }
 
-/// What the end of a run is.
+/// Properties of the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct End {
-    /// A corner inside a contour; otherwise the contour begins or ends here.
+    /// True at a corner inside a contour; otherwise the contour starts or ends here.
     pub corner: bool,
-    /// No overlap goes here: the file forbids it (M17, M18, M19, a slit), or the contour itself goes on.
+    /// True if there is no overlap here: the file forbids it (M17, M18, M19, a slit), or the contour continues.
     pub bare: bool,
-    /// Where its overlap goes.
+    /// Direction of the overlap.
     pub side: Side,
 }
 
-/// Where an overlap goes that leads straight on beyond an end.
+/// Direction of an overlap that continues straight beyond an end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
-    /// Into the waste, as far as the profile wants it.
+    /// Into the waste, at the length set by the profile.
     #[default]
     Waste,
-    /// Into the part itself: only as far as the profile wants it there.
+    /// Into the part itself, at the length set by the profile for parts.
     Part,
-    /// Into a gap that is narrower than the overlap: it is shortened.
+    /// Into a gap that is narrower than the overlap: the overlap is shortened.
     Gap,
-    /// Along the contour: the knife is lifted amid it, and goes on there.
+    /// Along the contour: the knife is lifted in the middle of it and continues there.
     Contour,
 }
 
-/// How deep a blade that never moves cuts into parts beyond one of its ends, mm: it is longer than its cut, and there is
-/// no room. A place is as deep in a part as it is far from its edges, and no deeper than it is far from the cut.
+/// Depth of a plunge cut in parts beyond one of its ends, mm, when the blade is longer than the cut and has no room. The depth
+/// of a place is its distance from the edges of the part, but at most its distance from the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Overcut {
-    /// Into the part to which the cut belongs.
+    /// Depth in the part to which the cut belongs.
     pub own: f64,
-    /// Into another one.
+    /// Depth in another part.
     pub other: f64,
 }
 
 impl Overcut {
-    /// Into either, mm.
+    /// The greater depth, mm.
     pub fn deepest(self) -> f64 {
         self.own.max(self.other)
     }
 
-    /// The deeper of two, part by part.
+    /// The greater depths of two, separately for own and other parts.
     #[must_use]
     pub fn max(self, other: Self) -> Self {
         Self { own: self.own.max(other.own), other: self.other.max(other.other) }
     }
 }
 
-/// One plunge without motion: the blade is as long as what it has to cut, or longer.
+/// A plunge without motion: the blade is at least as long as its cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlungeCut {
-    /// What it cuts, as the file has it, mm.
+    /// The line to cut, as given by the file, mm.
     pub points: Vec<Point>,
-    /// The block of each chord.
+    /// Source block of each chord.
     pub spans: Vec<Span>,
     /// Direction of the blade, unit vector from heel to tip.
     pub along: Vector,
-    /// How far the tip stands past the end, mm.
+    /// Distance of the tip past the end, mm.
     pub front: f64,
-    /// How far the heel stands before the start, mm.
+    /// Distance of the heel before the start, mm.
     pub heel: f64,
-    /// What the two ends of the cut are.
+    /// The start and the end of the cut.
     pub ends: [End; 2],
-    /// Whether it is cut the other way round than the file has it.
+    /// True if it is cut in reverse to the file.
     pub turned: bool,
-    /// The edge that stands at the end of the cut; `place` chooses.
+    /// Edge of the blade at the end of the cut; `place` chooses it.
     pub edge: Edge,
-    /// How deep the blade cuts into parts before the start and past the end.
+    /// Depth of the blade in parts before the start and past the end.
     pub overcut: [Overcut; 2],
-    /// Where the axes stand at the plunge; `place` turns C.
+    /// Pose of the axes at the plunge; `place` turns C.
     pub pose: Pose,
 }
 
 /// A hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drill {
-    /// Its place, mm.
+    /// Position, mm.
     pub at: Point,
-    /// Which drill, 1 to 4.
+    /// Number of the drill, 1 to 4.
     pub tool: u8,
-    /// Its block.
+    /// Source block.
     pub span: Span,
 }
 
-/// Something for the controller or the operator.
+/// A signal to the controller or the operator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event {
     /// Wait for the operator.
     Stop,
-    /// Advance the cloth, as far as the controller knows.
+    /// Advance of the cloth by a length known to the controller.
     Advance,
     /// Advance of the cloth by a length in mm, to the next bite of a conveyor.
     AdvanceBy(u32),
 }
 
 impl Event {
-    /// Way of the cloth that it tells, mm; 0 where it tells none.
+    /// Advance of the cloth, mm; 0 where the event gives no length.
     pub fn advance_mm(self) -> u32 {
         if let Self::AdvanceBy(mm) = self { mm } else { 0 }
     }

@@ -1,6 +1,6 @@
-//! Where the axes are during a phase: at rest, along samples, or along a closed form that is sampled when it is written.
+//! Poses of the axes during a phase: at rest, as samples, or as a closed form that is sampled when it is written.
 //!
-//! A closed form is a few numbers whatever its length, and its greatest derivatives are known without a sample.
+//! A closed form takes a few numbers whatever its length, and its peak derivatives are known without samples.
 
 use crate::geom::{Point, Rotation, Vector};
 use crate::ir::toolpath::Pose;
@@ -9,9 +9,9 @@ use crate::machine::kinematics::Move;
 /// The poses at the ticks of a phase.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Poses {
-    /// The axes rest.
+    /// The axes are at rest.
     Still(Pose),
-    /// One pose a tick.
+    /// One pose per tick.
     Samples(Vec<Pose>),
     /// A straight cut.
     StraightCut(StraightCut),
@@ -19,7 +19,7 @@ pub enum Poses {
     Glide(Glide),
 }
 
-/// The greatest speed, acceleration and jerk of x, y (mm) and c (rad), per s, s2, s3.
+/// Peak speed, acceleration and jerk of x, y (mm) and c (rad), per s, s2, s3.
 pub type Derivatives = [[f64; 3]; 3];
 
 impl Poses {
@@ -34,7 +34,7 @@ impl Poses {
         }
     }
 
-    /// The greatest derivatives over a phase that lasts `duration` (s), from its closed form; `None` of samples.
+    /// Peak derivatives over a phase of `duration` (s), from its closed form; `None` for samples.
     pub fn derivatives(&self, duration: f64) -> Option<Derivatives> {
         match self {
             Self::Still(_) => Some(Derivatives::default()),
@@ -44,7 +44,7 @@ impl Poses {
         }
     }
 
-    /// Moves all poses by a vector, mm.
+    /// Translates all poses by a vector, mm.
     pub fn shift(&mut self, by: Vector) {
         let shifted = |pose: &mut Pose| pose.centre += by;
         match self {
@@ -55,7 +55,7 @@ impl Poses {
         }
     }
 
-    /// The same with C turned by an angle, rad.
+    /// Adds an angle to C in all poses, rad.
     pub fn turn(&mut self, by: f64) {
         let turned = |pose: &mut Pose| pose.c = Rotation(pose.c.0 + by);
         match self {
@@ -67,30 +67,30 @@ impl Poses {
     }
 }
 
-/// A straight cut from rest to rest: the blade keeps its heading.
+/// A straight cut from rest to rest with constant heading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightCut {
-    /// Where the line begins.
+    /// Start of the line.
     pub from: Point,
-    /// Its direction, of length 1.
+    /// Direction of the line, a unit vector.
     pub along: Vector,
-    /// Where on the line the tip starts: as far as the heel then reaches back, mm.
+    /// Start of the tip on the line, mm; the heel is then at the start of the line.
     pub start: f64,
-    /// How far the C axis is behind the tip, mm.
+    /// Distance of the C axis behind the tip, mm.
     pub lead: f64,
     /// Position of C.
     pub c: Rotation,
-    /// The way of the tip from its start over the time, mm and s.
+    /// Motion of the tip from its start over time, mm and s.
     pub way: Move,
 }
 
 impl StraightCut {
-    /// How far the tip is on the line at `time` of the stroke stretched to `duration`, in one unit, mm.
+    /// Position of the tip on the line, mm, at `time` of the cut stretched to `duration`, both in one unit.
     pub fn reach(&self, time: f64, duration: f64) -> f64 {
         self.start + self.way.at(time, duration)
     }
 
-    /// The pose at `time` of the stroke stretched to `duration`, in one unit.
+    /// The pose at `time` of the cut stretched to `duration`, both in one unit.
     pub fn at(&self, time: f64, duration: f64) -> Pose {
         Pose { centre: self.from + self.along * (self.reach(time, duration) - self.lead), c: self.c }
     }
@@ -102,17 +102,17 @@ impl StraightCut {
     }
 }
 
-/// A move with the knife up, from rest to rest: x and y along the straight line and C beside them, each in closed form,
+/// A move with the knife up, from rest to rest: x and y along a straight line and C independently, each in closed form,
 /// stretched to one common duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glide {
-    /// Where it starts.
+    /// Start.
     pub from: Pose,
-    /// Where it ends.
+    /// End.
     pub to: Pose,
-    /// The way of the C axis over the table, mm and s.
+    /// Motion of the C axis over the table, mm and s.
     pub line: Move,
-    /// The turn of C, rad and s.
+    /// Turning of C, rad and s.
     pub turn: Move,
 }
 
@@ -122,12 +122,12 @@ impl Glide {
         self.line.duration().max(self.turn.duration())
     }
 
-    /// Way of the C axis over the table, mm.
+    /// Length of the path of the C axis over the table, mm.
     pub fn length(&self) -> f64 {
         (self.to.centre - self.from.centre).norm()
     }
 
-    /// The pose at `time` of the move stretched to `duration`, in one unit.
+    /// The pose at `time` of the move stretched to `duration`, both in one unit.
     pub fn at(&self, time: f64, duration: f64) -> Pose {
         if time >= duration {
             return self.to;

@@ -7,7 +7,7 @@ use crate::ir::marker::{
 use crate::ir::toolpath::{self, Air, Edge, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::source::Span;
 
-/// Seeded numbers (`splitmix64`, Steele, Lea & Flood 2014).
+/// Seeded random numbers (`splitmix64`, Steele, Lea & Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -130,7 +130,7 @@ fn marker(random: &mut Random) -> Marker {
     marker
 }
 
-/// Cuts of contours, and of segments of their own.
+/// Adds cuts along contours and cuts with segments of their own.
 fn add_cuts(marker: &mut Marker, random: &mut Random) {
     for (place, piece) in (0..).zip(&marker.pieces) {
         let sides = [random.flag().then_some(place), random.flag().then_some(0)];

@@ -1,35 +1,35 @@
-//! The worst value under a rule, and where it was seen: of one rule, and of all rules of a machine.
+//! The worst value under a rule and its sighting, for one rule or for all rules of a machine.
 
 use super::{Finding, Rule, Sighting};
 
-/// Part of a value by which a later one must exceed it to be told in its place: of values that only rounding tells
-/// apart the first is the one to look at.
+/// Relative amount by which a later value must exceed an earlier one to replace it. Among values that differ by rounding only,
+/// the first is the most useful.
 const TIE_EPSILON: f64 = 1e-6;
 
-/// Collects values and keeps the worst.
+/// Tracks the worst value under a rule.
 #[derive(Debug, Clone)]
 pub struct Worst {
     rule: &'static Rule,
     unit: &'static str,
     limit: Option<f64>,
     value: f64,
-    /// Where the worst was seen first, and how bad it was there: against its limit when values have limits of their own.
+    /// First sighting of the worst value, and its weight there: relative to its limit when values have individual limits.
     place: Option<(Sighting, f64)>,
 }
 
 impl Worst {
-    /// Nothing seen yet under `rule`.
+    /// No value under `rule` yet.
     pub fn new(rule: &'static Rule, limit: Option<f64>) -> Self {
         Self { rule, unit: rule.unit, limit, value: 0.0, place: None }
     }
 
-    /// Nothing seen yet, in another unit than that of the rule: what is counted has a name of its own.
+    /// Uses another unit than that of the rule, for counted items with a name of their own.
     #[must_use]
     pub fn in_unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
     }
 
-    /// Sees a value. One that is not a number is worse than any.
+    /// Adds a value. NaN is worse than any number.
     pub fn see(&mut self, value: f64, place: impl FnOnce() -> Sighting) {
         let value = or_infinite(value);
         if value > self.value {
@@ -38,15 +38,15 @@ impl Worst {
         }
     }
 
-    /// Notes the place of what is the worst so far, unless that is no worse than at the place that is known.
+    /// Records the place if it is worse than the recorded one.
     fn note(&mut self, badness: f64, place: impl FnOnce() -> Sighting) {
         if self.place.is_none_or(|(_, known)| badness > known * (1.0 + TIE_EPSILON)) {
             self.place = Some((place(), badness));
         }
     }
 
-    /// Sees a value that has a limit of its own; infinite = none. The worst is the one that comes nearest to its limit, or
-    /// is farthest beyond it.
+    /// Adds a value with an individual limit; infinite = none. The worst value is the one nearest to its limit, or farthest
+    /// beyond it.
     pub fn see_under(&mut self, value: f64, limit: f64, place: impl FnOnce() -> Sighting) {
         let value = or_infinite(value);
         let is_worse = match (self.limit, limit.is_finite()) {
@@ -61,11 +61,11 @@ impl Worst {
         };
         if is_worse {
             if self.limit.is_some() != limit.is_finite() {
-                // Of the values so far none had a limit: they do not compare.
+                // No value so far had a limit, so they do not compare.
                 self.place = None;
             }
             if self.value < value && limit == 0.0 {
-                // Any value is beyond it alike: the greatest has the place.
+                // Any value is equally far beyond a limit of 0: record the greatest.
                 self.place = None;
             }
             (self.value, self.limit) = (value, Some(limit).filter(|limit| limit.is_finite()));
@@ -73,7 +73,7 @@ impl Worst {
         }
     }
 
-    /// Takes what was seen later.
+    /// Adds the values that were seen later by another tracker.
     pub fn add(&mut self, later: &Self) {
         if let Some((place, _)) = later.place {
             self.see_under(later.value, later.limit.unwrap_or(f64::INFINITY), || place);
@@ -85,7 +85,7 @@ impl Worst {
         self.value
     }
 
-    /// The finding: the worst value, its limit and its place.
+    /// The finding: the worst value, its limit and its sighting.
     pub fn finding(self) -> Finding {
         Finding {
             rule: self.rule,
@@ -97,60 +97,60 @@ impl Worst {
     }
 }
 
-/// Share of a limit that a value takes: 1 = just allowed; any value is infinitely beyond a limit of 0.
+/// Fraction of a limit used by a value: 1 = just permitted; infinite for any value beyond a limit of 0.
 fn badness(value: f64, limit: f64) -> f64 {
     if value > 0.0 { value / limit } else { 0.0 }
 }
 
-/// Measure by which values at places are compared: the share of the limit, or the value where there is no limit or it is 0.
+/// Measure by which places are compared: the fraction of the limit, or the value where there is no limit or it is 0.
 fn weight(value: f64, limit: Option<f64>) -> f64 {
     limit.filter(|&limit| limit > 0.0).map_or(value, |limit| value / limit)
 }
 
-/// A value, or the worst of all where it is not a number.
+/// The value; infinity for NaN.
 fn or_infinite(value: f64) -> f64 {
     if value.is_nan() { f64::INFINITY } else { value }
 }
 
-/// The worst under each rule of a machine of which anything was seen: of values with limits of their own the one that is
-/// farthest beyond its limit, or least below it.
+/// The worst value under each rule of a machine for which any value was seen. Among values with individual limits it is the one
+/// with the greatest excess.
 #[derive(Debug, Default)]
 pub struct WorstByRule {
-    /// By the places of the rules; `None` under one of which nothing was seen.
+    /// Findings by the index of their rule; `None` under a rule without values.
     findings: Vec<Option<Finding>>,
-    /// Excesses over the limits, by the places of the rules; a rule without a limit has its value here, one without a
-    /// finding NaN.
+    /// Excess over the limit by the index of the rule: the value itself for a rule without a limit, NaN for a rule without a
+    /// finding.
     excess: Vec<f64>,
 }
 
 impl WorstByRule {
-    /// Sees a value under a rule that only reports, or whose limit is set in its finding.
+    /// Adds a value under a rule that only reports, or whose limit is set in its finding.
     #[inline]
     pub fn see(&mut self, rule: &'static Rule, value: f64, place: impl Into<Option<Sighting>>) {
         self.keep(rule, value, None, place);
     }
 
-    /// Sees a value under a rule, of which so much is allowed.
+    /// Adds a value under a rule with its permitted maximum.
     #[inline]
     pub fn see_under(&mut self, rule: &'static Rule, value: f64, limit: f64, place: impl Into<Option<Sighting>>) {
         self.keep(rule, value, Some(limit), place);
     }
 
-    /// Adds to the count of what must not be.
+    /// Adds to the count under a rule that permits none.
     pub fn count(&mut self, rule: &'static Rule, number: usize, place: impl Into<Option<Sighting>>) {
         let known = self.findings.get(rule.place).and_then(Option::as_ref).map_or(0.0, |known| known.worst);
         self.see_under(rule, known + number as f64, 0.0, place);
     }
 
-    /// Sees all that was seen elsewhere, after what was seen here.
+    /// Adds the values seen elsewhere, after those seen here.
     pub fn merge(&mut self, later: Self) {
         for Finding { rule, worst, limit, place, .. } in later.findings.into_iter().flatten() {
             self.keep(rule, worst, limit, place);
         }
     }
 
-    /// Keeps a value that is worse than the one that is known; of values alike the first. Nearly all are no worse: no finding
-    /// is made of these.
+    /// Keeps a value with a greater excess than the known one; among equal values the first. Nearly all values are rejected
+    /// here, before a finding is made.
     #[inline]
     fn keep(&mut self, rule: &'static Rule, value: f64, limit: Option<f64>, place: impl Into<Option<Sighting>>) {
         let worst = or_infinite(value);
@@ -160,7 +160,7 @@ impl WorstByRule {
         }
     }
 
-    /// Puts a finding in the place of its rule.
+    /// Stores a finding at the index of its rule.
     #[cold]
     fn put(&mut self, finding: Finding, excess: f64) {
         let place = finding.rule.place;
@@ -171,10 +171,10 @@ impl WorstByRule {
         (self.findings[place], self.excess[place]) = (Some(finding), excess);
     }
 
-    /// A finding for each rule of which anything was seen, in the order of the table of rules; less than nothing is nothing.
+    /// The findings of all rules with values, in the order of the table of rules; negative values become 0.
     pub fn findings(self) -> Vec<Finding> {
         let mut findings: Vec<Finding> = self.findings.into_iter().flatten().collect();
-        // Of a negative zero `max` may leave either.
+        // `max` may return a negative zero.
         findings.iter_mut().filter(|finding| finding.worst <= 0.0).for_each(|finding| finding.worst = 0.0);
         findings
     }
