@@ -1,13 +1,13 @@
 //! Headers of `NumPy` arrays of records, version 1.0 of the format:
 //! <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>.
 
-/// Bytes before the first record: a multiple of 64, so that memory maps are aligned.
+/// Offset of the first record in bytes: a multiple of 64, so that memory maps are aligned.
 pub const HEADER_BYTES: usize = 256;
 /// Magic string and version.
 const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 
-/// The header of an array of `count` records, whose fields are a list of names and types as Python writes them. Its length is
-/// the same whatever the count, so that this can be filled in when it is known.
+/// The header of an array of `count` records; `fields` lists names and types as Python writes them. The length does not depend
+/// on the count, so the count can be filled in later.
 pub fn header(fields: &str, count: u64) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();
     let length = HEADER_BYTES - MAGIC.len() - 2;

@@ -1,17 +1,17 @@
-//! Columns of programs, read back: lines of fields between commas, or records of a `NumPy` array. What a field means, the
-//! machine knows that wrote it.
+//! Reader of columnar programs: lines of comma-separated fields, or records of a `NumPy` array. The meaning of the fields is
+//! defined by the machine.
 
 use std::io::{self, BufRead};
 
-/// Magic string of a `NumPy` array; no text begins so.
+/// Magic string of a `NumPy` array; no text starts with it.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Why the rest of a program is not read.
+/// Reason why the rest of a program was not read.
 #[derive(Debug)]
 pub enum Unread {
-    /// The disk.
+    /// An error of the disk.
     Io(io::Error),
-    /// A row, record or key that is no part of a program.
+    /// A row, record or key that does not belong to a program.
     Row(String),
 }
 
@@ -22,7 +22,7 @@ impl From<io::Error> for Unread {
 }
 
 impl Unread {
-    /// Message on a row that cannot be read, by its number from 1.
+    /// Error for a row that cannot be read, numbered from 1.
     pub fn row(number: u64, what: &str) -> Self {
         Self::Row(format!("row {number}: {what}"))
     }
@@ -40,11 +40,11 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// The next line without its end; `None` behind the last.
+    /// The next line without its line end; `None` after the last.
     ///
     /// # Errors
     ///
-    /// Errors of the disk; a line that is no text or has no end, as in a program cut short.
+    /// Errors of the disk; a line that is not text, or that has no line end, as in a truncated program.
     pub fn next(&mut self, input: &mut dyn BufRead) -> Result<Option<&str>, Unread> {
         self.line.clear();
         self.number += 1;
@@ -60,7 +60,7 @@ impl Lines {
     ///
     /// # Errors
     ///
-    /// Errors of [`Self::next`]; a line that names other fields.
+    /// Errors of [`Self::next`]; a line with other names.
     pub fn header(&mut self, input: &mut dyn BufRead, names: &str) -> Result<(), Unread> {
         match self.next(input)? {
             Some(line) if line == names => Ok(()),
@@ -69,38 +69,39 @@ impl Lines {
         }
     }
 
-    /// The number of the line that was read last.
+    /// Number of the last line read.
     pub fn number(&self) -> u64 {
         self.number
     }
 
-    /// Message on that line.
+    /// Error for that line.
     pub fn is(&self, what: &str) -> Unread {
         Unread::row(self.number, what)
     }
 }
 
-/// Reads the header of an array of packed records with these fields, as Python writes them: how many records follow.
+/// Reads the header of an array of packed records with the given fields, as Python writes them, and returns the number of
+/// records.
 ///
 /// # Errors
 ///
-/// Errors of the disk; a file that is no array, or one with other fields.
+/// Errors of the disk; a file that is not an array, or an array with other fields.
 pub fn records(input: &mut dyn BufRead, fields: &str) -> Result<u64, Unread> {
     records_of(input, &[fields]).map(|(count, _)| count)
 }
 
-/// Number of records of an array, and the index of the list of fields that its header has.
+/// Number of records of an array, and the index into `lists` of its fields.
 ///
 /// # Errors
 ///
-/// Those of [`records`].
+/// As for [`records`].
 pub fn records_of(input: &mut dyn BufRead, lists: &[&str]) -> Result<(u64, usize), Unread> {
     let mut start = [0; 8];
     fill(input, &mut start, "its header is cut off")?;
     if !start.starts_with(MAGIC) {
         return Err(Unread::array("it is none of NumPy"));
     }
-    // Version 1 counts the header in two bytes, later ones in four; the second number of a version changes nothing.
+    // Version 1 has a header size of two bytes, later versions of four; the minor version changes nothing.
     let mut size = [0; 4];
     fill(input, if start[6] == 1 { &mut size[..2] } else { &mut size[..] }, "its header is cut off")?;
     let size = u16::try_from(u32::from_le_bytes(size)).map_err(|_| Unread::array("its header is too long"))?;
@@ -119,11 +120,12 @@ pub fn records_of(input: &mut dyn BufRead, lists: &[&str]) -> Result<(u64, usize
     Ok((count, list))
 }
 
-/// Reads the next record, of which `left` are to come; `false` at the end of the program, which is that of the file.
+/// Reads the next record and decrements `left`, the number of records to come; `false` at the end of the program, which must be
+/// the end of the file.
 ///
 /// # Errors
 ///
-/// Errors of the disk; an array that ends before its last record or goes on behind it.
+/// Errors of the disk; an array that ends before its last record, or bytes after it.
 pub fn record(input: &mut dyn BufRead, left: &mut u64, record: &mut [u8]) -> Result<bool, Unread> {
     if *left == 0 {
         let is_over = retried(input)?.is_empty();
@@ -133,7 +135,7 @@ pub fn record(input: &mut dyn BufRead, left: &mut u64, record: &mut [u8]) -> Res
     fill(input, record, "it is cut off").map(|()| true)
 }
 
-/// Buffered bytes; none at the end of the file.
+/// Buffered bytes; empty at the end of the file.
 fn retried(input: &mut dyn BufRead) -> io::Result<&[u8]> {
     while let Err(error) = input.fill_buf() {
         if error.kind() != io::ErrorKind::Interrupted {
@@ -150,7 +152,7 @@ fn fill(input: &mut dyn BufRead, bytes: &mut [u8], cut: &str) -> Result<(), Unre
     })
 }
 
-/// A number of a record, little-endian, from a byte of it on; `None` when it is not finite.
+/// A little-endian number at an offset in a record; `None` when it is not finite.
 pub fn float(record: &[u8], at: usize) -> Option<f64> {
     let bytes = record.get(at..)?.first_chunk()?;
     Some(f64::from_le_bytes(*bytes)).filter(|value| value.is_finite())

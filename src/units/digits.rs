@@ -1,17 +1,17 @@
-//! Whole numbers of up to eight digits, read eight bytes at a time: nearly all numbers of cutter files and plots are such,
-//! and reading them byte by byte would take most of the time of a large file. What is anything else the grammars read.
+//! Integers of up to eight digits, read eight bytes at a time. Nearly all numbers of cutter files and plots are of this form,
+//! and reading them byte by byte would dominate the time for a large file. The grammars read all other numbers.
 
 /// `0` in each of eight bytes.
 const ZEROS: u64 = 0x3030_3030_3030_3030;
 /// The highest bit of each byte.
 const HIGHEST: u64 = 0x8080_8080_8080_8080;
-/// Added to a byte above 9 it reaches the highest bit: 0x80 less ten.
+/// Addend that sets the highest bit of a byte above 9: 0x80 minus ten.
 const ABOVE_NINE: u64 = 0x7676_7676_7676_7676;
-/// Bytes that are read at once.
+/// Number of bytes read at once.
 const WORD: usize = size_of::<u64>();
 
-/// The number that the digits at the start of some bytes write, and how many digits it has, one to eight; `None` when
-/// there are none or more, or fewer than eight bytes are left.
+/// The number written by the leading digits, and the count of digits, one to eight. `None` for no digits or more than eight, or
+/// for fewer than eight bytes.
 pub fn leading(bytes: &[u8]) -> Option<(u32, usize)> {
     let word = *bytes.first_chunk::<WORD>()?;
     let count = others(word).trailing_zeros() as usize / WORD;
@@ -21,16 +21,16 @@ pub fn leading(bytes: &[u8]) -> Option<(u32, usize)> {
     Some((value(word, count), count))
 }
 
-/// Bytes that [`pair`] looks at.
+/// Number of bytes that [`pair`] examines.
 pub const PAIR: usize = 3 * WORD;
 
-/// Two numbers with a byte between them that is no digit, as in `105Y2326*`: the numbers, and the places of that byte
-/// and of the one behind, which is no digit if the first is below 0x80. `None` when one has no digits, or too many to
-/// be looked at.
+/// Two numbers separated by one byte that is not a digit, as in `105Y2326*`: the numbers, and the positions of the separator
+/// and of the byte after the second number. That byte is not a digit if the separator is below 0x80. `None` when a number has
+/// no digits or too many to examine.
 #[inline] // most of a file is read here
 pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
     let [first, second, _] = [0, 1, 2].map(|word| bytes.as_chunks().0[word]);
-    // Both ends are looked for at once: the next number of a file, which begins behind the second, waits for them alone.
+    // Find both ends at once: the next number of the file starts after the second and depends only on them.
     let ends = others(first);
     if ends == 0 {
         return pair_behind_a_word(bytes);
@@ -42,14 +42,14 @@ pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
         _ => behind.trailing_zeros() as usize / WORD,
     };
     let count = end - middle - 1;
-    // One comparison sees both that there are digits and that they are not too many.
+    // One comparison checks for at least one digit and for at most eight.
     if middle == 0 || count.wrapping_sub(1) >= WORD {
         return None;
     }
     Some(([value(first, middle), value(*bytes[middle + 1..].first_chunk()?, count)], [middle, end]))
 }
 
-/// The same where the first number has eight digits: places of long markers do. The second has fewer than seven.
+/// The pair when the first number has eight digits, as in coordinates of long markers. The second then has fewer than seven.
 fn pair_behind_a_word(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
     let [first, second, _] = [0, 1, 2].map(|word| bytes.as_chunks().0[word]);
     let ends = others(second);
@@ -62,17 +62,18 @@ fn pair_behind_a_word(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
     Some(([value(first, WORD), number], [WORD, WORD + 1 + count]))
 }
 
-/// The highest bit of each byte that is no digit. A carry reaches later bytes only, from bytes above 0x7f: the first
-/// that is no digit counts.
+/// The highest bit of each byte that is not a digit. A byte above 0x7f carries into later bytes only, so the first marked byte
+/// is always correct.
 fn others(word: [u8; WORD]) -> u64 {
     let word = u64::from_le_bytes(word) ^ ZEROS; // digits become 0 to 9
     (word | word.wrapping_add(ABOVE_NINE)) & HIGHEST
 }
 
-/// The number that the first digits write, one to eight.
+/// The number written by the first `count` digits, one to eight.
 fn value(word: [u8; WORD], count: usize) -> u32 {
-    // The first byte is the lowest of the word. With the last digit in the highest byte, zeros stand before the first. Then
-    // neighbours become numbers of two digits, of four, of eight (D. Lemire, "Quickly parsing eight digits", 2018).
+    // The first byte is the lowest of the word. Shift the last digit into the highest byte, so that zeros precede the first
+    // digit. Then combine neighbours to numbers of two, four and eight digits (D. Lemire, "Quickly parsing eight digits",
+    // 2018).
     let digits = (u64::from_le_bytes(word) ^ ZEROS) << (8 * (WORD - count));
     let twos = digits.wrapping_mul(10 * (1 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = twos.wrapping_mul(100 * (1 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;

@@ -1,4 +1,4 @@
-//! Units. Inside, lengths are mm, times s, angles rad; every conversion factor stands here.
+//! Units. Internally, lengths are in mm, times in s and angles in rad; all conversion factors are defined here.
 
 pub mod array;
 pub mod columns;

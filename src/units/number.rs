@@ -1,12 +1,12 @@
-//! The one place that prints numbers: no locale, no `-0.000`, the same bytes for the same value.
+//! The only printer of numbers: no locale, no `-0.000`, the same bytes for the same value.
 
-/// Largest scaled magnitude that the integer path prints: below 2^53, so that every integer there is exact in `f64`.
+/// Largest scaled magnitude for the integer path: below 2^53, so that every integer is exact in `f64`.
 const INTEGER_PATH_MAX: f64 = 9.0e15;
 
-/// The most characters of such a number: its digits and those that decimals ask for, a point and a sign.
+/// Maximum number of characters of such a number: its digits, padding for the decimals, a point and a sign.
 const DIGITS: usize = 32;
 
-/// Buffer of a number. Its characters end in the middle, so that a copy of constant length can begin at any of them.
+/// Buffer of a number. Its characters end in the middle, so that a copy of constant length can start at any of them.
 type Digits = [u8; 2 * DIGITS];
 
 /// The digits of the numbers below a hundred.
@@ -20,7 +20,7 @@ const PAIRS: [[u8; 2]; 100] = {
     pairs
 };
 
-/// The most decimals that any format here prints.
+/// Maximum number of decimals in any format here.
 const DECIMALS_MAX: usize = 9;
 /// The powers of ten up to that.
 const POWERS: [f64; DECIMALS_MAX + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
@@ -36,7 +36,7 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
         out.extend_from_slice(format!("{value:.decimals$}").as_bytes());
         return;
     }
-    // What is left behind the whole part is exact.
+    // The difference to the integer part is exact.
     let whole = scaled.abs() as u64;
     let rounded = whole + u64::from(scaled.abs() - whole as f64 >= 0.5);
     let mut digits: Digits = [0; 2 * DIGITS];
@@ -56,15 +56,15 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
     append(out, &digits, at);
 }
 
-/// Appends the characters that begin at a place.
+/// Appends the characters of the buffer from a position on.
 fn append(out: &mut Vec<u8>, digits: &Digits, at: usize) {
     let end = out.len() + DIGITS - at;
     out.extend_from_slice(digits[at..].first_chunk::<DIGITS>().expect("a number begins before the middle"));
     out.truncate(end);
 }
 
-/// Writes a number of at least so many digits before a place; where it then begins. From behind and two by two, so that
-/// there are few divisions, each by a hundred, for which a multiplication stands.
+/// Writes a number with at least `least` digits so that it ends before `end`, and returns its start. It works from the end in
+/// pairs of digits, so that there are few divisions, each by a constant hundred, which compiles to a multiplication.
 fn put(digits: &mut Digits, end: usize, (mut value, least): (u64, usize)) -> usize {
     let mut at = end;
     while value >= 10 || end - at + 1 < least {
@@ -79,35 +79,35 @@ fn put(digits: &mut Digits, end: usize, (mut value, least): (u64, usize)) -> usi
     at
 }
 
-/// Appends a whole number.
+/// Appends an integer.
 pub fn push_integer(out: &mut Vec<u8>, value: u64) {
     let mut digits: Digits = [0; 2 * DIGITS];
     let at = put(&mut digits, DIGITS, (value, 1));
     append(out, &digits, at);
 }
 
-/// `value` with exactly `decimals` decimals, as [`push_fixed`] prints it.
+/// `value` with exactly `decimals` decimals, as printed by [`push_fixed`].
 pub fn fixed(value: f64, decimals: u32) -> String {
     let mut out = Vec::with_capacity(24);
     push_fixed(&mut out, value, decimals);
     String::from_utf8(out).expect("digits are ASCII")
 }
 
-/// `value` with so many decimals, rounded up: what is set as a limit lets the value pass.
+/// `value` with `decimals` decimals, rounded up: as a limit, the text permits the value.
 pub fn up(value: f64, decimals: u32) -> String {
     let step = POWERS[decimals as usize];
     let nearest = (value * step).round() / step;
     fixed(if nearest < value { nearest + 1.0 / step } else { nearest }, decimals)
 }
 
-/// The shortest text that reads back as the same `f64`; zero has no sign.
+/// The shortest text that parses to the same `f64`; zero has no sign.
 pub fn exact(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
 }
 
-/// Six significant digits, for people: 0.0423333 of a 600th of an inch.
+/// Six significant digits, for people: 0.0423333 for a 600th of an inch.
 pub fn short(value: f64) -> String {
-    // The standard library rounds the decimal digits; what they read back as prints no others.
+    // The standard library rounds to decimal digits; parsing the result and printing it exactly adds no others.
     exact(format!("{value:.5e}").parse().unwrap_or(value))
 }
 

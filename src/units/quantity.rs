@@ -1,12 +1,12 @@
 //! Numbers with a unit, as people write them: `45 m/min`, `0.25 in`, `2 rev/s`, `50 ms`.
 //!
-//! A unit is a length, an angle, a time or a share, the first two maybe by a power of a time. All factors are quotients
-//! of two numbers that are exact wherever the definition is, and a value is multiplied and divided once: 0.25 in is the
-//! product of 0.25 and 127/5, 45 m/min is 750 mm/s, nothing is left over.
+//! A unit is a length, an angle, a time or a share; lengths and angles may be divided by a power of time. All factors are
+//! quotients of two numbers, exact wherever the definition is exact, and a value is multiplied and divided only once. So 0.25
+//! in is the product of 0.25 and 127/5, and 45 m/min is 750 mm/s, without a rounding remainder.
 
 use std::f64::consts::PI;
 
-/// What is measured.
+/// Measured quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Base {
     Length,
@@ -15,7 +15,7 @@ enum Base {
     Share,
 }
 
-/// A unit: what it measures, by which power of a time, and its size in mm, degrees, s or percent, a quotient of two.
+/// A unit: its quantity, the power of time in its denominator, and its size in mm, degrees, s or percent as a quotient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Unit {
     base: Base,
@@ -24,7 +24,7 @@ struct Unit {
     over: f64,
 }
 
-/// Names of units, what they measure, and their size as a quotient: mm, degrees, s, percent.
+/// Names of units, their quantity, and their size as a quotient: mm, degrees, s, percent.
 const UNITS: &[(&[&str], Base, f64, f64)] = &[
     (&["mm", "millimetre", "millimetres", "millimeter", "millimeters"], Base::Length, 1.0, 1.0),
     (&["cm"], Base::Length, 10.0, 1.0),
@@ -42,24 +42,24 @@ const UNITS: &[(&[&str], Base, f64, f64)] = &[
     (&["percent", "%"], Base::Share, 1.0, 1.0),
 ];
 
-/// Names that stand for others.
+/// Abbreviations of compound units.
 const SHORT: &[(&str, &str)] = &[("rpm", "rev/min"), ("ipm", "in/min"), ("ips", "in/s"), ("fpm", "ft/min")];
 
-/// The greatest power of a time: that of a jerk.
+/// Greatest power of time in a denominator: that of a jerk.
 const GREATEST_POWER: i32 = 3;
 
-/// Why a text is no value in a unit that is wanted.
+/// Reason why a text is not a value in the requested unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NotQuantity {
-    /// It does not begin with a number, or has no unit behind it.
+    /// It does not start with a number, or has no unit after it.
     NoQuantity,
-    /// What stands behind the number is no unit.
+    /// The text after the number is not a unit.
     NoUnit,
-    /// It measures something else, which is named, such as `a speed`.
+    /// It measures another quantity, which is named, such as `a speed`.
     Measures(&'static str),
 }
 
-/// The value of a text such as `45 m/min` in the unit that is wanted, such as `mm/s`.
+/// The value of a text such as `45 m/min` in the requested unit, such as `mm/s`.
 pub fn value_in(text: &str, wanted: &str) -> Result<f64, NotQuantity> {
     let (number, unit) = parted(text.trim()).ok_or(NotQuantity::NoQuantity)?;
     let given = Unit::parse(unit).ok_or(NotQuantity::NoUnit)?;
@@ -71,7 +71,8 @@ pub fn value_in(text: &str, wanted: &str) -> Result<f64, NotQuantity> {
     if value.is_finite() { Ok(value) } else { Err(NotQuantity::NoQuantity) }
 }
 
-/// What a unit measures, such as `a speed`, and values in others of its kind; `None` when others do not stand for it.
+/// Name of the quantity of a unit, such as `a speed`, and example values in other units of the kind; `None` for a text that is
+/// not a unit.
 pub fn kind(unit: &str) -> Option<(&'static str, &'static str)> {
     let unit = Unit::parse(unit)?;
     Some((unit.measures(), unit.examples()))
@@ -131,7 +132,7 @@ impl Unit {
     }
 }
 
-/// A name and the power behind it: `s`, `s2`, `s^2`.
+/// Splits a name from its power: `s`, `s2`, `s^2`.
 fn powered(text: &str) -> (&str, i32) {
     for (ends, power) in [(["^2", "2", "\u{b2}"], 2), (["^3", "3", "\u{b3}"], 3)] {
         if let Some(name) = ends.iter().find_map(|end| text.strip_suffix(end)) {
@@ -141,11 +142,10 @@ fn powered(text: &str) -> (&str, i32) {
     (text, 1)
 }
 
-/// The number at the start of a text, also a quotient such as `1/4`, and what stands behind it; `None` when one of the
-/// two is missing.
+/// Splits a text into its leading number, also a quotient such as `1/4`, and the rest; `None` when one of them is missing.
 fn parted(text: &str) -> Option<(f64, &str)> {
     let bytes = text.as_bytes();
-    // An e belongs to the number when digits stand around it.
+    // An e belongs to the number when it is between digits.
     let is_exponent = |at: usize| {
         let behind = bytes.get(at + 1).is_some_and(|&b| b.is_ascii_digit() || matches!(b, b'+' | b'-'));
         matches!(bytes[at], b'e' | b'E') && behind && at > 0 && matches!(bytes[at - 1], b'0'..=b'9' | b'.')
@@ -153,7 +153,7 @@ fn parted(text: &str) -> Option<(f64, &str)> {
     let of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | '/' | ' ');
     let end = text.char_indices().find(|&(at, c)| !of_number(c) && !is_exponent(at)).map(|(at, _)| at)?;
     let (number, unit) = text.split_at(end);
-    // A comma makes neither a number nor a unit.
+    // A comma belongs neither to a number nor to a unit.
     if unit.starts_with(',') {
         return None;
     }
