@@ -1,9 +1,8 @@
-//! CSV of numbers that is given beside a source: its rows behind a header, with their places.
+//! CSV files of numbers that accompany a source: their rows after a header, with positions.
 
 use super::{Span, line_end};
 
-/// The lines of a text that are not blank, each with its span; the block of a line is its number. A byte order mark is left
-/// out.
+/// Non-blank lines of a text, each with its span. The block of a line is its number. A byte order mark is skipped.
 #[derive(Debug)]
 pub struct CsvLines<'a> {
     bytes: &'a [u8],
@@ -13,7 +12,7 @@ pub struct CsvLines<'a> {
 }
 
 impl<'a> CsvLines<'a> {
-    /// Lines of the bytes of a source.
+    /// The lines of the bytes of a source.
     pub fn of(bytes: &'a [u8]) -> Self {
         Self { bytes, end: line_end(bytes), at: 0, block: 0 }
     }
@@ -40,16 +39,16 @@ impl<'a> Iterator for CsvLines<'a> {
     }
 }
 
-/// A fault of a file of rows.
+/// A fault in a CSV file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CsvFault {
     /// The first row is not the header.
     Header(Span),
-    /// A row cannot be read, for this reason.
+    /// A row that cannot be read, with the reason.
     Row(Span, String),
 }
 
-/// The rows behind a header, each with its span.
+/// The rows after a header, each with its span.
 ///
 /// # Errors
 ///
@@ -79,7 +78,7 @@ pub fn csv_rows<T>(
     if faults.is_empty() { Ok(rows) } else { Err(faults) }
 }
 
-/// The fields of a row that has so many.
+/// The fields of a row with exactly `N` fields.
 ///
 /// # Errors
 ///
@@ -92,7 +91,7 @@ pub fn csv_fields<const N: usize>(row: &str) -> Result<[&str; N], String> {
         .map_err(|_| format!("the row has {count} {} instead of {N}", if count == 1 { "field" } else { "fields" }))
 }
 
-/// The number of a field that is no greater than `most`; `what` names the field in the message.
+/// The number in a field, at most `most` in magnitude; `what` names the field in the message.
 ///
 /// # Errors
 ///

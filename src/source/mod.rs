@@ -1,7 +1,7 @@
 //! The bytes of one input file, and places in them.
 //!
-//! Input is read once into memory and never changed. A [`Span`] travels with everything that is made from the bytes,
-//! down to the emitted program; a [`Place`] is the same thing as people say it.
+//! Input is read once into memory and never changed. A [`Span`] accompanies everything made from the bytes, down to the emitted
+//! program; a [`Place`] is the same position in the form that people use.
 
 mod csv;
 
@@ -9,7 +9,7 @@ use thiserror::Error;
 
 pub use csv::{CsvFault, CsvLines, csv_fields, csv_number, csv_rows};
 
-/// The whole of one input: its name as the user gave it, and its bytes.
+/// A complete input: its name as given by the user, and its bytes.
 #[derive(Debug)]
 pub struct Source {
     name: String,
@@ -22,7 +22,7 @@ pub struct Source {
 pub struct TooLarge(pub usize);
 
 impl Source {
-    /// Takes over the bytes of a file called `name`.
+    /// Takes ownership of the bytes of a file called `name`.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Self, TooLarge> {
         if u32::try_from(bytes.len()).is_err() {
             return Err(TooLarge(bytes.len()));
@@ -30,7 +30,7 @@ impl Source {
         Ok(Self { name: name.into(), bytes })
     }
 
-    /// The name to show.
+    /// Name for display.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -40,40 +40,40 @@ impl Source {
         &self.bytes
     }
 
-    /// The bytes of a span; a span that reaches past the end is cut there.
+    /// The bytes of a span, clipped at the end of the source.
     pub fn slice(&self, span: Span) -> &[u8] {
         let end = (span.end as usize).min(self.bytes.len());
         &self.bytes[(span.start as usize).min(end)..end]
     }
 
-    /// Where a span starts, counted as people count: block and line from 1, byte from 0.
+    /// Start of a span in the form that people use: block and line from 1, byte from 0.
     pub fn place(&self, span: Span) -> Place {
         self.lines().place(span)
     }
 
-    /// The same for many spans, best in their order.
+    /// A line counter for the places of many spans, fastest when they are in order.
     pub fn lines(&self) -> Lines<'_> {
         Lines { bytes: &self.bytes, end: line_end(&self.bytes), at: 0, breaks: 0 }
     }
 }
 
-/// Byte that ends the lines of a text: a carriage return where it has no line feed, as old programs write it.
+/// The byte that ends the lines of a text: a line feed, or a carriage return where there is none, as in files of old programs.
 pub fn line_end(bytes: &[u8]) -> u8 {
     if memchr::memchr(b'\n', bytes).is_some() { b'\n' } else { b'\r' }
 }
 
-/// Counts the lines of a [`Source`] on from the place that was asked for before, forwards or back.
+/// Counts the lines of a [`Source`], forwards or back from the last requested place.
 #[derive(Debug)]
 pub struct Lines<'a> {
     bytes: &'a [u8],
     end: u8,
-    /// Bytes counted, and the line breaks among them.
+    /// Bytes counted so far, and the line breaks among them.
     at: usize,
     breaks: usize,
 }
 
 impl Lines<'_> {
-    /// Where a span starts.
+    /// The place at the start of a span.
     pub fn place(&mut self, span: Span) -> Place {
         let start = (span.start as usize).min(self.bytes.len());
         let count = |bytes: &[u8]| memchr::memchr_iter(self.end, bytes).count();
@@ -87,10 +87,10 @@ impl Lines<'_> {
     }
 }
 
-/// A half-open range of bytes of a [`Source`], and the number of the block that it lies in.
+/// A half-open range of bytes of a [`Source`], and the number of its block.
 ///
-/// A block is the unit of the dialect: what ends in `*` in a cut file, a row in a CSV file. Blocks count from 1;
-/// 0 means that the thing comes from no block.
+/// A block is the unit of the dialect: a statement up to its `*` in a cut file, a row in a CSV file. Blocks count from 1; 0
+/// means no block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, PartialOrd, Ord)]
 pub struct Span {
     /// First byte.
@@ -109,7 +109,7 @@ impl Span {
     }
 }
 
-/// A position in a source, as a message names it.
+/// A position in a source, as named in messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// Number of the block, from 1; 0 = none.
