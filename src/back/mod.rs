@@ -1,7 +1,7 @@
-//! Writing: one of the forms to the bytes of a target.
+//! Writers: from one of the forms to the bytes of a target.
 //!
-//! Receives sound forms, promises bytes that depend on nothing else, and refuses what a target cannot express before
-//! the first byte. Never decides anything about the cut.
+//! The input is a sound form. The output depends on nothing else, and anything that a target cannot express is refused before
+//! the first byte. Writers take no decisions about the cut.
 
 mod counts;
 mod csv;
@@ -21,7 +21,7 @@ pub use target::{
 
 use crate::ir::Motion;
 
-/// Every target; the first is the default.
+/// All targets; the first is the default.
 pub const TARGETS: &[Target] = &[
     csv::TARGET,
     npy::TARGET,
@@ -35,5 +35,5 @@ pub const TARGETS: &[Target] = &[
     gcode::TARGET,
 ];
 
-/// The timed setpoints that are made to be judged when a target's own bytes are none.
+/// The timed setpoints to verify when the bytes of a target are not setpoints.
 pub const SETPOINTS: Parts<Motion> = csv::PARTS;

@@ -1,34 +1,34 @@
-//! How long a controller takes: the trapezoidal planner of `LinuxCNC` 2.9 where a rotary axis moves.
+//! Execution time on a controller: the trapezoidal planner of `LinuxCNC` 2.9 for motions with a rotary axis.
 //!
-//! It plans each move from rest to rest and lets the next one begin while the last one slows down (a parabolic blend). For
-//! that it halves the acceleration, and it slows down at kinks so that the way is left by no more than G64 P. It makes no
-//! blend arcs there, so that a piece is never faster than sqrt(a l). What counts as a kink is the acceleration: that of an
-//! arc leans towards its centre where it begins, the more the higher its F. The rules are those of its planner (`tp.c`,
-//! `tc.c`, `blendmath.c`, `emccanon.cc`) as formulas in closed form; cycles are not simulated.
+//! The planner plans each move from rest to rest and starts the next one while the last one decelerates (a parabolic blend).
+//! For that it halves the acceleration, and it slows down at kinks so that the path deviates by at most G64 P. It makes no
+//! blend arcs in this case, so the speed of a piece never exceeds sqrt(a l). Kinks are defined by the acceleration: that of an
+//! arc leans towards its centre at its start, more so for a higher F. The rules are those of the planner (`tp.c`, `tc.c`,
+//! `blendmath.c`, `emccanon.cc`) as closed-form formulas; cycles are not simulated.
 
 use crate::geom::{Vector, left};
 use crate::machine::{Job, Limits};
 
-/// Part of an acceleration that an arc may take towards its centre, and what is then left along it.
+/// Fraction of the acceleration that an arc may use towards its centre, and the fraction then available along it.
 const NORMAL_SHARE: f64 = 0.866_025_403_784_438_6;
 const ALONG_SHARE: f64 = 0.5;
-/// Half of the acceleration is for the move that blends in.
+/// Fraction of the acceleration available to a move; the other half is reserved for the blending move.
 const BLEND_SHARE: f64 = 0.5;
-/// Speed at which the direction of an arc's acceleration is compared, as a part of what F asks.
+/// Speed at which the direction of an arc's acceleration is compared, as a fraction of F.
 const LEAN_SPEED_SHARE: f64 = 0.5;
-/// Kinks whose half angle has a smaller cosine slow nothing down.
+/// Cosine of the half angle below which a kink is ignored.
 const KINK_MIN: f64 = 1e-3;
-/// Cycles that a move takes at the least.
+/// Minimum number of cycles per move.
 const CYCLES_MIN: f64 = 3.0;
 
-/// A move of the axes, as the program tells it.
+/// A move of the axes, as written in the program.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Move {
-    /// Way of X, Y (mm) and turn of C (rad), without sign.
+    /// Absolute distances of X, Y (mm) and absolute turn of C (rad).
     pub(super) ways: [f64; 3],
-    /// Way of the C axis over the table, mm.
+    /// Length of the path of the C axis over the table, mm.
     pub(super) length: f64,
-    /// What F asks for, mm/s; infinite for rapid moves.
+    /// Speed requested by F, mm/s; infinite for rapid moves.
     pub(super) speed: f64,
     /// Unit vectors along it at its ends; zero when only C moves.
     pub(super) along: [Vector; 2],
@@ -36,26 +36,26 @@ pub(super) struct Move {
     pub(super) curvature: f64,
 }
 
-/// Sums up the time of moves.
+/// Accumulates the time of moves.
 #[derive(Debug)]
 pub(super) struct Pace {
-    /// Limits of X, Y, C: while the knife is down, and while it is up.
+    /// Limits of X, Y, C with the knife down, and with the knife up.
     limits: [[Limits; 3]; 2],
     blend: Option<f64>,
     cycle: f64,
-    /// Since when all axes rested, s.
+    /// Accumulated time up to the last rest, s.
     time: f64,
-    /// The moves that blend into each other.
+    /// Moves that blend into each other, since the last rest.
     moves: Vec<Planned>,
 }
 
-/// A move with what the machine lets it have.
+/// A move with the limits of the machine applied.
 #[derive(Debug, Clone, Copy)]
 struct Planned {
     length: f64,
-    /// Greatest speed, mm/s.
+    /// Maximum speed, mm/s.
     speed: f64,
-    /// Acceleration along the way, half of it for the moves that blend in, mm/s2.
+    /// Acceleration along the path, mm/s2, halved to allow for blending.
     acceleration: f64,
     /// Directions of the acceleration at its ends.
     directions: [Vector; 2],
@@ -80,23 +80,23 @@ impl Pace {
         }
     }
 
-    /// The axes come to rest, and something else takes a time, s.
+    /// Brings the axes to rest and adds a waiting time, s.
     pub(super) fn wait(&mut self, time: f64) {
         self.rest();
         self.time += time;
     }
 
-    /// The time of all, s.
+    /// Total time, s.
     pub(super) fn finish(mut self) -> f64 {
         self.rest();
         self.time
     }
 
-    /// What the slowest axis makes of a move.
+    /// The limits of a move, set by its slowest axis; `None` for a move without length.
     fn planned(&self, step: &Move) -> Option<Planned> {
         let limits = &self.limits[usize::from(step.speed.is_infinite())];
         let straight = step.curvature == 0.0;
-        // A move of C alone is measured in what C turns.
+        // A move of C alone is measured by its turn.
         let length = if step.length > 0.0 { step.length } else { step.ways[2] };
         if length == 0.0 {
             return None;
@@ -126,23 +126,22 @@ impl Pace {
         Some(Planned { length, speed, acceleration, directions: [start, end] })
     }
 
-    /// The F at which an arc takes the least time, mm/s: what it reaches between two others. Asked for more, it would slow
-    /// down where it begins.
+    /// The F at which an arc takes the least time, mm/s. A higher F would slow it down at its start.
     pub(super) fn best_speed(&self, length: f64, curvature: f64) -> f64 {
         let Some(tolerance) = self.blend.filter(|&tolerance| tolerance > 0.0) else { return f64::INFINITY };
         let [x, y, _] = self.limits[0];
         let whole = x.acceleration.min(y.acceleration);
         let acceleration = ALONG_SHARE * BLEND_SHARE * whole;
-        // At a speed v the arc leans by v^2 k / (2 a), so that it may begin at 2 a sqrt(t / k) / v: this is their product.
+        // At a speed v the arc leans by v^2 k / (2 a), so it may start at 2 a sqrt(t / k) / v: this is the product of the two.
         let product = 2.0 * whole * (tolerance / curvature.abs()).sqrt();
         // The move then takes (v - product / v) / a + l / v.
         let reached = acceleration * length;
         if reached <= product { reached.sqrt() } else { (reached - product).max(product).sqrt() }
     }
 
-    /// Sums up the moves up to a rest.
+    /// Adds the time of the moves up to a rest.
     fn rest(&mut self) {
-        // Where the move before has taken this one already: its speed and its way.
+        // Speed and distance that the previous move has already given to this one.
         let (mut begun, mut way) = (0.0, 0.0);
         for (i, now) in self.moves.iter().enumerate() {
             let accel = now.acceleration;
@@ -153,7 +152,7 @@ impl Pace {
             self.time += (top - begun) / accel + (left - ramps).max(0.0) / top + top / accel;
             (begun, way) = (0.0, 0.0);
             if let (Some(next), Some(blend)) = (self.moves.get(i + 1), self.blend) {
-                // It begins as this one falls below the blend speed, and speeds up while this one slows down.
+                // The next move starts when this one falls below the blend speed, and accelerates while this one decelerates.
                 let time = top.min(blended([now, next], blend)) / accel;
                 begun = (time * next.acceleration).min(next.speed).min((next.acceleration * next.length).sqrt());
                 way = (0.5 * begun * time).min(0.5 * next.length);
@@ -163,18 +162,18 @@ impl Pace {
     }
 }
 
-/// Speed of a move below which the next one begins, mm/s.
+/// Speed of a move below which the next one starts, mm/s.
 fn blended([this, next]: [&Planned; 2], tolerance: f64) -> f64 {
     let reached = |planned: &Planned| (planned.acceleration * planned.length).sqrt().min(planned.speed);
     let [now, then] = [this, next].map(reached);
     let longest = (this.length / now).min(next.length / then);
     let time = longest.min((now / this.acceleration).max(then / next.acceleration));
     let speed = now.min(time * this.acceleration);
-    // Half the angle between the one direction and the other turned back: a right angle when there is no kink.
+    // Half the angle between one direction and the reverse of the other: a right angle without a kink.
     let straight = this.directions[1].dot(&next.directions[0]).clamp(-1.0, 1.0);
     let cosine = (0.5 * (1.0 - straight)).sqrt();
     if tolerance > 0.0 && cosine > KINK_MIN {
-        // Slowing down from v takes v^2 / (2 a), of which it may leave the corner by the tolerance.
+        // Decelerating from v takes v^2 / (2 a), of which the corner may be cut by the tolerance.
         return speed.min(2.0 * (this.acceleration * tolerance / cosine).sqrt());
     }
     speed
@@ -200,7 +199,7 @@ mod tests {
     #[test]
     fn a_lone_move_is_a_trapezoid() {
         let along = Vector::new(1.0, 0.0);
-        // Half the acceleration, though nothing blends in.
+        // Half the acceleration, though no move blends in.
         assert!((time(&[line(100.0, along)]) - (100.0 / 200.0 + 200.0 / 4000.0)).abs() < 1e-9);
         assert!((time(&[line(2.0, along)]) - 2.0 * (2.0_f64 / 4000.0).sqrt()).abs() < 1e-9);
     }
@@ -210,7 +209,7 @@ mod tests {
         let along = Vector::new(0.6, 0.8);
         let long = time(&[line(100.0, along); 10]);
         assert!((5.0..5.2).contains(&long), "{long}");
-        // Half the acceleration: no faster than sqrt(4000 * 1) = 63 mm/s.
+        // Half the acceleration: at most sqrt(4000 * 1) = 63 mm/s.
         let short = time(&vec![line(1.0, along); 1000]);
         assert!((12.0..18.0).contains(&short), "{short}");
     }

@@ -1,4 +1,4 @@
-//! The text of a program: lines of moves, and those of the profile for knife, drills and operator.
+//! The text of a program: lines of moves, and the lines that the profile defines for knife, drills and operator.
 
 use std::io;
 use std::rc::Rc;
@@ -16,22 +16,22 @@ use crate::units::{S_PER_MIN, rad};
 
 /// Decimals of F and of dwells.
 const FEED_DECIMALS: u32 = 3;
-/// Decimals of a smaller F: rounding would change it too much.
+/// Decimals of a small F, which rounding to fewer would change too much, and the bound of a small F.
 const FINE_DECIMALS: u32 = 6;
 const FEED_FINE: f64 = 10.0;
-/// Longest name in a comment, characters: with more a line could be longer than controllers read.
+/// Maximum length of a name in a comment, characters; longer lines could exceed the limit of controllers.
 const NAME_CHARS: usize = 100;
-/// A whole turn, degrees.
+/// A full turn, degrees.
 const TURN_DEG: f64 = 360.0;
 
-/// A text as a comment may hold it: plain letters, no brackets.
+/// The base name in a text, restricted to characters that a comment may hold: ASCII without brackets.
 fn comment(text: &str) -> String {
     let is_plain = |c: char| matches!(c, ' '..='~') && !matches!(c, '(' | ')' | ';');
     let name = text.rsplit(['/', '\\']).next().unwrap_or_default();
     name.chars().take(NAME_CHARS).map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
-/// Steps with a number in place of `#`, as lines of a program.
+/// Steps as lines of a program, with a number in place of `#`.
 fn filled(steps: &[Step], blank: f64) -> String {
     lines(&steps.iter().map(|step| step.filled(blank)).collect::<Vec<_>>())
 }
@@ -41,22 +41,22 @@ fn lines(steps: &[Step]) -> String {
     steps.iter().map(Step::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// A program in the making.
+/// A program under construction.
 pub(super) struct Program<'a> {
     job: &'a Job,
-    /// The name of what it was made from.
+    /// Name of the source file.
     source: &'a str,
-    /// The lines that were not written yet.
+    /// Lines that have not been written yet.
     text: Vec<u8>,
-    /// Pose of the axes over the cloth.
+    /// Pose of the axes, in coordinates of the cloth.
     pose: Pose,
-    /// Lines that put the knife down, and those that lift it: as many as there are cuts, so that they are spelled once.
+    /// Lines that lower the knife and that lift it, formatted once for all cuts.
     knife: [Rc<str>; 2],
-    /// Way of the cloth so far, mm.
+    /// Advance of the cloth so far, mm.
     station: u32,
-    /// Numbers of lines that were given.
+    /// Number of numbered lines so far.
     lines: u64,
-    /// Moves with the knife down.
+    /// Number of moves with the knife down.
     pub(super) moves: usize,
     pace: Pace,
 }
@@ -71,12 +71,12 @@ impl<'a> Program<'a> {
         Self { job, source, text: Vec::new(), pose, knife, station, lines: 0, moves: 0, pace: Pace::new(job) }
     }
 
-    /// What comes before the first move.
+    /// Writes the lines before the first move.
     pub(super) fn start(&mut self) {
         let keys = &self.job.profile.gcode;
         self.say("G17 G21 G40 G80 G90 G91.1");
         if let Some(blend) = keys.blend_mm {
-            // Q0: arcs stay arcs; flat ones would become pairs of lines that kink.
+            // Q0 keeps arcs as arcs; otherwise flat ones would become pairs of lines with a kink.
             self.say(&format!("G64 P{} Q0", exact(blend)));
         }
         self.say(&keys.header);
@@ -91,11 +91,11 @@ impl<'a> Program<'a> {
         self.say(&format!("(machine: {}{changed})", comment(origin.name())));
         let [width, radius] = [profile.knife.width_mm, profile.knife.radius()].map(short);
         self.say(&format!("(knife: {width} mm wide, axis {radius} mm behind the tip)"));
-        // Whatever ran before may have left the knife in the cloth.
+        // A previous program may have left the knife in the cloth.
         self.lift();
     }
 
-    /// What comes behind the last one; the time of the program, s.
+    /// Writes the lines after the last move and returns the time of the program, s.
     pub(super) fn finish(&mut self) -> f64 {
         if let Some([x, y, c]) = self.job.profile.park {
             self.rapid(Pose::new(x + f64::from(self.station), y, rad(c)));
@@ -111,7 +111,7 @@ impl<'a> Program<'a> {
         Ok(())
     }
 
-    /// What the controller or the operator is asked for.
+    /// Writes the lines of an event.
     pub(super) fn event(&mut self, event: Event) {
         let keys = &self.job.profile.gcode;
         match event {
@@ -125,14 +125,14 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Which piece and block comes.
+    /// Writes a comment with the piece and the blocks of the next cut.
     pub(super) fn name(&mut self, piece: u32, spans: &[Span]) {
         self.number();
         let text = &mut self.text;
         text.extend_from_slice(b"(piece ");
         push_integer(text, piece.into());
         let [first, last] = [spans.first(), spans.last()].map(|span| span.map_or(0, |span| span.block));
-        // A run that is turned round is named like any other.
+        // A reversed run is named in the same way.
         for (word, block) in [(&b" block "[..], first.min(last)), (b" to ", first.max(last))] {
             text.extend_from_slice(word);
             push_integer(text, block.into());
@@ -156,13 +156,13 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// The knife goes up.
+    /// Lifts the knife.
     fn lift(&mut self) {
         let [_, up] = self.knife.clone();
         self.order(&up, self.job.profile.knife.lift());
     }
 
-    /// A hole.
+    /// Drills a hole.
     pub(super) fn drill(&mut self, drill: &Drill) {
         let job = self.job;
         let keys = &job.profile.gcode;
@@ -175,7 +175,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Steps of the controller, which wait for the axes, and a dwell behind them, s.
+    /// Steps of the controller, which wait for the axes, followed by a dwell, s.
     fn order(&mut self, steps: &str, dwell: f64) {
         self.say(steps);
         self.pace.wait(0.0);
@@ -188,7 +188,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// A rapid.
+    /// Writes a rapid.
     pub(super) fn rapid(&mut self, to: Pose) {
         let way = to.centre - self.pose.centre;
         self.pace.go(&Move {
@@ -249,7 +249,8 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Counts a move with the knife down: its length, turn and speed, and of an arc its start as seen from its centre.
+    /// Accounts for a move with the knife down: its length, turn and speed, and for an arc the vector from its centre to its
+    /// start.
     fn plan(&mut self, to: Pose, length: f64, turn: f64, speed: f64, arm: Option<Vector>) {
         self.moves += 1;
         let way = to.centre - self.pose.centre;
@@ -273,8 +274,8 @@ impl<'a> Program<'a> {
         length / (turn.abs() / c.speed).max(shortest)
     }
 
-    /// The length of a straight move between two poses as they are told, mm, and how much faster the axis is than the tip
-    /// where that is fastest: rounding lengthens short ones, of which F of inverse time knows nothing.
+    /// Length of a straight move between two poses as written, mm, and the ratio of the speed of the axis to the greatest speed
+    /// of the tip. Rounding lengthens short moves, which F in inverse time does not take into account.
     fn told(&self, ends: [Pose; 2], beside: &Path) -> (f64, f64) {
         let step = self.job.profile.gcode.step();
         let [from, to] = ends.map(|pose| pose.centre.map(|value| (value / step).round() * step));
@@ -288,20 +289,20 @@ impl<'a> Program<'a> {
         (length, if fastest > 0.0 { length / fastest } else { 1.0 })
     }
 
-    /// How many chords stand for a piece that they may leave by so much.
+    /// Number of chords that approximate a piece within a permitted deviation.
     fn chords(&self, piece: &Piece, permitted: Deviation) -> usize {
         let keys = &self.job.profile.gcode;
         piece.arc.map_or(1, |Arc { turn, .. }| {
-            // A chord of turn t is off its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
+            // A chord over a turn t deviates from its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
             let by_heading = turn.abs() / (2.0 * permitted.angle);
             let by_distance = (piece.length * turn.abs() / (8.0 * permitted.distance)).sqrt();
-            // Rounding by d turns a chord of length l by d / l: shorter than sqrt(2 d l / t) it turns more than the arc.
+            // Rounding by d turns a chord of length l by d / l. A chord shorter than sqrt(2 d l / t) turns more than the arc.
             let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();
             by_heading.max(by_distance).min(by_decimals).ceil().max(1.0) as usize
         })
     }
 
-    /// Lines of text.
+    /// Writes lines of text.
     fn say(&mut self, text: &str) {
         for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
             self.number();
@@ -310,7 +311,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// The number of the line that begins, when the controller wants one.
+    /// Writes the number of the line, if the controller wants line numbers.
     fn number(&mut self) {
         if self.job.profile.gcode.line_numbers {
             self.lines += 1;
@@ -320,7 +321,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// The word F of a move at a speed along a length.
+    /// Writes the word F of a move at a speed along a length.
     fn push_feed(&mut self, speed: f64, length: f64) {
         let feed = match self.job.profile.gcode.feed_mode {
             FeedMode::G94 => speed * S_PER_MIN,
@@ -332,15 +333,15 @@ impl<'a> Program<'a> {
         self.text.push(b'\n');
     }
 
-    /// The words of the axes of a rapid.
+    /// Writes the axis words of a rapid.
     fn axes(&mut self, to: Pose) {
         self.place(to);
         self.turn(to);
         self.pose = to;
     }
 
-    /// The same with the knife down. Where an axis that goes round rests it has no word: a controller that finds it a
-    /// hair's breadth before its place would turn it all round.
+    /// Writes the axis words of a move with the knife down. A wrapped axis at rest gets no word: a controller that finds it
+    /// marginally before its position would turn it all the way round.
     fn axes_of_cut(&mut self, to: Pose) {
         self.place(to);
         let gcode = &self.job.profile.gcode;
@@ -367,17 +368,17 @@ impl<'a> Program<'a> {
         push_fixed(&mut self.text, shown, keys.decimals);
     }
 
-    /// A position of an axis that goes round: from 0 to below 360, negative = reached by turning back. `was` is where it
-    /// stands, degrees.
+    /// A position of a wrapped axis as written: from 0 to below 360, negative if it is reached by turning back. `was` is the
+    /// current position, degrees.
     fn wrapped(&self, shown: f64, was: f64) -> f64 {
         let within = self.within(shown);
-        // To turn back to where it stands would be a whole turn.
+        // Turning back to the current position would be a full turn.
         let is_back = shown < was && (within - self.within(was)).abs() > 0.5 * self.job.profile.gcode.step();
         if is_back { -within } else { within }
     }
 
-    /// A position of an axis that goes round as it is printed, but for its sign. There is no negative zero, so there is
-    /// none at all: the nearest place that has a sign stands for it.
+    /// The magnitude of a position of a wrapped axis as written. Zero has no sign in G-code, so it is replaced by the nearest
+    /// value that has one.
     fn within(&self, shown: f64) -> f64 {
         let step = self.job.profile.gcode.step();
         let within = ((shown / step).round() * step).rem_euclid(TURN_DEG);

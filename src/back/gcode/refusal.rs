@@ -1,4 +1,4 @@
-//! What a program of G-code cannot say of a file, and why.
+//! Holes, events and runs that a G-code program cannot express, with the reasons.
 
 use crate::back::target::Context;
 use crate::diagnostic::{Diagnostic, code};
@@ -10,14 +10,14 @@ use crate::units::number::fixed;
 
 /// Decimals of places in messages.
 const PLACE_DECIMALS: u32 = 3;
-/// The drill of a profile whose steps have no place for a number.
+/// The only drill of a profile whose steps have no placeholder for a number.
 const ONLY_DRILL: u8 = 1;
 
-/// The holes and events that cannot be told with the steps of the profile.
+/// Diagnostics for the holes and events that the steps of the profile cannot express.
 pub(super) fn refusals(context: &Context) -> Vec<Diagnostic> {
     let Context { marker, job, .. } = *context;
     match job.mode {
-        // Nothing is drilled and nobody is asked for.
+        // Nothing is drilled and no event is written.
         Mode::Frame => Vec::new(),
         Mode::Cut | Mode::Dry => {
             let of_pieces = marker.pieces.iter().flat_map(|piece| {
@@ -29,7 +29,7 @@ pub(super) fn refusals(context: &Context) -> Vec<Diagnostic> {
     }
 }
 
-/// Why a run cannot be told as arcs and lines.
+/// Diagnostic for a run that cannot be written as arcs and lines.
 pub(super) fn unfit(unfit: &Unfit) -> Diagnostic {
     let refused = |message: &str| Diagnostic::new(&code::TARGET_REFUSED, message).at(unfit.span);
     match unfit.reason {
@@ -46,7 +46,7 @@ pub(super) fn unfit(unfit: &Unfit) -> Diagnostic {
     }
 }
 
-/// Why a hole cannot be told with the steps of the profile.
+/// Diagnostic for a hole that the steps of the profile cannot express; `None` when they can.
 fn unsaid_drill(drill: &Drill, job: &Job) -> Option<Diagnostic> {
     let keys = &job.profile.gcode;
     let refused = |message: String, hint: &str| {
@@ -68,7 +68,7 @@ fn unsaid_drill(drill: &Drill, job: &Job) -> Option<Diagnostic> {
     None
 }
 
-/// Why something cannot be asked for with the steps of the profile.
+/// Diagnostic for an event that the steps of the profile cannot express; `None` when they can.
 fn unsaid_event(event: Event, job: &Job) -> Option<Diagnostic> {
     let keys = &job.profile.gcode;
     let (key, steps, asks, hint) = match event {

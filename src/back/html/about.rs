@@ -1,4 +1,4 @@
-//! All that a page is about, and what of it the report and the script both need.
+//! Content of a page, and the parts of it that both the report and the script need.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use crate::ir::declaration::Declaration;
 use crate::units::S_PER_MIN;
 use crate::units::number::fixed;
 
-/// Single deviations that a page lists; the greatest of them.
+/// Maximum number of deviations listed on a page; the greatest are listed.
 const MOST_DEVIATIONS: usize = 400;
 
-/// All that a page is about.
+/// Content of a page.
 #[derive(Clone, Copy)]
 pub(super) struct About<'a> {
     pub(super) context: &'a Context<'a>,
@@ -24,7 +24,7 @@ pub(super) struct About<'a> {
     pub(super) pieces: &'a [Piece],
 }
 
-/// Worth of a program, as the page shows it.
+/// Status of a program, as shown on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Worth {
     Verified,
@@ -55,7 +55,7 @@ impl About<'_> {
         }
     }
 
-    /// Findings, the worst first: broken rules, then those that come nearest to their limit, then those without one.
+    /// Findings, the worst first: broken rules, then those closest to their limit, then those without a limit.
     pub(super) fn findings(&self) -> Vec<&Finding> {
         let mut findings: Vec<&Finding> = self.outcome.findings.iter().collect();
         let share = |finding: &Finding| match finding.limit {
@@ -68,7 +68,7 @@ impl About<'_> {
         findings
     }
 
-    /// Declared deviations with the places where they begin, the greatest first.
+    /// Declared deviations with their start points, the greatest first.
     pub(super) fn deviations(&self) -> Vec<(Declaration, Point)> {
         let marker = self.context.marker;
         let mut entries = self.outcome.deviations.to_vec();
@@ -81,7 +81,7 @@ impl About<'_> {
         entries.into_iter().map(place).collect()
     }
 
-    /// Time that ticks take, s.
+    /// Duration of a number of ticks, s.
     pub(super) fn time(&self, ticks: u64) -> f64 {
         ticks as f64 * self.context.job.profile.time.period()
     }
@@ -105,7 +105,7 @@ impl Worth {
     }
 }
 
-/// A time for people, as in `2 min 05.3 s`.
+/// A duration for people, as in `2 min 05.3 s`.
 pub(super) fn clock(seconds: f64) -> String {
     if seconds < S_PER_MIN {
         return format!("{} s", fixed(seconds, 1));
@@ -114,7 +114,7 @@ pub(super) fn clock(seconds: f64) -> String {
     format!("{} min {:0>4} s", fixed(minutes, 0), fixed(seconds - minutes * S_PER_MIN, 1))
 }
 
-/// Whether a place can be drawn.
+/// True if a point can be drawn.
 pub(super) fn is_finite(point: Point) -> bool {
     point.x.is_finite() && point.y.is_finite()
 }

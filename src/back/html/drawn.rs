@@ -1,24 +1,24 @@
-//! Lines of the cloth as the page draws them: outlines and notches of pieces, and what is drawn and not cut.
+//! Lines of the cloth as drawn on the page: outlines and notches of pieces, and lines that are drawn but not cut.
 
 use crate::back::target::Context;
 use crate::geom::Point;
 use crate::ir::marker::{Notch, NotchKind};
 use crate::picture::Columns;
 
-/// Unit of places, mm.
+/// Unit of coordinates, mm.
 const UNIT: f64 = 1e-3;
-/// Kinds of lines.
+/// Codes of the kinds of lines.
 const CLOSED: i64 = 0;
 const OPEN: i64 = 1;
 const NOTCH: i64 = 2;
 const ASIDE: i64 = 3;
 const HOLE: i64 = 4;
 
-/// Lines, their points one behind the other.
+/// Lines, with their points in one array.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
     kinds: Vec<i64>,
-    /// The piece that each is of, by its place in the marker; of lines that are not cut the number of their class.
+    /// Index in the marker of the piece of each line; for lines that are not cut the index of their class.
     parts: Vec<u32>,
     counts: Vec<u32>,
     points: Vec<Point>,
@@ -45,7 +45,7 @@ impl Lines {
             }
         }
         for (class, vertices) in context.marker.drawing.iter().flat_map(|account| account.aside.each()) {
-            // The way back of a mark lies on the mark.
+            // The way back of a mark lies on the mark itself.
             let Some(class) = class else { continue };
             let known = lines.classes.iter().position(|other| *other == class);
             let number = known.unwrap_or_else(|| {
@@ -75,7 +75,7 @@ impl Lines {
     }
 }
 
-/// A notch that is cut by itself as one line: a crossbar is led to from its tip.
+/// A notch that is cut by itself, as one line; the crossbar is connected to the tip.
 fn strokes(notch: &Notch) -> Vec<Point> {
     match notch.kind {
         NotchKind::Slit => vec![notch.root, notch.tip],

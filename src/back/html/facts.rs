@@ -1,4 +1,4 @@
-//! Facts that the script of the page reads beside the columns.
+//! Facts for the script of the page, besides the columns.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use super::piece::Piece;
 use crate::geom::Extent;
 use crate::ir::verdict::Finding;
 
-/// Decimals of places and times.
+/// Inverse of the rounding step of coordinates and times.
 const PER_UNIT: f64 = 1e6;
 
 /// The facts; `classes` are the names of lines that are not cut.

@@ -1,18 +1,19 @@
-//! The way of the axes as few cubic pieces: knots with places and rates, between which nothing strays from the setpoints.
+//! The path of the axes as few cubic pieces: knots with positions and rates, between which the setpoints are met within a
+//! tolerance.
 
 use crate::picture::Columns;
 
-/// Units of the knots: places in mm and degrees, rates in the same a tick.
+/// Units of the knots: positions in mm and degrees, rates in the same per tick.
 const UNITS: [f64; 3] = [1e-3, 1e-3, 1e-4];
 const RATE_UNIT: f64 = 1e-5;
-/// Greatest distance of a cubic from a setpoint, mm and degrees. With the rounding of its ends that is half of what the page
-/// promises.
+/// Maximum distance of a cubic from a setpoint, mm and degrees. Together with the rounding of its ends that is half of the
+/// accuracy promised by the page.
 const OFF: [f64; 3] = [4e-3, 4e-3, 1e-2];
 
-/// Places of the axes: X and Y in mm, C in degrees.
+/// Positions of the axes: X and Y in mm, C in degrees.
 pub(super) type Axes = [f64; 3];
 
-/// A place of the way with its rate, in units.
+/// A position of the axes with its rate, in units.
 #[derive(Debug, Clone, Copy)]
 struct Knot {
     tick: u64,
@@ -27,7 +28,7 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// Adds the way through setpoints, one a tick from rest to rest.
+    /// Adds the path through setpoints, one per tick, from rest to rest.
     pub(super) fn add(&mut self, first_tick: u64, way: &[Axes]) {
         let last = way.len() - 1;
         let knot = |i: usize| {
@@ -69,7 +70,7 @@ impl Fit {
         }
     }
 
-    /// Adds a rest of some ticks.
+    /// Adds a rest of a number of ticks.
     pub(super) fn rest(&mut self, first_tick: u64, ticks: u64, at: Axes) {
         let place = [0, 1, 2].map(|axis| (at[axis] / UNITS[axis]).round() as i64);
         for tick in [first_tick, first_tick + ticks] {
@@ -95,7 +96,7 @@ impl Fit {
     }
 }
 
-/// The place between two knots, by the cubic that has their places and rates.
+/// Position between two knots, by the cubic Hermite interpolation of their positions and rates.
 fn between(start: &Knot, end: &Knot, tick: f64) -> Axes {
     let span = (end.tick - start.tick) as f64;
     let u = (tick - start.tick as f64) / span;
@@ -113,7 +114,7 @@ fn between(start: &Knot, end: &Knot, tick: f64) -> Axes {
 mod tests {
     use super::*;
 
-    /// From rest to rest along a cosine, with a swing of C beside it.
+    /// A path from rest to rest along a cosine, with an oscillation of C.
     fn way(ticks: u32) -> Vec<Axes> {
         let at = |i: u32| {
             let phase = std::f64::consts::PI * f64::from(i) / f64::from(ticks);

@@ -1,28 +1,28 @@
-//! Speed, acceleration and jerk of the axes over time: least and greatest of each in every stretch of a few ticks, against
-//! their limits.
+//! Speed, acceleration and jerk of the axes over time, relative to their limits: minimum and maximum of each in every stretch
+//! of a few ticks.
 
 use super::fit::Axes;
 use crate::picture::Columns;
 
-/// Most stretches: more are joined two by two.
+/// Maximum number of stretches; beyond it stretches are merged in pairs.
 const MOST: usize = 1 << 14;
-/// Steps in which a limit is told.
+/// Steps per limit.
 const STEPS: f64 = 100.0;
-/// Greatest value that is told, in steps; beyond, a limit is broken by so much that its measure says nothing.
+/// Maximum recorded value, in steps; beyond it the amount of the violation has no meaning.
 const BEYOND: f64 = 250.0;
 /// Orders of differences: speed, acceleration, jerk.
 const ORDERS: usize = 3;
-/// Names of the columns, least and greatest, order by order and axis by axis.
+/// Names of the columns, minimum and maximum, by order and axis.
 const NAMES: [[[&str; 2]; 3]; ORDERS] = [
     [["speed_x_least", "speed_x_most"], ["speed_y_least", "speed_y_most"], ["speed_c_least", "speed_c_most"]],
     [["acc_x_least", "acc_x_most"], ["acc_y_least", "acc_y_most"], ["acc_c_least", "acc_c_most"]],
     [["jerk_x_least", "jerk_x_most"], ["jerk_y_least", "jerk_y_most"], ["jerk_c_least", "jerk_c_most"]],
 ];
 
-/// Limits of speed, acceleration and jerk, axis by axis, in mm or degrees and powers of s.
+/// Limits of speed, acceleration and jerk of each axis, in mm or degrees and powers of s.
 pub(super) type Limits = [[f64; ORDERS]; 3];
 
-/// Least and greatest of every order of every axis in a stretch, in steps of the limits.
+/// Minimum and maximum by order and axis in a stretch, in steps of the limits.
 type Stretch = [[[i16; 2]; 3]; ORDERS];
 
 /// The stretches of a program.
@@ -30,12 +30,12 @@ type Stretch = [[[i16; 2]; 3]; ORDERS];
 pub(super) struct Peaks {
     /// Cycle of the setpoints, s.
     period: f64,
-    /// Ticks of a stretch.
+    /// Ticks per stretch.
     ticks: u64,
     stretches: Vec<Stretch>,
-    /// Differences of the last setpoint, order by order; the first is the setpoint itself.
+    /// Differences at the last setpoint, by order; the first is the setpoint itself.
     last: [Axes; ORDERS + 1],
-    /// Setpoints so far.
+    /// Number of setpoints so far.
     count: u64,
 }
 
@@ -44,7 +44,7 @@ impl Peaks {
         Self { period, ticks: 4, stretches: Vec::new(), last: [[0.0; 3]; ORDERS + 1], count: 0 }
     }
 
-    /// Takes the setpoint of the next tick and the limits that hold at it.
+    /// Adds the setpoint of the next tick with the limits in force.
     pub(super) fn take(&mut self, at: Axes, limits: &Limits) {
         let mut differences = [at; ORDERS + 1];
         for order in 0..ORDERS {
@@ -71,7 +71,7 @@ impl Peaks {
         self.count += 1;
     }
 
-    /// Joins the stretches two by two.
+    /// Merges the stretches in pairs.
     fn join(&mut self) {
         let joined = self.stretches.chunks(2).map(|pair| {
             let mut all = pair[0];
@@ -86,7 +86,7 @@ impl Peaks {
         self.ticks *= 2;
     }
 
-    /// Ticks of a stretch.
+    /// Ticks per stretch.
     pub(super) fn ticks(&self) -> u64 {
         self.ticks
     }

@@ -1,4 +1,4 @@
-//! Pieces as the page names and counts them.
+//! Pieces with their names and figures for the page.
 
 use super::record::{Record, Sums};
 use crate::back::target::{Context, Outcome};
@@ -7,32 +7,32 @@ use crate::geom::{Extent, Point};
 use crate::ir::marker::{self, NotchKind};
 use crate::source::Span;
 
-/// Words with which texts of pattern systems name a piece, and its size.
+/// Keys with which labels of pattern systems give the name of a piece, and its size.
 const NAMES: [&str; 3] = ["piece name", "piece", "name"];
 const SIZES: [&str; 1] = ["size"];
 
-/// A piece in the page.
+/// A piece on the page.
 #[derive(Debug)]
 pub(super) struct Piece {
     /// Number in the file, with its copy if there are several.
     pub(super) number: String,
     /// Name from its labels; empty when it has none.
     pub(super) name: String,
-    /// Size from its labels, likewise.
+    /// Size from its labels; empty when it has none.
     pub(super) size: String,
-    /// All texts of the piece, one behind the other.
+    /// All texts of the piece, joined.
     pub(super) texts: String,
-    /// Notches by kind, and holes.
+    /// Counts of notches by kind, and of holes.
     pub(super) marks: String,
     /// Length of its cuts, mm.
     pub(super) cut: f64,
-    /// Its time and ways.
+    /// Its time and path lengths.
     pub(super) sums: Sums,
-    /// Messages that name it.
+    /// Number of messages that name it.
     pub(super) messages: usize,
-    /// Window of a conveyor that it is cut in, from 0; `None` where the cloth lies still.
+    /// Index of its conveyor window, from 0; `None` where the cloth does not advance.
     pub(super) window: Option<usize>,
-    /// Box of its lines.
+    /// Bounding box of its lines.
     pub(super) extent: Extent,
 }
 
@@ -62,13 +62,13 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
     pieces.map(piece).collect()
 }
 
-/// Whether a message names a piece.
+/// True if a message names a piece.
 fn is_about(message: &Diagnostic, piece: &marker::Piece) -> bool {
     let is_named = |name: &crate::diagnostic::PieceName| name.number == piece.number && name.copy == piece.copy;
     message.piece.as_deref().is_some_and(is_named) || message.pieces.contains(&piece.number)
 }
 
-/// The texts of a piece that say something.
+/// The non-empty texts of a piece.
 fn texts(context: &Context, piece: &marker::Piece) -> Vec<String> {
     let letters = context.marker.letters(&context.job.profile.labels);
     let text = |span: Span| letters.text(context.source.slice(span)).trim().to_owned();
@@ -77,7 +77,7 @@ fn texts(context: &Context, piece: &marker::Piece) -> Vec<String> {
     labels.chain(fields).filter(|text| !text.is_empty()).collect()
 }
 
-/// The value behind one of these keys, as in `Size: M`.
+/// The value of the first text with one of the keys, as in `Size: M`.
 fn told(texts: &[String], keys: &[&str]) -> Option<String> {
     let value = |text: &String| {
         let (key, value) = text.split_once(':')?;
@@ -92,14 +92,14 @@ fn plain(texts: &[String]) -> Option<String> {
     texts.iter().find(|text| !text.contains(": ") && !is_size(text)).cloned()
 }
 
-/// Whether a text is a size in letters, as in `M` or `2XL`.
+/// True if a text is a size in letters, as in `M` or `2XL`.
 fn is_size(text: &str) -> bool {
     let letters = text.trim_start_matches(|c: char| c.is_ascii_digit());
     let stem = letters.trim_start_matches('X');
     matches!(stem, "S" | "L") || (stem == "M" && stem.len() == text.len())
 }
 
-/// Notches by kind and holes, as in `2 slit, 1 v, 3 drill`.
+/// Counts of notches by kind and of holes, as in `2 slit, 1 v, 3 drill`.
 fn marks(piece: &marker::Piece) -> String {
     let of_piece = piece.notches.iter().map(|notch| match notch.kind {
         NotchKind::Slit => "slit",

@@ -1,4 +1,4 @@
-//! Record of a program, phase by phase: the way of the axes, outputs, blocks, and the time and ways of each piece.
+//! Record of a program, phase by phase: the path of the axes, outputs, blocks, and the time and path lengths of each piece.
 
 use super::fit::{Axes, Fit};
 use super::peaks::{Limits, Peaks};
@@ -9,23 +9,23 @@ use crate::machine::{self, MachineProfile};
 use crate::picture::Columns;
 use crate::units::deg;
 
-/// Time and ways of a program or of a piece of it.
+/// Time and path lengths of a program or of one piece.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sums {
-    /// Ticks by what the machine does, in the order of [`Sums::PARTS`].
+    /// Ticks by activity, in the order of [`Sums::PARTS`].
     pub(super) ticks: [u64; 7],
-    /// Way of the C axis with the knife up, mm.
+    /// Path length of the C axis with the knife up, mm.
     pub(super) travel: f64,
-    /// Way of the tip with the knife down, mm.
+    /// Path length of the tip with the knife down, mm.
     pub(super) cut: f64,
-    /// Times that the knife goes down.
+    /// Number of plunges.
     pub(super) plunges: usize,
     /// Length of all overlaps, mm.
     pub(super) overlaps: f64,
 }
 
 impl Sums {
-    /// Names of the parts of the time, by their numbers.
+    /// Names of the activities, by index.
     pub(super) const PARTS: [&str; 7] =
         ["cutting", "travelling", "turning", "plunging", "lifting", "drilling", "waiting"];
 
@@ -39,13 +39,13 @@ impl Sums {
         }
     }
 
-    /// All ticks.
+    /// Total number of ticks.
     pub(super) fn total(&self) -> u64 {
         self.ticks.iter().sum()
     }
 }
 
-/// A phase as the page has it.
+/// A phase as stored for the page.
 #[derive(Debug)]
 struct Stretch {
     tick: u64,
@@ -54,12 +54,12 @@ struct Stretch {
     station: u32,
 }
 
-/// A phase whose end is not known yet: that is where the next one begins.
+/// A phase that is still open: it ends where the next one starts.
 #[derive(Debug)]
 struct Open {
     first_tick: u64,
     ticks: u64,
-    /// The setpoints; one where the axes rest.
+    /// The setpoints; a single one where the axes are at rest.
     way: Vec<Axes>,
 }
 
@@ -67,15 +67,15 @@ struct Open {
 #[derive(Debug)]
 pub(super) struct Record {
     tick: u64,
-    /// Limits of axes in cuts and with the knife up.
+    /// Limits of the axes in cuts and with the knife up.
     limits: [Limits; 2],
     open: Option<Open>,
     fit: Fit,
     pub(super) peaks: Peaks,
     stretches: Vec<Stretch>,
-    /// Ticks from which a block is cut.
+    /// Start ticks of the blocks, with their numbers.
     blocks: Vec<[u64; 2]>,
-    /// Sums of all, and of every piece by its place in the marker.
+    /// Sums over the program, and for each piece by its index in the marker.
     pub(super) all: Sums,
     pub(super) pieces: Vec<Sums>,
 }
@@ -101,17 +101,17 @@ impl Record {
         }
     }
 
-    /// Setpoints of the program so far.
+    /// Number of setpoints of the program so far.
     pub(super) fn ticks(&self) -> u64 {
         self.tick
     }
 
-    /// Limits of axes in cuts and with the knife up, in mm or degrees and powers of s.
+    /// Limits of the axes in cuts and with the knife up, in mm or degrees and powers of s.
     pub(super) fn limits(&self) -> &[Limits; 2] {
         &self.limits
     }
 
-    /// Takes the motion of a toolpath.
+    /// Adds the motion of a toolpath.
     pub(super) fn take(&mut self, motion: &Motion) {
         for phase in &motion.phases {
             self.phase(phase, motion.part);
@@ -147,7 +147,7 @@ impl Record {
         self.tick += u64::from(phase.ticks);
     }
 
-    /// Ends the phase that is open where the next one begins.
+    /// Closes the open phase at the start of the next one.
     fn close(&mut self, end: Axes) {
         let Some(Open { first_tick, ticks, mut way }) = self.open.take() else { return };
         if way.len() == 1 {
@@ -174,12 +174,12 @@ impl Record {
     }
 }
 
-/// A pose as the page has it.
+/// A pose in the units of the page.
 fn axes(pose: Pose) -> Axes {
     [pose.centre.x, pose.centre.y, deg(pose.c.0)]
 }
 
-/// Number of what happens in a phase, as the page has it.
+/// Code of a phase kind on the page.
 fn number(kind: Kind) -> i64 {
     match kind {
         Kind::Rest => 0,

@@ -1,5 +1,4 @@
-//! What a plot draws and nobody cuts: thin grey lines below the pieces, each class with a title that says what it was taken
-//! for.
+//! Lines of a plot that are drawn but not cut: thin grey lines below the pieces, with the class of each as its title.
 
 use std::collections::BTreeMap;
 
@@ -7,20 +6,20 @@ use super::markup::PathData;
 use crate::back::target::Context;
 use crate::ir::drawing::{Account, LineClass};
 
-/// The style of such lines.
+/// Style class of such lines.
 pub(super) const ASIDE: &str = "aside";
 
-/// What they were taken for.
+/// Classes of lines that are not cut.
 pub(super) fn classes<'a>(context: &'a Context) -> impl Iterator<Item = &'a LineClass> {
     context.marker.drawing.iter().flat_map(|account| &account.classes).filter(|class| !class.cut)
 }
 
-/// The layer; nothing when all is cut.
+/// The layer; empty when everything is cut.
 pub(super) fn layer(context: &Context) -> String {
     let Some(Account { aside, classes, .. }) = &context.marker.drawing else { return String::new() };
     let mut paths: BTreeMap<&str, PathData> = BTreeMap::new();
     for (class, vertices) in aside.each() {
-        // The way back of a mark lies on the mark.
+        // The way back of a mark lies on the mark itself.
         let Some(class) = class else { continue };
         paths.entry(class).or_default().line(vertices.iter().map(|vertex| vertex.at));
     }

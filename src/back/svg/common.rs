@@ -1,4 +1,4 @@
-//! Edges that are cut once for two parts: where they run, with what is cut and what is spared.
+//! Edges that are cut once for two parts, each with the piece that is cut and the piece that is spared.
 
 use std::fmt::Write;
 
@@ -7,16 +7,16 @@ use crate::back::target::Context;
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
-/// The class that they are drawn in.
+/// Style class of these edges.
 pub(super) const COMMON: &str = "common";
 
-/// What the legend says of them; `None` where there are none.
+/// Text of the legend; `None` where there are none.
 pub(super) fn meaning(context: &Context) -> Option<String> {
     let (edges, length) = (context.marker.common.len(), context.marker.common_length());
     (edges > 0).then(|| format!("common edges: {edges}, {} m", fixed(length / MM_PER_M, 1)))
 }
 
-/// The layer of them.
+/// The layer of common edges.
 pub(super) fn layer(context: &Context) -> String {
     let marker = context.marker;
     if marker.common.is_empty() {

@@ -1,4 +1,4 @@
-//! What the program declares: a mark at the worst place of each kind, and the table that explains the marks.
+//! Declared deviations: a mark at the worst place of each kind, and the table that explains the marks.
 
 use std::fmt::Write;
 
@@ -7,11 +7,11 @@ use super::sheet::{LINE_PX, Sheet};
 use crate::geom::{Point, Vector};
 use crate::ir::declaration::Total;
 
-/// From the middle of a mark to its corners, and height of its letter, nominal pixels.
+/// Distance from the centre of a mark to its corners, and height of its letter, nominal pixels.
 const MARK_PX: f64 = 5.0;
 const LETTER_PX: f64 = 11.0;
 
-/// The name of the n-th kind: small, so that nobody takes it for a finding.
+/// Letter of the n-th kind: lower case, to distinguish it from findings.
 fn letter(n: usize) -> char {
     char::from(b'a' + n as u8)
 }
@@ -29,7 +29,7 @@ pub(super) fn layer(declared: &[Total], sheet: &Sheet) -> String {
         let corners = [(arm, 0.0), (0.0, arm), (-arm, 0.0), (0.0, -arm), (arm, 0.0)];
         let mut data = PathData::default();
         data.line(corners.map(|(x, y)| at + Vector::new(x, y)));
-        // Letters at one place stand one beside the other, to the left: those of findings are on the right.
+        // Letters at one place are set side by side, to the left; those of findings are on the right.
         let beside = lettered.iter().filter(|other| (**other - at).norm() < 2.0 * arm).count();
         lettered.push(at);
         let shift = arm + sheet.px * LETTER_PX * (1 + beside) as f64;
@@ -48,7 +48,7 @@ pub(super) fn layer(declared: &[Total], sheet: &Sheet) -> String {
     text
 }
 
-/// The table, from its first line on.
+/// The table, with its first line at a point.
 pub(super) fn table(declared: &[Total], sheet: &Sheet, mut at: Point) -> String {
     if declared.is_empty() {
         return String::new();

@@ -1,5 +1,5 @@
-//! Doubts about pieces that are cut and about outlines that are not: a band along the outlines of each, wide enough for the
-//! whole marker, and the table that explains the bands.
+//! Doubts about pieces that are cut and about outlines that are not: a band along the outlines of each, wide enough to be seen
+//! in a view of the whole marker, and the table that explains the bands.
 
 use std::fmt::Write;
 
@@ -13,15 +13,15 @@ use crate::ir::marker::Piece;
 
 /// Height of the sign of a doubt, nominal pixels.
 const SIGN_PX: f64 = 22.0;
-/// From the middle of a piece up to its sign, nominal pixels: above the number.
+/// Distance from the middle of a piece up to its sign, nominal pixels; the sign is above the number.
 const RISE_PX: f64 = 24.0;
 
-/// The name of the n-th doubt.
+/// Sign of the n-th doubt.
 fn sign(n: usize) -> String {
     format!("?{}", n + 1)
 }
 
-/// The pieces that a doubt is about.
+/// The pieces of a doubt.
 fn pieces<'a>(doubt: &'a Diagnostic, context: &'a Context) -> impl Iterator<Item = &'a Piece> {
     context.marker.pieces.iter().filter(|piece| doubt.pieces.contains(&piece.number))
 }
@@ -34,13 +34,13 @@ struct Band {
 }
 
 impl Band {
-    /// Band along outlines; its sign stands above the middle of the box of `anchor`.
+    /// The band along outlines; its sign is above the middle of the box of `anchor`.
     fn new(outlines: Vec<Vec<Point>>, anchor: &[Point]) -> Self {
         let Extent { min, max } = Extent::of(anchor);
         Self { outlines, middle: min + (max - min) / 2.0 }
     }
 
-    /// The outlines of a piece.
+    /// The band along the outlines of a piece; `None` when it has no closed contour.
     fn of_piece(piece: &Piece, context: &Context) -> Option<Self> {
         let closed = piece.contours.iter().filter(|contour| contour.closed);
         let outlines: Vec<Vec<Point>> = closed.map(|contour| context.marker.points(contour)).collect();
@@ -49,11 +49,11 @@ impl Band {
     }
 }
 
-/// Classes of lines that are no parts and may be outlines.
+/// Classes of lines that are not parts but may be outlines.
 const UNCUT: [&str; 3] = [OPEN_LINE, OPEN_OUTLINE, BROKEN_OUTLINE];
 
-/// Bands along uncut lines of the class that a doubt is about. Each open line has a band; all broken outlines share one,
-/// whose sign stands at the outline that the doubt names.
+/// Bands along uncut lines of the class that a doubt is about. Each open line has a band; all broken outlines share one, with
+/// its sign at the outline that the doubt names.
 fn uncut(doubt: &Diagnostic, context: &Context) -> Vec<Band> {
     let aside = context.marker.drawing.iter().flat_map(|account| account.aside.each());
     let outlines: Vec<(&str, &[Vertex])> =
@@ -101,7 +101,7 @@ pub(super) fn layer(doubts: &[&Diagnostic], sheet: &Sheet, context: &Context) ->
     text
 }
 
-/// The table, from its first line on.
+/// The table, with its first line at a point.
 pub(super) fn table(doubts: &[&Diagnostic], sheet: &Sheet, mut at: Point) -> String {
     if doubts.is_empty() {
         return String::new();

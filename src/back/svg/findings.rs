@@ -15,10 +15,10 @@ const FAILS_RADIUS_PX: f64 = 13.0;
 const HOLDS_RADIUS_PX: f64 = 8.0;
 /// Height of a ring's letter, nominal pixels.
 const LETTER_PX: f64 = 13.0;
-/// Radius of the cross that shows the place itself, in blade widths.
+/// Radius of the cross at the place itself, in blade widths.
 const CROSS_RADIUS: f64 = 0.15;
 
-/// The name of the n-th finding: a letter, so that nobody takes it for a piece. A to Z, then AA to AZ, and so on.
+/// Letter of the n-th finding, to distinguish it from piece numbers: A to Z, then AA to AZ, and so on.
 fn letter(n: usize) -> String {
     let last = char::from(b'A' + (n % 26) as u8);
     if n < 26 { last.to_string() } else { letter(n / 26 - 1) + &last.to_string() }
@@ -31,7 +31,7 @@ pub(super) fn layer(marks: &[Mark], sheet: &Sheet, knife: &Knife) -> String {
     }
     let mut text = String::from("<g id=\"findings\" inkscape:groupmode=\"layer\" inkscape:label=\"findings\">\n");
     let mut lettered: Vec<Point> = Vec::new();
-    // What holds is drawn first: what fails lies on top.
+    // Draw the rules that hold first, so that failures lie on top.
     for fails in [false, true] {
         for (n, mark) in marks.iter().enumerate().filter(|(_, mark)| mark.holds != fails) {
             let Some(sighting) = mark.place else { continue };
@@ -47,7 +47,7 @@ pub(super) fn layer(marks: &[Mark], sheet: &Sheet, knife: &Knife) -> String {
             for arm in [Vector::new(arm, arm), Vector::new(arm, -arm)] {
                 data.line([at - arm, at + arm]);
             }
-            // Letters at one place stand one beside the other.
+            // Letters at one place are set side by side.
             let beside = lettered.iter().filter(|other| (**other - at).norm() < 2.0 * radius).count();
             lettered.push(at);
             let shift = radius + sheet.px * (2.0 + LETTER_PX * beside as f64);
@@ -67,7 +67,7 @@ pub(super) fn layer(marks: &[Mark], sheet: &Sheet, knife: &Knife) -> String {
     text
 }
 
-/// What was found, in a line: letter, rule, values, place.
+/// A finding in one line: letter, rule, values, place.
 pub(super) fn sentence(n: usize, mark: &Mark) -> String {
     let mut text = format!("{}  {}  {}", letter(n), mark.name, mark.verdict);
     if let Some(place) = mark.place {

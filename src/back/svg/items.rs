@@ -1,4 +1,4 @@
-//! The entries of the legend: what is drawn how.
+//! The entries of the legend: symbols with their meanings.
 
 use super::{aside, common, near};
 use crate::back::target::Context;
@@ -12,18 +12,18 @@ pub(super) struct Item {
     pub(super) meaning: String,
 }
 
-/// How it is drawn.
+/// Symbol of an entry.
 #[derive(Clone, Copy)]
 pub(super) enum Symbol {
     Line,
-    /// A bar, as a blade and an overlap look when zoomed.
+    /// A bar, the zoomed appearance of a blade and an overlap.
     Bar,
-    /// With its radius, pixels.
+    /// A circle with its radius, pixels.
     Circle(f64),
     Target,
 }
 
-/// The entries of a picture: those of all, edges that are cut once, those that run near others, then what of a plot is drawn and not cut.
+/// The entries of a picture: the common ones, common edges, near lines, then the lines of a plot that are drawn but not cut.
 pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
     let aside = aside::classes(context).map(|class| Item {
         class: aside::ASIDE,

@@ -1,4 +1,4 @@
-//! The layer of the knife: for each toolpath a group of what is cut, overlapped, plunged, lifted, drilled and travelled.
+//! The layer of the knife: for each toolpath a group of cuts, overlaps, plunges, lifts, holes and travels.
 
 use super::markup::{PathData, blocks, escape};
 use crate::geom::{Point, Vector, left, polyline};
@@ -7,25 +7,25 @@ use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
 
-/// Radii of symbols, in blade widths: small enough that a corner with two plunges stays readable.
+/// Radii of symbols, in blade widths: small enough to keep a corner with two plunges readable.
 const PLUNGE_RADIUS: f64 = 0.05;
 const LIFT_RADIUS: f64 = 0.03;
 const DRILL_RADIUS: f64 = 0.5;
 const EVENT_RADIUS: f64 = 0.6;
-/// Half the thickness of a blade and of an overlap, in blade widths: seen when zoomed, nothing but lines otherwise.
+/// Half the thickness of a blade and of an overlap, in blade widths: visible when zoomed, otherwise a line.
 const BLADE_HALF_THICKNESS: f64 = 0.02;
 const OVERLAP_HALF_THICKNESS: f64 = 0.012;
-/// A blade narrower than this, a point above all, has the symbols of one of this width, mm.
+/// Minimum width for sizing symbols, mm; a narrower blade, or a point, gets symbols of this size.
 const LEAST_WIDTH: f64 = 3.0;
-/// Overlaps shorter than this are rounding, mm: nothing of the kind can be seen.
+/// Length below which an overlap is rounding, mm: far below the visible.
 const OVERLAP_EPSILON: f64 = 1e-6;
 
-/// Width of the blade that symbols are sized by, mm.
+/// Width that the symbols are scaled by, mm.
 pub(super) fn symbol_width(knife: &Knife) -> f64 {
     knife.width_mm.max(LEAST_WIDTH)
 }
 
-/// What is drawn with one path for a whole toolpath, and the single cuts.
+/// The paths drawn once for a whole toolpath, and the single cuts.
 struct Group<'a> {
     knife: &'a Knife,
     unit: f64,
@@ -162,7 +162,7 @@ impl Group<'_> {
         self.lift.circle(end.1, LIFT_RADIUS * self.unit);
     }
 
-    /// Where the blade begins and where it ends that cuts with an edge: heel and tip, or tip and heel.
+    /// Trailing and leading end of the blade, for the edge that cuts: heel and tip, or tip and heel.
     fn ends(&self, pose: &Pose, edge: Edge) -> (Point, Point) {
         let (heel, tip) = (pose.ahead(-self.knife.back()), pose.ahead(self.knife.radius()));
         match edge {
@@ -171,32 +171,32 @@ impl Group<'_> {
         }
     }
 
-    /// The blade seen from above: a slender kite, widest at the C axis, pointed at heel and tip.
+    /// The blade from above: a slender kite, widest at the C axis, pointed at heel and tip.
     fn blade_outline(&self, pose: &Pose) -> [Point; 4] {
         let (heel, tip) = self.ends(pose, Edge::Front);
         let side = left(pose.c.unit()) * (BLADE_HALF_THICKNESS * self.unit);
         [heel, pose.centre + side, tip, pose.centre - side]
     }
 
-    /// The band along an overlap that is `length` mm long.
+    /// The band along an overlap of `length` mm.
     fn overlap(&mut self, points: &[Point], length: f64) {
         overlap(&mut self.over, points, [length, OVERLAP_HALF_THICKNESS * self.unit]);
     }
 }
 
-/// Adds the band along an overlap, by its length and half of its thickness, mm.
+/// Adds the band along an overlap, given its length and half its thickness, mm.
 fn overlap(data: &mut PathData, points: &[Point], [length, half]: [f64; 2]) {
     if length > OVERLAP_EPSILON {
         data.polygon(band(points, half));
     }
 }
 
-/// Said of a cut that goes the other way round than the file has it.
+/// Remark on a cut in reverse to the file.
 fn way_round(turned: bool) -> String {
     if turned { ", turned round".to_owned() } else { String::new() }
 }
 
-/// Said of a cut that the back edge of the blade makes.
+/// Remark on a cut by the back edge of the blade.
 fn by_edge(edge: Edge) -> &'static str {
     match edge {
         Edge::Front => "",
@@ -204,7 +204,7 @@ fn by_edge(edge: Edge) -> &'static str {
     }
 }
 
-/// Said of a cut on whose curves the blade is a chord.
+/// Remark on a cut in the chord mode.
 fn chord(orientation: OrientationMode) -> &'static str {
     match orientation {
         OrientationMode::Tangent => "",
@@ -212,7 +212,7 @@ fn chord(orientation: OrientationMode) -> &'static str {
     }
 }
 
-/// Said of a plunge cut that cuts into a part.
+/// Remark on a plunge cut that reaches into a part.
 fn overcut(overcut: [Overcut; 2]) -> String {
     let into = |depth: f64, part: &str, end: &str| {
         if depth > 0.0 { format!(", {} mm into {part} {end}", fixed(depth, 2)) } else { String::new() }
@@ -221,10 +221,10 @@ fn overcut(overcut: [Overcut; 2]) -> String {
     ends.map(|(Overcut { own, other }, end)| into(own, "its part", end) + &into(other, "another part", end)).collect()
 }
 
-/// The outline of a band along a polyline: its left side forth, its right side back.
+/// The outline of a band along a polyline: its left side forwards, its right side back.
 fn band(points: &[Point], half: f64) -> Vec<Point> {
     let last = points.len() - 1;
-    // Across the chord between the neighbours; a hairpin keeps its own place.
+    // Perpendicular to the chord between the neighbours; zero at a hairpin.
     let across = |i: usize| {
         let along = polyline::direction(points[i.saturating_sub(1)], points[(i + 1).min(last)]);
         along.map_or_else(Vector::zeros, |along| left(along) * half)
@@ -233,7 +233,7 @@ fn band(points: &[Point], half: f64) -> Vec<Point> {
     forth.chain((0..=last).rev().map(|i| points[i] - across(i))).collect()
 }
 
-/// The first `length` mm of a polyline; all of it when it is shorter, nothing when `length` is 0.
+/// The first `length` mm of a polyline; all of it when it is shorter, empty when `length` is 0.
 fn along(points: &[Point], length: f64) -> Vec<Point> {
     if length <= OVERLAP_EPSILON {
         return Vec::new();
@@ -252,7 +252,7 @@ fn along(points: &[Point], length: f64) -> Vec<Point> {
     part
 }
 
-/// What a toolpath is: what is drilled is a hole, what the file forbids all overlap is a slit.
+/// Kind of a toolpath: a hole if it drills, a slit if the file forbids all overlap.
 fn kind(toolpath: &Toolpath) -> &'static str {
     let cuts = toolpath.steps.iter().filter_map(|step| match step {
         Step::Run(run) => Some((run.points.len(), run.ends)),

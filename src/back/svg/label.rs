@@ -1,7 +1,7 @@
 //! The layer of labels: texts at their places, in their directions, as large as their pieces allow.
 //!
-//! Files give no height of letters. A label is as high as can be read, and lower where it would run out of its piece.
-//! Labels at one place stand one below the other: a cutter would print one over the other.
+//! Files give no letter height. Labels have a readable height, reduced where the text would extend beyond its piece. Labels at
+//! one place are stacked, where a cutter would print them on top of each other.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -16,34 +16,34 @@ use crate::source::Span;
 use crate::units::deg;
 use crate::units::number::fixed;
 
-/// Largest height of letters, nominal pixels.
+/// Maximum letter height, nominal pixels.
 const MOST_PX: f64 = 13.0;
-/// Least height of letters, mm: a text that has no room is read all the same when the piece is looked at.
+/// Minimum letter height, mm: a text without room is still readable in a view of the piece.
 const LEAST: f64 = 1.5;
-/// Width of a letter and of an ideograph, in heights: a wide average, for text runs as the font of the viewer has it.
+/// Width of a letter and of an ideograph, in heights: a generous average, since the viewer chooses the font.
 const LETTER_WIDTH: f64 = 0.66;
 const IDEOGRAPH_WIDTH: f64 = 1.02;
-/// From here on a character is as wide as it is high: Hangul, kana, ideographs.
+/// First character that is as wide as it is high: Hangul, kana, ideographs.
 const IDEOGRAPHS_FROM: char = '\u{1100}';
-/// How far letters reach above and below their line, and from line to line, in heights.
+/// Ascent and descent of letters, and distance between lines, in heights.
 const ASCENT: f64 = 0.78;
 const DESCENT: f64 = 0.24;
 const LINE: f64 = 1.2;
-/// Places of labels that are fitted into a piece, the others are small: bounds the work on files of nothing but labels.
+/// Maximum number of labels per piece that are fitted; the others are small. It bounds the work on files of labels only.
 const MEASURED: usize = 64;
 /// Free space between a text and the lines around it, in heights.
 const GAP: f64 = 0.3;
-/// A point at most this far behind the place of a text is beside it, mm: far below what can be seen.
+/// Tolerance for a point behind the place of a text, mm: far below the visible.
 const AHEAD_EPSILON: f64 = 1e-9;
 
-/// Texts at one place, one below the other.
+/// Texts at one place, stacked.
 struct Block<'a> {
     at: Point,
     heading: Heading,
     labels: Vec<(&'a Label, String)>,
 }
 
-/// The layer. The numbers of the pieces are then to keep off it.
+/// The layer. Adds the texts to the places that piece numbers avoid.
 pub(super) fn layer(shapes: &mut [Shape], sheet: &Sheet, context: &Context) -> String {
     let mut text = String::new();
     for (shape, piece) in shapes.iter_mut().zip(&context.marker.pieces) {
@@ -76,8 +76,7 @@ fn text_of(span: Span, context: &Context) -> String {
     context.marker.letters(&context.job.profile.labels).text(context.source.slice(span))
 }
 
-/// The labels of a piece that have something to read, by place and direction. Those without a place stand in the middle
-/// of the piece.
+/// The non-empty labels of a piece, grouped by place and direction. Labels without a place go to the middle of the piece.
 fn blocks_of<'a>(piece: &'a Piece, shape: &Shape, context: &Context) -> Vec<Block<'a>> {
     let has_lost = piece.labels.iter().any(|label| label.at.is_none());
     let middle = if has_lost { shape.middle() } else { None };
@@ -101,7 +100,7 @@ fn blocks_of<'a>(piece: &'a Piece, shape: &Shape, context: &Context) -> Vec<Bloc
 }
 
 impl Block<'_> {
-    /// Reach of the texts along and across their direction, in heights: forward, up and down from their place.
+    /// Extent of the texts from their place along and across their direction, in heights: forward, up and down.
     fn reach(&self) -> [f64; 3] {
         let width = |text: &str| text.chars().map(width).sum::<f64>();
         let forward = self.labels.iter().map(|(_, text)| width(text)).fold(0.0, f64::max);
@@ -122,13 +121,13 @@ impl Block<'_> {
         free.min(MOST_PX * sheet.px).max(LEAST)
     }
 
-    /// A point as seen from the place of the texts: along and across their direction.
+    /// A point relative to the place of the texts, along and across their direction.
     fn seen(&self, point: Point) -> Vector {
         let (along, from) = (self.heading.unit(), point - self.at);
         Vector::new(from.dot(&along), from.dot(&left(along)))
     }
 
-    /// Points on the upper and lower edges of the texts, a height apart.
+    /// Points on the upper and lower edges of the texts, one height apart.
     fn edges(&self, height: f64) -> Vec<Point> {
         let [forward, ..] = self.reach();
         let along = self.heading.unit();
@@ -165,21 +164,21 @@ fn width(c: char) -> f64 {
     if c >= IDEOGRAPHS_FROM { IDEOGRAPH_WIDTH } else { LETTER_WIDTH }
 }
 
-/// The height at which texts of some reach (in heights: forward, up, down) touch a chord as seen from their place;
+/// The height at which texts of some extent (in heights: forward, up, down) touch a chord given relative to their place;
 /// infinite when they never do.
 ///
-/// The box of the texts grows with the height about their place, so a point is touched at the greatest of `x / forward`,
-/// `y / up` and `-y / down` (the gauge of a convex set: Rockafellar, Convex Analysis, 1970, section 4). Along a chord that
-/// is convex and straight in pieces: its least value stands at an end or where two of the three are equal.
+/// The box of the texts grows with the height about their place, so it touches a point at the greatest of `x / forward`, `y /
+/// up` and `-y / down` (the gauge of a convex set: Rockafellar, Convex Analysis, 1970, section 4). Along a chord this function
+/// is convex and piecewise linear: its minimum is at an end or where two of the three are equal.
 fn touch([a, b]: [Vector; 2], [forward, up, down]: [f64; 3]) -> f64 {
     let chord = b - a;
-    // Where a linear function of the point is zero along the chord.
+    // Zero of a linear function along the chord.
     let zero = |at_a: f64, slope: f64| if slope == 0.0 { f64::NAN } else { -at_a / slope };
     let against = |reach: f64| zero(a.x / forward - a.y / reach, chord.x / forward - chord.y / reach);
     let shares = [0.0, 1.0, zero(a.x, chord.x), zero(a.y, chord.y), against(up), against(-down)];
     let heights = shares.into_iter().filter(|share| (0.0..=1.0).contains(share)).map(|share| {
         let point = a + chord * share;
-        // Behind their place there are no texts; what rounding leaves of a crossing counts as ahead.
+        // There are no texts behind their place; a crossing that is behind by rounding only counts as ahead.
         if point.x < -AHEAD_EPSILON {
             f64::INFINITY
         } else {
@@ -199,12 +198,12 @@ mod tests {
             let height = touch([Vector::new(a.0, a.1), Vector::new(b.0, b.1)], [10.0, 1.0, 0.5]);
             assert!(height == expected || (height - expected).abs() < 1e-9, "{a:?} {b:?}: {height}");
         };
-        // A wall ahead, a lid, a floor, a slope that the upper far corner meets.
+        // A wall ahead, a lid, a floor, and a slope that the upper far corner meets.
         check((30.0, -50.0), (30.0, 50.0), 3.0);
         check((-50.0, 4.0), (50.0, 4.0), 4.0);
         check((-50.0, -1.0), (50.0, -1.0), 2.0);
         check((0.0, 2.0), (20.0, 0.0), 1.0);
-        // What lies behind is never touched; a line through the place leaves no room.
+        // A line behind is never touched; a line through the place leaves no room.
         check((-1.0, -5.0), (-1.0, 5.0), f64::INFINITY);
         check((-3.0, -3.0), (3.0, 3.0), 0.0);
     }

@@ -1,4 +1,4 @@
-//! The legend below the drawing: scale, caption, symbols and the table of findings.
+//! The legend below the drawing: scale, caption, symbols and the tables.
 
 use std::fmt::Write;
 
@@ -17,10 +17,10 @@ use crate::units::MM_PER_M;
 
 /// Width of a symbol, pixels.
 const SYMBOL_PX: f64 = 30.0;
-/// The scale bar is at most this part of the sheet's width.
+/// Maximum length of the scale bar, as a fraction of the sheet's width.
 const SCALE_PART: f64 = 0.2;
 
-/// Scale bar, caption, symbols and the tables of findings, of doubts and of what is declared, below the drawing.
+/// Scale bar, caption, symbols and the tables of findings, doubts and declarations, below the drawing.
 pub(super) fn layer(
     sheet: &Sheet,
     context: &Context,

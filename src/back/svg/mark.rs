@@ -1,4 +1,4 @@
-//! The places that a picture rings: the worst ones under rules, and those of errors.
+//! Marks of a picture: rings at the worst places under rules, and at the places of errors.
 
 use crate::back::target::Outcome;
 use crate::diagnostic::Diagnostic;
@@ -6,12 +6,12 @@ use crate::ir::verdict::{Finding, Sighting};
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
-/// Content of a ring and of its line in the table: the worst under a rule, or an error for which there is no program.
+/// A ring and its line in the table: the worst value under a rule, or an error that prevented the program.
 pub(super) struct Mark {
-    /// The name of the rule, or the code of the error.
+    /// Name of the rule, or code of the error.
     pub(super) name: &'static str,
     pub(super) holds: bool,
-    /// Its values, and whether they are allowed.
+    /// Its values, and whether they are permitted.
     pub(super) verdict: String,
     pub(super) place: Option<Sighting>,
 }
@@ -21,7 +21,7 @@ impl Mark {
         let unit = if finding.unit.is_empty() { String::new() } else { format!(" {}", finding.unit) };
         let value = |value: f64| format!("{}{unit}", shown(value));
         let verdict = match finding.limit {
-            // Beyond measure: something is missing.
+            // An infinite value: something is missing.
             Some(_) if finding.worst.is_infinite() => "FAILS".to_owned(),
             None => format!("{} (no limit)", value(finding.worst)),
             Some(limit) if finding.holds() => format!("{}, limit {}: holds", value(finding.worst), value(limit)),
@@ -37,15 +37,15 @@ impl Mark {
     }
 }
 
-/// The marks that a picture shows: errors, what fails, and what has its worst place on the cloth; that an axis reaches its
-/// limit somewhere is no news.
+/// The marks of a picture: errors, failures, and findings whose worst place is on the cloth. An axis that reaches its limit
+/// somewhere is not shown.
 pub(super) fn marks(Outcome { findings, refusals, .. }: Outcome) -> Vec<Mark> {
     let on_the_cloth = |finding: &Finding| finding.place.is_some() && matches!(finding.unit, "mm" | "deg");
     let findings = findings.iter().filter(|finding| !finding.holds() || on_the_cloth(finding));
     refusals.iter().map(|error| Mark::of_refusal(error)).chain(findings.map(Mark::of_finding)).collect()
 }
 
-/// A value with as many decimals as its size deserves: limits reach from micrometres to jerks of 1e6.
+/// A value with decimals according to its size: limits range from micrometres to jerks of 1e6.
 fn shown(value: f64) -> String {
     let decimals = match value.abs() {
         size if size == 0.0 || size >= MM_PER_M => 0,

@@ -1,4 +1,4 @@
-//! The few things that XML and SVG ask of text, numbers and path data.
+//! Text, numbers and path data in the syntax of XML and SVG.
 
 use std::fmt::Write;
 
@@ -7,21 +7,21 @@ pub(super) use crate::picture::escape;
 use crate::source::Span;
 use crate::units::number;
 
-/// Decimals of coordinates, mm: a micrometre, far below what cloth or blade know.
+/// Decimals of coordinates, mm: a micrometre, far below the accuracy of cloth or blade.
 const DECIMALS: u32 = 3;
 
-/// A length or coordinate in mm as it stands in an attribute.
+/// A length or coordinate in mm as an attribute value.
 pub(super) fn mm(value: f64) -> String {
     number::fixed(value, DECIMALS)
 }
 
-/// A number without the zeros that say nothing.
+/// A number without trailing zeros.
 pub(super) fn short(value: f64) -> String {
     let text = number::fixed(value, 3);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The data of a path: polylines and circles, any number of them.
+/// Path data: any number of polylines and circles.
 #[derive(Debug, Default)]
 pub(super) struct PathData(Vec<u8>);
 
@@ -59,12 +59,12 @@ impl PathData {
         number::push_fixed(&mut self.0, y, DECIMALS);
     }
 
-    /// The path element of a class; nothing when the path is empty.
+    /// The path element with a style class; empty when the path is empty.
     pub(super) fn element(&self, class: &str) -> String {
         self.titled(class, "")
     }
 
-    /// The same with a title, which browsers show under the pointer.
+    /// The path element with a title, which browsers show under the pointer.
     pub(super) fn titled(&self, class: &str, title: &str) -> String {
         if self.0.is_empty() {
             return String::new();
@@ -77,11 +77,11 @@ impl PathData {
     }
 }
 
-/// The source blocks of some spans, as people say them; empty when there are none.
+/// The range of source blocks of some spans in words; empty when there are none.
 pub(super) fn blocks(spans: impl IntoIterator<Item = Span>) -> String {
     let mut range: Option<(u32, u32)> = None;
     for span in spans {
-        // Block 0 is no block.
+        // Block 0 means no block.
         if span.block > 0 {
             let (least, greatest) = range.unwrap_or((span.block, span.block));
             range = Some((least.min(span.block), greatest.max(span.block)));

@@ -1,4 +1,4 @@
-//! Near lines: where cuts of two parts run beside each other with a thin strip between them.
+//! Near lines: stretches where cuts of two parts run side by side with a thin strip between them.
 
 use std::fmt::Write;
 
@@ -8,16 +8,16 @@ use crate::ir::marker::NearEdge;
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
-/// The class that they are drawn in.
+/// Style class of these lines.
 pub(super) const NEAR: &str = "near";
 
-/// What the legend says of them; `None` where there are none.
+/// Text of the legend; `None` where there are none.
 pub(super) fn meaning(context: &Context) -> Option<String> {
     let length = fixed(context.marker.near_length() / MM_PER_M, 1);
     (!context.marker.near.is_empty()).then(|| format!("near line, both cut: {length} m"))
 }
 
-/// The layer of them: a path for the stretches of a piece that follow each other.
+/// The layer of near lines: one path per group of consecutive stretches of a piece.
 pub(super) fn layer(context: &Context) -> String {
     let marker = context.marker;
     if marker.near.is_empty() {

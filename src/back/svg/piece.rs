@@ -11,50 +11,50 @@ use crate::ir::marker::{self, NotchForm, NotchKind, Piece};
 use crate::source::Span;
 use crate::units::number::fixed;
 
-/// Colours of pieces: of like weight, none near the signal colours (magenta, red, amber) or the grey of travels.
+/// Colours of pieces, of similar weight, away from the signal colours (magenta, red, amber) and the grey of travels.
 pub(super) const PALETTE: [&str; 10] =
     ["#3f6fa3", "#4f8f46", "#8a6bb0", "#8d6546", "#2f8c8c", "#8a8a2e", "#5b63c4", "#b0705a", "#4a7c63", "#6d86ad"];
-/// Pieces nearer than this are neighbours, mm.
+/// Distance below which pieces are neighbours, mm.
 const NEIGHBOUR_GAP: f64 = 40.0;
-/// Neighbours are looked for among this many pieces before: a marker is cut from one end to the other.
+/// Number of previous pieces searched for neighbours: a marker is cut from one end to the other.
 const NEIGHBOUR_WINDOW: usize = 200;
-/// Largest height of a number, nominal pixels.
+/// Maximum height of a number, nominal pixels.
 const NUMBER_MAX_PX: f64 = 26.0;
-/// Width of a digit and height of a number, in parts of the font size.
+/// Width of a digit and height of a number, as fractions of the font size.
 const DIGIT_WIDTH: f64 = 0.64;
 const DIGIT_HEIGHT: f64 = 0.73;
-/// Room that a view of one piece leaves around it, in parts of its larger side.
+/// Margin around the view of one piece, as a fraction of its larger side.
 const VIEW_MARGIN: f64 = 0.06;
 
-/// A piece as it is drawn.
+/// A piece as drawn.
 #[derive(Debug)]
 pub(super) struct Shape {
-    /// Its number in the file.
+    /// Number in the file.
     number: u32,
-    /// The same, with its copy if there are several.
+    /// Number in the file, with its copy if there are several.
     name: String,
-    /// The window of a conveyor that it is cut in, from 0; `None` where the cloth lies still.
+    /// Index of its conveyor window, from 0; `None` where the cloth does not advance.
     bite: Option<usize>,
-    /// Its contours.
+    /// Contours.
     pub(super) contours: Vec<Contour>,
-    /// Places that its number keeps off: its drills and labels.
+    /// Places that its number avoids: its drills and labels.
     taken: Vec<Point>,
     notches: Vec<Notch>,
     extent: Extent,
-    /// What browsers show under the pointer.
+    /// Title, shown by browsers under the pointer.
     title: String,
 }
 
-/// A contour as it is drawn.
+/// A contour as drawn.
 #[derive(Debug)]
 pub(super) struct Contour {
-    /// A closed one ends with its first point.
+    /// Vertices; a closed contour ends with its first point.
     pub(super) points: Vec<Point>,
-    /// Whether it ends where it starts.
+    /// True if it ends where it starts.
     pub(super) closed: bool,
 }
 
-/// A notch as it is drawn: a slit has two points, one of an outline three.
+/// A notch as drawn: a slit has two points, a notch of an outline three.
 #[derive(Debug)]
 struct Notch {
     points: Vec<Point>,
@@ -62,24 +62,24 @@ struct Notch {
 }
 
 impl Shape {
-    /// Adds a text that has no place to what is said about the piece.
+    /// Adds a text without a place to the title of the piece.
     pub(super) fn say(&mut self, text: &str) {
         let _infallible = write!(self.title, ", label: {text}");
     }
 
-    /// Has the number keep off some more places.
+    /// Adds places that the number avoids.
     pub(super) fn keep_off(&mut self, places: impl IntoIterator<Item = Point>) {
         self.taken.extend(places);
     }
 
-    /// Where a text stands that the file gives no place: where the number would, inside the piece.
+    /// Place of a text to which the file gives none: the spot of the number, inside the piece.
     pub(super) fn middle(&self) -> Option<Point> {
         let Extent { min, max } = self.extent;
         let middle = || (!self.extent.is_empty()).then(|| min + (max - min) / 2.0);
         spot::find(&self.rings(), &self.taken).map(|spot| spot.at).or_else(middle)
     }
 
-    /// The contours that enclose something.
+    /// The closed contours.
     pub(super) fn rings(&self) -> Vec<&[Point]> {
         self.contours.iter().filter(|c| c.closed).map(|c| c.points.as_slice()).collect()
     }
@@ -165,7 +165,7 @@ pub(super) fn colour_rules(shapes: &[Shape]) -> String {
     rules
 }
 
-/// An index into the palette for each piece: that of its window on a conveyor, else the next one that no neighbour has.
+/// An index into the palette for each piece: that of its conveyor window, otherwise the next one not used by a neighbour.
 fn colours(shapes: &[Shape]) -> Vec<usize> {
     let mut colours: Vec<usize> = Vec::with_capacity(shapes.len());
     for (i, shape) in shapes.iter().enumerate() {
@@ -240,12 +240,12 @@ fn group(shape: &Shape, order: u32, sheet: &Sheet, text: &mut String) {
     text.push_str("</g>\n");
 }
 
-/// The number of a piece, as large as its spot allows; a link to the view of the piece.
+/// The number of a piece, as large as its spot allows, as a link to the view of the piece.
 fn label(name: &str, order: u32, spot: Spot, sheet: &Sheet) -> String {
     let digits = name.len() as f64;
     let largest = NUMBER_MAX_PX * sheet.px;
     let fitting = spot.clear / (digits * DIGIT_WIDTH / 2.0).hypot(DIGIT_HEIGHT / 2.0);
-    // A piece without an inside has its number over its lines, small.
+    // A piece without an interior has a small number on its lines.
     let size = if spot.clear > 0.0 { fitting.min(largest) } else { largest / 2.0 };
     format!(
         "<a href=\"#view-{order}\"><text class=\"number\" transform=\"scale(1,-1)\" x=\"{}\" y=\"{}\" font-size=\"{}\">{name}</text></a>\n",

@@ -10,11 +10,11 @@ use crate::geom::{Extent, Point, Vector};
 use crate::units::number::fixed;
 use crate::units::{MM_PER_INCH, MM_PER_M, deg};
 
-/// Window in which the whole drawing should be readable, pixels: text and margins are sized for it.
+/// Window in which the whole drawing should be readable, pixels; text and margins are sized for it.
 const WINDOW_PX: [f64; 2] = [1400.0, 800.0];
-/// Least width of a sheet, pixels: the legend needs it.
+/// Minimum width of a sheet, pixels: the legend needs it.
 const LEAST_WIDTH_PX: f64 = 760.0;
-/// A nominal pixel is never smaller than one of a browser, mm: at actual size, text is readable.
+/// Minimum size of a nominal pixel, mm: that of a browser pixel, so that text is readable at actual size.
 const LEAST_PX: f64 = MM_PER_INCH / 96.0;
 /// Free space around the drawing, pixels.
 pub(super) const MARGIN_PX: f64 = 30.0;
@@ -25,14 +25,14 @@ const TEXT_PX: f64 = 13.0;
 pub(super) const CELL_PX: f64 = 220.0;
 /// Length of the arrows at the origin, pixels.
 const ARROW_PX: f64 = 26.0;
-/// Width of the word `refused` and height of its letters, in sizes of its font, and how much of the drawing it fills.
+/// Width of the word `refused` and height of its letters, in font sizes, and the fraction of the drawing that it fills.
 const WORD_EMS: f64 = 4.6;
 const LETTER_EMS: f64 = 1.0;
 const WORD_SHARE: f64 = 0.92;
-/// Bytes of the opening tag, padded with blanks so that the tail can write it once more with the final size.
+/// Length of the opening tag in bytes, padded with blanks so that the tail can rewrite it with the final size.
 const OPENING_BYTES: usize = 480;
 
-/// Style of everything. Strokes keep their width on the screen; symbols grow with the zoom.
+/// Style of all elements. Strokes keep their width on the screen; symbols grow with the zoom.
 const STYLE: &str = "\
 svg{max-width:100vw;max-height:100vh;background:#fff}
 svg:target{max-width:none;max-height:none}
@@ -73,23 +73,23 @@ a{cursor:pointer}
 .link{fill:#2a5db0;text-decoration:underline}
 ";
 
-/// Where everything stands on the sheet, in its own coordinates: mm, Y down, the table's origin at (0, 0).
+/// Layout of the sheet in its own coordinates: mm, Y down, the table's origin at (0, 0).
 #[derive(Debug)]
 pub(super) struct Sheet {
-    /// A nominal pixel, mm.
+    /// Size of a nominal pixel, mm.
     pub(super) px: f64,
-    /// What is cut or drilled, in table coordinates (Y up).
+    /// Box of everything that is cut or drilled, in table coordinates (Y up).
     extent: Extent,
     pub(super) left: f64,
     top: f64,
     pub(super) width: f64,
     height: f64,
-    /// Where the legend begins.
+    /// Top of the legend.
     pub(super) legend: f64,
 }
 
 impl Sheet {
-    /// The sheet of a marker, with room for the tables of findings, of doubts and of what is declared.
+    /// The sheet of a marker, with room for the tables of findings, doubts and declarations.
     pub(super) fn of(context: &Context, marks: &[Mark], Outcome { declared, doubts, .. }: Outcome) -> Self {
         let profile = &context.job.profile;
         let extent = context.marker.extent();
@@ -98,7 +98,7 @@ impl Sheet {
         drawn.add(Point::new(profile.home[0], profile.home[1]));
         let aside = context.marker.drawing.iter().flat_map(|account| &account.aside.vertices);
         aside.for_each(|vertex| drawn.add(vertex.at));
-        // Only the marker decides the scale: the head does not know the findings yet.
+        // The scale depends on the marker only, because the head is written before the findings are known.
         let (w, h) = drawn.size();
         let px = (w / WINDOW_PX[0]).max(h / WINDOW_PX[1]).max(LEAST_PX);
         for place in marks.iter().filter_map(|mark| mark.place) {
@@ -130,19 +130,19 @@ impl Sheet {
         format!("{tag:<OPENING_BYTES$}>\n")
     }
 
-    /// The corners of the part of the sheet above the legend, in table coordinates (Y up), the first one repeated.
+    /// Corners of the part of the sheet above the legend, in table coordinates (Y up), with the first one repeated.
     pub(super) fn edge(&self) -> [Point; 5] {
         let (left, right) = (self.left, self.left + self.width);
         let (top, bottom) = (-self.top, -self.legend);
         [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)].map(|(x, y)| Point::new(x, y))
     }
 
-    /// The whole sheet, as the attribute has it.
+    /// The whole sheet, as the value of the attribute `viewBox`.
     pub(super) fn view_box(&self) -> String {
         format!("{} {} {} {}", mm(self.left), mm(self.top), mm(self.width), mm(self.height))
     }
 
-    /// Cells of the legend beside each other.
+    /// Number of legend cells per row.
     pub(super) fn columns(&self) -> usize {
         ((self.width / self.px - 2.0 * MARGIN_PX) / CELL_PX).floor().max(1.0) as usize
     }
@@ -182,16 +182,16 @@ impl Sheet {
         text
     }
 
-    /// The word across the drawing that tells everybody what the picture is of: no program.
+    /// The word across the drawing that marks the picture as not a program.
     pub(super) fn refused(&self) -> String {
         let (width, height) = (self.width, self.legend - self.top);
         let slope = height.atan2(width);
         let (sin, cos) = slope.sin_cos();
-        // As large as the drawing is wide and high for the box around the word, turned along the diagonal.
+        // The largest size at which the box around the word, rotated along the diagonal, fits the drawing in width and height.
         let by_width = width / (WORD_EMS * cos + LETTER_EMS * sin);
         let by_height = height / (WORD_EMS * sin + LETTER_EMS * cos);
         let size = WORD_SHARE * by_width.min(by_height);
-        // The middle of the letters stands on the diagonal.
+        // The middle of the letters is on the diagonal.
         format!(
             "<g id=\"refused\" inkscape:groupmode=\"layer\" inkscape:label=\"refused\" transform=\"translate({},{}) \
              rotate({})\"><text y=\"{}\" font-size=\"{}\" style=\"fill:#d00000;fill-opacity:.2;font-weight:bold;\
@@ -204,27 +204,27 @@ impl Sheet {
         )
     }
 
-    /// Words whose letters begin at a place.
+    /// Words that start at a point.
     pub(super) fn text(&self, class: &str, at: Point, words: &str) -> String {
         let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
-        // The middle of the letters stands at the point's level.
+        // The middle of the letters is at the level of the point.
         let y = at.y + 0.36 * TEXT_PX * self.px;
         let size = mm(TEXT_PX * self.px);
         format!("<text{class} x=\"{}\" y=\"{}\" font-size=\"{size}\">{}</text>\n", mm(at.x), mm(y), escape(words))
     }
 }
 
-/// Number of text lines of a table, its title included.
+/// Number of text lines of a table, including its title.
 pub(super) fn table_lines(rows: usize) -> usize {
     rows + usize::from(rows > 0)
 }
 
-/// The style element: what is common, then the colours of the pieces.
+/// The style element: the common style, then the colours of the pieces.
 pub(super) fn style(colours: &str) -> String {
     format!("<style>\n{STYLE}{colours}</style>\n")
 }
 
-/// What the marker and the knife are, in a line.
+/// Marker and knife in one line.
 pub(super) fn caption(context: &Context) -> String {
     let marker = context.marker;
     let (w, h) = marker.extent().size();

@@ -1,4 +1,4 @@
-//! Where a piece's number stands: inside the piece, away from everything that is cut.
+//! Spot of a piece's number: inside the piece, away from everything that is cut.
 
 use crate::geom::{Extent, Point, Vector, cross, polyline};
 
@@ -7,22 +7,22 @@ use crate::geom::{Extent, Point, Vector, cross, polyline};
 pub(super) struct Spot {
     /// Its middle, mm.
     pub(super) at: Point,
-    /// Distance to the nearest line or hole, mm; 0 when the piece has no inside.
+    /// Distance to the nearest line or hole, mm; 0 when the piece has no interior.
     pub(super) clear: f64,
 }
 
-/// Levels at which the inside is searched: enough to meet the body of a slender, bent piece.
+/// Number of levels at which the interior is searched: enough to meet the body of a slender, bent piece.
 const LEVELS: u32 = 24;
-/// Stretches that are measured, the widest first: bounds the work on pieces with many teeth.
+/// Maximum number of stretches that are measured, the widest first. It bounds the work on pieces with many teeth.
 const CANDIDATES: usize = 24;
-/// Where a stretch is measured, in parts of its width from its middle: labels often fill the middle. The middle stands
-/// last, so that it is taken where all have the same room.
+/// Measured positions on a stretch, as fractions of its width from its middle: labels often fill the middle. The middle is
+/// last, so that it wins a tie.
 const SHARES: [f64; 3] = [-0.25, 0.25, 0.0];
-/// The centroid is where people look first: it is taken unless another place has this many times its room.
+/// Factor by which another place must have more room than the centroid to be preferred: people look at the centroid first.
 const CENTROID_BONUS: f64 = 1.6;
 
-/// The spot of a piece that is bounded by `rings` (closed, the first point repeated at the end; a ring inside a ring is a
-/// hole) and holds `holes`. `None` when no ring encloses anything.
+/// The spot of a piece that is bounded by `rings` (closed, with the first point repeated; a ring inside a ring is a hole) and
+/// has drill holes at `holes`. `None` when no ring encloses anything.
 pub(super) fn find(rings: &[&[Point]], holes: &[Point]) -> Option<Spot> {
     let clear = |at: Point| {
         let lines =
@@ -37,7 +37,7 @@ pub(super) fn find(rings: &[&[Point]], holes: &[Point]) -> Option<Spot> {
     Some(central.filter(|c| c.clear * CENTROID_BONUS >= best.clear).unwrap_or(best))
 }
 
-/// Middles and widths of the level stretches inside, the widest [`CANDIDATES`].
+/// Middles and widths of the horizontal stretches inside, the widest [`CANDIDATES`].
 fn stretches(rings: &[&[Point]]) -> Vec<(Point, f64)> {
     let mut extent = Extent::EMPTY;
     rings.iter().flat_map(|ring| ring.iter()).for_each(|&point| extent.add(point));
@@ -60,7 +60,7 @@ fn stretches(rings: &[&[Point]]) -> Vec<(Point, f64)> {
     found
 }
 
-/// Where a chord crosses a level; the lower end belongs to it, the upper does not.
+/// Position where a chord crosses a level; the lower end of the chord is included, the upper is not.
 fn at_level(ends: &[Point], y: f64) -> Option<f64> {
     let (a, b) = (ends[0], ends[1]);
     ((a.y <= y) != (b.y <= y)).then(|| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y))

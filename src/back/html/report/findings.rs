@@ -1,4 +1,4 @@
-//! Points to look at: messages, findings of the verifier, declared deviations.
+//! Points that need attention: messages, findings of the verifier, declared deviations.
 
 use super::table;
 use crate::back::html::about::{About, is_finite};
@@ -8,9 +8,9 @@ use crate::ir::Finding;
 use crate::picture::Markup;
 use crate::units::number::{counted, fixed, short};
 
-/// Most messages of a code that a page lists: people mend the worst of them and compile again.
+/// Maximum number of messages listed per code; people fix the worst of them and compile again.
 const MOST_MESSAGES: usize = 40;
-/// Below this, in any unit, a value is rounding of the computation.
+/// Values below this, in any unit, are rounding of the computation.
 const NOISE_EPSILON: f64 = 1e-8;
 /// Percent of a whole limit.
 const PERCENT: f64 = 100.0;
@@ -34,7 +34,7 @@ struct Group<'a> {
     messages: Vec<&'a Diagnostic>,
 }
 
-/// Messages by their codes, errors first; of a code the worst first, as far as that can be measured.
+/// Groups messages by code, errors first; within a code the worst first, where measured.
 fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
     let mut groups: Vec<Group> = Vec::new();
     for &message in messages {
@@ -50,7 +50,7 @@ fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
     groups
 }
 
-/// Errors and warnings, those of a code behind each other.
+/// The section of errors and warnings, grouped by code.
 pub(super) fn messages(about: &About, out: &mut Markup) {
     let groups = groups(about.outcome.messages);
     if groups.is_empty() {
@@ -66,7 +66,7 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         let few = if messages.len() > MOST_MESSAGES { format!(", the worst {MOST_MESSAGES}") } else { String::new() };
         out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(" ");
         out.element("code", &[], code.name).text(&few).close("p");
-        // A hint that all of them share is told once.
+        // A hint common to all of them is shown once.
         let shared =
             messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
         let shared: Vec<&String> = shared.collect();
@@ -82,7 +82,7 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
     out.close("section");
 }
 
-/// One message, with the hints that not all of its code share.
+/// One message, with the hints that are not common to its group.
 fn entry(message: &Diagnostic, shared: &[&String], out: &mut Markup) {
     out.open("li", &[]).element("span", &[], &message.message);
     if let Some(piece) = &message.piece {
@@ -98,7 +98,7 @@ fn entry(message: &Diagnostic, shared: &[&String], out: &mut Markup) {
     out.close("li");
 }
 
-/// Findings of the verifier.
+/// The section of the verifier's findings.
 pub(super) fn section(about: &About, out: &mut Markup) {
     let findings = about.findings();
     if findings.is_empty() {
@@ -150,7 +150,7 @@ fn row(finding: &Finding, out: &mut Markup) {
     out.close("td").close("tr");
 }
 
-/// Declared deviations with their places.
+/// The section of declared deviations with their places.
 pub(super) fn deviations(about: &About, out: &mut Markup) {
     let entries = about.deviations();
     if entries.is_empty() {

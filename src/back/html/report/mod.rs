@@ -1,4 +1,4 @@
-//! The report: markup that says what was made of which job, and what is to be looked at before cutting.
+//! The report: markup that describes the job and lists everything to check before cutting.
 
 mod findings;
 mod pieces;

@@ -36,7 +36,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     out.close("section");
 }
 
-/// The table of windows; nothing where the cloth lies still.
+/// The table of windows; empty where the cloth does not advance.
 pub(super) fn windows(about: &About, out: &mut Markup) {
     let Some(last) = about.pieces.iter().filter_map(|piece| piece.window).max() else { return };
     out.open("section", &[("id", "windows")]).element("h2", &[], "Windows of the conveyor");

@@ -2,7 +2,7 @@
 
 use crate::picture::Markup;
 
-/// A section with a table of facts, a row each.
+/// A section with a table of facts, one per row.
 pub(super) fn facts(out: &mut Markup, id: &str, title: &str, rows: &[(&str, String)]) {
     out.open("section", &[("id", id)]).element("h2", &[], title).open("table", &[("class", "facts")]);
     for (name, value) in rows {
@@ -11,7 +11,7 @@ pub(super) fn facts(out: &mut Markup, id: &str, title: &str, rows: &[(&str, Stri
     out.close("table").close("section");
 }
 
-/// Opens a table that can be sorted by its columns; `n` before a name is for numbers.
+/// Opens a table that can be sorted by its columns; `#` before a name marks a column of numbers.
 pub(super) fn open(out: &mut Markup, class: &str, columns: &[&str]) {
     out.open("div", &[("class", "scroll")]).open("table", &[("class", class)]).open("thead", &[]).open("tr", &[]);
     for column in columns {
@@ -23,7 +23,7 @@ pub(super) fn open(out: &mut Markup, class: &str, columns: &[&str]) {
     out.close("tr").close("thead").open("tbody", &[]);
 }
 
-/// Ends such a table.
+/// Closes the table.
 pub(super) fn close(out: &mut Markup) {
     out.close("tbody").close("table").close("div");
 }

@@ -12,7 +12,7 @@ use crate::units::{MM_PER_M, MM2_PER_M2};
 
 const PERCENT: f64 = 100.0;
 
-/// The job in a line.
+/// The job in one line.
 pub(super) fn summary(about: &About) -> String {
     let marker = about.context.marker;
     let (width, height) = marker.extent().size();
@@ -27,7 +27,7 @@ pub(super) fn summary(about: &About) -> String {
     if ticks > 0 { format!("{said}, {}", clock(about.time(ticks))) } else { said }
 }
 
-/// The section.
+/// The section of totals.
 pub(super) fn section(about: &About, out: &mut Markup) {
     let marker = about.context.marker;
     let sums = &about.record.all;
@@ -62,7 +62,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     }
 }
 
-/// Cost of the job where its price is known.
+/// Cost of the job; `None` when the price is unknown.
 fn cost(about: &About) -> Option<String> {
     let ticks = about.record.all.total();
     let Price { per_s, plies } = about.context.job.remarks.price.filter(|_| ticks > 0)?;
@@ -76,7 +76,7 @@ fn cost(about: &About) -> Option<String> {
     Some(format!("{} for {of}: {} a ply{part}", fixed(marker, 2), fixed(ply, 3)))
 }
 
-/// Parts of the time: a row each, with a bar as long as its share.
+/// Breakdown of the time: one row per activity, with a bar of its share.
 fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     out.open("section", &[("id", "spent")]).element("h2", &[], "Time");
     table::open(out, "bars", &["Spent on", "#Time", "#Share", ""]);
