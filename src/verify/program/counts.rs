@@ -1,5 +1,5 @@
-//! Reads timed setpoints from encoder counts: a JSON header of the scales, then records of five little-endian `i32`, of six
-//! where a conveyor moves the cloth on.
+//! Reader of timed setpoints as encoder counts: a JSON header with the scales, then records of five little-endian `i32`, or six
+//! with a conveyor.
 
 use std::io::{BufRead, Read as _};
 
@@ -9,41 +9,42 @@ use super::row::Row;
 use crate::geom::Point;
 use crate::machine::MachineProfile;
 
-/// How every such file begins.
+/// First bytes of every such file.
 const MAGIC: &[u8] = b"{\"format\": \"cutc-counts\"";
-/// Bytes of the header, its line feed included.
+/// Bytes of the header, including its line feed.
 const HEADER: u64 = 1024;
 /// Bytes of a number.
 const NUMBER: usize = 4;
-/// Names of the numbers of a record, and how many there are: the last one on a conveyor alone.
+/// Names of the numbers in a record. The last one is present only with a conveyor.
 const NAMES: [&str; 6] = ["x", "y", "c", "outputs", "block", "advance_mm"];
 const LEAST: usize = 5;
 const COLUMNS: [usize; 2] = [LEAST, NAMES.len()];
-/// A register of 32 bits has so many values.
+/// Number of values of a 32-bit register.
 const TURN: i64 = 1 << 32;
 
-/// Whether a program is one of these.
+/// True if the program has this format.
 pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
     input.fill_buf().is_ok_and(|bytes| bytes.starts_with(MAGIC))
 }
 
-/// What counts are multiples of, and where their registers stand.
+/// Scales and offsets of the counts, and the state of the reader.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Counts {
-    /// Counts per mm and degree.
+    /// Counts per mm (X, Y) and per degree (C).
     scales: [f64; 3],
     offsets: [f64; 3],
     zero_deg: f64,
     sign: f64,
     period: f64,
-    /// Numbers of a record.
+    /// Numbers per record.
     columns: usize,
-    /// The last counts, unwrapped.
+    /// Counts of the last record, unwrapped.
     last: Option<[i64; 3]>,
 }
 
 impl Counts {
-    /// Reads the header; gives the scales and the number of records, `None` when it does not say what the profile says.
+    /// Reads the header and returns the scales and the number of records; `None` when the header is malformed or contradicts
+    /// the profile.
     pub(in crate::verify) fn read(input: &mut dyn BufRead, profile: &MachineProfile) -> Option<(Self, u64)> {
         let mut line = Vec::new();
         input.take(HEADER).read_until(b'\n', &mut line).ok()?;
@@ -77,13 +78,13 @@ impl Counts {
         as_asked.then_some((counts, rows))
     }
 
-    /// Half of a count of each axis, mm and degrees.
+    /// Half a count of each axis, mm and degrees.
     pub(in crate::verify) fn rounding(&self) -> [f64; 3] {
         self.scales.map(|scale| 0.5 / scale)
     }
 
-    /// Reads the next record into `bytes`, of which `left` are to come; `Some(false)` at the end of the program, `None`
-    /// when it ends too early or has bytes left over.
+    /// Reads the next record into `bytes`; `left` is the number of records still expected. `Some(false)` at the end of the
+    /// program, `None` when it ends too early or bytes are left over.
     pub(in crate::verify) fn record(
         &self,
         input: &mut dyn BufRead,
@@ -99,12 +100,12 @@ impl Counts {
         Some(true)
     }
 
-    /// The row that a record holds, `None` when its outputs are not legal.
+    /// Row of a record; `None` when its outputs are not legal.
     pub(in crate::verify) fn row(&mut self, record: &[u8], tick: u64) -> Option<Row> {
         let word = |i: usize| Some(i32::from_le_bytes(record.get(4 * i..4 * i + 4)?.try_into().ok()?));
         let read = [word(0)?, word(1)?, word(2)?].map(i64::from);
         let counts = match self.last {
-            // A register that seems to leap has gone round: the nearest way is the way.
+            // A register that seems to leap has wrapped around: take the shorter way.
             Some(last) => std::array::from_fn(|i| {
                 let way = (read[i] - last[i]).rem_euclid(TURN);
                 last[i] + if way >= TURN / 2 { way - TURN } else { way }

@@ -1,5 +1,5 @@
-//! Reads timed setpoints from the rows of `LinuxCNC`'s halstreamer: `x_mm y_mm c_deg knife drill event block`, on a conveyor
-//! with `advance_mm` behind.
+//! Reader of timed setpoints as rows of `LinuxCNC`'s halstreamer: `x_mm y_mm c_deg knife drill event block`, followed by
+//! `advance_mm` with a conveyor.
 
 use std::io::BufRead;
 
@@ -8,16 +8,16 @@ use super::row::{FIRST_LINE, Row};
 use crate::geom::Point;
 use crate::machine::MachineProfile;
 
-/// The first line of such a program, and what a conveyor adds to it.
+/// First line of such a program, and its addition with a conveyor.
 pub(super) const HEADER: &[u8] = b"# cutc hal: x_mm y_mm c_deg knife drill event block";
 pub(super) const ADVANCE: &[u8] = b" advance_mm";
 
-/// Whether a program is one of these.
+/// True if the program has this format.
 pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
     input.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"# cutc hal"))
 }
 
-/// The row on a line, which may tell the way of the cloth; halstreamer has no time, a row is a period.
+/// Row of a line; `has_advance` if the line ends with the advance of the cloth. Rows have no time: each is one period.
 pub(in crate::verify) fn row(line: &[u8], tick: u64, has_advance: bool, profile: &MachineProfile) -> Option<Row> {
     let mut fields = line.split(|&byte| byte == b' ');
     let mut field = || fields.next();

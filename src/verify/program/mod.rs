@@ -1,7 +1,7 @@
-//! Readers of emitted bytes, one a format: rows, which the rest judges, or the cutter file as it is.
+//! Readers of emitted bytes, one per format. They produce rows for the other checks, or verify a cut file directly.
 //!
-//! Receives bytes, promises rows, or the findings on a cutter file, or the place from which on they cannot be read. Never
-//! judges what the rows cut.
+//! Input: bytes. Output: rows, or the findings on a cut file, or the place where reading failed. The cut itself is verified
+//! elsewhere.
 
 pub(super) mod counts;
 pub(super) mod cutter_file;

@@ -1,5 +1,5 @@
-//! Reads timed setpoints from a `NumPy` file: a header in Python's words, then packed little-endian records with the fields
-//! of the rows that [`rows`](super::rows) knows.
+//! Reader of timed setpoints from a `NumPy` file: a header as a Python literal, then packed little-endian records with the
+//! fields of the rows of [`rows`](super::rows).
 
 use std::io::BufRead;
 
@@ -7,34 +7,34 @@ use super::row::Row;
 use crate::geom::Point;
 use crate::units::columns::{self, MAGIC, float};
 
-/// The fields of a record, blanks left out.
+/// Fields of a record, without blanks.
 const FIELDS: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
     ('knife','|u1'),('drill','|u1'),('event','|u1'),('block','<u4')";
-/// Fields on a conveyor; the last one is the way of the cloth.
+/// Fields with a conveyor; the last one is the advance of the cloth.
 const FIELDS_OF_BITES: &str = "('t_s','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
     ('knife','|u1'),('drill','|u1'),('event','|u1'),('block','<u4'),('advance_mm','<u4')";
-/// Bytes of a record of either.
+/// Bytes of a record, without and with a conveyor.
 const RECORDS: [usize; 2] = [39, 43];
 
-/// Whether a program is one of these, by its first byte: a text never begins with that one.
+/// True if the program has this format, judged by its first byte, which never begins a text.
 pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
     input.fill_buf().is_ok_and(|bytes| bytes.first() == MAGIC.first())
 }
 
-/// Reads the header; gives the number of records and the bytes of each, `None` when it is no header of setpoints.
+/// Reads the header and returns the number of records and the bytes of each; `None` when it is not a header of setpoints.
 pub(in crate::verify) fn header(input: &mut dyn BufRead) -> Option<(u64, usize)> {
     let (count, list) = columns::records_of(input, &[FIELDS, FIELDS_OF_BITES]).ok()?;
     Some((count, RECORDS[list]))
 }
 
-/// Reads the next record, of `size` bytes, where `left` are to come; `Some(false)` at the end of the program, `None` when it ends
-/// too early, cannot be read, or has bytes left over.
+/// Reads the next record, of `size` bytes; `left` is the number of records still expected. `Some(false)` at the end of the
+/// program, `None` when it ends too early, cannot be read, or bytes are left over.
 pub(super) fn record(input: &mut dyn BufRead, left: &mut u64, size: usize, bytes: &mut Vec<u8>) -> Option<bool> {
     bytes.resize(size, 0);
     columns::record(input, left, bytes).ok()
 }
 
-/// The row that a record holds, `None` when a number is not finite or an output not legal.
+/// Row of a record; `None` when a number is not finite or an output is not legal.
 pub(in crate::verify) fn row(record: &[u8], tick: u64) -> Option<Row> {
     let number = |place: usize| float(record, 8 * place);
     let (t, x, y, c_deg) = (number(0)?, number(1)?, number(2)?, number(3)?);

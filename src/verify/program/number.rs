@@ -1,18 +1,18 @@
-//! Numbers of programs, as bytes tell them.
+//! Numbers in the text of programs.
 
-/// The most characters of a field that a message quotes.
+/// Maximum number of characters of a field in a message.
 const QUOTED_CHARS: usize = 24;
-/// Largest number of digits that a whole number may have to be exact in `f64`.
+/// Maximum number of digits of an integer that `f64` represents exactly.
 const EXACT_DIGITS: usize = 15;
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// A field as a message shows it.
+/// Field as a message shows it.
 pub(in crate::verify) fn quoted(field: &[u8]) -> String {
     let text: String = String::from_utf8_lossy(field).escape_debug().take(QUOTED_CHARS).collect();
     if text.is_empty() { "nothing".to_owned() } else { format!("`{text}`") }
 }
 
-/// A whole number below 2^32.
+/// Integer below 2^32; `None` for anything else.
 pub(crate) fn whole(field: &[u8]) -> Option<u32> {
     if field.is_empty() || field.len() > 10 {
         return None;
@@ -21,22 +21,23 @@ pub(crate) fn whole(field: &[u8]) -> Option<u32> {
     u32::try_from(value).ok()
 }
 
-/// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
+/// Decimal number, correctly rounded; `None` for anything else. Short numbers are a quotient of two exact values, hence rounded
+/// once.
 pub(crate) fn decimal(field: &[u8]) -> Option<f64> {
     short(field).or_else(|| {
-        // Exponents and long numbers: the standard library; it also knows words, which are no numbers here.
+        // Exponents and long numbers: use the standard library, but reject the words that it accepts.
         let is_number = field.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'e' | b'E' | b'+' | b'-'));
         let number: f64 = std::str::from_utf8(field).ok().filter(|_| is_number)?.parse().ok()?;
         number.is_finite().then_some(number)
     })
 }
 
-/// The same of a number without exponent that has few digits, as nearly all have; `None` of any other.
+/// Decimal number with few digits and without exponent, the usual case; `None` for any other text.
 pub(in crate::verify) fn short(field: &[u8]) -> Option<f64> {
     leading(field).filter(|(_, length)| *length == field.len()).map(|(number, _)| number)
 }
 
-/// Such a number at the beginning of a text, and how many bytes it takes.
+/// Short decimal number at the beginning of a text, and its length in bytes.
 pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
     let start = usize::from(text.first() == Some(&b'-'));
     let (before, mut value) = digits(&text[start..], 0);
@@ -50,7 +51,7 @@ pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
     (1..=EXACT_DIGITS).contains(&count).then(|| (if start == 0 { magnitude() } else { -magnitude() }, at))
 }
 
-/// How many digits a text begins with, and the number that they continue.
+/// Number of leading digits of a text, and `value` continued by them.
 fn digits(text: &[u8], mut value: u64) -> (usize, u64) {
     for (i, byte) in text.iter().enumerate() {
         let digit = byte.wrapping_sub(b'0');

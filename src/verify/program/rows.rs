@@ -1,5 +1,5 @@
-//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records. Where a conveyor
-//! moves the cloth on, `advance_mm` stands behind: its way so far.
+//! Reader of rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records. With a conveyor,
+//! `advance_mm` follows: the advance of the cloth so far.
 
 use std::io::{BufRead, Read as _};
 
@@ -13,37 +13,37 @@ use crate::ir::verdict::Sighting;
 use crate::machine::MachineProfile;
 use crate::verify::rules;
 
-/// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
+/// Longest line that is read, bytes: a longer one is not a row and must not fill the memory.
 const LINE_MAX: u64 = 1024;
-/// The first line of a text: the names of its fields.
+/// First line of a text: the names of its fields.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
-/// Field that a conveyor adds.
+/// Field added with a conveyor.
 const ADVANCE: &str = ",advance_mm";
-/// The same, one by one.
+/// Names of all fields, one by one.
 const FIELDS: [&str; 9] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block", "advance_mm"];
-/// Fields without that of a conveyor.
+/// Number of fields without a conveyor.
 const PLAIN_FIELDS: usize = FIELDS.len() - 1;
-/// The greatest values of knife, drill, event and block.
+/// Greatest values of knife, drill, event and block.
 const GREATEST: [u32; 4] = [1, 4, 2, u32::MAX];
 
-/// How rows are written.
+/// Format of the rows.
 #[derive(Debug)]
 enum Form<'a> {
-    /// Lines of fields between commas, and the number of the fields.
+    /// Lines of comma-separated fields, and the number of fields.
     Table(usize),
-    /// Records: the number of those to come, and the bytes of each.
+    /// Records: number of records still expected, and bytes of each.
     Array(u64, usize),
-    /// Records of encoder counts, likewise.
+    /// Records of encoder counts, and the number still expected.
     Counts(Counts, u64),
-    /// Lines of fields between blanks, for this machine, and whether a conveyor adds one.
+    /// Lines of blank-separated fields for this machine, and true if a conveyor adds a field.
     Stream(&'a MachineProfile, bool),
 }
 
-/// The rows of a program. What cannot be read is left out and counted.
+/// Iterator over the rows of a program. Rows that cannot be read are skipped and counted.
 pub(in crate::verify) struct Rows<'a> {
     input: &'a mut dyn BufRead,
     form: Form<'a>,
-    /// The line or record that was read last.
+    /// Line or record that was read last.
     line: Vec<u8>,
     tick: u64,
     last: Option<Row>,
@@ -51,15 +51,15 @@ pub(in crate::verify) struct Rows<'a> {
     ended: bool,
 }
 
-/// What cannot be read.
+/// Rows that cannot be read.
 #[derive(Debug, Default)]
 struct Bad {
     count: u64,
-    /// Where the first of it is, and why.
+    /// Place of the first such row, and its error.
     first: Option<(Sighting, String)>,
 }
 
-/// A line or record that was fetched, or why there is none.
+/// Result of fetching a line or record.
 enum Fetched {
     Row,
     End,
@@ -102,7 +102,7 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    /// By how much its numbers may differ from what was meant.
+    /// Greatest difference between the numbers of rows and the intended values.
     pub(in crate::verify) fn rounding(&self) -> Rounding {
         let axes = match &self.form {
             Form::Counts(counts, _) => counts.rounding(),
@@ -111,7 +111,7 @@ impl<'a> Rows<'a> {
         Rounding { axes }
     }
 
-    /// The next row that can be read.
+    /// Next row that can be read.
     pub(in crate::verify) fn next(&mut self) -> Option<Row> {
         while !self.ended {
             match self.fetch() {
@@ -136,7 +136,7 @@ impl<'a> Rows<'a> {
         None
     }
 
-    /// The row of the line or record that was read last, or why there is none.
+    /// Row of the line or record that was read last; the error is the end of a message about it.
     fn parsed(&mut self) -> Result<Row, String> {
         let row = match &mut self.form {
             Form::Table(count) => return parse(&self.line, self.tick, *count),
@@ -147,12 +147,12 @@ impl<'a> Rows<'a> {
         row.ok_or_else(|| "holds no finite numbers and legal outputs".to_owned())
     }
 
-    /// Whether something could not be read so far, so that nothing can be said about what the program does.
+    /// True if a row could not be read so far, so that nothing can be said about the program's effect.
     pub(in crate::verify) fn is_broken(&self) -> bool {
         self.bad.count > 0
     }
 
-    /// What was found about the format, and what to say of it where it is broken.
+    /// Finding on the format, and a message when the format is broken.
     pub(in crate::verify) fn findings(self) -> (Finding, Option<String>) {
         let Bad { count, first } = self.bad;
         let (place, why) = first.unzip();
@@ -162,13 +162,13 @@ impl<'a> Rows<'a> {
         (finding, why)
     }
 
-    /// The line or record that was read last, as people find it: lines count from 1, the first is the header.
+    /// Line or record that was read last, for messages: lines count from 1, and line 1 is the header.
     fn place(&self) -> String {
         let what = if matches!(self.form, Form::Table(_) | Form::Stream(..)) { "line" } else { "record" };
         format!("{what} {}", self.number())
     }
 
-    /// Reads a record, or a line without its end. A last line that has none is how a program cut short looks.
+    /// Reads a record, or a line without its line feed. A last line without a line feed indicates a truncated program.
     fn fetch(&mut self) -> Fetched {
         self.line.clear();
         let record = match &mut self.form {
@@ -202,7 +202,7 @@ impl<'a> Rows<'a> {
         Fetched::Row
     }
 
-    /// The number of the line or record that was read last.
+    /// Number of the line or record that was read last.
     fn number(&self) -> u64 {
         match self.form {
             Form::Table(_) | Form::Stream(..) => self.tick + FIRST_LINE,
@@ -214,7 +214,7 @@ impl<'a> Rows<'a> {
         self.bad.count += 1;
         if self.bad.first.is_none() {
             let nowhere = Sighting::at(0.0, Point::origin(), 0);
-            // The axes stand where the last good row has them; the line is the bad one.
+            // Use the axis position of the last good row with the line number of the bad one.
             let place = self.last.map_or(nowhere, |row| row.sighting());
             self.bad.first = Some((Sighting { line: Some(self.number()), ..place }, why.to_owned()));
         }
@@ -226,12 +226,12 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Whether a text is meant as rows: it begins with their header.
+/// True if the text looks like rows: it begins with their header.
 pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
     input.fill_buf().is_ok_and(|bytes| bytes.starts_with(HEADER.as_bytes()))
 }
 
-/// Why bytes do not begin as the text of a program does, and what to do about it; `None` when they do.
+/// Reason why bytes do not begin like the text of a program, and advice; `None` when they do.
 pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     let first = bytes.split(|&b| b == b'\n').next().unwrap_or_default();
     let first = first.strip_suffix(b"\r").unwrap_or(first);
@@ -273,7 +273,7 @@ pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     says(&message, &as_compiled)
 }
 
-/// Row of a line with that number of fields, or a message that goes on behind the number of the line.
+/// Row of a line with that number of fields. The error continues a message after the line number.
 fn parse(line: &[u8], tick: u64, fields: usize) -> Result<Row, String> {
     let count = || line.split(|&b| b == b',').count();
     row(line, tick, fields > PLAIN_FIELDS).map_err(|why| match count() {
@@ -284,7 +284,7 @@ fn parse(line: &[u8], tick: u64, fields: usize) -> Result<Row, String> {
     })
 }
 
-/// The fields of a row: numbers, then outputs.
+/// Fields of a row: numbers, then outputs.
 type Fields = ([f64; 4], [u32; 4]);
 
 fn row(mut line: &[u8], tick: u64, has_advance: bool) -> Result<Row, String> {
@@ -311,7 +311,7 @@ fn row(mut line: &[u8], tick: u64, has_advance: bool) -> Result<Row, String> {
     })
 }
 
-/// The fields of a row whose numbers have few digits, as nearly all have; `None` of any other line.
+/// Fields of a row of numbers with few digits, the usual case; `None` for any other line.
 fn plain(line: &[u8]) -> Option<Fields> {
     let (mut numbers, mut outputs, mut rest) = ([0.0; 4], [0; 4], line);
     for number in &mut numbers {
@@ -327,7 +327,7 @@ fn plain(line: &[u8]) -> Option<Fields> {
     Some((numbers, outputs))
 }
 
-/// The fields of any row, or a message on what is wrong with it.
+/// Fields of any row; the error says which field is wrong.
 fn fields(line: &[u8]) -> Result<Fields, String> {
     let mut fields = line.split(|&b| b == b',');
     let mut field = || fields.next().unwrap_or_default();

@@ -1,11 +1,11 @@
-//! Words of G-code: as the target `gcode` spells them, and as people do. RS274/NGC takes both for the same program.
+//! Words of G-code: in the spelling of the target `gcode` and in that of people. RS274/NGC treats both as the same program.
 
 use super::number::{self, decimal, leading};
 use crate::machine::MachineProfile;
 use crate::machine::gcode::Step;
 use crate::units::number::exact;
 
-/// What comments begin with that controllers obey.
+/// First words of comments that controllers execute.
 const ACTIVE: &[&[u8]] = &[
     b"ABORT",
     b"DEBUG",
@@ -20,10 +20,10 @@ const ACTIVE: &[&[u8]] = &[
     b"PY",
 ];
 
-/// White space to C, and so to controllers, though not to Rust.
+/// White space in C, and so to controllers, but not in Rust.
 const VERTICAL_TAB: u8 = 0x0b;
 
-/// Whether the text of a comment is obeyed though it looks like one.
+/// True if a controller executes the comment with this text.
 pub(in crate::verify) fn is_active(comment: &[u8]) -> bool {
     let blanks = comment.iter().take_while(|byte| byte.is_ascii_whitespace() || **byte == VERTICAL_TAB).count();
     let text = &comment[blanks..];
@@ -36,22 +36,22 @@ pub(in crate::verify) fn quoted(part: &[u8]) -> String {
     if part.is_empty() { "blank".to_owned() } else { number::quoted(part) }
 }
 
-/// A line without the number that it may begin with.
+/// Line without its line number.
 pub(in crate::verify) fn unnumbered(line: &[u8]) -> &[u8] {
     let Some(rest) = line.strip_prefix(b"N") else { return line };
     let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
     rest[digits..].strip_prefix(b" ").unwrap_or(line)
 }
 
-/// A line as the target spells it: capital letters, one blank between words, no number of the line, no comments, no digits
-/// that say nothing. Empty when the line asks for nothing; `None` when it holds more than words and comments.
+/// Line in the spelling of the target: capital letters, one blank between words, without line number, comments and redundant
+/// digits. Empty when the line commands nothing; `None` when it holds anything besides words and comments.
 ///
-/// Rules of RS274/NGC, sections 3.3 and 3.4, as `LinuxCNC` obeys them: outside of comments case and blanks do not matter,
-/// not even blanks in a number; a comment stands in brackets, which do not nest, or behind a semicolon.
+/// Rules of RS274/NGC, sections 3.3 and 3.4, as `LinuxCNC` implements them: outside comments, case and blanks are ignored, even
+/// blanks inside a number; a comment stands in brackets, which do not nest, or behind a semicolon.
 pub(in crate::verify) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     let line = uncommented(line)?;
     let mut left = line.as_slice();
-    // The number of a line stands before all else: behind a comment it is none.
+    // A line number must come first; behind a comment it is not one.
     if let Some(rest) = left.strip_prefix(b"N") {
         let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
         left = &rest[digits..];
@@ -80,10 +80,10 @@ pub(in crate::verify) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     Some(plain)
 }
 
-/// What stands for a comment in a line that has none any more: it parts words, and no word goes on behind it.
+/// Placeholder for a removed comment. It separates words: no word continues across it.
 const BETWEEN_WORDS: u8 = b' ';
 
-/// The same in capital letters, without blanks and comments; `None` when a comment is obeyed or has no end.
+/// Line in capital letters without blanks and comments; `None` when a comment is executed or unterminated.
 fn uncommented(line: &[u8]) -> Option<Vec<u8>> {
     let mut bare = Vec::with_capacity(line.len());
     let mut left = line;
@@ -110,7 +110,7 @@ fn uncommented(line: &[u8]) -> Option<Vec<u8>> {
     Some(bare)
 }
 
-/// A number with its sign, if that is a minus, and the digits that it needs; `None` when it is none.
+/// Appends a number without a plus sign and redundant digits; `None` when the text is not a number.
 fn push_number(out: &mut Vec<u8>, number: &[u8]) -> Option<()> {
     let digits = number.strip_prefix(b"-").or_else(|| number.strip_prefix(b"+")).unwrap_or(number);
     let point = digits.iter().position(|&byte| byte == b'.').unwrap_or(digits.len());
@@ -120,7 +120,7 @@ fn push_number(out: &mut Vec<u8>, number: &[u8]) -> Option<()> {
         return None;
     }
     if number[0] == b'-' {
-        // Of an axis that goes round a negative zero is not the same as zero.
+        // For a wrapping axis a negative zero differs from zero.
         out.push(b'-');
     }
     let zeros = whole.iter().take_while(|&&digit| digit == b'0').count();
@@ -133,21 +133,21 @@ fn push_number(out: &mut Vec<u8>, number: &[u8]) -> Option<()> {
     Some(())
 }
 
-/// A line of the profile or of the target, to be found in a program.
+/// Line of the profile or of the target that a program must contain.
 pub(in crate::verify) struct Expected {
-    /// As it is written.
+    /// Line as it is written.
     pub(in crate::verify) text: String,
-    /// As the target would spell it; `None` when it must stand as it is written: when it is no line of words.
+    /// Line in the spelling of the target; `None` when the line does not consist of words and must stand verbatim.
     plain: Option<Vec<u8>>,
 }
 
 impl Expected {
-    /// A line of text.
+    /// Creates the line from its text.
     pub(in crate::verify) fn new(text: &str) -> Self {
         Self { text: text.to_owned(), plain: plain(text.as_bytes()).filter(|plain| !plain.is_empty()) }
     }
 
-    /// A step of the profile, with a number where it leaves one open.
+    /// Line of a step of the profile, with `blank` for a number that the step leaves open.
     pub(in crate::verify) fn of_step(step: &Step, blank: f64) -> Self {
         let word = |letter: char, number: f64| format!(" {letter}{}", exact(number));
         let text = match step {
@@ -163,25 +163,25 @@ impl Expected {
         Self::new(&text)
     }
 
-    /// Whether a line, as it is written or as the target would spell it, is that.
+    /// True if the line, as written or in the spelling of the target, is the expected one.
     pub(in crate::verify) fn is(&self, line: &[u8]) -> bool {
         self.text.as_bytes() == line || self.plain.as_deref() == Some(line)
     }
 }
 
-/// The number of a word that has a sign or digits as few words have; `None` when it is none.
+/// Number of a word in an unusual form, such as one with many digits; `None` when it is not a number.
 fn unusual(word: &[u8]) -> Option<f64> {
     let (_, number) = word.split_first()?;
     let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
     decimal(number).filter(|_| is_plain)
 }
 
-/// What to say of a word that is none of the target's.
+/// Error for a word that the target does not have.
 fn foreign(word: &[u8]) -> String {
     format!("has {}, which is no word of the target gcode with this profile", quoted(word))
 }
 
-/// The words of a line.
+/// Words of a line.
 #[derive(Debug, Default, PartialEq)]
 pub(in crate::verify) struct Words {
     pub(in crate::verify) g: Option<f64>,
@@ -195,7 +195,7 @@ pub(in crate::verify) struct Words {
 }
 
 impl Words {
-    /// The words of a line that is spelled as the target does; otherwise what is wrong with it.
+    /// Words of a line in the spelling of the target; the error is the end of a message about the line.
     pub(in crate::verify) fn of(line: &[u8], profile: &MachineProfile) -> Result<Self, String> {
         let mut words = Self::default();
         let mut left = line;
@@ -219,13 +219,13 @@ impl Words {
         }
     }
 
-    /// The time of a rest, s; `None` when it is none, or something moves in the same line.
+    /// Time of a rest, s; `None` when the line is not a rest or has other words.
     pub(in crate::verify) fn rest(&self) -> Option<f64> {
         let alone = Self { g: Some(4.0), p: self.p, ..Self::default() };
         self.p.filter(|_| *self == alone)
     }
 
-    /// A letter that has no business on a line of motion: P on an arc is a number of turns.
+    /// Letter that a line of motion must not have; for example, P on an arc is a number of turns.
     pub(in crate::verify) fn foreign_to(&self, code: f64) -> Option<char> {
         let is_arc = code > 1.0;
         let there = [
@@ -237,7 +237,7 @@ impl Words {
         there.into_iter().find(|(_, is_foreign)| *is_foreign).map(|(letter, _)| letter)
     }
 
-    /// Where the number of a letter goes; `None` when there is none such.
+    /// Field of a letter; `None` when the target has no such letter.
     fn place(&mut self, letter: u8, profile: &MachineProfile) -> Option<&mut Option<f64>> {
         Some(match letter {
             b'G' => &mut self.g,

@@ -1,7 +1,7 @@
-//! Judges a cut file that was written from a marker: read again, it must say what the marker says.
+//! Verification of a cut file that was written from a marker: read again, it must state the same as the marker.
 //!
-//! Both become a list of statements in the order of the file, which are compared one by one. The reader knows the one
-//! spelling that is written and nothing else: what it does not know is a bad block.
+//! Both become lists of statements in file order and are compared one by one. The reader knows only the spelling of our own
+//! writer; any other block is a bad block.
 
 mod reader;
 mod said;
@@ -15,19 +15,19 @@ use crate::machine::Job;
 use crate::source::Source;
 use crate::verify::rules;
 
-/// How every such file begins.
+/// First bytes of every such file.
 const HEAD: &[u8] = b"H1*\n";
-/// Half of the last decimal that counts, units of the file.
+/// Half of the last significant decimal, units of the file.
 const ROUNDING: f64 = 0.5e-6;
-/// Rounding of the computation, mm.
+/// Rounding error of the computation, mm.
 const PLACE_EPSILON: f64 = 1e-9;
 
-/// Whether bytes are meant as a cut file that was written here.
+/// True if the bytes look like a cut file of our own writer.
 pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
     bytes.starts_with(HEAD)
 }
 
-/// Judges the bytes of a cut file against the marker that it was written from.
+/// Verifies the bytes of a cut file against the marker that it was written from.
 pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) -> Verdict {
     let mut format = Worst::new(&rules::FORMAT, Some(0.0)).in_unit("bad blocks");
     let mut same = Worst::new(&rules::SAME, Some(0.0));

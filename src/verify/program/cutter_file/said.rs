@@ -1,4 +1,4 @@
-//! What a cut file says, statement by statement, and what it should say of a marker.
+//! Statements of a cut file, and the statements that a marker requires.
 
 use std::f64::consts::PI;
 
@@ -10,12 +10,12 @@ use crate::ir::toolpath;
 use crate::ir::verdict::Sighting;
 use crate::source::Source;
 
-/// Greatest difference of two directions that six decimals of a far second point leave, rad.
+/// Greatest difference between two directions due to the six decimals of a distant second point, rad.
 const DIRECTION_EPSILON: f64 = 1e-8;
-/// Greatest difference of two feeds, as a part of them.
+/// Greatest relative difference between two feeds.
 const FEED_EPSILON: f64 = 1e-6;
 
-/// Something that a cut file says.
+/// Statement of a cut file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Said {
     Piece(u32),
@@ -28,20 +28,20 @@ pub(super) enum Said {
     Field(u8, Vec<u8>),
 }
 
-/// A line that is cut.
+/// Line that is cut.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Cut {
     pub(super) points: Vec<Point>,
-    /// Of each chord: its speed in percent, and what is asked for where it starts.
+    /// Speed of each chord, percent, and the commands at its start.
     pub(super) chords: Vec<(u8, Joint)>,
-    /// The feed of its piece, mm/s.
+    /// Feed of the piece, mm/s.
     pub(super) feed: Option<f64>,
-    /// The block of its first chord, where it is known.
+    /// Block of the first chord, 0 when unknown.
     pub(super) block: u32,
 }
 
 impl Said {
-    /// How far the places of two statements are apart, mm; `None` when they say different things.
+    /// Distance between the places of two statements, mm; `None` when the statements differ in anything else.
     pub(super) fn away(&self, other: &Self) -> Option<f64> {
         let apart = |a: Point, b: Point| (a - b).norm();
         match (self, other) {
@@ -71,7 +71,7 @@ impl Said {
         }
     }
 
-    /// Where it is said, as far as that is known.
+    /// Place of the statement; `None` when it has none.
     pub(super) fn sighting(&self) -> Option<Sighting> {
         let (point, block) = match self {
             Self::Hole(at, _) => (*at, 0),
@@ -83,14 +83,15 @@ impl Said {
     }
 }
 
-/// What a marker says, in the order in which it is written.
+/// Statements of a marker, in the order in which they are written.
 pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
     let is_cut = |piece: &Piece| !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty());
     let text = |span| source.slice(span).trim_ascii().to_vec();
     let (mut said, mut waiting, mut fields) = (Vec::new(), (Vec::new(), Vec::new()), Vec::new());
     let last = marker.pieces.iter().rposition(is_cut);
     for (index, piece) in marker.pieces.iter().enumerate() {
-        // What a piece without a cut has is the next one's; behind the last, texts are the last one's.
+        // Events and texts of a piece without cuts go to the next piece with cuts; texts behind the last such piece go to that
+        // piece.
         waiting.0.extend(piece.events.iter().map(said_event));
         let labels = piece
             .labels
@@ -129,7 +130,7 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
             }
             said.push(Said::Contour(cut));
         }
-        // One list names the pieces of all copies.
+        // A single list names the pieces of all copies.
         if !piece.fields.is_empty() && piece.copy < 2 {
             let named = matches!(piece.fields[0].letter, b'L' | b'N');
             fields.push((named, piece));
@@ -137,13 +138,13 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
     }
     said.extend(waiting.0);
     said.extend(marker.closing.iter().map(said_event));
-    fields.sort_by_key(|(named, _)| *named); // stable: those without a name first
+    fields.sort_by_key(|(named, _)| *named); // stable: fields without a name first
     let values = fields.iter().flat_map(|(_, piece)| &piece.fields);
     said.extend(values.map(|field| Said::Field(field.letter, source.slice(field.span).to_vec())));
     said
 }
 
-/// Event as a cutter file has it: M69 tells no length.
+/// Event as a cut file states it: M69 gives no length.
 fn said_event(event: &Event) -> Said {
     Said::Event(match event.kind {
         toolpath::Event::AdvanceBy(_) => toolpath::Event::Advance,

@@ -1,4 +1,4 @@
-//! Arcs of a program: the way around a centre.
+//! Circular arcs of a program.
 
 use std::f64::consts::TAU;
 
@@ -6,25 +6,26 @@ use crate::geom::{Point, Vector};
 use crate::machine::gcode::Gcode;
 use crate::units::number::fixed;
 
-/// Radii of both ends of an arc may differ by this many steps of the last decimal.
+/// Greatest difference between the radii at the two ends of an arc, in steps of the last decimal.
 const RADIUS_STEPS: f64 = 8.0;
-/// Arcs that turn by less, or lack less of a whole turn, are read as both by controllers, rad.
+/// Smallest sweep of an arc and smallest distance of a sweep from a full turn, rad: controllers may read a smaller one either
+/// way.
 const SWEEP_MIN: f64 = 1e-5;
 
-/// A way around a centre.
+/// Circular arc about a centre, with a radius that may change linearly.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
     pub(super) centre: Point,
-    /// Its start as seen from the centre.
+    /// Start point relative to the centre.
     pub(super) start: Vector,
-    /// Radius at the end, in radii at the start.
+    /// Radius at the end divided by the radius at the start.
     pub(super) grown: f64,
     pub(super) sweep: f64,
 }
 
 impl Arc {
-    /// The arc from one place to another about a centre, `[i, j]` mm from the first; `way` is 1 for one that turns
-    /// left, -1 for one that turns right. Or why there is none.
+    /// Arc from one point to another about a centre at `[i, j]` mm from the first; `way` is 1 for a left turn, -1 for a right
+    /// turn. The error is the end of a message about the line.
     pub(super) fn new([from, to]: [Point; 2], [i, j]: [f64; 2], way: f64, keys: &Gcode) -> Result<Self, String> {
         let start = Vector::new(-i, -j);
         let centre = from - start;
@@ -46,7 +47,7 @@ impl Arc {
         Ok(Self { centre, start, grown: radii[1] / radii[0], sweep })
     }
 
-    /// The place at a share of the angle, and the way there as the share grows.
+    /// Point at a share of the sweep, and its derivative with respect to the share.
     pub(super) fn at(&self, share: f64) -> (Point, Vector) {
         let (sin, cos) = (self.sweep * share).sin_cos();
         let arm = Vector::new(self.start.x * cos - self.start.y * sin, self.start.x * sin + self.start.y * cos)

@@ -1,9 +1,8 @@
-//! Reads G-code as places along the way of the axes: no time, but at each place how the axes go there, as F asks for.
+//! Reader of G-code as places along the path of the axes: without time, but with the motion at each place that F commands.
 //!
-//! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
-//! operator and end, comments, however people spell them. Arcs are followed as a controller does: around the centre that I
-//! and J give, with C linear in their angle. Where a line cannot be read nothing is said about the rest: all that follows
-//! from it would be wrong.
+//! It knows only the words of the target: G0 to G4 with full coordinates, the profile's lines for head, knife, drill, operator
+//! and end, and comments, in any spelling. Arcs are followed as a controller does: around the centre given by I and J, with C
+//! linear in their angle. At a line that cannot be read, reading ends: everything that follows from it would be wrong.
 
 mod arc;
 mod texts;
@@ -27,41 +26,41 @@ use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::program::spelling::{Expected, Words, is_active, plain, unnumbered};
 use crate::verify::rules;
 
-/// Most characters of a first line that a message shows.
+/// Maximum length of a first line in a message, characters.
 const FIRST_CHARS: usize = 60;
-/// The longest line that a controller reads, bytes with its end: RS274/NGC, section 3.3.
+/// Longest line that a controller reads, bytes including its end: RS274/NGC, section 3.3.
 const LINE_MAX: u64 = 256;
-/// Longest step, mm, and greatest turn of C on one, degrees.
+/// Longest step, mm, and greatest turn of C in one step, degrees.
 const STEP_MM: f64 = 8.0;
 const STEP_DEG: f64 = 5.0;
-/// Most steps of a line of a program: more are no way of a machine.
+/// Maximum number of steps of one line of a program; longer moves are beyond any machine.
 const STEPS_MAX: f64 = 1e5;
-/// Most steps with the knife down: a stroke of ten kilometres.
+/// Maximum number of steps with the knife down: a stroke of ten kilometres.
 const STEPS_A_STROKE: f64 = 4e6;
-/// What rounding may take of a way that F is held against, at the most: the target writes none that are shorter.
+/// Lower bound on the share of a move that is certain despite rounding; the target writes no moves that are too short for it.
 const SURE_MIN: f64 = 0.95;
-/// A whole turn, degrees, and what is none.
+/// Full turn, degrees, and the greatest turn that counts as zero.
 const TURN_DEG: f64 = 360.0;
 const TURN_EPSILON: f64 = 1e-6;
-/// By how much a rest may be shorter or longer than it should be, s: rounding of the text.
+/// Tolerance on the time of a rest, s: rounding of the text.
 const REST_EPSILON: f64 = 1e-3;
 /// G codes of moves.
 const MOVES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
-/// What is wrong with a line that does something when all is over.
+/// Error for a line that acts after the end of the program.
 const BEHIND_END: &str = "comes behind the end of the program";
 
-/// Whether bytes are meant as such a program.
+/// True if the bytes look like a program of this target.
 pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
     let lines = bytes.split(|&byte| byte == b'\n').map(|line| plain(line.strip_suffix(b"\r").unwrap_or(line)));
-    // Blank lines and comments may come before it.
+    // Blank lines and comments may precede the head.
     let mut asking = lines.skip_while(|line| matches!(line.as_deref(), Some([])));
     asking.next().flatten().is_some_and(|line| line == HEAD)
 }
 
-/// Why G-code is none that can be judged, and what to do about it; `None` when bytes do not look like G-code.
+/// Reason why G-code cannot be verified, and advice; `None` when the bytes do not look like G-code.
 pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    // Cut files end blocks by an asterisk.
+    // Blocks of cut files end with an asterisk.
     let is_code =
         matches!(line, [b'G' | b'g' | b'N' | b'n', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
     is_code.then(|| {
@@ -77,36 +76,36 @@ pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     })
 }
 
-/// The places of a program.
+/// Iterator over the places of a program.
 pub(in crate::verify) struct Places<'a> {
     input: &'a mut dyn BufRead,
     profile: &'a MachineProfile,
     texts: Vec<Text>,
     /// Lines that must come next: the rest of a text.
     due: VecDeque<Rc<Expected>>,
-    /// The rest that must come behind them, s.
+    /// Rest that must follow those lines, s.
     rest_due: Option<f64>,
-    /// How long it rests since the last order, beyond what the profile asks for, s: between moves it never rests.
+    /// Rest since the last command beyond what the profile asks for, s; between moves there must be none.
     too_long: f64,
     dwell: Worst,
     axes: Axes,
-    /// How many lines were read, and the room for the next.
+    /// Number of lines read, and the buffer for the next one.
     lines: u64,
     room: Vec<u8>,
     now: Row,
     queue: VecDeque<(Row, Going)>,
     last: Going,
-    /// Steps since the knife is down.
+    /// Steps since the knife went down.
     in_stroke: f64,
-    /// Whether the lines at the end were read.
+    /// True once the lines at the end were read.
     over: bool,
-    /// Why a line cannot be read, and where the axes stood.
+    /// Error of the line that cannot be read, and the place of the axes there.
     bad: Option<(Sighting, String)>,
     ended: bool,
 }
 
 impl<'a> Places<'a> {
-    /// Those of a program over cloth that was moved on before, mm.
+    /// Places of a program on cloth that was already advanced by `moved_on` mm.
     pub(in crate::verify) fn new(input: &'a mut dyn BufRead, moved_on: u32, profile: &'a MachineProfile) -> Self {
         let [x, y, c_deg] = profile.home;
         let now = Row {
@@ -143,12 +142,12 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// By how much its numbers may differ from what was meant.
+    /// Greatest difference between the numbers of a program and the intended values.
     pub(in crate::verify) fn rounding(profile: &MachineProfile) -> Rounding {
         Rounding { axes: [0.5 * profile.gcode.step(); 3] }
     }
 
-    /// The next place, and how the axes go there.
+    /// Next place and the motion of the axes there.
     pub(in crate::verify) fn next(&mut self) -> Option<(Row, Going)> {
         while self.queue.is_empty() && !self.ended {
             if let Err(why) = self.read() {
@@ -160,12 +159,12 @@ impl<'a> Places<'a> {
         self.queue.pop_front()
     }
 
-    /// Whether a line could not be read, so that nothing can be said about what the program does.
+    /// True if a line could not be read, so that nothing can be said about the program's effect.
     pub(in crate::verify) fn is_broken(&self) -> bool {
         self.bad.is_some()
     }
 
-    /// What was found about the format and about rests, and what to say where a line cannot be read.
+    /// Findings on the format and on rests, and the error of the line that cannot be read.
     pub(in crate::verify) fn findings(self) -> ([Finding; 2], Option<String>) {
         let mut worst = Worst::new(&rules::FORMAT, Some(0.0)).in_unit("bad lines");
         let (place, why) = self.bad.unzip();
@@ -175,7 +174,7 @@ impl<'a> Places<'a> {
         ([worst.finding(), self.dwell.finding()], why)
     }
 
-    /// Reads a line and obeys it; otherwise says what is wrong with it.
+    /// Reads a line and executes it; the error is the end of a message about the line.
     fn read(&mut self) -> Result<(), String> {
         let mut line = std::mem::take(&mut self.room);
         line.clear();
@@ -205,7 +204,7 @@ impl<'a> Places<'a> {
         read
     }
 
-    /// Obeys a line, however it is spelled.
+    /// Executes a line in any spelling.
     fn line(&mut self, line: &[u8]) -> Result<(), String> {
         let usual = unnumbered(line);
         let Err(why) = self.spelled(usual, usual) else { return Ok(()) };
@@ -219,7 +218,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Obeys a line that is spelled as the target does; any other changes nothing. Messages show it as it is `written`.
+    /// Executes a line in the spelling of the target; on error nothing changes. Messages show the line as it is `written`.
     fn spelled(&mut self, line: &[u8], written: &[u8]) -> Result<(), String> {
         if let Some(due) = self.due.front() {
             let is_due = due.is(line);
@@ -253,7 +252,7 @@ impl<'a> Places<'a> {
             self.due.extend(rest);
             return Ok(());
         }
-        // A comment ends at its first bracket: what stands behind that is obeyed.
+        // A comment ends at its first closing bracket; anything behind that is executed.
         let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
         if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')'))) {
             if is_active(comment) {
@@ -277,7 +276,7 @@ impl<'a> Places<'a> {
         Ok(())
     }
 
-    /// The text that begins with a line: what lifts several tools alike lifts the one that is down.
+    /// Text that begins with a line. If several tools are lifted by the same line, the tool that is down is meant.
     fn text(&self, line: &[u8]) -> Option<&Text> {
         let fits = |text: &&Text| match text.meaning {
             Meaning::Up => self.now.drill == 0,
@@ -288,13 +287,13 @@ impl<'a> Places<'a> {
         found.clone().find(fits).or_else(|| found.next())
     }
 
-    /// The axes rest longer than the profile asks for, s.
+    /// Adds time that the axes rest beyond the profile's, s.
     fn linger(&mut self, time: f64) {
         self.too_long += time;
         self.dwell.see(self.too_long, || self.now.sighting());
     }
 
-    /// Takes the block that a comment names, if it does.
+    /// Takes over the block number that a comment names, if any.
     fn name(&mut self, comment: &[u8]) {
         let words = comment.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let number = words.skip_while(|word| *word != b"block").nth(1);
@@ -325,7 +324,7 @@ impl<'a> Places<'a> {
                 return Ok(());
             }
             Meaning::Down if self.now.drill != 0 => return Err("puts the knife down beside a drill".to_owned()),
-            // Or it could rest in the cloth for as many plunges as one likes.
+            // Otherwise the program could rest in the cloth for any number of plunges.
             Meaning::Down if was_down => return Err("puts the knife down that is down".to_owned()),
             Meaning::Down => self.now.knife = true,
             Meaning::Up => self.now.knife = false,
@@ -350,7 +349,7 @@ impl<'a> Places<'a> {
         self.last = Going::default();
         self.push(self.now, going);
         if meaning == Meaning::Up {
-            // What is cut next names its own.
+            // The next cut names its own block.
             self.now.block = 0;
         }
         Ok(())
@@ -362,7 +361,7 @@ impl<'a> Places<'a> {
         self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, line: self.lines, ..row }, going));
     }
 
-    /// A move: all of its places.
+    /// Executes a move: adds all of its places.
     fn go(&mut self, words: &Words) -> Result<(), String> {
         if self.over {
             return Err(BEHIND_END.to_owned());
@@ -407,14 +406,14 @@ impl<'a> Places<'a> {
             length,
             curvature: arc.map_or(0.0, |arc| arc.sweep.abs() / length),
         };
-        // A move to where the axes stand takes no time.
+        // A move to the current position takes no time.
         let used = if length > 0.0 || turned != 0.0 { self.axes.used(&asked) } else { 0.0 };
         self.walk(&Walk { to, turned, arc, steps, pace, used });
         (self.now.centre, self.now.c_deg) = (to, c_to);
         Ok(())
     }
 
-    /// Where a move leads C, degrees, or why it must not.
+    /// Target position of C, degrees; an error when the word is missing or not allowed.
     fn asked_turn(&self, told: Option<f64>) -> Result<f64, String> {
         let from = self.now;
         let letter = char::from(self.profile.gcode.letter.byte());
@@ -426,18 +425,18 @@ impl<'a> Places<'a> {
         }
         let c_to = told.map_or(from.c_deg, |told| self.turned_to(told));
         if told.is_some() && from.knife && (c_to - from.c_deg).abs() < TURN_EPSILON {
-            // It unwraps what it is told by its own sums, which may lie a hair's breadth beyond.
+            // The controller unwraps the word by its own arithmetic, and the result may lie slightly beyond a full turn.
             return Err(format!("has {letter} where that axis stands, which a controller may turn all round for"));
         }
-        // Of an axis that goes round the whole turns are not told: in the air it is where it would be without any.
+        // The words of a wrapping axis do not count turns: in the air, take the turn that is nearest to the rest position.
         Ok(if from.knife { c_to } else { self.near_rest(c_to) })
     }
 
-    /// Gives the rows along a move.
+    /// Adds the rows along a move.
     fn walk(&mut self, walk: &Walk) {
         let Walk { to, turned, arc, steps, pace, used } = *walk;
         let from = self.now;
-        // In the air only the ends of a straight way matter.
+        // In the air only the ends of a straight move matter.
         let first = if from.knife || arc.is_some() { 0 } else { steps as usize };
         for i in first..=steps as usize {
             let share = i as f64 / steps;
@@ -453,8 +452,8 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Moves a second of which F asks, of this length (mm) and turn of C (degrees); as few as the rounding of their ends
-    /// lets it mean. A rapid one counts as one a second.
+    /// Moves per second that F commands for a move of this length (mm) and turn of C (degrees), lowest within the rounding of
+    /// its ends. A rapid counts as one per second.
     fn pace(&self, feed: f64, length: f64, turned: f64) -> f64 {
         if feed.is_infinite() {
             return 1.0;
@@ -469,7 +468,7 @@ impl<'a> Places<'a> {
         pace * sure
     }
 
-    /// The unwrapped geometric position that a word of the axis means.
+    /// Unwrapped geometric position of C for a word of the axis.
     fn turned_to(&self, told: f64) -> f64 {
         let c = &self.profile.c;
         let sign = if c.reverse { -1.0 } else { 1.0 };
@@ -481,39 +480,39 @@ impl<'a> Places<'a> {
         let way = if back { shown - told.abs() } else { told - shown }.rem_euclid(TURN_DEG);
         let way = if TURN_DEG - way < TURN_EPSILON { way - TURN_DEG } else { way };
         let to = shown + if back { -way } else { way };
-        // It is told in steps of the last decimal.
+        // The word is a multiple of the last decimal.
         let step = self.profile.gcode.step();
         c.offset_deg + sign * (to / step).round() * step
     }
 
-    /// The position of C that differs by whole turns and is nearest to where it rests at the end.
+    /// Position of C that differs by full turns and is nearest to its rest position at the end.
     fn near_rest(&self, c_deg: f64) -> f64 {
         let [.., rest] = self.profile.park.unwrap_or(self.profile.home);
         c_deg - ((c_deg - rest) / TURN_DEG).round() * TURN_DEG
     }
 }
 
-/// Why a word that a move needs is not there.
+/// Value of a word that a move needs, or an error when it is missing.
 fn needed(word: Option<f64>, letter: char) -> Result<f64, String> {
     word.ok_or_else(|| format!("has no {letter}"))
 }
 
-/// A move as it is walked in steps.
+/// Move as it is divided into steps.
 #[derive(Debug, Clone, Copy)]
 struct Walk {
     to: Point,
-    /// By how much C turns, degrees.
+    /// Turn of C, degrees.
     turned: f64,
     arc: Option<Arc>,
-    /// A whole number.
+    /// Number of steps, a whole number.
     steps: f64,
-    /// Moves a second of which F asks.
+    /// Moves per second that F commands.
     pace: f64,
-    /// The greatest share of a limit of the axes that it uses.
+    /// Greatest share of an axis limit that the move uses.
     used: f64,
 }
 
-/// A finding as a program without time has it.
+/// Copy of a finding without the time of its place.
 pub(in crate::verify) fn timeless(finding: &Finding) -> Finding {
     let timeless = |place: Sighting| Sighting { time: None, ..place };
     Finding { place: finding.place.map(timeless), ..*finding }

@@ -1,4 +1,4 @@
-//! The lines of a profile, and what they do: outputs, stops, beginning and end.
+//! Lines of a profile and their meanings: outputs, stops, head and end of a program.
 
 use std::rc::Rc;
 
@@ -8,31 +8,31 @@ use crate::units::number::exact;
 use crate::verify::program::number::whole;
 use crate::verify::program::spelling::Expected;
 
-/// How every such program begins, behind the number of its line.
+/// First line of every such program, without its line number.
 pub(super) const HEAD: &[u8] = b"G17 G21 G40 G80 G90 G91.1";
-/// Drills of a machine.
+/// Numbers of the drills of a machine.
 const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
 
-/// What lines do that stand in the program as they are: those of the target itself, and those of the profile.
+/// Effect of lines that stand in the program verbatim, from the target or the profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
     Head,
     Down,
     Up,
     Drill(u8),
-    /// A drill is lifted.
+    /// Lifts a drill.
     Raise(u8),
     Event(u8),
     End,
 }
 
-/// Lines of the profile that belong together.
+/// Lines of the profile that form a unit.
 pub(super) struct Text {
     pub(super) lines: Vec<Rc<Expected>>,
     pub(super) meaning: Meaning,
 }
 
-/// The lines of a profile and what they do; the head first.
+/// Lines of a profile with their meanings; the head comes first.
 pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
     let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
@@ -57,13 +57,13 @@ pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     texts
 }
 
-/// The lines of a text that say something.
+/// Lines of a text, blank ones left out.
 pub(super) fn lines_of(text: &str) -> Vec<Rc<Expected>> {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     lines.map(|line| Rc::new(Expected::new(line))).collect()
 }
 
-/// Way of the cloth that a line tells which begins the steps of an advance, mm, and the lines due behind it.
+/// Advance of the cloth given by the first line of an advance, mm, and the lines that must follow; `None` for any other line.
 pub(super) fn bite(line: &[u8], steps: &[Step]) -> Option<(u32, Vec<Rc<Expected>>)> {
     let (first, others) = steps.split_first().filter(|(first, _)| first.has_blank())?;
     let text = first.to_string();
