@@ -1,10 +1,10 @@
 //! Speed, acceleration and jerk of the axes by finite differences of the rows.
 //!
-//! A difference of order k over the period h is a weighted mean of the k-th derivative; rounding of the printed numbers
-//! can add 2^k q / h^k, q half of the last decimal, which is allowed for exactly.
+//! A difference of order k over the period h is a weighted mean of the k-th derivative. Rounding of the printed numbers can add
+//! 2^k q / h^k, with q half of the last decimal; exactly that much is allowed for.
 //!
-//! A step between two rows counts as work if the tool is on at its first row, else as travel, which may have limits of its
-//! own. A difference over steps of both kinds may reach the wider limit.
+//! A step between two rows counts as work if the tool is on at its first row, else as travel, which may have separate limits. A
+//! difference over steps of both kinds may reach the wider limit.
 
 use crate::machine::{Limits, MachineProfile};
 use crate::units::deg;
@@ -13,30 +13,30 @@ use crate::units::deg;
 pub(in crate::verify) const ORDERS: usize = 3;
 /// Axes: x, y and C.
 const AXES: usize = 3;
-/// Kinds of steps that a difference is made of.
+/// Kinds of steps in a difference.
 const WORK: usize = 0;
 const TRAVEL: usize = 1;
 const MIXED: usize = 2;
-/// Relative excess over a limit that is rounding of the computation.
+/// Relative excess over a limit that counts as rounding of the computation.
 const LIMIT_EPSILON: f64 = 1e-6;
 
-/// Size of a derivative and its limit, mm or degrees per s to the power of its order.
+/// Magnitude of a derivative and its limit, mm or degrees per s to the power of its order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::verify) struct Rate {
     pub(in crate::verify) value: f64,
     pub(in crate::verify) limit: f64,
 }
 
-/// Finite differences of x, y, mm, and C, degrees, from row to row.
+/// Finite differences of X, Y (mm) and C (degrees) from row to row.
 #[derive(Debug)]
 pub(in crate::verify) struct Differences {
     /// Time between rows, s.
     period: f64,
-    /// Place and its differences of order 1 and 2, axis by axis.
+    /// Position and its differences of order 1 and 2, axis by axis.
     last: Option<[[f64; AXES]; ORDERS]>,
     /// Limits by kind of steps, order and axis.
     allowed: [[[f64; AXES]; ORDERS]; 3],
-    /// Tool state of the last rows, one bit each (1 = on), the last row lowest.
+    /// Tool state of the last rows, one bit each (1 = on), the last row in the lowest bit.
     is_on: u8,
 }
 
@@ -54,7 +54,7 @@ fn allowed([x, y, c]: [Limits; AXES], period: f64, rounding: [f64; AXES]) -> [[f
 }
 
 impl Differences {
-    /// Differences of rows whose places are rounded by `rounding`, mm and degrees.
+    /// Differences of rows whose positions are rounded by `rounding`, mm and degrees.
     pub(in crate::verify) fn new(profile: &MachineProfile, rounding: [f64; AXES]) -> Self {
         let period = profile.time.period();
         let work = allowed(profile.axes.limits(), period, rounding);
@@ -63,7 +63,7 @@ impl Differences {
         Self { period, last: None, allowed: [work, travel, mixed], is_on: 0 }
     }
 
-    /// Allows travels what is allowed at work, too: a head may gather speed for an edge before its jet opens.
+    /// Allows travel the limits of work, too: a head may accelerate towards an edge before its jet opens.
     pub(in crate::verify) fn with_run_ups(mut self) -> Self {
         self.allowed[TRAVEL] = self.allowed[MIXED];
         self
@@ -74,7 +74,8 @@ impl Differences {
         self.allowed[WORK]
     }
 
-    /// Sees the next row: the derivatives there, by order and axis. The axes rest before the first one, which has none.
+    /// Processes the next row and returns the derivatives there, by order and axis; `None` at the first row, before which the
+    /// axes rest.
     pub(in crate::verify) fn see(&mut self, here: [f64; AXES], is_on: bool) -> Option<[[Rate; AXES]; ORDERS]> {
         let ways_on = self.is_on;
         self.is_on = ways_on << 1 | u8::from(is_on);
@@ -82,7 +83,7 @@ impl Differences {
             self.last = Some([here, [0.0; AXES], [0.0; AXES]]);
             return None;
         };
-        // A difference of order k is made of the ways that begin at the last k rows.
+        // A difference of order k covers the steps that begin at the last k rows.
         let kinds = [0b1, 0b11, 0b111].map(|ways: u8| match ways_on & ways {
             0 => TRAVEL,
             all if all == ways => WORK,

@@ -1,7 +1,7 @@
-//! Events: what the controller or the operator is asked for comes as often, of the kind and in the order that the marker
-//! has it, with the knife up.
+//! Events for the controller or the operator: their number, kinds and order must agree with the marker, and the knife must be
+//! up.
 //!
-//! A conveyor moves the cloth on at rows that tell an advance alone, and there by the way that the marker has.
+//! A conveyor advances the cloth only at rows with the event advance, and by the length given in the marker.
 
 use crate::geom::Point;
 use crate::ir::toolpath::Event;
@@ -12,25 +12,25 @@ use crate::verify::reference::lines::Reference;
 use crate::verify::reference::order::Seen;
 use crate::verify::rules;
 
-/// An event of the marker.
+/// Event of the marker.
 #[derive(Debug, Clone, Copy)]
 struct Asked {
-    /// Its number in a row.
+    /// Number of the event in rows.
     number: u8,
-    /// Way of the cloth, mm.
+    /// Advance of the cloth, mm.
     way: u32,
-    /// Where it stands in the file.
+    /// Block of the event in the file.
     block: u32,
-    /// Its rank among events, holes, slits and contours.
+    /// Rank among events, holes, slits and contours.
     rank: usize,
 }
 
-/// Watches the column `event`.
+/// Check of the column `event`.
 pub(in crate::verify) struct Events {
     asked: Vec<Asked>,
-    /// How many of them were told.
+    /// Number of events of `asked` that the rows have reached.
     told: usize,
-    /// Way of the cloth so far, mm.
+    /// Advance of the cloth so far, mm.
     station: u32,
     wrong: f64,
     worst: Worst,
@@ -44,12 +44,11 @@ impl Events {
         Self { asked, told: 0, station, wrong: 0.0, worst: Worst::new(&rules::EVENTS, Some(0.0)) }
     }
 
-    /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is
-    /// one too many.
+    /// Processes a row. An expected event is added to `told`; an unexpected one counts as wrong.
     pub(in crate::verify) fn see(&mut self, row: &Row, told: &mut Vec<Seen>) {
         let before = std::mem::replace(&mut self.station, row.station);
         if row.event == 0 && row.station == before {
-            return; // as nearly all
+            return; // the usual case
         }
         let is_told = |asked: &&Asked| asked.number == row.event && row.station.checked_sub(before) == Some(asked.way);
         if let Some(asked) = self.asked.get(self.told).filter(|asked| is_told(asked) && !row.knife) {
@@ -61,7 +60,7 @@ impl Events {
         }
     }
 
-    /// What was found; what was asked for and never told is missing.
+    /// Finding; events that were not reached are missing.
     pub(in crate::verify) fn finding(mut self) -> Finding {
         for asked in &self.asked[self.told..] {
             self.wrong += 1.0;
@@ -71,7 +70,7 @@ impl Events {
     }
 }
 
-/// The events of a marker in order, by their numbers in rows, their ways of the cloth and their blocks.
+/// Events of a marker in order: number in rows, advance of the cloth, mm, and block.
 fn asked(marker: &Marker) -> impl Iterator<Item = (u8, u32, u32)> {
     let events = marker.pieces.iter().flat_map(|piece| &piece.events).chain(&marker.closing);
     events.map(|event| {

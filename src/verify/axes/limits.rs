@@ -1,4 +1,4 @@
-//! Limits of the axes, row by row, the times of the rows, and the reach of C.
+//! Axis limits row by row, times of the rows, and range of C.
 
 use crate::ir::Finding;
 use crate::ir::verdict::{Rule, Worst};
@@ -7,17 +7,17 @@ use crate::verify::axes::differences::Differences;
 use crate::verify::program::row::{Rounding, Row, TIME_ROUNDING};
 use crate::verify::rules;
 
-/// The rules by order and axis.
+/// Rules by order and axis.
 static BY_ORDER: [[&Rule; 3]; 3] = [
     [&rules::SPEED_X, &rules::SPEED_Y, &rules::SPEED_C],
     [&rules::ACCELERATION_X, &rules::ACCELERATION_Y, &rules::ACCELERATION_C],
     [&rules::JERK_X, &rules::JERK_Y, &rules::JERK_C],
 ];
 
-/// Rounding of a time that is a product of tick and period, s.
+/// Rounding error of a time computed as tick times period, s.
 const TIME_EPSILON: f64 = 1e-9;
 
-/// Watches the rows.
+/// Check of limits over the rows.
 pub(in crate::verify) struct Limits {
     period: f64,
     differences: Differences,
@@ -47,14 +47,14 @@ impl Limits {
         }
     }
 
-    /// Sees a row, whether it has a time or not.
+    /// Processes a row, with or without a time.
     pub(in crate::verify) fn see(&mut self, row: &Row) {
         if let Some([least, greatest]) = self.range {
             self.c_range.see((least - row.c_deg).max(row.c_deg - greatest), || row.sighting());
         }
     }
 
-    /// Sees a row that has a time.
+    /// Processes a row that has a time.
     pub(in crate::verify) fn see_timed(&mut self, row: &Row) {
         self.time.see((row.t - row.tick as f64 * self.period).abs(), || row.sighting());
         let here = [row.centre.x, row.centre.y, row.c_deg];
@@ -66,7 +66,7 @@ impl Limits {
         }
     }
 
-    /// What was seen; behind the last row the axes must be able to rest.
+    /// Findings. The axes must be able to come to rest behind the last row.
     pub(in crate::verify) fn findings(mut self, last: Option<&Row>) -> Vec<Finding> {
         let period = self.period;
         if let Some(last) = last {

@@ -1,7 +1,7 @@
-//! What the axes and outputs do, whatever is cut: limits, rests, the table, crawling, events.
+//! Checks of axes and outputs that do not depend on the cut: limits, rests, table, crawling, events.
 //!
-//! Receives rows as they come and the profile, promises the worst value of each rule on axes and outputs. Never judges what
-//! is cut.
+//! Input: rows as they come, and the profile. Output: the worst value of each rule on axes and outputs. The cut itself is
+//! verified elsewhere.
 
 pub(super) mod crawl;
 pub(super) mod differences;

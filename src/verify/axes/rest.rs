@@ -1,4 +1,4 @@
-//! What happens at rest: start and end of the program, plunges, lifts, events, and the holes that are drilled.
+//! Checks of rests: start and end of the program, plunges, lifts, events and drilled holes.
 
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -9,30 +9,30 @@ use crate::verify::reference::lines::Reference;
 use crate::verify::reference::order::Seen;
 use crate::verify::rules;
 
-/// Part of a period that a dwell may seem to lack: rounding of its quotient.
+/// Fraction of a period that a dwell may seem to lack: rounding of its quotient.
 const PERIOD_EPSILON: f64 = 1e-6;
-/// Beyond this from its place it is another hole, mm.
+/// Distance beyond which a hole is taken for a different one, mm.
 const HOLE_REACH: f64 = 5.0;
 
-/// Watches the rows.
+/// Check of rests over the rows.
 pub(in crate::verify) struct Rest<'a> {
     reference: &'a Reference<'a>,
     period: f64,
     plunge: u64,
-    /// From the lift command until the blade is clear of the cloth: so long the axes rest.
+    /// Ticks from the lift command until the blade is clear of the cloth; the axes rest meanwhile.
     clear: u64,
-    /// From the lift command until it is all the way up.
+    /// Ticks from the lift command until the blade is fully up.
     lift: u64,
     drill: u64,
     offset: Vector,
     park: Option<[f64; 3]>,
     home: [f64; 3],
-    /// By how much two numbers of the same value may differ, mm and degrees.
+    /// Greatest difference between two printed numbers of the same value, mm and degrees.
     same: f64,
     before: Option<Row>,
-    /// The row at which the axes came to rest, and the tick until which they must.
+    /// Row at which the axes came to rest, and the tick until which they must rest.
     hold: Option<(Row, u64)>,
-    /// The tick from which the blade is all the way up.
+    /// Tick from which the blade is fully up.
     up: u64,
     drilled: Vec<(Point, u8, Row)>,
     start: Worst,
@@ -43,7 +43,7 @@ pub(in crate::verify) struct Rest<'a> {
 
 impl<'a> Rest<'a> {
     pub(in crate::verify) fn new(reference: &'a Reference, profile: &MachineProfile, rounding: Rounding) -> Self {
-        // Two printed numbers of the same value may differ by this, mm and degrees.
+        // Greatest difference between two printed numbers of the same value, mm and degrees.
         let same = 2.0 * rounding.axis();
         let period = profile.time.period();
         let ticks = |time: f64| (time / period - PERIOD_EPSILON).ceil().max(0.0) as u64;
@@ -85,7 +85,7 @@ impl<'a> Rest<'a> {
             }
             return;
         };
-        // The pose at the tick of a command belongs to the rest that it begins.
+        // The pose at the tick of a command belongs to the rest that follows it.
         if let Some((at, _)) = self.hold.as_ref().filter(|(_, until)| row.tick <= *until) {
             self.still.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
         }
@@ -116,14 +116,14 @@ impl<'a> Rest<'a> {
         }
     }
 
-    /// Begins a rest of `ticks`; the one before it must be over, and the blade up.
+    /// Begins a rest of `ticks`; the previous rest must be over, and the blade up.
     fn begin(&mut self, row: &Row, ticks: u64) {
         self.finish(row);
         self.rise(row);
         self.hold = (ticks > 0).then_some((*row, row.tick + ticks));
     }
 
-    /// Sees whether the rest that was begun is over at a row.
+    /// Checks that the current rest is over at a row.
     fn finish(&mut self, row: &Row) {
         if let Some((_, until)) = self.hold.take() {
             let missing = until.saturating_sub(row.tick) as f64 * self.period;
@@ -131,13 +131,13 @@ impl<'a> Rest<'a> {
         }
     }
 
-    /// Sees whether the blade is all the way up at a row.
+    /// Checks that the blade is fully up at a row.
     fn rise(&mut self, row: &Row) {
         let missing = self.up.saturating_sub(row.tick) as f64 * self.period;
         self.dwell.see(missing, || row.sighting());
     }
 
-    /// What was found; the holes of the marker that were drilled join what was `told`.
+    /// Findings; holes of the marker that were drilled are added to `told`.
     pub(in crate::verify) fn findings(mut self, last: Option<&Row>, told: &mut Vec<Seen>) -> Vec<Finding> {
         if let Some(last) = last {
             self.finish(last);
@@ -153,12 +153,12 @@ impl<'a> Rest<'a> {
         vec![self.start.finding(), self.end.finding(), self.still.finding(), self.dwell.finding(), drills, place]
     }
 
-    /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
+    /// Compares the holes of the program with those of the marker; each hole of the marker takes the nearest free one.
     fn holes(&mut self, told: &mut Vec<Seen>) -> (Finding, Finding) {
         let mut wrong = Worst::new(&rules::DRILLS, Some(0.0));
         let mut place = Worst::new(&rules::DRILL_PLACE, Some(2.0 * self.same));
         let mut left = std::mem::take(&mut self.drilled);
-        // By tool and X, so that the holes near a place lie side by side.
+        // Sort by tool and X, so that the holes near a place are adjacent.
         left.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.x.total_cmp(&b.0.x)));
         let mut taken = vec![false; left.len()];
         let mut count = 0.0;
@@ -187,7 +187,7 @@ impl<'a> Rest<'a> {
     }
 }
 
-/// Greatest difference of a row from a pose, mm and degrees.
+/// Greatest difference between a row and a pose, mm and degrees.
 fn distance(row: &Row, [x, y, c_deg]: [f64; 3]) -> f64 {
     let mm = (row.centre.x - x).abs().max((row.centre.y - y).abs());
     mm.max((row.c_deg - c_deg).abs()) - f64::EPSILON * row.c_deg.abs()

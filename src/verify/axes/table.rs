@@ -1,4 +1,4 @@
-//! The table, and the window of a conveyor: places that the machine must not leave.
+//! Limits of the table and of a conveyor's window.
 
 use crate::ir::Finding;
 use crate::ir::verdict::Worst;
@@ -6,15 +6,15 @@ use crate::machine::{self, MachineProfile};
 use crate::verify::program::row::{Rounding, Row};
 use crate::verify::rules;
 
-/// Watches the rows.
+/// Check of the table over the rows.
 pub(in crate::verify) struct Table {
-    /// Reach of X and Y while the knife is down.
+    /// Range of X and Y while the knife is down.
     down: [Option<[f64; 2]>; 2],
-    /// The same while it is up: home and park may lie outside.
+    /// Range of X and Y while the knife is up: home and park may lie outside the table.
     up: [Option<[f64; 2]>; 2],
-    /// Distances of tip and heel from the C axis, along the blade.
+    /// Distances of tip and heel from the C axis along the blade, mm.
     blade: [f64; 2],
-    /// Length of the window of a conveyor, and the least and the greatest X of the blade while it is down.
+    /// Length of a conveyor's window, mm. The range of X that the blade has reached while down follows.
     window: Option<f64>,
     reached: [f64; 2],
     off: Worst,
