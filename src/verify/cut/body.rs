@@ -1,37 +1,37 @@
-//! What a stroke cuts: the body of the blade where it plunges, then the way of its tip.
+//! Points that a stroke cuts: the body of the blade at the plunge, then the path of the tip.
 
 use crate::geom::{Point, polyline};
 
-/// Distance of two places at which the body of a plunged blade is looked at, mm.
+/// Spacing of the points on the body of a plunged blade, mm.
 pub(super) const BODY_STEP: f64 = 0.25;
 
-/// What a stroke cuts: the body's places, then the tip's.
+/// Points that a stroke cuts: first those of the body, then those of the tip.
 pub(in crate::verify) struct Cut {
     pub(in crate::verify) points: Vec<Point>,
-    /// Length of the way from the first place to each, mm.
+    /// Path length from the first point to each point, mm.
     pub(in crate::verify) stations: Vec<f64>,
-    /// Number of places of the body.
+    /// Number of points of the body.
     pub(in crate::verify) body: usize,
-    /// The row of each place of the tip.
+    /// Row of each point of the tip.
     pub(in crate::verify) rows: Vec<usize>,
-    /// How the tip goes from place to place.
+    /// Bow of the tip's path between two points.
     pub(in crate::verify) sagitta: Sagitta,
-    /// Whether the blade plunges and lifts without a way: its tip stays where a cut may be off anyway.
+    /// True for a plunge cut: the blade plunges and lifts, and its tip stays within the permitted deviation of a cut.
     stands_still: bool,
 }
 
-/// How far the way of a tip bows away from the straight line between two of its places.
+/// Bow of the tip's path away from the straight line between two of its points.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) enum Sagitta {
-    /// As places at equal times show: by an eighth of their second difference, as a parabola does.
+    /// Points at equal times: an eighth of their second difference, as for a parabola.
     Timed,
-    /// By no more than this, mm: they were laid so along a way that is known.
+    /// Upper bound, mm, for points placed along a known path.
     Within(f64),
 }
 
 impl Cut {
-    /// What a stroke cuts whose tip comes by `tips` and whose heel plunges at `heel`; a tip that stays within `still` mm of
-    /// where it plunges goes no way.
+    /// Cut of a stroke with the tip at `tips` and the heel plunging at `heel`. It is a plunge cut if the tip stays within
+    /// `still` mm of its first place.
     pub(in crate::verify) fn new(tips: &[Point], heel: Point, sagitta: Sagitta, still: f64) -> Self {
         let steps = ((tips[0] - heel).norm() / BODY_STEP).ceil() as usize;
         let body = (0..steps).map(|i| heel + (tips[0] - heel) * (i as f64 / steps as f64));
@@ -39,7 +39,7 @@ impl Cut {
         points.extend(body);
         let mut rows = Vec::with_capacity(tips.len());
         for (i, &tip) in tips.iter().enumerate() {
-            // Rest rows repeat their place; a track of places that differ is enough.
+            // Rows at rest repeat their point; distinct points suffice.
             if i == 0 || tip != tips[i - 1] {
                 points.push(tip);
                 rows.push(i);
@@ -50,7 +50,7 @@ impl Cut {
         Self { stations, points, body: steps, rows, sagitta, stands_still }
     }
 
-    /// The heel and the tip of one that only plunges; the tip as far along the blade as it comes.
+    /// Heel and tip of a plunge cut; the tip at its farthest position along the blade.
     pub(in crate::verify) fn blade(&self) -> [Point; 2] {
         let heel = self.points[0];
         let Some(axis) = polyline::direction(heel, self.points[self.body]) else { return [heel; 2] };
@@ -58,23 +58,23 @@ impl Cut {
         [heel, heel + axis * reach]
     }
 
-    /// Length of all that it cuts, mm: of the body, and of the tip's way.
+    /// Length of the whole cut, mm: body and path of the tip.
     pub(in crate::verify) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
     }
 
-    /// Length of the tip's way, mm.
+    /// Length of the tip's path, mm.
     pub(in crate::verify) fn way(&self) -> f64 {
         self.length() - self.stations[self.body]
     }
 
-    /// Greatest distance of the tip from where it plunges, mm.
+    /// Greatest distance of the tip from its place at the plunge, mm.
     pub(in crate::verify) fn tip_travel(&self) -> f64 {
         let [plunged, ..] = self.points[self.body..] else { return 0.0 };
         self.points[self.body..].iter().map(|tip| (tip - plunged).norm()).fold(0.0, f64::max)
     }
 
-    /// Whether the blade plunges and lifts without a way.
+    /// True for a plunge cut: the blade plunges and lifts without moving along a line.
     pub(in crate::verify) fn is_plunge_cut(&self) -> bool {
         self.stands_still
     }

@@ -1,9 +1,8 @@
-//! The chord mode: the blade's heel lies on the path, too.
+//! Chord mode: the heel of the blade lies on the path, too.
 //!
-//! Where the heel has come past the place of the plunge, the path is the way that the tip itself has gone: the blade
-//! must be a chord of that. Before, it is known by its tolerance band alone. A line that somewhere is too tight for the
-//! blade may be cut along the tangent all the same; where that is, is found here by laying the blade on the line, place
-//! by place.
+//! Once the heel has passed the place of the plunge, the path is the way that the tip has gone, and the blade must be a chord
+//! of it. Before that, only the tolerance band of the path is known. A line with places that are too tight for the blade may
+//! still be cut along the tangent; such places are found here by laying the blade on the line place by place.
 
 use super::body::Cut;
 use super::follow::{Follower, Foot};
@@ -13,27 +12,27 @@ use crate::machine::Knife;
 use crate::verify::program::row::Row;
 use crate::verify::reference::line::Line;
 
-/// Halvings that place the heel between two tips: to a millionth of the way between them.
+/// Number of halvings that locate the heel between two tips: to a millionth of their distance.
 const HALVINGS: usize = 20;
 
-/// Where the body of a blade is looked at, in parts of its width from the heel: on an arc it is off the most in its middle,
-/// where a curve turns to the other side, in its quarters.
+/// Places on the body of a blade that are checked, as fractions of its width from the heel: on an arc the deviation is greatest
+/// in the middle, at an inflection in the quarters.
 pub(super) const BODY_SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// A blade that goes along a line.
+/// Blade that moves along a line.
 #[derive(Clone, Copy)]
 pub(in crate::verify) struct Blade<'a> {
     pub(in crate::verify) line: &'a Line<'a>,
-    /// From its centre to its tip and to its heel, mm.
+    /// Distances from the C axis to tip and heel, mm.
     pub(in crate::verify) ends: [f64; 2],
     pub(in crate::verify) cut: &'a Cut,
-    /// Its direction from the heel to the tip at each row.
+    /// Direction from heel to tip at each row.
     pub(in crate::verify) directions: &'a [Vector],
-    /// Where the places of the cut stand.
+    /// Feet of the points of the cut.
     pub(in crate::verify) feet: &'a [Foot],
 }
 
-/// Where a place of a blade stands beside its line at each row: the place at a share of the width before the heel.
+/// Feet of one place of the blade at each row; `share` is its distance from the heel as a fraction of the width.
 pub(in crate::verify) fn along(rows: &[Row], blade: Blade, share: f64) -> Vec<Foot> {
     let Blade { line, ends: [tip, heel], cut, directions, feet } = blade;
     let place = |(row, along): (&Row, &Vector)| row.centre + along * (share * (tip + heel) - heel);
@@ -47,30 +46,30 @@ pub(in crate::verify) fn along(rows: &[Row], blade: Blade, share: f64) -> Vec<Fo
     places.map(|place| if place == follower.point() { follower.foot() } else { follower.step(place) }).collect()
 }
 
-/// A stroke whose blade is compared with the way of its own tip.
+/// Stroke whose blade is compared with the path of its own tip.
 pub(in crate::verify) struct Trailing<'a> {
     pub(in crate::verify) rows: &'a [Row],
-    /// The tip at each row.
+    /// Tip at each row.
     pub(in crate::verify) tips: &'a [Point],
     /// Unit vector from the heel to the tip at each row.
     pub(in crate::verify) blades: &'a [Vector],
-    /// Where the heel stands beside the line at each row.
+    /// Foot of the heel on the line at each row.
     pub(in crate::verify) heels: &'a [Foot],
-    /// How far a heel may stand off the line, mm.
+    /// Greatest permitted deviation of a heel, mm.
     pub(in crate::verify) allowed: f64,
-    /// Rounding of a tip's place, mm.
+    /// Rounding of a tip position, mm.
     pub(in crate::verify) rounding: f64,
 }
 
 impl Trailing<'_> {
-    /// The blade against the chord of its way, and against the tolerance band where it has not yet come that far.
+    /// Compares the blade with the chord of the tip's path, and with the tolerance band until the heel has reached that path.
     pub(in crate::verify) fn check(&self, knife: &Knife, heading: &mut Worst) {
         let Self { rows, tips, blades, heels, allowed, rounding } = *self;
         let width = knife.width_mm;
         // Both ends of a chord are rounded.
         let noise = (2.0 * rounding / width).atan();
         let is_far = |k: usize, i: usize| (tips[k] - tips[i]).norm() >= width;
-        // The last tip that the heel has passed.
+        // Last tip position that the heel has passed.
         let mut passed: Option<usize> = None;
         for (i, row) in rows.iter().enumerate() {
             if passed.is_none() && is_far(0, i) {
@@ -90,7 +89,7 @@ impl Trailing<'_> {
         }
     }
 
-    /// The place between tip `k` and the next one that is one width away from where the tip is now.
+    /// Point between tip `k` and the next that is one blade width away from the current tip.
     fn behind(&self, k: usize, tip: Point, width: f64) -> Point {
         let (mut far, mut near) = (0.0, 1.0);
         for _ in 0..HALVINGS {
@@ -100,8 +99,7 @@ impl Trailing<'_> {
         self.between(k, far)
     }
 
-    /// A place at a share of the way from tip `k` to the next: the cubic through both with the slopes of their
-    /// neighbours, as Catmull and Rom have it, because the tip bows between two rows.
+    /// Point at a fraction of the way from tip `k` to the next, on the Catmull-Rom cubic: the tip's path bows between two rows.
     fn between(&self, k: usize, x: f64) -> Point {
         let at = |i: usize| self.tips[i.min(self.tips.len() - 1)];
         let (a, b) = (at(k), at(k + 1));

@@ -1,4 +1,4 @@
-//! What has been cut of each line, and how often.
+//! Parts of each line that have been cut, and how often.
 
 use std::collections::BTreeMap;
 
@@ -14,26 +14,26 @@ use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 use crate::verify::rules;
 
-/// Lines that are looked at in one go.
+/// Number of lines per parallel task.
 const LINES_AT_A_TIME: usize = 8192;
 
-/// The stretches of each line that were cut.
+/// Stretches of each line that were cut.
 #[derive(Debug)]
 pub(in crate::verify) struct Coverage<'a> {
     reference: &'a Reference<'a>,
     cut: Vec<Stretches>,
-    /// What of that was cut by a blade on its way, and not by one that only plunged.
+    /// Stretches cut by a moving blade, not by a plunge cut.
     ways: Vec<Stretches>,
-    /// Stretches that lay on a plunged blade itself, not only within the tolerance of one.
+    /// Stretches that lay on a plunged blade itself, not only within the tolerance beside one.
     cores: Vec<Stretches>,
-    /// How far past its start and its end a blade has gone, mm.
+    /// Greatest distance that a blade has gone past the start and the end of each line, mm.
     beyond: Vec<[f64; 2]>,
 }
 
-/// Disjoint stretches of the stations of a line, in order.
+/// Disjoint stretches of a line, as station ranges in order.
 #[derive(Debug, Clone)]
 enum Stretches {
-    /// As nearly all lines are cut: by one stroke.
+    /// Single stretch, the usual case: the line is cut by one stroke.
     One([f64; 2]),
     Many(Vec<[f64; 2]>),
 }
@@ -48,7 +48,7 @@ impl Stretches {
         }
     }
 
-    /// Adds a stretch, joined with those that it meets.
+    /// Adds a stretch and joins it with those that it touches.
     fn merge(&mut self, [a, b]: [f64; 2]) {
         if b < a {
             return;
@@ -68,56 +68,56 @@ impl Stretches {
 }
 
 impl<'a> Coverage<'a> {
-    /// Nothing is cut yet.
+    /// Coverage before anything is cut.
     pub(in crate::verify) fn new(reference: &'a Reference) -> Self {
         let none = vec![Stretches::NONE; reference.lines.len()];
         let beyond = vec![[0.0; 2]; reference.lines.len()];
         Self { reference, cut: none.clone(), ways: none.clone(), cores: none, beyond }
     }
 
-    /// Sees how far a blade goes past the start (0) or the end (1) of a line, mm.
+    /// Records that a blade goes past the start (0) or the end (1) of a line by `beyond` mm.
     pub(in crate::verify) fn see_beyond(&mut self, line: usize, end: usize, beyond: f64) {
         self.beyond[line][end] = self.beyond[line][end].max(beyond);
     }
 
-    /// How far a blade has gone past the start (0) or the end (1) of a line at the most, mm.
+    /// Greatest distance that a blade has gone past the start (0) or the end (1) of a line, mm.
     pub(in crate::verify) fn beyond(&self, line: usize, end: usize) -> f64 {
         self.beyond[line][end]
     }
 
-    /// How much of the stretches was not cut before, mm.
+    /// Length of the stretches that was not cut before, mm.
     pub(in crate::verify) fn fresh(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
         let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
         parts.map(|[a, b]| (b - a) - covered(self.cut[line].all(), a, b)).sum()
     }
 
-    /// How much of the stretches a blade on its way had cut before, mm.
+    /// Length of the stretches that a moving blade had cut before, mm.
     pub(in crate::verify) fn passed(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
         let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
         parts.map(|[a, b]| covered(self.ways[line].all(), a, b)).sum()
     }
 
-    /// Length of stretches that no blade has passed or lain on, mm. What both have done is subtracted twice: the check gets
-    /// stricter.
+    /// Length of the stretches that no blade has passed or lain on, mm. Parts where both happened are subtracted twice, which
+    /// makes the check stricter.
     pub(in crate::verify) fn untouched(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
         let covered = |[a, b]: [f64; 2]| covered(self.ways[line].all(), a, b) + covered(self.cores[line].all(), a, b);
         let parts = stretches.iter().flat_map(|stretch| self.on_line(line, *stretch));
         parts.map(|part| (part[1] - part[0]) - covered(part)).sum()
     }
 
-    /// Marks stretches as such that lay on a plunged blade.
+    /// Records stretches that lay on a plunged blade.
     pub(in crate::verify) fn add_cores(&mut self, line: usize, stretches: &[[f64; 2]]) {
         for part in stretches.iter().flat_map(|stretch| self.on_line(line, *stretch)).collect::<Vec<_>>() {
             self.cores[line].merge(part);
         }
     }
 
-    /// How much of a line was cut, mm.
+    /// Length of a line that was cut, mm.
     pub(in crate::verify) fn length(&self, line: usize) -> f64 {
         self.cut[line].all().iter().map(|[a, b]| b - a).sum()
     }
 
-    /// Marks stretches as cut, by a blade on its way or by one that only plunged.
+    /// Records stretches as cut, by a moving blade or by a plunge cut.
     pub(in crate::verify) fn add(&mut self, line: usize, stretches: &[[f64; 2]], is_plunge_cut: bool) {
         for part in stretches.iter().flat_map(|stretch| self.on_line(line, *stretch)).collect::<Vec<_>>() {
             self.cut[line].merge(part);
@@ -127,7 +127,7 @@ impl<'a> Coverage<'a> {
         }
     }
 
-    /// A stretch inside the line; on a ring, brought back to its first lap.
+    /// Part of a stretch inside the line; on a ring, mapped to its first lap.
     fn on_line(&self, line: usize, [a, b]: [f64; 2]) -> ArrayVec<[f64; 2], 2> {
         let line = &self.reference.lines[line];
         let length = line.length();
@@ -143,7 +143,7 @@ impl<'a> Coverage<'a> {
         std::iter::once([a, b.min(length)]).chain(over).collect()
     }
 
-    /// The pieces of which nothing is cut.
+    /// Numbers of the pieces of which nothing is cut.
     pub(in crate::verify) fn uncut(&self) -> Vec<u32> {
         let mut pieces: BTreeMap<u32, bool> = BTreeMap::new();
         for (line, cut) in self.reference.lines.iter().zip(&self.cut).filter(|(line, _)| !line.cut.is_edge) {
@@ -152,7 +152,7 @@ impl<'a> Coverage<'a> {
         pieces.into_iter().filter(|(_, is_cut)| !is_cut).map(|(piece, _)| piece).collect()
     }
 
-    /// The longest stretch that was left uncut.
+    /// Finding on the longest stretch that was left uncut.
     pub(in crate::verify) fn finding(self, common: &Common, profile: &MachineProfile) -> Finding {
         let limit = limit(profile);
         let nothing = Worst::new(&rules::COMPLETE, Some(limit));
@@ -175,12 +175,12 @@ impl<'a> Coverage<'a> {
     }
 }
 
-/// Longest stretch that may be left uncut, mm: rounding may part two ends that meet.
+/// Longest stretch that may be left uncut, mm: rounding may separate two ends that meet.
 pub(in crate::verify) fn limit(profile: &MachineProfile) -> f64 {
     profile.verify.max_uncut_mm + 2.0 * PLACE_ROUNDING
 }
 
-/// Sees how long the stretches of a line are that were left uncut.
+/// Records the lengths of the stretches of a line that were left uncut.
 fn see_uncut(line: &Line, cut: &[[f64; 2]], worst: &mut Worst) {
     let mut from = 0.0;
     for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
@@ -192,7 +192,7 @@ fn see_uncut(line: &Line, cut: &[[f64; 2]], worst: &mut Worst) {
     }
 }
 
-/// Length of `[a, b]` that the stretches cover.
+/// Length of `[a, b]` that the stretches cover, mm.
 fn covered(cut: &[[f64; 2]], a: f64, b: f64) -> f64 {
     let first = cut.partition_point(|s| s[1] < a);
     cut[first..].iter().take_while(|s| s[0] < b).map(|s| (s[1].min(b) - s[0].max(a)).max(0.0)).sum()

@@ -1,27 +1,26 @@
-//! What a blade that only plunges cuts of a line: all that is as near to it as a cut may be off.
+//! Stretches of a line that a plunge cut covers: those within the permitted deviation of the blade.
 
 use super::heading::on_lap;
 use crate::geom::{Point, cross};
 use crate::verify::reference::line::{Chord, Line};
 
-/// Stretches that are nearer to each other are one, mm: rounding.
+/// Distance below which two stretches are joined, mm: rounding.
 const JOINED: f64 = 1e-9;
-/// Least part of a stretch that leads along the blade: of one that is cut along its line, however that winds.
+/// Smallest ratio of the extent of a stretch along the blade to its length for it to count as cut along, however it winds.
 const ALONG: f64 = 0.5;
 
-/// How near a blade must be to what it cuts, mm.
+/// Distances within which a blade cuts a line, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
-    /// How far along the line is looked.
+    /// Length of the line that is searched on either side of the station.
     pub(super) reach: f64,
-    /// How far beside the blade.
+    /// Greatest distance beside the blade.
     pub(super) beside: f64,
-    /// How far beyond its ends: rounding.
+    /// Greatest distance beyond the ends of the blade: rounding.
     pub(super) beyond: f64,
 }
 
-/// The stretches of a line that a blade, given by its heel and its tip, lies over, in order; looked for from a station on
-/// both ways.
+/// Stretches of a line under a blade, given by its heel and tip, in order; searched from a station in both directions.
 pub(super) fn covered(line: &Line, blade: [Point; 2], station: f64, near: Near) -> Vec<[f64; 2]> {
     let mut found: Vec<[f64; 2]> = Vec::new();
     for (chord, lap) in chords(line, station, near.reach) {
@@ -33,18 +32,18 @@ pub(super) fn covered(line: &Line, blade: [Point; 2], station: f64, near: Near) 
             _ => found.push([from, to]),
         }
     }
-    // What only crosses the blade is cut through, not along.
+    // A stretch that only crosses the blade is cut through, not along.
     let axis = (blade[1] - blade[0]).normalize();
     let along = |[a, b]: [f64; 2]| (line.place(on_lap(line, b)) - line.place(on_lap(line, a))).dot(&axis).abs();
     found.retain(|&[a, b]| along([a, b]) >= ALONG * (b - a));
     found
 }
 
-/// The chords of a line from `reach` mm before a station to as far behind it, each with the length of the laps before it.
+/// Chords of a line within `reach` mm of a station, each with the length of the laps before it.
 fn chords<'a>(line: &'a Line, near: f64, reach: f64) -> impl Iterator<Item = (usize, f64)> + 'a {
     let (length, count) = (line.length(), line.chords());
     let (low, high) = if line.ring {
-        // Once round at the most.
+        // At most once around.
         let reach = reach.min(length / 2.0);
         (near - reach, near + reach)
     } else {
@@ -57,7 +56,7 @@ fn chords<'a>(line: &'a Line, near: f64, reach: f64) -> impl Iterator<Item = (us
     (first..laps).map(place).take_while(move |&(chord, lap)| line.station(chord) + lap < high)
 }
 
-/// The stations between which a blade lies over a chord, or over the bulge of the curve that it stands for.
+/// Station range in which a blade lies over a chord, or over the bulge of the curve that the chord approximates.
 fn of_chord(chord: &Chord, blade: [Point; 2], near: Near) -> Option<[f64; 2]> {
     let [from, crest, to] = chord.band();
     let straight = within([from, to], blade, near);
@@ -72,7 +71,7 @@ fn of_chord(chord: &Chord, blade: [Point; 2], near: Near) -> Option<[f64; 2]> {
     Some([start + a * length, start + b * length])
 }
 
-/// The part of a segment, from 0 at its start to 1 at its end, that a blade lies over.
+/// Part of a segment under a blade, from 0 at its start to 1 at its end.
 fn within([from, to]: [Point; 2], [heel, tip]: [Point; 2], Near { beside, beyond, .. }: Near) -> Option<[f64; 2]> {
     let (way, blade) = (to - from, tip - heel);
     let width = blade.norm();
@@ -83,7 +82,7 @@ fn within([from, to]: [Point; 2], [heel, tip]: [Point; 2], Near { beside, beyond
     (from <= to).then_some([from, to])
 }
 
-/// Where a value that is `start` at 0 and grows by `slope` up to 1 lies between two others.
+/// Range of the argument in which a linear function, `start` at 0 and rising by `slope` per unit, lies between two bounds.
 fn clip(start: f64, slope: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     if slope == 0.0 {
         return (low..=high).contains(&start).then_some([f64::NEG_INFINITY, f64::INFINITY]);
@@ -92,7 +91,7 @@ fn clip(start: f64, slope: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     Some([a.min(b), a.max(b)])
 }
 
-/// From the least start to the greatest end of some stretches, which overlap.
+/// Hull of overlapping stretches: from the least start to the greatest end.
 fn hull(stretches: [Option<[f64; 2]>; 3]) -> Option<[f64; 2]> {
     stretches.into_iter().flatten().reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
 }

@@ -1,11 +1,11 @@
-//! What was cut so far.
+//! State of the verification of strokes.
 
 use super::coverage::Coverage;
 use super::meetings::Meetings;
 use super::worsts::Worsts;
 use crate::verify::reference::order::Order;
 
-/// What was cut so far, as the strokes tell it.
+/// Coverage, meetings, order and worst values after the strokes so far.
 pub(in crate::verify) struct Done<'a> {
     pub(in crate::verify) coverage: Coverage<'a>,
     pub(in crate::verify) meetings: Meetings<'a>,

@@ -1,8 +1,8 @@
-//! The blade against the way of its tip where places are too coarse to show directions from row to row.
+//! Direction of the blade against the path of its tip when positions are too coarse to show directions from row to row.
 //!
-//! A tip whose blade points the way that it goes comes where the blade has pointed: it has gone the sum of its steps, each
-//! along the blade. How far it has drifted off that, by the length of its way, is how far the blade points aside, whatever
-//! curve it follows; rounding moves both ends of a way and nothing between.
+//! A tip that moves in the direction of its blade ends up at the sum of its steps, each taken along the blade. The drift from
+//! that sum divided by the path length is the tangent of the angle between blade and path, on any curve. Rounding affects only
+//! the two ends of a path.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,12 +10,14 @@ use super::heading::{Moving, fading};
 use crate::geom::{Vector, angle, cross};
 use crate::ir::verdict::Worst;
 
-/// Length of a way beside the rounding of its ends over the angle that must be seen: then that is half of it.
+/// Path length over which an angle is measured, in multiples of rounding divided by the angle limit: rounding then makes up
+/// half of the angle.
 const LENGTH: f64 = 4.0;
-/// Rounds in which the lead at a plunge is found.
+/// Number of iterations for the lead at a plunge.
 const ROUNDS: usize = 8;
 
-/// Compares a blade with the way of its tip; places may be off by `rounding` mm, and an angle of `limit` rad must be seen.
+/// Compares a blade with the path of its tip; positions are rounded by up to `rounding` mm, and an angle of `limit` rad must be
+/// detected.
 pub(super) fn check(moving: &Moving, [rounding, limit]: [f64; 2], heading: &mut Worst) {
     let rows = moving.rows;
     let Drift { stations, aside, turned, .. } = Drift::of(moving, lead(moving, rounding));
@@ -31,29 +33,29 @@ pub(super) fn check(moving: &Moving, [rounding, limit]: [f64; 2], heading: &mut 
         if way < window.min(length) || way <= 0.0 {
             break;
         }
-        // As directions turn, the rounding of the places between counts a little, too.
+        // As directions turn, the rounding of the positions in between counts a little, too.
         let noise = rounding * (2.0 + turned[end] - turned[start]);
         let drift = ((aside[end] - aside[start]).norm() - noise).max(0.0);
         heading.see((drift / way).atan().to_degrees(), || rows[usize::midpoint(start, end)].sighting());
     }
 }
 
-/// A way beside the one along the blade, row by row.
+/// Drift of the tip from its way along the blade, row by row.
 struct Drift {
-    /// How far the tip has gone, mm: along the blade, so that rounding adds nothing.
+    /// Path length of the tip, mm: measured along the blade, so that rounding adds nothing.
     stations: Vec<f64>,
-    /// How far it has come aside of the blade, mm.
+    /// Accumulated displacement across the blade, mm.
     aside: Vec<Vector>,
-    /// How far the blade has turned, rad.
+    /// Accumulated turn of the blade, rad.
     turned: Vec<f64>,
-    /// By how much all of that would be less were the lead a little more, mm a rad.
+    /// Decrease of `left` per increase of the lead, mm per rad.
     faded: f64,
-    /// How far it has come aside before the lead has faded, to the left, mm.
+    /// Weighted displacement to the left while the lead fades, mm.
     left: f64,
 }
 
 impl Drift {
-    /// That of a way which turns from the blade by `lead` rad at the plunge.
+    /// Drift for a path that deviates from the blade by `lead` rad at the plunge.
     fn of(moving: &Moving, lead: f64) -> Self {
         let Moving { tips, blades, fade, .. } = *moving;
         let share = |station: f64| if station < fade { fading(station.max(0.0) / fade) } else { 0.0 };
@@ -82,14 +84,14 @@ impl Drift {
     }
 }
 
-/// How far the way of the tip turns from the blade at the plunge, rad: of what may be, what fits the start of the way best.
+/// Angle from the blade to the tip's path at the plunge, rad: the permitted value that fits the start of the path best.
 fn lead(moving: &Moving, rounding: f64) -> f64 {
     let [least, greatest] = moving.lead;
     if least >= greatest || moving.fade <= 0.0 {
         return least;
     }
     let middle = f64::midpoint(least.max(-FRAC_PI_2), greatest.min(FRAC_PI_2));
-    // What is left aside of the way with a lead corrects it: great ones take a few rounds.
+    // The remaining displacement corrects the lead; large leads take several iterations.
     (0..ROUNDS).fold(middle, |lead, _| {
         let Drift { faded, left, .. } = Drift::of(moving, lead);
         if faded <= rounding { lead } else { (lead + left / faded).clamp(least, greatest) }
@@ -108,7 +110,7 @@ mod tests {
     use crate::verify::program::row::Row;
     use crate::verify::rules;
 
-    /// What is seen of a blade that points `aside` rad off a way along a quarter circle, with places rounded to 0.01 mm.
+    /// Angle detected for a blade that points `aside` rad off a path along a quarter circle, with positions rounded to 0.01 mm.
     fn seen(radius: f64, aside: f64) -> f64 {
         let count = 400_u32;
         let (mut rows, mut tips, mut blades) = (Vec::new(), Vec::new(), Vec::new());

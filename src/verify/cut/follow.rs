@@ -1,43 +1,45 @@
-//! Follows a moving point along a line: at which station it is, and how far off.
+//! Tracking of a moving point along a line: its station and its deviation.
 
 use crate::geom::{Point, cross};
 use crate::verify::reference::line::{Chord, Line};
 
-/// How far behind its last station a point may be found, mm: it wavers by less than the tolerance band is wide.
+/// Greatest distance that a point may fall back behind its last station, mm: it wavers by less than the width of the tolerance
+/// band.
 const BACK: f64 = 0.5;
-/// How far ahead, mm, beside twice its way.
+/// Distance searched ahead, mm, in addition to twice the point's move.
 const AHEAD: f64 = 1.0;
-/// The longest way from one place to the next that is followed, mm: no machine moves half as far in a period, and what
-/// leaps farther must not be looked for on the whole line.
+/// Longest move from one point to the next that is tracked, mm: no machine moves half as far in a period, and a longer leap
+/// must not trigger a search of the whole line.
 const LEAP: f64 = 25.0;
 
-/// Where a point stands beside a line.
+/// Foot of a point on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::verify) struct Foot {
-    /// Station of the nearest place; on a ring it goes on counting past a whole turn. Beyond an end it is that of the end.
+    /// Station of the nearest place; on a ring it keeps counting past a full turn. For a point beyond an end, the station of
+    /// that end.
     pub(in crate::verify) station: f64,
-    /// Distance from the tolerance band's core, mm; beyond an end, from the straight extension of the line.
+    /// Distance from the core of the tolerance band, mm; beyond an end, from the straight extension of the line.
     pub(in crate::verify) deviation: f64,
-    /// How far beyond the end it stands, mm; 0 between the ends.
+    /// Distance beyond the end, mm; 0 between the ends.
     pub(in crate::verify) beyond: f64,
-    /// The chord that this place is on.
+    /// Chord of the nearest place.
     pub(in crate::verify) chord: usize,
 }
 
-/// Stands on a line and moves along it.
+/// Tracker of a point that moves along a line.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Follower<'a> {
     line: &'a Line<'a>,
     /// +1 with the line, -1 against it.
     sign: f64,
     foot: Foot,
-    /// The chord on which it was looked for first: that of most places of a way is the one of the place before.
+    /// Chord that is searched first: usually the chord of the previous place.
     chord: Chord,
     point: Point,
 }
 
 impl<'a> Follower<'a> {
-    /// Starts at a point near a chord, moving with the line (`sign` +1) or against it (-1).
+    /// Starts at a point near a chord and moves with the line (`sign` +1) or against it (-1).
     pub(in crate::verify) fn new(line: &'a Line<'a>, chord: usize, point: Point, sign: f64) -> Self {
         let chord = line.chord(chord);
         let mut follower = Self { line, sign, foot: chord.foot(line, point), chord, point };
@@ -45,22 +47,22 @@ impl<'a> Follower<'a> {
         follower
     }
 
-    /// Where it stands.
+    /// Foot of the current point.
     pub(in crate::verify) fn foot(&self) -> Foot {
         self.foot
     }
 
-    /// The point that it was last moved to.
+    /// Current point.
     pub(in crate::verify) fn point(&self) -> Point {
         self.point
     }
 
-    /// The same place, facing the other way.
+    /// Tracker at the same place that faces the other way.
     pub(in crate::verify) fn turned(&self) -> Self {
         Self { sign: -self.sign, ..self.clone() }
     }
 
-    /// Moves to the next point and says where that stands: at the nearest place within reach of the last one.
+    /// Moves to the next point and returns its foot: the nearest place within reach of the last one.
     pub(in crate::verify) fn step(&mut self, point: Point) -> Foot {
         let way = (point - self.point).norm();
         self.point = point;
@@ -71,7 +73,7 @@ impl<'a> Follower<'a> {
         let here = self.chord.index;
         let [from, long] = self.chord.stations();
         if self.foot.chord == here && low > from && high < from + long {
-            // Amid a chord there is no other within reach.
+            // Inside a chord, no other chord is within reach.
             self.foot = self.chord.foot(line, point);
             return self.foot;
         }
@@ -97,7 +99,7 @@ impl<'a> Follower<'a> {
         let (mut chord, mut lap) = (start, laps);
         while let Some((next, turn)) = following(line, chord) {
             (chord, lap) = (next, lap + turn);
-            // Once round a ring every chord was looked at.
+            // After a full turn of a ring every chord was checked.
             if line.station(chord) + lap * length > high || chord == start {
                 break;
             }
@@ -116,7 +118,7 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// The chord behind another, and how many laps that begins.
+/// Chord after another, and the number of laps (0 or 1) that it is ahead.
 fn following(line: &Line, chord: usize) -> Option<(usize, f64)> {
     match (chord + 1 < line.chords(), line.ring) {
         (true, _) => Some((chord + 1, 0.0)),
@@ -125,7 +127,7 @@ fn following(line: &Line, chord: usize) -> Option<(usize, f64)> {
     }
 }
 
-/// The chord before another, and how many laps back that is.
+/// Chord before another, and the number of laps (0 or 1) that it is back.
 fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
     match (chord > 0, line.ring) {
         (true, _) => Some((chord - 1, 0.0)),
@@ -135,7 +137,7 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
 }
 
 impl Chord {
-    /// Where a point stands beside it; beyond an end of its line, beside the straight extension of that.
+    /// Foot of a point on the chord; beyond an end of its line, on the straight extension.
     pub(in crate::verify) fn foot(&self, line: &Line, point: Point) -> Foot {
         let (chord, last) = (self.index, line.chords());
         if !line.ring && (chord == 0 || chord + 1 == last) {

@@ -1,4 +1,4 @@
-//! Deviations that a program declares, each measured at the place where it is declared.
+//! Measurement of declared deviations, each at the place where the program declares it.
 
 use super::body::Cut;
 use super::chord::{self, BODY_SHARES};
@@ -12,15 +12,16 @@ use crate::ir::declaration::{Declaration, Kind, Which};
 use crate::machine::Follow;
 use crate::verify::declared::{Account, Stretch};
 
-/// Greatest travel of a tip that stands still, in tolerances: smoothing moves both the plunge and the lift, and the line at each.
+/// Greatest travel of a tip that counts as standing still, in multiples of the tolerance: smoothing moves both the plunge and
+/// the lift, and the line at each.
 const STILL_TOLERANCES: f64 = 4.0;
-/// Distance of two places at which the drawn line is looked at, mm.
+/// Spacing of the places at which the drawn line is checked, mm.
 const SWING_STEP: f64 = 0.25;
-/// Length of the line behind the tip that is looked at, in widths of the blade.
+/// Length of the line behind the tip that is checked, in multiples of the blade width.
 const BEHIND: f64 = 2.0;
 
 impl Judge<'_> {
-    /// Measures all that may be declared of a stroke, where anything is declared of its cut.
+    /// Measures everything that may be declared of a stroke, if its line has any declarations.
     pub(super) fn find(&self, traced: &Traced, trial: &Trial) {
         let (line, cut) = (&self.reference.lines[trial.line], &traced.cut);
         let Some(account) = self.account.as_ref().filter(|account| !account.is_silent(line)) else { return };
@@ -31,14 +32,14 @@ impl Judge<'_> {
         }
         let under = [0, cut.body].map(|place| trial.feet[place].station);
         let plunged = if cut.is_plunge_cut() { whole } else { Stretch { stations: under, ..whole } };
-        // Deviations of the drawn line are quick to measure; those of the rows are measured where they fall short.
+        // Deviations of the drawn line are quick to measure; those of the rows are measured only if these fall short.
         if let Some(enough) = account.lacks(Kind::Plunge, plunged) {
             account.see(Kind::Plunge, plunged, self.drawn_beside(cut, trial, enough));
         }
         if account.lacks(Kind::Plunge, plunged).is_some() {
             account.see(Kind::Plunge, plunged, self.beside(cut, trial));
         }
-        // A blade that is declared to stand still: its tip may travel as far as smoothing moves it.
+        // Blade that is declared to stand still: its tip may travel as far as smoothing moves it.
         let is_still = || cut.tip_travel() <= STILL_TOLERANCES * self.reference.tolerance;
         if account.lacks(Kind::Nibbled, whole).is_some() && is_still() {
             account.see(Kind::Nibbled, whole, (trial.reach[1] - trial.reach[0]).abs());
@@ -55,7 +56,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Measures how far a stroke goes past its ends, and where it ends amid its line.
+    /// Measures overlaps at both ends of a stroke, and lifts where the stroke ends inside its line.
     fn find_ends(&self, cut: &Cut, trial: &Trial, account: &Account) {
         let (knife, line) = (self.knife, &self.reference.lines[trial.line]);
         let asked = [
@@ -65,7 +66,7 @@ impl Judge<'_> {
         let places = [0, cut.points.len() - 1];
         for (i, which) in [Which::Start, Which::End].into_iter().enumerate() {
             let station = trial.reach[i];
-            // The ends of a blade that does not move cannot be told apart.
+            // The two ends of a blade that does not move cannot be told apart.
             let end = if cut.is_plunge_cut() { None } else { Some(which) };
             let here = Stretch { line, stations: [station; 2], end };
             let is_lap = trial.laps && which == Which::End;
@@ -79,7 +80,7 @@ impl Judge<'_> {
         }
     }
 
-    /// How far blade and line are apart where it plunges, mm.
+    /// Greatest distance between blade and line at the plunge, mm.
     fn beside(&self, cut: &Cut, trial: &Trial) -> f64 {
         let line = &self.reference.lines[trial.line];
         let over = trial.over.or_else(|| Plunged::new(line, cut, &trial.feet, self.tracer.allowed));
@@ -87,8 +88,8 @@ impl Judge<'_> {
         body.chain(over.map(|over| over.sagitta)).fold(0.0, f64::max)
     }
 
-    /// Distance of blade and drawn line where it plunges at the start of its stretch, mm. On a narrow curve that depends on the
-    /// start, which the heel shows to within the tolerance only: the greatest of three starts, or the first that is `enough`.
+    /// Distance between the blade and the drawn line at the plunge, mm. On a tight curve it depends on the start, which the
+    /// heel gives only to within the tolerance: the greatest value for three starts, or the first that reaches `enough`.
     fn drawn_beside(&self, cut: &Cut, trial: &Trial, enough: f64) -> f64 {
         let line = &self.reference.lines[trial.line];
         let [from, to] = trial.reach;
@@ -96,7 +97,7 @@ impl Judge<'_> {
             let from = if line.ring { from } else { from.clamp(0.0, line.length()) };
             let led_on = self.drawn(cut, trial, [from, to]);
             let alone = &led_on[usize::from(trial.beyond(cut, 0) > 0.0 && !trial.laps)..];
-            // The body at the start of a ring lies behind that, or before it on the lap before.
+            // The body at the start of a ring lies behind the start, or before it on the previous lap.
             let lap = if from < to { -line.length() } else { line.length() };
             let back = if trial.laps { self.drawn(cut, trial, [from, from + lap]) } else { Vec::new() };
             let lines = [&led_on, alone, &back].into_iter().filter(|points| points.len() > 1);
@@ -112,9 +113,9 @@ impl Judge<'_> {
         most
     }
 
-    /// How far a body leaves what a stroke cuts of its line as that is drawn, at the most, while the blade lies along it or is a
-    /// chord of it, mm: from where it has left the place of its plunge, on a ring from the start on. Looks no farther than to
-    /// where that is `enough`.
+    /// Greatest distance of the body from the drawn line along the stroke while the blade follows it as a tangent or a chord,
+    /// mm: from where the body has left the place of the plunge, on a ring from the start. Stops early once the result reaches
+    /// `enough`.
     fn drawn_swing(&self, cut: &Cut, trial: &Trial, enough: f64) -> f64 {
         if enough <= 0.0 {
             return 0.0;
@@ -141,9 +142,10 @@ impl Judge<'_> {
                 let off = followed.off(followed.tip - along * width);
                 most = most.max(off);
                 match self.knife.follow {
-                    // The deviation grows no faster than the tip goes on: before this place it does not exceed the greatest.
+                    // The deviation grows at most as fast as the tip advances: before this place it does not exceed the maximum
+                    // so far.
                     Follow::Tangent => from = tip + (most - off),
-                    // Where a line is too tight for the chord mode, the blade lies along it in either.
+                    // Where a line is too tight for the chord mode, the blade lies along the tangent in either mode.
                     Follow::Chord => most = most.max(followed.bow(width)),
                 }
                 if most >= enough {
@@ -154,7 +156,7 @@ impl Judge<'_> {
         most
     }
 
-    /// The drawn line between two stations, from the one to the other, with straight extensions by the overlaps of a stroke.
+    /// Drawn line from one station to the other, extended straight by the overlaps of a stroke.
     fn drawn(&self, cut: &Cut, trial: &Trial, [from, to]: [f64; 2]) -> Vec<Point> {
         let line = &self.reference.lines[trial.line];
         let (low, high) = (from.min(to), from.max(to));
@@ -168,14 +170,14 @@ impl Judge<'_> {
         let led = |end: usize, next: usize, place: usize| {
             let along = polyline::direction(points[next], points[end])?;
             let beyond = trial.beyond(cut, place);
-            // A ring has its overlap on itself.
+            // A ring overlaps itself.
             (beyond > 0.0 && !trial.laps).then(|| points[end] + along * beyond)
         };
         let [before, behind] = [led(0, 1, 0), led(last, last - 1, cut.points.len() - 1)];
         before.into_iter().chain(points).chain(behind).collect()
     }
 
-    /// How far the body of a blade that goes along leaves its line at the most, mm.
+    /// Greatest distance of the body of a moving blade from its line, mm.
     fn swing(&self, traced: &Traced, trial: &Trial) -> f64 {
         let shares: &[f64] = match self.knife.follow {
             Follow::Tangent => &[0.0],
@@ -185,7 +187,7 @@ impl Judge<'_> {
         feet.filter(|foot| foot.beyond == 0.0).map(|foot| foot.deviation).fold(0.0, f64::max)
     }
 
-    /// Measures how deep the ends of a plunge cut lie in its own part and in others.
+    /// Measures how deep the ends of a plunge cut reach into the part itself and into other parts.
     fn find_surplus(&self, cut: &Cut, trial: &Trial, account: &Account) {
         let line = &self.reference.lines[trial.line];
         let stroke = self.ends(cut, trial);
@@ -212,29 +214,29 @@ impl Judge<'_> {
     }
 }
 
-/// Stretch of a drawn line behind the tip of a blade that goes along it.
+/// Stretch of a drawn line behind the tip of a moving blade.
 struct Followed<'a> {
-    /// The points of the line up to the start of the chord that the tip is on.
+    /// Points of the line up to the start of the tip's chord.
     points: &'a [Point],
     tip: Point,
 }
 
 impl Followed<'_> {
-    /// Distance of a place from it, mm.
+    /// Distance of a point from the stretch, mm.
     fn off(&self, place: Point) -> f64 {
         let last = polyline::distance_to_segment(place, self.points[self.points.len() - 1], self.tip);
         let before = self.points.windows(2).map(|ends| polyline::distance_to_segment(place, ends[0], ends[1]));
         before.fold(last, f64::min)
     }
 
-    /// How far it is off a blade of a width that is a chord of it, from the tip back, mm.
+    /// Greatest distance between the stretch and a blade of that width that is its chord from the tip back, mm.
     fn bow(&self, width: f64) -> f64 {
         let back: Vec<Point> = std::iter::once(self.tip).chain(self.points.iter().rev().copied()).collect();
         bow(&back, width)
     }
 }
 
-/// How far a polyline is off the blade that is its chord from its first point on, mm.
+/// Greatest distance between a polyline and the blade that is its chord from its first point on, mm.
 fn bow(points: &[Point], width: f64) -> f64 {
     let last = points.len() - 1;
     let (end, chord) = polyline::first_at_distance(points, width).unwrap_or((points[last], last));

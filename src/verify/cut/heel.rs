@@ -1,13 +1,13 @@
-//! Whether the heel of the blade goes where the tip went before it.
+//! Check that the heel of the blade follows the tip.
 
 use super::body::{Cut, Sagitta};
 use super::trial::Trial;
 use crate::geom::{Point, polyline};
 
-/// Whether a heel, row by row, surely stays nearer to its line than `known` mm: it comes by where the tip was one width of
-/// the blade before, or where the blade plunged. How far that is off the line is known at places; what lies between two of
-/// them is within half of their distance of one. Where the way between is known to bow by so much, no vertex of the line
-/// lies farther beside it than was seen, and so nothing does, but for as much again at its ends.
+/// True if the heel certainly stays within `known` mm of its line at each row, since it passes where the tip was one blade
+/// width earlier or where the blade plunged. The deviation there is known at points; a place between two of them is at most
+/// half their distance away from one. For a path with a known bow, no vertex of the line deviates by more than the greatest
+/// deviation seen; so the path deviates by at most that plus the bow.
 pub(super) fn trails(cut: &Cut, heels: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
     let width = cut.stations[cut.body];
     let (mut place, mut behind) = (cut.body, 0);

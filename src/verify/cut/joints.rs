@@ -1,4 +1,4 @@
-//! Joints of different cuts: where the drawing has them meet, whether the blade's own ways do.
+//! Joints of different cuts: places where the cuts meet in the drawing, and where the cut paths must meet, too.
 
 use rayon::prelude::*;
 
@@ -7,30 +7,30 @@ use crate::geom::{Extent, Point, polyline};
 use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::reference::common::Joint;
 
-/// The blade's ways about joints.
+/// Cut paths around joints.
 #[derive(Debug)]
 pub(in crate::verify) struct Joints<'a> {
     all: &'a [Joint],
-    /// Boxes of all joints, those of one joint next to each other.
+    /// Boxes of all joints; the boxes of one joint are adjacent.
     boxes: Boxes,
     /// Index of the joint of each box.
     joint_of: Vec<usize>,
-    /// The ways through each box.
+    /// Paths through each box.
     ways: Vec<Vec<Way>>,
-    /// Whether the cuts of each joint are known to cross.
+    /// True for each joint whose cuts are known to cross.
     is_met: Vec<bool>,
 }
 
-/// A part of a way that a blade cuts.
+/// Part of a path that a blade cuts.
 #[derive(Debug)]
 struct Way {
-    /// The cut that it is of.
+    /// Cut of the marker that the path belongs to.
     cut: u32,
     points: Vec<Point>,
 }
 
 impl<'a> Joints<'a> {
-    /// Joints with no way seen yet.
+    /// Joints before any path.
     pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
         Self {
             all: joints,
@@ -41,7 +41,7 @@ impl<'a> Joints<'a> {
         }
     }
 
-    /// Sees what a stroke cuts, as a stretch of a cut of the marker.
+    /// Adds the points that a stroke cuts, as part of a cut of the marker.
     pub(in crate::verify) fn see(&mut self, points: &[Point], cut: u32) {
         if self.all.is_empty() {
             return;
@@ -60,7 +60,7 @@ impl<'a> Joints<'a> {
         }
     }
 
-    /// Sees how wide a thread is left at each joint.
+    /// Records the width of the uncut thread at each joint.
     pub(super) fn see_gaps(&self, worst: &mut Worst) {
         let firsts = self.all.iter().scan(0, |next, joint| Some(std::mem::replace(next, *next + joint.about.len())));
         let joints = self.all.iter().zip(firsts).zip(&self.is_met);
@@ -76,7 +76,7 @@ impl<'a> Joints<'a> {
 }
 
 impl Joint {
-    /// Whether two ways are of its two cuts.
+    /// True if two paths belong to the two cuts of the joint.
     fn is_of(&self, ways: [&Way; 2]) -> bool {
         let cuts = ways.map(|way| way.cut);
         cuts == self.cuts || cuts == [self.cuts[1], self.cuts[0]]
@@ -89,7 +89,7 @@ impl Way {
     }
 }
 
-/// The parts of a way that lie in a box.
+/// Parts of a path inside a box.
 fn ways(points: &[Point], cut: u32, about: Extent) -> Vec<Way> {
     let mut found = Vec::new();
     let mut way: Vec<Point> = Vec::new();
@@ -105,15 +105,15 @@ fn ways(points: &[Point], cut: u32, about: Extent) -> Vec<Way> {
     found
 }
 
-/// How wide the widest gap is on the best way from the one cut of a joint to the other over all that is cut in its boxes, mm.
+/// Widest gap on the best route from one cut of a joint to the other over all paths in its boxes, mm.
 fn gap(joint: &Joint, ways: &[&Way]) -> f64 {
     let [from, to] = joint.cuts;
-    // Where a cut is missing the gap is as wide as the box around the place.
+    // If a cut is missing, the gap is as wide as the box around the place.
     let (width, height) = joint.about[0].size();
     let most = width.hypot(height);
     let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { most }).collect();
     let mut is_done = vec![false; ways.len()];
-    // The way that is reached over the narrowest gap is final, as in Dijkstra's search.
+    // As in Dijkstra's algorithm, the path with the smallest gap is final.
     while let Some(next) = (0..ways.len()).filter(|&i| !is_done[i]).min_by(|&a, &b| least[a].total_cmp(&least[b])) {
         if ways[next].cut == to {
             return least[next];
@@ -129,12 +129,12 @@ fn gap(joint: &Joint, ways: &[&Way]) -> f64 {
     most
 }
 
-/// Greatest distance that two ways can have, mm: that of their first points.
+/// Upper bound on the distance of two paths, mm: the distance of their first points.
 pub(super) fn most_apart(one: &[Point], other: &[Point]) -> f64 {
     (other[0] - one[0]).norm()
 }
 
-/// Distance of two ways, mm, surely where that is less than `limit`.
+/// Distance of two paths, mm; exact if it is less than `limit`, otherwise `limit`.
 pub(super) fn apart(one: &[Point], other: &[Point], limit: f64) -> f64 {
     let mut least = limit;
     for a in one.windows(2) {

@@ -1,37 +1,37 @@
-//! What rows say beside poses and outputs: the block that is being cut, by which a program is resumed.
+//! Check of the block that rows name as being cut; a program is resumed by it.
 
 use crate::ir::verdict::Worst;
 use crate::verify::program::row::Row;
 use crate::verify::reference::line::Line;
 use crate::verify::rules;
 
-/// How far from its chord, along the line, a block may be named, mm, beside the tolerance: a tip that takes a bend inside
-/// its tolerance band passes the vertex early or late by less.
+/// Distance from its chord, along the line, at which a block may still be named, mm, in addition to the tolerance: a tip that
+/// cuts a bend inside its tolerance band passes the vertex early or late by less.
 const ASIDE: f64 = 0.5;
 
-/// Judges the column `block`.
+/// Check of the column `block`.
 pub(in crate::verify) struct Naming {
-    /// How far a block may be named from its chord, mm.
+    /// Greatest permitted distance of a block from its chord, mm.
     reach: f64,
 }
 
 impl Naming {
-    /// For a tolerance band of this tolerance, mm.
+    /// Check for a path tolerance, mm.
     pub(in crate::verify) fn new(tolerance: f64) -> Self {
         Self { reach: tolerance + ASIDE }
     }
 
-    /// The worst of nothing.
+    /// Initial state of the rule.
     pub(in crate::verify) fn worst(&self) -> Worst {
         Worst::new(&rules::BLOCK, Some(self.reach))
     }
 
-    /// How far a row in the air is from what it should name: there no block is cut.
+    /// Error of a row in the air, where no block is cut: infinite if it names one, otherwise 0.
     pub(in crate::verify) fn in_air(row: &Row) -> f64 {
         if !row.knife && row.block != 0 { f64::INFINITY } else { 0.0 }
     }
 
-    /// How far a row that cuts a line at a station is from the chord that has its block, mm.
+    /// Distance from the station of a row to the chord with its block, mm; infinite beyond reach.
     pub(in crate::verify) fn away(&self, block: u32, line: &Line, station: f64) -> f64 {
         let length = line.length();
         let station = if line.ring { station.rem_euclid(length) } else { station };
@@ -41,7 +41,7 @@ impl Naming {
         }
         let count = line.chords();
         let mut nearest = f64::INFINITY;
-        // Behind and before, as far as the chords begin within reach.
+        // Search ahead, then back, among the chords that begin within reach.
         for i in 1..count {
             let (at, over) = ((here + i) % count, here + i >= count);
             let gap = line.station(at) + if over { length } else { 0.0 } - station;

@@ -1,20 +1,20 @@
-//! Plunges amid lines, matched with their declarations: each plunge needs one of its own.
+//! Matching of plunges inside lines with declarations: each plunge needs a declaration of its own.
 
 use std::collections::{BTreeMap, VecDeque};
 
 use crate::ir::verdict::{Sighting, Worst};
 
-/// A plunge amid a line.
+/// Plunge inside a line.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Nibble {
-    /// Indices of the declarations that may belong to it.
+    /// Indices of the declarations that may cover it.
     pub(super) entries: Vec<usize>,
-    /// Length of its cut, mm.
+    /// Length of the cut, mm.
     pub(super) length: f64,
     pub(super) place: Sighting,
 }
 
-/// Reports the plunges that a maximum matching leaves without a declaration.
+/// Reports the plunges without a declaration in a maximum matching.
 pub(super) fn settle(nibbles: &[Nibble], undeclared: &mut Worst) {
     let mut owners = Owners { nibbles, of: BTreeMap::new(), own: vec![None; nibbles.len()] };
     for (i, nibble) in nibbles.iter().enumerate() {
@@ -24,17 +24,17 @@ pub(super) fn settle(nibbles: &[Nibble], undeclared: &mut Worst) {
     }
 }
 
-/// Declarations that are given to plunges, one each.
+/// Assignment of declarations to plunges, one each.
 struct Owners<'a> {
     nibbles: &'a [Nibble],
-    /// The plunge of each declaration that is given.
+    /// Plunge of each assigned declaration.
     of: BTreeMap<usize, usize>,
-    /// The declaration of each plunge.
+    /// Declaration of each plunge.
     own: Vec<Option<usize>>,
 }
 
 impl Owners<'_> {
-    /// Shortest augmenting path of the bipartite matching, which adds a plunge; `false` if there is none.
+    /// Adds a plunge by the shortest augmenting path of the bipartite matching; `false` if there is none.
     fn add(&mut self, plunge: usize) -> bool {
         let mut reached_from: BTreeMap<usize, usize> = BTreeMap::new();
         let mut open = VecDeque::from([plunge]);
@@ -71,7 +71,7 @@ mod tests {
     use crate::geom::Point;
     use crate::verify::rules;
 
-    /// The length of the longest plunge that is left over; plunges are as long as their numbers, from 1.
+    /// Length of the longest plunge without a declaration; plunge i, counted from 1, has length i.
     fn left(entries: &[&[usize]]) -> f64 {
         let place = Sighting::missing(Point::origin(), 0);
         let nibble =

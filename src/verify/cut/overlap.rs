@@ -1,4 +1,4 @@
-//! How far the blade goes past the ends of a line, against what the profile asks for.
+//! Overlaps past the ends of a line, compared with the profile.
 
 use super::body::Cut;
 use super::coverage::Coverage;
@@ -12,8 +12,8 @@ use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
 
 impl Judge<'_> {
-    /// How much an overlap is shorter than the profile asks for, where waste lies ahead and no code forbids it, and nothing
-    /// says so.
+    /// Checks for overlaps that are shorter than the profile asks for, where waste lies ahead, no code forbids the overlap, and
+    /// no declaration covers the difference.
     pub(super) fn check_overlaps(
         &self,
         cut: &Cut,
@@ -23,7 +23,7 @@ impl Judge<'_> {
     ) {
         let Worsts { overlap, lacking, .. } = worsts;
         let line = &self.reference.lines[trial.line];
-        // Within the tolerance of both its ends a line shows neither.
+        // A line within the tolerance of both its ends shows neither end.
         let is_short = line.length() <= 2.0 * self.tracer.allowed;
         if line.cut.is_bare || is_short {
             return;
@@ -39,7 +39,7 @@ impl Judge<'_> {
             knife.heel_overlap_mm.min(knife.corner_heel_overlap_mm),
             knife.front_overlap_mm.min(knife.corner_front_overlap_mm),
         ];
-        // Nobody sees which end of a blade that does not move comes first.
+        // The two ends of a blade that does not move cannot be told apart.
         let asked = if cut.is_plunge_cut() { [asked[0].min(asked[1]); 2] } else { asked };
         let last = cut.points.len() - 1;
         for (i, place) in [0, last].into_iter().enumerate() {
@@ -54,11 +54,11 @@ impl Judge<'_> {
             let end_here = if cut.is_plunge_cut() { None } else { Some([Which::Start, Which::End][i]) };
             let here = Stretch { line, stations: [station; 2], end: end_here };
             let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, here));
-            // The heel of a blade that plunges on a curve would leave that.
+            // The heel of a blade that plunges on a curve would leave the curve.
             let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
             let has_cause = is_curved || self.has_neighbour(way[0], asked[i] + knife.clearance_mm);
             let told = if has_cause { told } else { 0.0 };
-            // So near to an end of its line a cut may also be lifted, or begin, amid that.
+            // This close to an end of its line, a cut may also be lifted or begin inside the line.
             let is_lift = self.tracer.declared.is_some_and(|told| told.has(Kind::Lift, here));
             let is_told = is_lift || self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
             let may = is_told || is_curved && self.tracer.declared.is_none() || self.overcut.leads_into_part(way);
@@ -71,7 +71,7 @@ impl Judge<'_> {
         }
     }
 
-    /// The end of a line that is near a station of it: its start (0) or its end (1); `None` amid it.
+    /// End of a line near a station: start (0) or end (1); `None` for a station inside the line.
     fn end_of_line(&self, line: &Line, station: f64) -> Option<usize> {
         if station <= self.tracer.allowed {
             return Some(0);
@@ -79,7 +79,7 @@ impl Judge<'_> {
         (line.length() - station <= self.tracer.allowed).then_some(1)
     }
 
-    /// Marks how far a stroke goes past the ends of its line.
+    /// Records the overlaps of a stroke past the ends of its line.
     pub(super) fn see_beyond(&self, cut: &Cut, trial: &Trial, coverage: &mut Coverage) {
         let line = &self.reference.lines[trial.line];
         if trial.laps || line.ring {
@@ -92,21 +92,21 @@ impl Judge<'_> {
         }
     }
 
-    /// Shortfall of the overlap of a ring against the profile, mm.
+    /// Checks the overlap of a ring against the profile.
     fn check_lap(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, overlap: &mut Worst) {
         let length = self.reference.lines[trial.line].length();
-        // Along the line as it is drawn, or as the tip goes: what winds is longer than the way along it.
+        // Measure along the drawn line or along the tip's path: a winding path is longer than the line.
         let [start, end] = trial.reach;
         let lapped = lapped(cut, length).max((end - start).abs() - length);
         let missing = self.knife.front_overlap_mm.min(length) - lapped;
-        // Its start and its end may both be off along it.
+        // Both its start and its end may deviate along the line.
         if missing > 2.0 * self.tracer.allowed {
             overlap.see(missing - self.tracer.allowed, || seen(cut.points.len() - 1));
         }
     }
 
-    /// Whether anything but what meets there is drawn so near to the end of a line, mm, that it may be in the way of an
-    /// overlap.
+    /// True if anything besides the lines that meet there is drawn within `reach` mm of the end of a line, so that it may
+    /// obstruct an overlap.
     fn has_neighbour(&self, end: Point, reach: f64) -> bool {
         let reach = reach + self.tracer.allowed + self.reference.band;
         let meets = |ends: [Point; 2]| ends.iter().any(|at| (at - end).norm() <= self.tracer.allowed);
@@ -119,7 +119,7 @@ impl Judge<'_> {
     }
 }
 
-/// How far the tip goes on over its own start once it has gone round a ring of that length, mm.
+/// Path length of the tip past its own start after a full turn of a ring of that length, mm.
 pub(super) fn lapped(cut: &Cut, length: f64) -> f64 {
     let (start, last) = (cut.points[cut.body], cut.points.len() - 1);
     let end = cut.stations[last];
@@ -129,13 +129,13 @@ pub(super) fn lapped(cut: &Cut, length: f64) -> f64 {
         let station = cut.stations[k] + (cut.stations[k + 1] - cut.stations[k]) * share;
         ((from + (to - from) * share - start).norm(), station)
     };
-    // The second half of the way round.
+    // Only the second half of the turn counts.
     let behind = (cut.body..last).rev().take_while(|&k| cut.stations[k] - cut.stations[cut.body] >= length / 2.0);
     let nearest = behind.map(on_way).min_by(|a, b| a.0.total_cmp(&b.0));
     nearest.map_or(0.0, |(_, station)| end - station)
 }
 
-/// Straight continuation of a line beyond its start or its end, so many mm long.
+/// Straight extension of a line beyond its start or its end, `length` mm long.
 fn way_on(line: &Line, at_start: bool, length: f64) -> [Point; 2] {
     let (end, along) = if at_start {
         (line.point(0), -line.direction(0))

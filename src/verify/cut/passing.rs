@@ -1,4 +1,4 @@
-//! What a cut passes between two of its places, and the longest stretch of places that hold.
+//! Vertices that a cut passes between two of its places, and the longest run of places that hold.
 
 use std::ops::RangeInclusive;
 
@@ -7,20 +7,20 @@ use super::follow::Foot;
 use crate::geom::{Point, polyline};
 use crate::verify::reference::line::Line;
 
-/// Distance at which the tip's way passes the vertices between the stations of places `i - 1` and `i`, mm. Inside a bend it may
-/// come by a vertex a little before or behind these places: that is looked for where the distance is more than allowed.
+/// Distance at which the tip's path passes the vertices between the stations of places `i - 1` and `i`, mm. In a bend it may
+/// pass a vertex slightly before or after these places; neighbouring places are checked where the distance exceeds `allowed`.
 pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize, allowed: f64) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let chord = feet[i].chord;
     if feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord) {
-        // Between two places on one chord, on the same lap, there is no vertex.
+        // Between two places on one chord of the same lap there is no vertex.
         return 0.0;
     }
     let points = &cut.points;
     let (low, high) = (a.min(b), a.max(b));
     let sagitta = |k: usize| match cut.sagitta {
         Sagitta::Within(sagitta) => sagitta,
-        // The blade's own places are no part of the way.
+        // Places of the blade itself do not belong to the path.
         Sagitta::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
         Sagitta::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
     };
@@ -30,7 +30,7 @@ pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize, allowed: 
         if here <= allowed {
             return here;
         }
-        // On from there as long as it comes nearer.
+        // Continue from here as long as the distance decreases.
         let nearest = |steps: &mut dyn Iterator<Item = usize>| {
             let nearer = steps.map(distance).scan(here, |last, next| {
                 let is_nearer = next < *last;
@@ -44,14 +44,13 @@ pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize, allowed: 
     line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - sagitta(i).max(sagitta(i - 1))
 }
 
-/// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are
-/// none.
+/// Stations of the first and the last vertex that a straight blade cuts between two of its places; `None` without any.
 pub(in crate::verify) fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64) -> Option<[f64; 2]> {
     let (a, b) = (feet[0].station, feet[1].station);
     let (low, high) = (a.min(b), a.max(b));
     let chord = feet[0].chord;
     if low == high || feet[1].chord == chord && low > line.station(chord) && high < line.station(chord + 1) {
-        // No vertex lies between two places amid one chord, and none that counts between two past the end of a line.
+        // Between two places inside one chord there is no vertex; between two places past the end of a line none counts.
         return None;
     }
     let is_cut = |vertex: &usize| polyline::distance_to_segment(line.point(*vertex), places[0], places[1]) <= allowed;
@@ -62,7 +61,7 @@ pub(in crate::verify) fn passed(line: &Line, places: &[Point], feet: &[Foot], al
     })
 }
 
-/// The longest stretch of places that hold; the first of two alike.
+/// Longest run of places that hold; the first of equally long ones.
 pub(in crate::verify) fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
     let mut best: Option<RangeInclusive<usize>> = None;
     let mut from = 0;

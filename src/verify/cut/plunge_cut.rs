@@ -1,4 +1,4 @@
-//! A blade that only plunges: how it points, how far it goes beyond its line, and whether it may stand there.
+//! Checks of a plunge cut: its direction, its reach beyond the line, and whether it may stand there.
 
 use super::body::Cut;
 use super::covered::covered;
@@ -13,11 +13,11 @@ use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::declared::Stretch;
 use crate::verify::reference::line::Line;
 
-/// Part of the tolerance by which a line is off a straight one where it bends, however little.
+/// Fraction of the tolerance by which a line must deviate from a straight one to count as a bend.
 const SLIGHT_SHARE: f64 = 0.1;
 
 impl Judge<'_> {
-    /// Judges a stroke that goes no way.
+    /// Verifies a plunge cut.
     pub(super) fn check_plunge_cut(
         &self,
         cut: &Cut,
@@ -28,7 +28,7 @@ impl Judge<'_> {
         let line = &self.reference.lines[trial.line];
         worsts.heading.see(trial.askew(line, cut).to_degrees(), || seen(cut.body));
         if let Some(over) = trial.over {
-            // Where shorter cuts would do less harm a curve is not cut straight.
+            // A curve must not be cut straight where shorter cuts would do less harm.
             let excess = over.sagitta - self.overcut.of_chords(&self.ends(cut, trial));
             worsts.on_path.see(excess, || seen(cut.body));
         }
@@ -39,7 +39,7 @@ impl Judge<'_> {
         self.check_nibble(line, trial, is_straight, || seen(cut.body), worsts);
     }
 
-    /// Where there is a blade's width of straight line to lie on, the blade goes beyond that by its overlaps and no more.
+    /// Checks the surplus: where the line is straight for a blade width, the blade may go beyond it only by its overlaps.
     fn check_surplus(
         &self,
         line: &Line,
@@ -67,7 +67,8 @@ impl Judge<'_> {
         }
     }
 
-    /// A plunge that cuts part of a line needs a declaration; in a program without declarations the line must bend there.
+    /// Checks a plunge that cuts part of a line: it needs a declaration; in a program without declarations the line must bend
+    /// there.
     fn check_nibble(
         &self,
         line: &Line,
@@ -91,12 +92,12 @@ impl Judge<'_> {
         }
     }
 
-    /// Whether a line is straight under a blade and for its width before and behind it.
+    /// True if a line is straight under a blade and for a blade width on either side.
     pub(super) fn is_straight_about(&self, line: &Line, stations: [f64; 2]) -> bool {
         self.is_straight_within(line, stations, self.tracer.allowed)
     }
 
-    /// The same within a distance, mm.
+    /// True if a line is straight within `slack` mm under a blade and for a blade width on either side.
     fn is_straight_within(&self, line: &Line, [a, b]: [f64; 2], slack: f64) -> bool {
         let (width, length) = (self.knife.width_mm, line.length());
         let (low, high) = (a.min(b) - width, a.max(b) + width);
@@ -106,8 +107,8 @@ impl Judge<'_> {
         between.all(|point| polyline::distance_to_segment(point, from, to) <= slack)
     }
 
-    /// The knife is lifted amid a line where that has a cause and is declared; where nothing is, anywhere: the line is cut all the
-    /// same.
+    /// Checks lifts inside a line: each needs a cause and a declaration. In a program without declarations lifts are allowed
+    /// anywhere, since the line is still cut.
     pub(super) fn check_lifts(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         let Some(declared) = self.tracer.declared else { return };
         let line = &self.reference.lines[trial.line];
@@ -134,8 +135,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Whether the knife may have to be lifted amid a line: on a bend, and anywhere where the profile limits how long it stays
-    /// down, how far C turns, or how far the blade swings.
+    /// True if the knife may have to be lifted inside a line: on a bend, and anywhere if the profile limits the length of a
+    /// run, the range of C or the swing of the blade.
     fn may_lift(&self, line: &Line, station: f64) -> bool {
         self.knife.max_down_mm.is_some()
             || self.knife.max_swing_mm.is_some()

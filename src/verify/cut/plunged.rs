@@ -1,4 +1,4 @@
-//! The plunged blade beside its line: straight, where the line may be curved.
+//! Straight plunged blade over a line that may be curved.
 
 use super::body::Cut;
 use super::follow::Foot;
@@ -6,24 +6,24 @@ use super::heading::on_lap;
 use crate::geom::polyline;
 use crate::verify::reference::line::Line;
 
-/// Greatest part of all the turn about a blade that one vertex of a curve makes; one that makes more is a bend, and no
-/// blade lies over a bend.
+/// Greatest share of the total turn at a blade that one vertex of a curve may have; a vertex with more is a bend, and no blade
+/// may lie over a bend.
 const BEND_SHARE: f64 = 0.75;
 
-/// How the body of a blade lies beside its line where it plunges.
+/// Position of the body of a blade relative to its line at the plunge.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::verify) struct Plunged {
-    /// The places of the body, first and last, that stand on the line, and between which that may bow.
+    /// First and last place of the body that stand on the line; between them the line may bow away.
     pub(in crate::verify) ends: [usize; 2],
-    /// How far line and blade are apart between them, mm.
+    /// Greatest distance between line and blade between these places, mm.
     pub(in crate::verify) sagitta: f64,
-    /// How far a curve is that turns as much, mm; none at a bend.
+    /// Sagitta of a curve that turns by the same angle, mm; 0 at a bend.
     pub(in crate::verify) bound: f64,
 }
 
 impl Plunged {
-    /// That of a cut that goes on, whose places stand at `feet` of a line, on it when they are nearer than `allowed` mm;
-    /// `None` when its tip is not, or no other of them.
+    /// Plunge of a cut with places at `feet`; a place is on the line if its deviation is at most `allowed` mm. `None` unless
+    /// both the tip and another place are on the line.
     pub(in crate::verify) fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Option<Self> {
         let is_on = |&i: &usize| feet[i].deviation <= allowed;
         let (first, last) = ((0..=cut.body).find(is_on)?, cut.body);
@@ -41,7 +41,7 @@ impl Plunged {
         Some(Self { ends: [first, last], sagitta, bound })
     }
 
-    /// That of a plunge cut whose places from one to another stand over a line between two of its stations.
+    /// Plunge of a plunge cut with places `ends` over a line between two of its stations.
     pub(in crate::verify) fn over(
         line: &Line,
         cut: &Cut,
@@ -56,21 +56,21 @@ impl Plunged {
         Self { ends, sagitta: of_line.fold(0.0, f64::max), bound: bound(line, [low, high], [(b - a).norm(), allowed]) }
     }
 
-    /// Whether a place of the body lies between those that stand on the line.
+    /// True if a place of the body lies between the places on the line.
     pub(in crate::verify) fn spans(&self, place: usize) -> bool {
         self.ends[0] < place && place < self.ends[1]
     }
 }
 
-/// How far a curve lies beside a chord of a length, mm, that turns as far as a line does between two stations, wherever these
-/// are inside the tolerance.
+/// Greatest sagitta over a chord of that length, mm, for a curve that turns as far as a line does between two stations; the
+/// stations are uncertain by the tolerance.
 fn bound(line: &Line, ends: [f64; 2], [chord, allowed]: [f64; 2]) -> f64 {
     [0.0, allowed].map(|inset| arc(line, ends, [chord, inset])).into_iter().fold(0.0, f64::max)
 }
 
-/// The sagitta of an arc under a chord of a length, mm, that turns as far as a line does between two stations, with the
-/// vertices before and behind them, since a curve turns along its chords: these as far as the sharpest between them at the
-/// most, and half as far as the next one where the line ends. None where one vertex makes most of the turn.
+/// Sagitta of an arc over a chord of that length, mm, that turns as far as a line does between two stations. The vertices
+/// before and after count too, because a curve turns along its chords: each up to the sharpest turn in between, and half of its
+/// neighbour where the line ends. 0 if one vertex makes most of the turn.
 fn arc(line: &Line, [low, high]: [f64; 2], [chord, inset]: [f64; 2]) -> f64 {
     let is_inner = |vertex: &usize| line.ring || (1..line.chords()).contains(vertex);
     let (from, to) = (low + inset, high - inset);

@@ -1,19 +1,19 @@
-//! The strokes of a program as they are read, before anybody knows what they cut.
+//! Strokes of a program as they are read, before they are assigned to lines.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::verify::program::row::{Going, Row};
 
-/// Strokes, one behind the other; the last one may not have ended yet.
+/// Sequence of strokes; the last one may still be open.
 #[derive(Debug, Default)]
 pub(in crate::verify) struct Strokes {
     track: Arc<Track>,
-    /// Where each stroke ends among the rows.
+    /// End of each stroke among the rows.
     ends: Vec<usize>,
 }
 
-/// The rows of strokes, and how the axes go at each when they have no time but tell that.
+/// Rows of strokes, and the motion at each row for programs without time.
 #[derive(Debug, Default)]
 struct Track {
     rows: Vec<Row>,
@@ -21,25 +21,25 @@ struct Track {
 }
 
 impl Strokes {
-    /// None yet, with room for so many rows.
+    /// Empty sequence with capacity for `rows` rows.
     pub(in crate::verify) fn with_room(rows: usize) -> Self {
         let track = Track { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows) };
         Self { track: Arc::new(track), ends: Vec::new() }
     }
 
-    /// A row of the stroke that has not ended.
+    /// Adds a row to the open stroke.
     pub(in crate::verify) fn push(&mut self, row: &Row, going: Option<Going>) {
         let track = Arc::get_mut(&mut self.track).expect("no stroke is given out before all are gathered");
         track.rows.push(*row);
         track.goings.extend(going);
     }
 
-    /// Whether a stroke has begun that has not ended.
+    /// True if a stroke is open.
     pub(in crate::verify) fn are_open(&self) -> bool {
         self.rows() > self.ends.last().copied().unwrap_or(0)
     }
 
-    /// Ends the stroke that has begun.
+    /// Ends the open stroke.
     pub(in crate::verify) fn end(&mut self) {
         self.ends.push(self.rows());
     }
@@ -49,14 +49,14 @@ impl Strokes {
         self.track.rows.len()
     }
 
-    /// The strokes that have ended.
+    /// Strokes that have ended.
     pub(in crate::verify) fn all(&self) -> Vec<Stroke> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(from, &to)| Stroke { track: Arc::clone(&self.track), range: from..to }).collect()
     }
 }
 
-/// The rows of a stroke, from that of the plunge to that of the lift.
+/// Rows of a stroke, from the plunge to the lift.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Stroke {
     track: Arc<Track>,
@@ -64,12 +64,12 @@ pub(in crate::verify) struct Stroke {
 }
 
 impl Stroke {
-    /// Its rows.
+    /// Rows of the stroke.
     pub(in crate::verify) fn rows(&self) -> &[Row] {
         &self.track.rows[self.range.clone()]
     }
 
-    /// How the axes go at each; none when the rows have a time.
+    /// Motion at each row; empty when the rows have a time.
     pub(in crate::verify) fn goings(&self) -> &[Going] {
         self.track.goings.get(self.range.clone()).unwrap_or_default()
     }

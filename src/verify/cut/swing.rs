@@ -1,4 +1,4 @@
-//! What the body of a blade does beside its line: where it plunges over a curve, and where it follows one.
+//! Deviation of the body of a blade from its line: at a plunge on a curve, and while it follows one.
 
 use super::chord::{self, BODY_SHARES};
 use super::heel;
@@ -8,8 +8,9 @@ use super::worsts::Worsts;
 use crate::machine::Follow;
 
 impl Judge<'_> {
-    /// How far the path bows away from the plunged blade, how far the body leaves it while the blade moves, and how deep it lies
-    /// in parts there. Nothing is held against that: a tip on its line and a blade along it leave the body no other place.
+    /// Measures how far the path bows away from the plunged blade, how far the body leaves the path while the blade moves, and
+    /// how deep it enters parts there. It is information without a limit: a tip on its line and a blade along it determine the
+    /// position of the body.
     pub(super) fn check_body(&self, traced: &Traced, trial: &Trial, worsts: &mut Worsts) {
         if self.knife.width_mm == 0.0 {
             return;
@@ -21,9 +22,9 @@ impl Judge<'_> {
                 body.see(foot.deviation, || stroke.sighting(cut, i));
             }
         }
-        // So far any curve takes the body off its line: smoothing moves both the tip and what the heel follows.
+        // Deviation of the body on any curve: smoothing moves both the tip and the path of the heel.
         let slight = self.knife.max_bow_mm + 2.0 * self.tracer.allowed + self.sagitta;
-        // In the chord mode it is the middle of the blade that leaves an arc the farthest.
+        // In the chord mode the middle of the blade has the greatest deviation on an arc.
         let shares: &[f64] = match self.knife.follow {
             Follow::Tangent => &[0.0],
             Follow::Chord => &BODY_SHARES,
@@ -40,7 +41,7 @@ impl Judge<'_> {
                     continue;
                 }
                 body.see(foot.deviation, || row.sighting());
-                // What a plunge cut is longer by is judged as that.
+                // The excess length of a plunge cut is checked as its surplus.
                 if !cut.is_plunge_cut() && foot.deviation > slight.max(swing.value()) {
                     let place = row.centre + blade * (share * self.knife.width_mm - traced.ends[1]);
                     swing.see(self.overcut.deepest(place, foot.deviation, &self.ends(cut, trial)), || row.sighting());

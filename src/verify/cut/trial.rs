@@ -1,4 +1,4 @@
-//! A stroke followed along the lines near it: what it cuts of each, and how far off it is there.
+//! Stroke followed along the nearby lines: the stretches that it cuts of each, and its deviation.
 
 use std::ops::RangeInclusive;
 
@@ -16,33 +16,33 @@ use crate::verify::reference::grid::Grid;
 use crate::verify::reference::line::{Chord, Line};
 use crate::verify::reference::lines::Reference;
 
-/// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
+/// Greatest distance from a line at which a stroke still counts as a bad cut of it, mm.
 pub(super) const REACH: f64 = 2.0;
-/// Part of the tolerance by which a line that lies on a blade may be off it.
+/// Fraction of the tolerance by which a line that lies on a blade may be off it.
 const ON_SHARE: f64 = 0.1;
-/// Least cosine between a blade that only plunges and a line that it cuts (30 degrees): others it crosses.
+/// Smallest cosine of the angle between a plunge cut and a line that it cuts (30 degrees); other lines it crosses.
 const ALONG: f64 = 0.87;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-6;
-/// Lines that a stroke is tried on, at the most.
+/// Maximum number of lines tried for a stroke.
 const TRIALS: usize = 8;
 
-/// A place of a cut that is near a line.
+/// Place of a cut near a line.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     line: usize,
     chord: usize,
-    /// Which point of the cut.
+    /// Index of the point of the cut.
     probe: usize,
-    /// Where on the line, mm.
+    /// Station on the line, mm.
     station: f64,
-    /// How far off, mm.
+    /// Distance from the line, mm.
     away: f64,
 }
 
 impl Candidate {
-    /// Whether one who follows the line from `other` comes by here. Where a line ends at its own start the heel lies at its
-    /// end, and following from there leads nowhere.
+    /// True if following the line from `other` passes here. On a line that ends at its own start, the heel lies at its end, and
+    /// following from there leads nowhere.
     fn continues(&self, other: &Self, cut: &Cut, line: &Line) -> bool {
         let way = (cut.stations[self.probe] - cut.stations[other.probe]).abs();
         let apart = (self.station - other.station).abs();
@@ -51,16 +51,16 @@ impl Candidate {
 }
 
 impl Cut {
-    /// Places of the tip that are looked at to find the lines near it.
+    /// Points of the tip at which nearby lines are searched.
     fn tip_probes(&self) -> [usize; 3] {
         let tips = self.points.len() - self.body;
         [1, 2, 3].map(|part| self.body + (tips - 1) * part / 4)
     }
 
-    /// The same, and some of the body: on a short line the tip may stand beyond its end all the time.
+    /// Points of the tip and some of the body: on a short line the tip may be beyond the end all the time.
     fn probes(&self) -> Vec<usize> {
         let mut probes = self.tip_probes().to_vec();
-        // Those of a tip that stands still are one.
+        // The probes of a tip that stands still coincide.
         probes.dedup();
         if self.body > 0 {
             probes.extend([0, 1, 2, 3].iter().map(|part| self.body * part / 4));
@@ -69,65 +69,66 @@ impl Cut {
     }
 }
 
-/// A stroke followed along one line.
+/// Stroke followed along one line.
 pub(in crate::verify) struct Trial {
     pub(in crate::verify) line: usize,
     pub(in crate::verify) feet: Vec<Foot>,
-    /// Stations that were cut.
+    /// Station ranges that were cut.
     pub(in crate::verify) stretches: Vec<[f64; 2]>,
-    /// How much of them was not cut before, mm.
+    /// Length of the stretches that was not cut before, mm.
     pub(in crate::verify) fresh: f64,
-    /// How much of them a blade on its way had cut before, mm.
+    /// Length of the stretches that a moving blade had cut before, mm.
     pub(in crate::verify) passed: f64,
-    /// Stretches of the line that lie on a plunged blade itself; none where the blade moves.
+    /// Stretches of the line that lie on a plunged blade itself; empty for a moving blade.
     pub(in crate::verify) thin: Vec<[f64; 2]>,
-    /// Length of that which no blade had passed or lain on before, mm.
+    /// Length of `thin` that no blade had passed or lain on before, mm.
     pub(in crate::verify) untouched: f64,
-    /// Share of the line that is then still uncut.
+    /// Fraction of the line that is still uncut afterwards.
     left: f64,
-    /// Whether it cuts all that was left of the line.
+    /// True if it cuts the whole remainder of the line.
     pub(in crate::verify) is_last: bool,
     /// Greatest deviation, mm, and the index of its place.
     pub(in crate::verify) worst: (f64, usize),
-    /// Whether it goes all the way round a closed line.
+    /// True if it goes all the way around a closed line.
     pub(in crate::verify) laps: bool,
-    /// The places that stand on the line or on its straight extension: what lies before and behind them goes beyond the cut.
+    /// Places on the line or on its straight extension; places before and after them go beyond the cut.
     pub(in crate::verify) held: RangeInclusive<usize>,
-    /// The stations between which it cuts the line, from its heel on.
+    /// Stations between which it cuts the line, starting at the heel.
     pub(in crate::verify) reach: [f64; 2],
-    /// The same without what only lies in the tolerance band beside a blade that does not move, in the order of the line.
+    /// Range of stations, in the order of the line, without parts that lie only in the tolerance band beside a blade that does
+    /// not move.
     pub(in crate::verify) core: [f64; 2],
-    /// How the blade lies over a curve where it plunges, when it does and may.
+    /// Position of the plunged blade over a curve; `None` if it lies on the line or the position is not permitted.
     pub(in crate::verify) over: Option<Plunged>,
 }
 
-/// Finds the lines near strokes, and follows strokes along them.
+/// Finds the lines near strokes and follows strokes along them.
 pub(in crate::verify) struct Tracer<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
     pub(in crate::verify) grid: &'a Grid,
-    /// What the program says that it does beside its lines; `None` when it says nothing at all.
+    /// Deviations that the program declares; `None` for a program without declarations.
     pub(in crate::verify) declared: Option<&'a Declared>,
     /// Width of the blade, mm.
     pub(in crate::verify) width: f64,
-    /// How far a cut may be off its line, mm.
+    /// Greatest permitted deviation of a cut from its line, mm.
     pub(in crate::verify) allowed: f64,
     /// Longest stretch that may be left uncut, mm.
     pub(in crate::verify) max_uncut: f64,
-    /// Greatest angle between the blade and its line or way, rad.
+    /// Greatest permitted angle between the blade and its line or path, rad.
     pub(in crate::verify) max_heading: f64,
-    /// How much a stroke may cut that is not of its line, mm: overlaps, and the surplus of the blade.
+    /// Length that a stroke may cut besides its line, mm: overlaps and the surplus of the blade.
     pub(in crate::verify) slack: f64,
 }
 
-/// A stroke followed along the line that its row names.
+/// Trials of a stroke along the line that its row names.
 pub(in crate::verify) struct Trace {
     trials: Vec<Trial>,
-    /// The block that its row names.
+    /// Block that its row names.
     block: u32,
 }
 
 impl Tracer<'_> {
-    /// Follows a cut along the line that has `block`; one that only plunges along all lines near it.
+    /// Follows a cut along the line with `block`; a plunge cut along all lines near it.
     pub(in crate::verify) fn trace(&self, cut: &Cut, block: u32) -> Trace {
         let trials = if cut.is_plunge_cut() {
             self.follow_all(cut, &self.about(cut, |line| self.is_named(line, block)))
@@ -137,14 +138,14 @@ impl Tracer<'_> {
         Trace { trials, block }
     }
 
-    /// The lines near a cut that are `meant`. Nearly always the tip shows where; if it does not, the blade may.
+    /// Candidates among the lines that are `meant`. The tip almost always suffices; otherwise the whole blade is searched.
     fn meant(&self, cut: &Cut, meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
         let of_tip = self.candidates(cut, &cut.tip_probes(), &meant);
         if of_tip.is_empty() { self.candidates(cut, &cut.probes(), &meant) } else { of_tip }
     }
 
-    /// All lines near a cut, those that are `meant` however many others lie nearer. Of a plunge cut all may be surplus, and its
-    /// tip far from what it cuts.
+    /// Candidates among all lines near a cut, and always those that are `meant`. A plunge cut may be entirely surplus, with its
+    /// tip far from its line.
     fn about(&self, cut: &Cut, meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
         let all = self.candidates(cut, &cut.probes(), |_| true);
         if all.len() < TRIALS {
@@ -160,25 +161,25 @@ impl Tracer<'_> {
         self.reference.lines[line].has(block)
     }
 
-    /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
-    /// blade, which may lie on a neighbour, the one that its row names as the block being cut, else the one that it
-    /// completes best; one that a plunged blade only crosses, or lies askew to, if there is no other. The name decides between
-    /// equals only: what is cut is seen on the cloth.
+    /// Line that a stroke was meant for. Candidates are the lines of which it cuts most, up to overlaps and the surplus of the
+    /// blade, which may lie on a neighbour. Among them, the one that its row names comes first, then the one that it completes
+    /// best. A line that a plunged blade only crosses, or lies askew to, is chosen only without an alternative. The name
+    /// decides only between equals, since the cut is visible on the cloth.
     pub(in crate::verify) fn choose(&self, trace: &mut Trace, cut: &Cut, coverage: &Coverage) -> Option<Trial> {
         let tolerance = self.reference.tolerance;
         let mut trials = std::mem::take(&mut trace.trials);
         self.weigh(&mut trials, coverage);
-        // What a stroke cuts of the line that it names cannot be much exceeded by what it cuts of another when it is about
-        // all that it cuts: nearly always, and then the others need not be looked at.
+        // If the named line accounts for nearly the whole cut, no other line can exceed it by much. That is the usual case, and
+        // then the other lines need not be checked.
         let enough = tolerance.max(cut.length() - self.slack);
         if !cut.is_plunge_cut() && !trials.iter().any(|trial| trial.fresh >= enough) {
-            // The line that its row names is tried, however many others lie nearer.
+            // The named line is tried even if many others lie nearer.
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials.retain(|named| candidates.iter().all(|other| other.line != named.line));
             trials.extend(self.follow_all(cut, &candidates));
             self.weigh(&mut trials, coverage);
         }
-        // A plunge is meant for a line that its blade lies over, however little of that is uncut. Lines that it crosses count
+        // A plunge is meant for a line that its blade lies over, however little of it is uncut. Lines that it crosses count
         // only without such a line.
         if cut.is_plunge_cut() && trials.iter().any(|trial| self.lies_over(cut, trial)) {
             trials.retain(|trial| self.lies_over(cut, trial));
@@ -186,7 +187,8 @@ impl Tracer<'_> {
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
-        // A blade cuts along itself: where it lies along one line and askew to another, the first is cut, the second only nicked.
+        // A blade cuts along itself: if it lies along one line and askew to another, it cuts the first and only nicks the
+        // second.
         let is_askew = |trial: &Trial| {
             cut.is_plunge_cut() && trial.askew(&self.reference.lines[trial.line], cut) > self.max_heading
         };
@@ -201,7 +203,7 @@ impl Tracer<'_> {
         })
     }
 
-    /// How much of what trials cut was not cut before, and what that leaves.
+    /// Updates the fresh length of each trial and the remainder of its line.
     fn weigh(&self, trials: &mut [Trial], coverage: &Coverage) {
         for trial in trials {
             trial.fresh = coverage.fresh(trial.line, &trial.stretches);
@@ -212,7 +214,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where to begin following: the lines `meant` that pass near some places of the stroke, the nearest first.
+    /// Starting places on the lines that are `meant` near some probes of the stroke, nearest first.
     fn candidates(&self, cut: &Cut, probes: &[usize], meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
         let add = |found: &mut Vec<Candidate>, next: Candidate| {
@@ -224,11 +226,11 @@ impl Tracer<'_> {
                 None => found.push(next),
             }
         };
-        // Runs of one line come one after the other.
+        // Runs of one line are adjacent.
         let mut last = (usize::MAX, false);
         for &probe in probes {
             let point = cut.points[probe];
-            // Of the chords about a place the nearest alone is where the line passes it.
+            // Among the chords around a place, only the nearest is where the line passes it.
             let mut here: Vec<Candidate> = Vec::new();
             for run in self.grid.near(point, REACH) {
                 if last.0 != run.line() {
@@ -256,8 +258,7 @@ impl Tracer<'_> {
         found
     }
 
-    /// What a cut cuts of the lines that it was found near to. A blade that only plunges and lies over one of them goes along
-    /// none.
+    /// Trials of a cut on its candidates. If a plunge cut lies over one of the lines, it is not followed along any.
     fn follow_all(&self, cut: &Cut, candidates: &[Candidate]) -> Vec<Trial> {
         let lay = |candidate| if cut.is_plunge_cut() && cut.body > 0 { self.lay(cut, candidate) } else { None };
         let lain: Vec<Option<Trial>> = candidates.iter().map(lay).collect();
@@ -268,19 +269,19 @@ impl Tracer<'_> {
         trials.map(|(lain, candidate)| lain.unwrap_or_else(|| self.go_along(cut, candidate))).collect()
     }
 
-    /// Whether a blade that only plunges cuts something of a line and does not only cross it.
+    /// True if a plunge cut cuts a part of a line without merely crossing it.
     fn lies_over(&self, cut: &Cut, trial: &Trial) -> bool {
         !trial.stretches.is_empty() && !trial.is_across(cut, &self.reference.lines[trial.line])
     }
 
-    /// Follows a cut along a line, from where it was found both ways.
+    /// Follows a cut along a line in both directions from the candidate.
     fn go_along(&self, cut: &Cut, &Candidate { line: index, chord, probe: from, .. }: &Candidate) -> Trial {
         let line = &self.reference.lines[index];
         let points = &cut.points;
         let feet = feet(line, points, chord, from);
         let length = line.length();
         let way = (feet[points.len() - 1].station - feet[cut.body].station).abs();
-        // The blade of a stroke that goes all the way round lies behind its start, where the end comes by again.
+        // On a stroke all the way around, the blade lies behind its start, where the end passes again.
         let laps = line.ring && way > length - self.width.min(0.5 * length);
         let first = if laps { cut.body } else { 0 };
         let allowed = self.allowed;
@@ -315,35 +316,35 @@ impl Tracer<'_> {
         trial
     }
 
-    /// How the plunged blade of a cut lies over a curve of its line; `None` where it lies on the line, or may not lie as it
-    /// does.
+    /// Position of the plunged blade of a cut over a curve of its line; `None` if it lies on the line or the position is not
+    /// permitted.
     fn over(&self, line: &Line, cut: &Cut, feet: &[Foot]) -> Option<Plunged> {
         let over = Plunged::new(line, cut, feet, self.allowed).filter(|over| over.sagitta > self.allowed)?;
         self.permits(&over, line, over.ends.map(|end| feet[end].station)).then_some(over)
     }
 
-    /// Whether a blade may lie over its line like that between two stations: no farther off than a curve that turns as much,
-    /// and than is declared.
+    /// True if a blade may lie over its line like that between two stations: at most as far off as a curve with the same turn,
+    /// and as declared.
     fn permits(&self, over: &Plunged, line: &Line, stations: [f64; 2]) -> bool {
         let told = |declared: &Declared| declared.most(Kind::Plunge, Stretch { line, stations, end: None });
         let permitted = over.bound.min(self.declared.map_or(f64::INFINITY, told));
         over.sagitta <= permitted + self.allowed
     }
 
-    /// How near a blade that only plunges must be to what it cuts.
+    /// Distances within which a plunge cut cuts a line.
     pub(super) fn near(&self) -> Near {
         let beyond = self.allowed - self.reference.tolerance;
         Near { reach: 2.0 * self.width + REACH, beside: self.allowed, beyond }
     }
 
-    /// Lays a blade that only plunges over a line near a place of it; `None` where it is nowhere near enough to cut it.
+    /// Lays a plunge cut over a line near a candidate; `None` if it is too far away to cut any of it.
     fn lay(&self, cut: &Cut, &Candidate { line: index, station, .. }: &Candidate) -> Option<Trial> {
         let line = &self.reference.lines[index];
         let blade = cut.blade();
         let stretches = covered(line, blade, station, self.near());
         let whole = [stretches.first()?[0], stretches.last()?[1]];
         let longest = stretches.iter().copied().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-        // A blade covers a curve that is all of its line, or none.
+        // A blade covers a curve only if the curve is the whole line.
         let is_all = whole[1] - whole[0] >= line.length() - 2.0 * self.allowed;
         let lain = (stretches.len() > 1 && is_all).then(|| Lain::new(line, cut, whole)).and_then(|lain| {
             let ends = [*lain.held.start(), *lain.held.end()];
@@ -352,7 +353,7 @@ impl Tracer<'_> {
         });
         let (lain, over) =
             lain.map_or_else(|| (Lain::new(line, cut, longest), None), |(lain, over)| (lain, Some(over)));
-        // Where the line lies on the blade itself, from the first place to the last.
+        // Stretches where the line lies on the blade itself, from the first place to the last.
         let thin = Near { beside: self.near().beyond + ON_SHARE * self.reference.tolerance, ..self.near() };
         let [low, high] = if over.is_some() { whole } else { longest };
         let mut on = covered(line, blade, station, thin);
@@ -384,7 +385,8 @@ impl Tracer<'_> {
         Some(trial)
     }
 
-    /// Gathers the stretches of its line that a cut cuts, and how far it is off it there; `off` tells how far a place is.
+    /// Collects the stretches of its line that a cut cuts, and its greatest deviation there; `off` returns the deviation of a
+    /// place.
     fn gather(&self, trial: &mut Trial, cut: &Cut, off: impl Fn(usize, &Foot) -> f64) {
         let (line, points, allowed) = (&self.reference.lines[trial.line], &cut.points, self.allowed);
         let first = if trial.laps { cut.body } else { 0 };
@@ -425,7 +427,7 @@ impl Tracer<'_> {
     }
 }
 
-/// Where the places of a cut stand beside a line: followed both ways from one of them, which is near a chord.
+/// Feet of the points of a cut on a line, followed in both directions from point `from`, which is near `chord`.
 fn feet(line: &Line, points: &[Point], chord: usize, from: usize) -> Vec<Foot> {
     let ahead = points[(from + 1).min(points.len() - 1)] - points[from.saturating_sub(1)];
     let sign = if ahead.dot(&line.direction(chord)) < 0.0 { -1.0 } else { 1.0 };
@@ -441,8 +443,8 @@ fn feet(line: &Line, points: &[Point], chord: usize, from: usize) -> Vec<Foot> {
     feet
 }
 
-/// The places of a cut that are held to its line, of those that are `on` it: of a plunge cut the longest stretch of them; of
-/// a blade that goes on all from the first to the last, so that what leaves the line between them is seen.
+/// Range of places that count as the cut of the line, given which places are `on` it: for a plunge cut the longest run of them;
+/// for a moving blade everything from the first to the last, so that departures in between are seen.
 fn held(on: &[bool], cut: &Cut) -> RangeInclusive<usize> {
     let all = 0..=on.len() - 1;
     if cut.is_plunge_cut() {
@@ -453,8 +455,8 @@ fn held(on: &[bool], cut: &Cut) -> RangeInclusive<usize> {
     first..=last
 }
 
-/// The stations between which places that are held to a line cut it: those of the first and the last that stand beside it
-/// between its ends, or the ends before and behind them.
+/// Stations between which the held places cut the line: those of the first and last place between its ends, or the ends of the
+/// line just before and after them.
 fn reach(feet: &[Foot], held: &RangeInclusive<usize>) -> [f64; 2] {
     let is_inner = |i: &usize| feet[*i].beyond == 0.0;
     let first = held.clone().find(is_inner).unwrap_or(*held.start());
@@ -466,13 +468,13 @@ fn reach(feet: &[Foot], held: &RangeInclusive<usize>) -> [f64; 2] {
     [led(first, first.checked_sub(1)), led(last, Some(last + 1))]
 }
 
-/// A blade that only plunges, laid over a stretch of a line.
+/// Plunge cut laid over a stretch of a line.
 struct Lain {
-    /// Where its places stand; those beyond the stretch stand at its end.
+    /// Feet of its points; points beyond the stretch have the station of its end.
     feet: Vec<Foot>,
-    /// Those that stand over the stretch.
+    /// Range of points over the stretch.
     held: RangeInclusive<usize>,
-    /// The stretch, from the heel on.
+    /// Stretch, starting at the heel.
     reach: [f64; 2],
 }
 
@@ -513,7 +515,7 @@ impl Lain {
 }
 
 impl Trial {
-    /// Angle between the blade and the line under it, rad; 0 between the directions of its chords there.
+    /// Angle between the blade and the line under it, rad; 0 if the blade lies between the directions of the chords there.
     pub(super) fn askew(&self, line: &Line, cut: &Cut) -> f64 {
         let [first, last] = self.reach;
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
@@ -530,12 +532,12 @@ impl Trial {
         (cone[0] - askew).max(askew - cone[1]).max(0.0)
     }
 
-    /// +1 when the tip goes with the line, -1 when it goes against it.
+    /// Direction of the tip: +1 with the line, -1 against it.
     pub(in crate::verify) fn sign(&self, cut: &Cut) -> f64 {
         if self.feet[cut.points.len() - 1].station < self.feet[cut.body].station { -1.0 } else { 1.0 }
     }
 
-    /// How far place `i` stands beyond an end of the line, or beyond what is held to it, mm.
+    /// Distance of place `i` beyond an end of the line or beyond the held places, mm.
     pub(in crate::verify) fn beyond(&self, cut: &Cut, i: usize) -> f64 {
         if self.held.contains(&i) || cut.is_plunge_cut() && cut.body > 0 {
             return self.feet[i].beyond;
@@ -544,12 +546,12 @@ impl Trial {
         self.feet[i].beyond.max((cut.points[i] - cut.points[edge]).norm() + self.feet[edge].beyond)
     }
 
-    /// The end of the stroke that a place of it is at.
+    /// End of the stroke at which a place is.
     pub(super) fn end_at(&self, place: usize) -> Which {
         if place <= *self.held.start() { Which::Start } else { Which::End }
     }
 
-    /// Whether the blade of a plunge cut stands across all that it cuts of its line.
+    /// True if the blade of a plunge cut stands across everything that it cuts of its line.
     fn is_across(&self, cut: &Cut, line: &Line) -> bool {
         let blade = cut.blade().map(|end| end.coords);
         let along = (blade[1] - blade[0]).normalize();

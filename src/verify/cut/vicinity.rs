@@ -1,32 +1,32 @@
-//! Lines about places that follow each other: looked up once, as long as the places stay near.
+//! Lines around consecutive places: looked up once for as long as the places stay near.
 
 use crate::geom::{Extent, Point};
 use crate::verify::reference::grid::Grid;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 
-/// Length of the way whose surroundings are looked up at a time, mm: about that of a blade.
+/// Length of the path whose surroundings are looked up at a time, mm: roughly a blade width.
 const WAY: f64 = 8.0;
 
-/// The chords of lines about places that follow each other.
+/// Cache of the chords of lines around consecutive places.
 pub(super) struct Vicinity<'a> {
     reference: &'a Reference<'a>,
     grid: &'a Grid,
     /// Greatest distance of a chord that passes a place, mm.
     slack: f64,
-    /// The box of the places whose surroundings are known.
+    /// Box of the places whose surroundings are known.
     known: Extent,
-    /// The chords that pass within `slack` of the box.
+    /// Chords that pass within `slack` of the box.
     chords: Vec<(&'a Line<'a>, usize)>,
 }
 
 impl<'a> Vicinity<'a> {
-    /// Surroundings that are still unknown.
+    /// Empty cache.
     pub(super) fn new(reference: &'a Reference<'a>, grid: &'a Grid, slack: f64) -> Self {
         Self { reference, grid, slack, known: Extent::EMPTY, chords: Vec::new() }
     }
 
-    /// Whether the first of some places is farther from all that is cut than the slack.
+    /// True if the first of the places is farther than the slack from everything that is cut.
     pub(super) fn is_away(&mut self, places: &[Point]) -> bool {
         let place = places[0];
         if !self.known.holds(place) {
@@ -38,7 +38,7 @@ impl<'a> Vicinity<'a> {
         !self.chords.iter().any(is_near)
     }
 
-    /// Looks up the chords about the first places.
+    /// Looks up the chords around the first places.
     fn look(&mut self, places: &[Point]) {
         let is_near = |place: &&Point| (*place - places[0]).norm() <= WAY;
         self.known = Extent::EMPTY;

@@ -1,4 +1,4 @@
-//! The worst values that strokes show, rule by rule.
+//! Worst values of strokes, rule by rule.
 
 use super::coverage::Coverage;
 use super::naming::Naming;
@@ -10,7 +10,7 @@ use crate::verify::axes::crawl;
 use crate::verify::program::row::Rounding;
 use crate::verify::rules;
 
-/// The worst value of each rule on strokes.
+/// Worst value of each rule on strokes.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Worsts {
     pub(in crate::verify) on_path: Worst,
@@ -26,30 +26,30 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) overcuts: Overcuts,
     pub(in crate::verify) overlap: Worst,
     pub(in crate::verify) declared: Worst,
-    /// Overlaps that some strokes lack and others may have.
+    /// Overlaps that some strokes lack and other strokes may provide.
     pub(in crate::verify) lacking: Vec<Lacking>,
-    /// Plunges amid lines, of which each needs a declaration.
+    /// Plunges inside lines; each needs a declaration.
     pub(super) nibbles: Vec<Nibble>,
 }
 
-/// An overlap that a plunge cut lacks at an end of its line; another stroke of the line may have it.
+/// Overlap that a plunge cut lacks at an end of its line; another stroke of the line may provide it.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Lacking {
     pub(in crate::verify) line: usize,
-    /// The start (0) or the end (1) of the line.
+    /// Start (0) or end (1) of the line.
     pub(in crate::verify) end: usize,
-    /// The overlap that the profile asks for, mm.
+    /// Overlap that the profile asks for, mm.
     pub(in crate::verify) asked: f64,
-    /// By how much this one goes less far, mm.
+    /// Shortfall of this stroke, mm.
     pub(in crate::verify) missing: f64,
     pub(in crate::verify) place: Sighting,
 }
 
 impl Worsts {
-    /// Nothing seen yet; the tip may leave its line by `tolerance` mm, and rows are rounded.
+    /// Initial state; the tip may leave its line by `tolerance` mm, and rows are rounded.
     pub(in crate::verify) fn new(profile: &MachineProfile, tolerance: f64, rounding: Rounding) -> Self {
         let (knife, verify, place) = (&profile.knife, &profile.verify, rounding.place());
-        // A part of a long or winding run overlaps with the one before and, on a closed contour, with the one behind.
+        // A part of a long or winding run overlaps with the previous part and, on a closed contour, also with the next.
         let joints = if knife.max_down_mm.is_some() || profile.c.range_deg.is_some() { 2.0 } else { 1.0 };
         let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * place / profile.time.period());
         Self {
@@ -71,7 +71,7 @@ impl Worsts {
         }
     }
 
-    /// Takes what later strokes showed.
+    /// Merges the worst values of later strokes.
     pub(in crate::verify) fn add(&mut self, mut later: Self) {
         self.lacking.append(&mut later.lacking);
         self.nibbles.append(&mut later.nibbles);
@@ -80,7 +80,7 @@ impl Worsts {
         }
     }
 
-    /// A copy without the lists of overlaps and plunges, which are set aside meanwhile, not copied.
+    /// Copy without the lists of overlaps and plunges; these are set aside meanwhile instead of being copied.
     pub(in crate::verify) fn without_lists(&mut self) -> Self {
         let lists = (std::mem::take(&mut self.lacking), std::mem::take(&mut self.nibbles));
         let known = self.clone();
@@ -98,7 +98,7 @@ impl Worsts {
         nibbles::settle(&std::mem::take(&mut self.nibbles), &mut self.declared);
     }
 
-    /// The finding under each rule.
+    /// Finding of each rule.
     pub(in crate::verify) fn findings(self) -> impl Iterator<Item = Finding> {
         self.all().into_iter().map(Worst::finding)
     }
@@ -133,7 +133,7 @@ impl Worsts {
     }
 }
 
-/// The worst overcuts, by what they go into.
+/// Worst overcuts by what they enter.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Overcuts {
     pub(in crate::verify) part: Worst,
@@ -142,7 +142,7 @@ pub(in crate::verify) struct Overcuts {
 }
 
 impl Overcuts {
-    /// None yet; the tip may leave its line by `tolerance` mm.
+    /// Initial state; the tip may leave its line by `tolerance` mm.
     pub(in crate::verify) fn new(profile: &MachineProfile, tolerance: f64) -> Self {
         let verify = &profile.verify;
         let cap = |most: Option<f64>| most.map(|most| most + tolerance);
