@@ -1,43 +1,42 @@
-//! How fast the tip may be along a line: the feed of the profile and of the piece, slowed cuts, and the way before a
-//! corner.
+//! Speed caps of the tip along a line: the feed of the profile and of the piece, slowed cuts, and the stretch before a corner.
 
 use super::vertex::Vertex;
 use crate::ir::list::FULL_SPEED;
 use crate::ir::marker::Piece;
 use crate::machine::MachineProfile;
 
-/// The caps of a line.
+/// Speed caps of a line in both directions.
 #[derive(Debug)]
 pub(in crate::verify) enum BothWays {
-    /// One all along, mm/s: nearly always.
+    /// Single cap for the whole line, mm/s: the usual case.
     One(f64),
-    /// By station for a tip that goes with the line, and by the way from its end for one that goes against it.
+    /// Caps by station for a tip that moves with the line, and by distance from the end for one that moves against it.
     Each(Box<[Caps; 2]>),
 }
 
-/// The caps of a line by station.
+/// Speed caps of a line by station.
 #[derive(Debug)]
 pub(in crate::verify) struct Caps {
-    /// The cap where the line begins, mm/s; infinite where nothing caps the tip.
+    /// Cap at the start of the line, mm/s; infinite without a cap.
     first: f64,
-    /// The later ones, each with the station from which it holds, mm. No two in a row are equal.
+    /// Later caps, each with the station from which it holds, mm. Consecutive caps differ.
     later: Box<[[f64; 2]]>,
 }
 
-/// How a line ends.
+/// Kind of an end of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::verify) enum End {
-    /// The knife is lifted at a corner, before which the cut may have to be slower.
+    /// Corner, where the knife is lifted; the cut may have to be slower before it.
     AtCorner,
-    /// It ends where the contour does, or goes round.
+    /// End of the contour, or a line that goes all the way around.
     Plain,
 }
 
-/// What the tip may do in a piece, from which caps are made.
+/// Feeds of a piece, from which caps are computed.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Feeds<'a> {
     profile: &'a MachineProfile,
-    /// The feed of the profile and of the piece, mm/s.
+    /// Lower of the feeds of the profile and of the piece, mm/s; infinite without a feed.
     feed: f64,
 }
 
@@ -47,19 +46,19 @@ impl<'a> Feeds<'a> {
         Self { profile, feed: feeds.into_iter().flatten().fold(f64::INFINITY, f64::min) }
     }
 
-    /// What a share is of where there is no feed: the speed that the tip can reach in every direction.
+    /// Speed to which a percentage refers without a feed: the speed that the tip can reach in every direction, mm/s.
     fn fastest(&self) -> f64 {
         let [x, y, _] = self.profile.axes.limits();
         self.feed.min(x.speed).min(y.speed)
     }
 
-    /// The cap of a cut at a percentage of its speed.
+    /// Cap of a cut at a percentage of its speed, mm/s.
     pub(in crate::verify) fn at(&self, percent: u8) -> f64 {
         if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
     }
 
-    /// The caps of a line whose chords have these speeds in percent; `ends` are how it starts and how it ends, `near` the
-    /// stretches of it, by station, beside which another part's edge runs.
+    /// Caps of a line whose chords have these speeds in percent; `ends` are the kinds of its start and end, `near` the station
+    /// ranges beside which the edge of another part runs.
     pub(in crate::verify) fn both_ways(
         &self,
         path: &[Vertex],
@@ -84,7 +83,7 @@ impl<'a> Feeds<'a> {
         BothWays::Each(Box::new([self.caps(&stations, chords, ends[1]), against]))
     }
 
-    /// Lowers the caps of chords between stations over some stretches to a share.
+    /// Lowers the caps of chords over some stretches to a share; divides chords where a stretch begins or ends inside.
     fn slow_down(&self, stations: &mut Vec<f64>, chords: &mut Vec<f64>, near: &[[f64; 2]], share: f64) {
         let mut divide = |at: f64| {
             let behind = stations.partition_point(|&station| station < at);
@@ -101,7 +100,7 @@ impl<'a> Feeds<'a> {
         }
     }
 
-    /// The caps of chords between stations, up to the end of the line.
+    /// Caps of chords between stations, up to the end of the line.
     fn caps(&self, stations: &[f64], chords: Vec<f64>, end: End) -> Caps {
         let (mut starts, mut caps) = (stations[..chords.len()].to_vec(), chords);
         if let (Some(reach), End::AtCorner) = (self.profile.slow.before_corner_mm, end) {
@@ -127,20 +126,20 @@ impl<'a> Feeds<'a> {
     }
 }
 
-/// Which of two caps is asked for: the greater one or the lesser one.
+/// Selection from two caps: the greater or the lesser.
 pub(in crate::verify) type Pick = fn(f64, f64) -> f64;
 
-/// How a line is gone along.
+/// Direction along a line.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Way {
     /// 1 with the line, -1 against it.
     pub(in crate::verify) sign: f64,
-    /// The length of a line that goes round and round, mm.
+    /// Length of a closed line, mm; `None` for an open one.
     pub(in crate::verify) round: Option<f64>,
 }
 
 impl BothWays {
-    /// The cap that holds all along; `None` when there are several. `sign` is +1 with the line, -1 against it.
+    /// Cap of the whole line; `None` if it has several. `sign` is +1 with the line, -1 against it.
     pub(in crate::verify) fn only(&self, sign: f64) -> Option<f64> {
         match self {
             Self::One(cap) => Some(*cap),
@@ -148,8 +147,7 @@ impl BothWays {
         }
     }
 
-    /// The stretches of a line of that length along which both caps stay as they are: where each ends, and the caps with the
-    /// line and against it.
+    /// Stretches of a line of that length with constant caps: the end of each, and the caps with the line and against it.
     pub(in crate::verify) fn stretches(&self, length: f64) -> Vec<(f64, [f64; 2])> {
         let [with, against] = match self {
             Self::One(cap) => return vec![(length, [*cap; 2])],
@@ -168,8 +166,7 @@ impl BothWays {
         ends.into_iter().map(stretch).collect()
     }
 
-    /// One of the caps between two stations, of which those against the line count from its end; `round` is the length of a
-    /// line that goes round and round.
+    /// Cap picked among those between two stations; for a way against the line, stations count from its end.
     pub(in crate::verify) fn over(&self, ends: [f64; 2], Way { sign, round }: Way, pick: Pick) -> f64 {
         match (self, round) {
             (Self::One(cap), _) => *cap,
@@ -184,12 +181,12 @@ fn way([with, against]: &[Caps; 2], sign: f64) -> &Caps {
 }
 
 impl Caps {
-    /// The cap that holds all along; `None` when there are several.
+    /// Cap of the whole line; `None` if it has several.
     fn only(&self) -> Option<f64> {
         self.later.is_empty().then_some(self.first)
     }
 
-    /// One of the caps between two stations; beyond the ends hold those of the ends.
+    /// Cap picked among those between two stations; beyond an end, the cap of that end.
     fn over(&self, [low, high]: [f64; 2], pick: Pick) -> f64 {
         let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
         let (from, to) = (before(low), before(high));
@@ -197,7 +194,7 @@ impl Caps {
         self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, pick)
     }
 
-    /// The same on a line of that length that goes round and round.
+    /// Cap picked among those between two stations of a closed line of that length.
     fn over_round(&self, [low, high]: [f64; 2], length: f64, pick: Pick) -> f64 {
         let from = low.rem_euclid(length);
         let to = from + (high - low).min(length);

@@ -1,4 +1,4 @@
-//! A grid over the chords of all lines, to find those near a point.
+//! Grid over the chords of all lines, for queries near a point.
 
 use std::ops::RangeInclusive;
 
@@ -6,18 +6,18 @@ use super::line::Line;
 use super::lines::Reference;
 use crate::geom::{Extent, Point};
 
-/// Least size of a cell, mm.
+/// Smallest size of a cell, mm.
 const CELL_MIN: f64 = 4.0;
-/// Cells for each chord, at the most; and the least and greatest number of all.
+/// Maximum number of cells per chord; then the smallest and the greatest total number of cells.
 const CELLS_A_CHORD: f64 = 0.25;
 const CELLS: [f64; 2] = [4096.0, 4_194_304.0];
 
-/// Cells that a chord passes on average, at the most.
+/// Maximum average number of cells that a chord passes.
 const CELLS_A_CHORD_PASSES: f64 = 8.0;
-/// By how much rounding may shift an edge of a cell, mm: markers are shorter than a thousand kilometres.
+/// Greatest shift of a cell edge due to rounding, mm: markers are shorter than a thousand kilometres.
 const EDGE: f64 = 1e-6;
 
-/// For each cell the chords that pass it, laid out one cell after the other.
+/// Chords that pass each cell, in compressed form cell by cell.
 #[derive(Debug)]
 pub(in crate::verify) struct Grid {
     origin: Point,
@@ -28,7 +28,7 @@ pub(in crate::verify) struct Grid {
     runs: Vec<Run>,
 }
 
-/// Chords of a line that follow each other in a cell, as most of them do.
+/// Consecutive chords of a line in a cell; most chords have neighbours there.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::verify) struct Run {
     line: u32,
@@ -42,14 +42,14 @@ impl Run {
         self.line as usize
     }
 
-    /// The chords, as places on the line.
+    /// Indices of the chords on the line.
     pub(in crate::verify) fn chords(&self) -> RangeInclusive<usize> {
         self.first as usize..=self.last as usize
     }
 }
 
 impl Grid {
-    /// The grid of all chords.
+    /// Grid of all chords of the reference.
     pub(in crate::verify) fn new(reference: &Reference) -> Self {
         let mut extent = Extent::EMPTY;
         for line in &reference.lines {
@@ -62,14 +62,14 @@ impl Grid {
         let chords: usize = reference.lines.iter().map(Line::chords).sum();
         let [least, most] = CELLS;
         let count = (CELLS_A_CHORD * chords as f64).clamp(least, most);
-        // What is long and narrow has as many cells as it is long.
+        // A long and narrow marker has cells in proportion to its length.
         let length: f64 = reference.lines.iter().map(Line::length).sum();
         // Long chords pass many cells.
         let by_length = length / (CELLS_A_CHORD_PASSES * chords.max(1) as f64);
         let cell = CELL_MIN.max((width * height / count).sqrt()).max(width.max(height) / count).max(by_length);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut grid = Self { origin: extent.min, cell, columns, rows, starts: Vec::new(), runs: Vec::new() };
-        // Counting sort: first how many, then where; what is then the end of a cell is the start of the next.
+        // Counting sort: first the counts, then the starts; while filling, the start of each cell advances to that of the next.
         let mut starts = vec![0_u32; columns * rows + 1];
         grid.each(reference, |cell, _, is_led_on| starts[cell] += u32::from(!is_led_on));
         let mut count = 0;
@@ -91,10 +91,11 @@ impl Grid {
         grid
     }
 
-    /// Calls `see` for each cell that a chord passes, of each chord, and tells whether the one before it passes there, too:
-    /// column by column, the rows between which it lies there.
+    /// Calls `see` for each chord and each cell that it passes; the flag is true if the previous chord of the line passes the
+    /// cell, too. Cells are found column by column, from the range of rows that the chord covers there.
     fn each(&self, reference: &Reference, mut see: impl FnMut(usize, (u32, u32), bool)) {
-        // The last chord of each cell. Between the last one of a line and the first one of the next a number is left out.
+        // Number of the last chord of each cell, plus one. A number is skipped between the last chord of a line and the first
+        // of the next.
         let (mut number, mut passed) = (0, vec![u32::MAX; self.columns * self.rows]);
         for (l, line) in reference.lines.iter().enumerate() {
             for (c, (a, b)) in line.points().zip(line.points().skip(1)).enumerate() {
@@ -125,13 +126,13 @@ impl Grid {
         (((y - self.origin.y) / self.cell).max(0.0) as usize).min(self.rows - 1)
     }
 
-    /// The chords that come nearer to a point than `reach` mm, and others: those of a line that follow each other. One that
-    /// passes several cells comes several times.
+    /// Runs with the chords that come within `reach` mm of a point, among others. A run occurs once for each cell that it
+    /// passes.
     pub(in crate::verify) fn near(&self, point: Point, reach: f64) -> impl Iterator<Item = &Run> + '_ {
         self.about(Extent::between(point, point).grown(reach))
     }
 
-    /// The same of a box: those that meet it, and others.
+    /// Runs with the chords that meet a box, among others.
     pub(in crate::verify) fn about(&self, extent: Extent) -> impl Iterator<Item = &Run> + '_ {
         let Extent { min, max } = extent.grown(EDGE);
         let rows = self.row(min.y)..=self.row(max.y);

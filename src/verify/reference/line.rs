@@ -1,4 +1,4 @@
-//! A stretch that is cut from one end to the other, and what can be asked of it: places, stations, chords, caps.
+//! Stretch that is cut from one end to the other, with its places, stations, chords and caps.
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -7,34 +7,34 @@ use super::caps::{BothWays, Pick, Way};
 use super::vertex::Vertex;
 use crate::geom::{Point, Vector, angle, left, polyline};
 
-/// The cut that a line is a stretch of.
+/// Cut of the marker that a line belongs to.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct OfCut {
-    /// Its place among the cuts of the marker.
+    /// Index among the cuts of the marker.
     pub(in crate::verify) index: u32,
-    /// Where the line begins on it, mm from its start as it is drawn.
+    /// Start of the line on the cut, mm from the start of the cut as drawn.
     pub(in crate::verify) offset: f64,
-    /// Its length when it is closed, mm.
+    /// Length of a closed cut, mm; `None` for an open one.
     pub(in crate::verify) round: Option<f64>,
-    /// Whether it bounds a part.
+    /// True if the cut bounds a part.
     pub(in crate::verify) bounds: bool,
-    /// Whether it is no cut but the edge of a part, as it is drawn.
+    /// True for the edge of a part as drawn, which is not a cut itself.
     pub(in crate::verify) is_edge: bool,
-    /// Whether codes of the file, or that it is a slit, may forbid overlaps at its ends.
+    /// True if overlaps at its ends may be forbidden: by codes of the file, or because it is a slit.
     pub(in crate::verify) is_bare: bool,
 }
 
 impl OfCut {
-    /// Whether two stretches of the cut meet; on a closed one each may be counted on over its end.
+    /// True if two stretches of the cut meet; on a closed cut each may continue past its end.
     pub(in crate::verify) fn meets(&self, [low, high]: [f64; 2], [from, to]: [f64; 2]) -> bool {
         let Some(round) = self.round else { return from.min(to) <= high && from.max(to) >= low };
         let length = self.length_of([from, to]);
-        // From the start of the one to that of the other, once round at the most.
+        // Distance from the start of the one to the start of the other, within one turn.
         let ahead = (from - low).rem_euclid(round);
         ahead <= high - low || round - ahead <= length
     }
 
-    /// Length that two stretches of the cut have in common, mm, the second of which may be counted on over its end.
+    /// Common length of two stretches of the cut, mm; the second may continue past the end of a closed cut.
     pub(in crate::verify) fn common(&self, [low, high]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
         let common = |from: f64, to: f64| (high.min(to) - low.max(from)).max(0.0);
         let Some(round) = self.round else { return common(from.min(to), from.max(to)) };
@@ -42,7 +42,7 @@ impl OfCut {
         common(from, from + length) + common(from - round, from - round + length)
     }
 
-    /// Length of a stretch of the cut, mm; on a closed one it may be counted on over its end.
+    /// Length of a stretch of the cut, mm; on a closed cut it may continue past the end.
     pub(in crate::verify) fn length_of(&self, [from, to]: [f64; 2]) -> f64 {
         match self.round {
             Some(round) if to < from => to + round - from,
@@ -51,63 +51,62 @@ impl OfCut {
     }
 }
 
-/// Such a stretch, mm.
+/// Stretch of a cut between two lifts. Lengths and stations are in mm.
 #[derive(Debug)]
 pub(in crate::verify) struct Line<'a> {
-    /// The cut that it is of.
+    /// Cut that the line belongs to.
     pub(in crate::verify) cut: OfCut,
-    /// Index of its piece.
+    /// Index of the piece.
     pub(in crate::verify) piece: u32,
-    /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
+    /// Rank of the contour or slit among events, holes, slits and contours, in cut order.
     pub(in crate::verify) rank: u32,
-    /// Its points; a ring ends with its first one. Those of the marker, wherever they stand there side by side.
+    /// Points; a ring ends with its first point. Borrowed from the marker where they are adjacent there.
     points: Cow<'a, [Point]>,
-    /// What is known of each of them.
+    /// Station, bulge and block of each point.
     path: Box<[Vertex]>,
-    /// How fast the tip may be: before a corner it may have to be slower.
+    /// Speed caps of the tip, which may be lower before a corner.
     caps: BothWays,
-    /// Whether it is a closed contour without a corner.
+    /// True for a closed contour without a corner.
     pub(in crate::verify) ring: bool,
-    /// By the stations of heel and tip: where it is too tight for the blade to be its chord. Few lines are.
+    /// Stretches that are too tight for the blade to be a chord, by the stations of heel and tip. Usually empty.
     pub(in crate::verify) tight: Box<[[f64; 2]]>,
-    /// The stretches of it, by station, that are on no edge of its own part: none but where a part has edges in common with
-    /// others.
+    /// Station ranges that are on no edge of the line's own part: only in parts that share edges with others.
     pub(in crate::verify) aside: Box<[[f64; 2]]>,
 }
 
-/// A chord of a line.
+/// Chord of a line.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Chord {
     pub(in crate::verify) index: usize,
-    /// Where it starts, and the station of that, mm.
+    /// Start point, and its station, mm.
     from: Point,
     start: f64,
-    /// mm.
+    /// Length, mm.
     length: f64,
-    /// Unit vector along it.
+    /// Unit vector along the chord.
     pub(in crate::verify) along: Vector,
-    /// From its middle to where the core of the tolerance band reaches there.
+    /// Vector from the middle of the chord to the edge of the tolerance band's core there.
     sagitta: Vector,
 }
 
 impl Chord {
-    /// Where it starts, the crest of the curve that it stands for, and where it ends.
+    /// Start of the chord, crest of the curve that it approximates, and end of the chord.
     pub(in crate::verify) fn band(&self) -> [Point; 3] {
         let way = self.along * self.length;
         [self.from, self.from + way / 2.0 + self.sagitta, self.from + way]
     }
 
-    /// Sagitta of the curve that it stands for, mm.
+    /// Sagitta of the curve that the chord approximates, mm.
     pub(in crate::verify) fn sagitta(&self) -> f64 {
         self.sagitta.norm()
     }
 
-    /// Its station and its length, mm.
+    /// Station and length of the chord, mm.
     pub(in crate::verify) fn stations(&self) -> [f64; 2] {
         [self.start, self.length]
     }
 
-    /// Distance of a point from the tolerance band's core beside it, mm, and the station of the foot. The core at a
+    /// Distance of a point from the core of the tolerance band at the chord, mm, and the station of the foot. The core at a
     /// place of the chord is the segment from the chord to its bulge there.
     pub(in crate::verify) fn deviation(&self, point: Point) -> (f64, f64) {
         let from = point - self.from;
@@ -132,8 +131,7 @@ impl Chord {
 }
 
 impl<'a> Line<'a> {
-    /// A line of a piece, at a rank, along which the blade goes as the orientation mode has it; `path` is what is known
-    /// of its points.
+    /// Line of a piece at a rank; `path` has an entry for each point.
     pub(in crate::verify) fn new(
         [piece, rank]: [u32; 2],
         cut: OfCut,
@@ -146,17 +144,17 @@ impl<'a> Line<'a> {
         Self { cut, piece, rank, points, path, caps, ring, tight: Box::default(), aside: Box::default() }
     }
 
-    /// One of its points.
+    /// Point of a vertex.
     pub(in crate::verify) fn point(&self, vertex: usize) -> Point {
         self.points[vertex]
     }
 
-    /// All of them.
+    /// All points in order.
     pub(in crate::verify) fn points(&self) -> impl DoubleEndedIterator<Item = Point> + ExactSizeIterator + '_ {
         self.points.iter().copied()
     }
 
-    /// Length from its first point to another, mm.
+    /// Length from the first point to another, mm.
     pub(in crate::verify) fn station(&self, vertex: usize) -> f64 {
         self.path[vertex].station
     }
@@ -166,12 +164,12 @@ impl<'a> Line<'a> {
         self.path[chord].block
     }
 
-    /// Whether one of its chords is of that block.
+    /// True if one of the chords has that block.
     pub(in crate::verify) fn has(&self, block: u32) -> bool {
         self.path[..self.chords()].iter().any(|vertex| vertex.block == block)
     }
 
-    /// Its length, mm.
+    /// Length of the line, mm.
     pub(in crate::verify) fn length(&self) -> f64 {
         self.path[self.path.len() - 1].station
     }
@@ -181,12 +179,12 @@ impl<'a> Line<'a> {
         self.path.len() - 1
     }
 
-    /// How many of its vertices lie before a station.
+    /// Number of vertices before a station.
     pub(in crate::verify) fn before(&self, station: f64) -> usize {
         self.path.partition_point(|vertex| vertex.station < station)
     }
 
-    /// How many of them lie before it or at it.
+    /// Number of vertices before or at a station.
     pub(in crate::verify) fn up_to(&self, station: f64) -> usize {
         self.path.partition_point(|vertex| vertex.station <= station)
     }
@@ -197,7 +195,7 @@ impl<'a> Line<'a> {
         (to - from) / self.length_of(chord)
     }
 
-    /// One of its chords.
+    /// Chord by its index.
     pub(in crate::verify) fn chord(&self, index: usize) -> Chord {
         let [from, to] = self.ends(index);
         let Vertex { station: start, sagitta, .. } = self.path[index];
@@ -205,7 +203,7 @@ impl<'a> Line<'a> {
         Chord { index, from, start, length, along: way / length, sagitta: left(way) * f64::from(sagitta) }
     }
 
-    /// The two ends of a chord.
+    /// Both ends of a chord.
     pub(in crate::verify) fn ends(&self, chord: usize) -> [Point; 2] {
         let [from, to] = self.points[chord..chord + 2] else { unreachable!("a chord has two ends") };
         [from, to]
@@ -223,7 +221,7 @@ impl<'a> Line<'a> {
         polyline::distance_to_segment(point, from, to)
     }
 
-    /// Whether a point may be nearer than `reach` mm to the tolerance band's core beside a chord, as far as its box tells.
+    /// True if a point may be within `reach` mm of the tolerance band's core at a chord, judged by the chord's box.
     pub(in crate::verify) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
         let [from, to] = self.ends(chord);
         let reach = reach + f64::from(self.path[chord].sagitta).abs() * self.length_of(chord);
@@ -232,7 +230,7 @@ impl<'a> Line<'a> {
         is_between(from.x, to.x) && is_between(from.y, to.y)
     }
 
-    /// Whether a point stands beyond an end of the line, where the chord that ends there is led on straight.
+    /// True if a point is beyond the end of the line at this chord, where the line is extended straight.
     pub(in crate::verify) fn is_led_on(&self, chord: usize, point: Point) -> bool {
         let [from, to] = self.ends(chord);
         let is_before = chord == 0 && (point - from).dot(&(to - from)) < 0.0;
@@ -240,7 +238,7 @@ impl<'a> Line<'a> {
         !self.ring && (is_before || is_behind())
     }
 
-    /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
+    /// Vertices between two stations, which on a ring may lie on any lap; on a ring its last point counts as its first.
     pub(in crate::verify) fn vertices(&self, low: f64, high: f64) -> impl Iterator<Item = usize> + '_ {
         let length = self.length();
         let count = if self.ring { self.chords() } else { self.path.len() };
@@ -251,7 +249,7 @@ impl<'a> Line<'a> {
         (first..laps).take_while(move |&i| station(i) <= high).map(move |i| i % count)
     }
 
-    /// Whether it is too tight for the blade somewhere between two stations.
+    /// True if the line is too tight for the blade somewhere between two stations.
     pub(in crate::verify) fn is_tight(&self, [low, high]: [f64; 2]) -> bool {
         let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
         // On a ring the stretches may lie on the next lap.
@@ -262,13 +260,13 @@ impl<'a> Line<'a> {
         })
     }
 
-    /// Its points; of a ring those of two laps.
+    /// Points of the line; of a ring, those of two laps.
     pub(in crate::verify) fn twice_round(&self) -> Vec<Point> {
         let more = if self.ring { &self.points[1..] } else { &[] };
         [&self.points, more].concat()
     }
 
-    /// Turn of the line at a vertex, rad; none at the ends of an open line.
+    /// Turn of the line at a vertex, rad; 0 at the ends of an open line.
     pub(in crate::verify) fn turn(&self, vertex: usize) -> f64 {
         let count = self.chords();
         if !self.ring && (vertex == 0 || vertex == count) {
@@ -277,30 +275,30 @@ impl<'a> Line<'a> {
         angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
     }
 
-    /// The greatest speed of the tip, mm/s, where that is one all along; `sign` is +1 with the line, -1 against it.
+    /// Speed cap of the tip, mm/s, if it is the same for the whole line; `sign` is +1 with the line, -1 against it.
     pub(in crate::verify) fn only_cap(&self, sign: f64) -> Option<f64> {
         self.caps.only(sign)
     }
 
-    /// The stretches along which these stay as they are: where each ends, and the speeds with the line and against it.
+    /// Stretches with constant caps: the end of each, and the caps with the line and against it, mm/s.
     pub(in crate::verify) fn caps(&self) -> Vec<(f64, [f64; 2])> {
         self.caps.stretches(self.length())
     }
 
-    /// One of the speeds that the tip may have between two stations, mm/s; `sign` is +1 with the line, -1 against it.
+    /// Cap picked among those between two stations, mm/s; `sign` is +1 with the line, -1 against it.
     pub(in crate::verify) fn cap(&self, [low, high]: [f64; 2], sign: f64, pick: Pick) -> f64 {
         let length = self.length();
         let ends = if sign > 0.0 { [low, high] } else { [length - high, length - low] };
         self.caps.over(ends, Way { sign, round: self.ring.then_some(length) }, pick)
     }
 
-    /// The point at a station.
+    /// Point at a station.
     pub(in crate::verify) fn place(&self, station: f64) -> Point {
         let chord = self.chord_at(station);
         self.point(chord) + self.direction(chord) * (station - self.station(chord))
     }
 
-    /// The chords between two stations; on a ring they are counted on past its end.
+    /// Chords between two stations; on a ring, indices continue past its end.
     pub(in crate::verify) fn chords_between(&self, [low, high]: [f64; 2]) -> RangeInclusive<usize> {
         let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
         let (low, high) = (low - lap, high - lap);
@@ -309,23 +307,23 @@ impl<'a> Line<'a> {
         self.chord_at(low)..=self.chord_at(high - over) + laps
     }
 
-    /// Whether a block is that of a chord between two stations.
+    /// True if a block belongs to a chord between two stations.
     pub(in crate::verify) fn names(&self, block: u32, ends: [f64; 2]) -> bool {
         self.chords_between(ends).any(|chord| self.block(chord % self.chords()) == block)
     }
 
-    /// The last vertex before a station, which on a ring may lie on any lap; `None` where an open line starts.
+    /// Last vertex before a station, which on a ring may lie on any lap; `None` at the start of an open line.
     pub(in crate::verify) fn vertex_before(&self, station: f64) -> Option<usize> {
         let lap = if self.ring { station.rem_euclid(self.length()) } else { station };
         self.before(lap).checked_sub(1).or_else(|| self.ring.then(|| self.chords() - 1))
     }
 
-    /// The chord of a station.
+    /// Chord at a station.
     pub(in crate::verify) fn chord_at(&self, station: f64) -> usize {
         self.up_to(station).clamp(1, self.chords()) - 1
     }
 
-    /// The same, looked for from a chord on that is near.
+    /// Chord at a station, searched from a chord nearby.
     pub(in crate::verify) fn chord_near(&self, chord: usize, station: f64) -> usize {
         let mut chord = chord;
         while chord > 0 && self.station(chord) > station {

@@ -1,7 +1,7 @@
-//! What must be cut: the lines of the marker, the parts that they go around, and what lies where on the cloth.
+//! Reference: the lines of the marker, the parts that they enclose, and the layout of the cloth.
 //!
-//! Receives the final marker and the profile, promises lines with their corners, caps and exceptions, found anew. Never sees
-//! the program.
+//! Input: the final marker and the profile. Output: lines with their corners, caps and exceptions, derived independently of the
+//! compiler. The program itself is not used.
 
 pub(super) mod band;
 pub(super) mod caps;

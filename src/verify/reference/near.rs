@@ -1,4 +1,4 @@
-//! Stretches of lines beside which another part's edge runs: the blade may have to be slower there.
+//! Stretches of lines beside which the edge of another part runs: the blade may have to be slower there.
 
 use super::shared::{SAME, lies_on};
 use crate::geom::Extent;
@@ -7,7 +7,7 @@ use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::NearEdge;
 
-/// The near lines of a marker, by place.
+/// Near edges of a marker, indexed by place.
 #[derive(Debug)]
 pub(in crate::verify) struct Near<'a> {
     edges: &'a [NearEdge],
@@ -15,13 +15,13 @@ pub(in crate::verify) struct Near<'a> {
 }
 
 impl<'a> Near<'a> {
-    /// Those of a marker.
+    /// Near edges of a marker.
     pub(super) fn new(marker: &'a Marker) -> Self {
         let extents = marker.near.iter().map(|edge| Extent::between(edge.ends[0], edge.ends[1]).grown(SAME));
         Self { edges: &marker.near, boxes: Boxes::new(extents.collect()) }
     }
 
-    /// Which stretches of a line of a piece lie on them, by station, in order, mm.
+    /// Station ranges of a line of a piece that lie on near edges, in order of their starts, mm.
     pub(super) fn along(&self, piece: u32, line: &[Segment]) -> Vec<[f64; 2]> {
         let mut found = Vec::new();
         let mut start = 0.0;

@@ -1,4 +1,4 @@
-//! Notches as the profile wants them cut: found anew from the marker, which keeps them as they are drawn.
+//! Notches in the style of the profile, derived from the marker, which keeps them as drawn.
 
 use std::collections::BTreeMap;
 
@@ -7,8 +7,8 @@ use crate::ir::list::Segment;
 use crate::ir::marker::{NotchKind, NotchStroke, OutlineNotch, Piece};
 use crate::machine::{NotchStyle, Notches, TNotch};
 
-/// The slits of a piece, each with its speed in percent: those that are drawn, with their crossbars, and those that
-/// outlines no longer have.
+/// Slits of a piece, each with its speed in percent: the drawn slits with their crossbars, and the slits that replace notches
+/// of outlines.
 pub(in crate::verify) fn slits(
     piece: &Piece,
     notches: Notches,
@@ -37,14 +37,14 @@ pub(in crate::verify) fn slits(
     slits
 }
 
-/// Takes the notches that are not cut as they are drawn out of an outline; gives them with the least speed of what they
-/// were.
+/// Removes the notches that are not cut as drawn from an outline. Returns each with the lowest speed, in percent, of its
+/// segments.
 pub(super) fn straighten(segments: &mut Vec<Segment>, piece: &Piece, notches: Notches) -> Vec<(OutlineNotch, u8)> {
     if notches.style == NotchStyle::AsDrawn {
         return Vec::new();
     }
     let count = segments.len();
-    // By the two ends of the way that is no longer cut.
+    // Index by the two ends of the stretch that is no longer cut.
     let by_mouth: BTreeMap<[[u64; 2]; 2], &OutlineNotch> =
         piece.outline_notches.iter().map(|notch| (notch.mouth.map(bits), notch)).collect();
     let mut by_length: Vec<usize> = piece.outline_notches.iter().map(|notch| notch.segments as usize).collect();
@@ -52,7 +52,7 @@ pub(super) fn straighten(segments: &mut Vec<Segment>, piece: &Piece, notches: No
     by_length.dedup();
     by_length.retain(|&length| length < count);
     let (mut kept, mut taken) = (Vec::with_capacity(count), Vec::new());
-    // What is left of a way that goes over the end of the list stands at its beginning.
+    // The remainder of a stretch that continues past the end of the list is at its beginning.
     let (mut k, mut carried_over) = (0, 0);
     while k < count {
         let segment = segments[k];

@@ -1,4 +1,4 @@
-//! Whether events, holes, slits and contours come in the order of the marker, and what lies in a part before it comes free.
+//! Check of the order of events, holes, slits and contours, and of cuts inside a part before the part comes free.
 
 use std::ops::Range;
 
@@ -8,45 +8,45 @@ use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::verify::rules;
 
-/// What was told, drilled and cut, each with its time and its rank in the marker.
+/// Events, holes and strokes, each with its time and its rank in the marker.
 #[derive(Debug)]
 pub(in crate::verify) struct Order<'a> {
     lines: &'a [Line<'a>],
-    /// The strokes, in time: a large marker has a hundred thousand of them.
+    /// Strokes in time order: a large marker has a hundred thousand of them.
     strokes: Vec<Begun>,
-    /// Where those began that come behind a later one, each with its place among them.
+    /// Places of strokes that begin after a stroke of greater rank, each with its index in `strokes`.
     late: Vec<(usize, Sighting)>,
-    /// The greatest rank of them so far.
+    /// Greatest rank of a stroke so far.
     greatest: u32,
-    /// Events and holes.
+    /// Events and holes so far.
     told: Vec<Seen>,
 }
 
-/// When a line begins to be cut.
+/// Start of the cut of a line.
 #[derive(Debug, Clone, Copy)]
 struct Begun {
     tick: u64,
     line: u32,
 }
 
-/// Something else of the marker that is told or drilled.
+/// Event or hole of the marker in the program.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Seen {
     pub(in crate::verify) tick: u64,
-    /// Its rank in the marker.
+    /// Rank in the marker.
     pub(in crate::verify) rank: usize,
     pub(in crate::verify) place: Sighting,
 }
 
 impl<'a> Order<'a> {
-    /// Nothing yet, of these lines.
+    /// Empty order for these lines.
     pub(in crate::verify) fn new(lines: &'a [Line<'a>]) -> Self {
-        // A line is one stroke, as a rule.
+        // A line usually is one stroke.
         let strokes = Vec::with_capacity(lines.len());
         Self { lines, strokes, late: Vec::new(), greatest: 0, told: Vec::new() }
     }
 
-    /// A line begins to be cut somewhere at a tick, no earlier than the one before.
+    /// Records that the cut of a line begins at a tick, which must not be earlier than the previous one.
     pub(in crate::verify) fn cut(&mut self, tick: u64, line: usize, place: Sighting) {
         let rank = self.lines[line].rank;
         if rank < self.greatest {
@@ -56,25 +56,26 @@ impl<'a> Order<'a> {
         self.strokes.push(Begun { tick, line: line as u32 });
     }
 
-    /// Takes what was told and drilled.
+    /// Adds events and holes.
     pub(in crate::verify) fn add(&mut self, told: Vec<Seen>) {
         self.told.extend(told);
     }
 
-    /// How many come behind a later one, and how many in a part that is free, a tick being that long, s.
+    /// Findings on the number of items out of order, and on cuts in a part that is already free; `period` is the length of a
+    /// tick, s.
     pub(in crate::verify) fn findings(self, held: &[Held], period: f64) -> [Finding; 2] {
         let freed = self.freed(held, period);
         [self.late(period), freed]
     }
 
-    /// How many are cut or drilled in a part behind the last cut of its outline.
+    /// Finding on the number of parts in which something is cut or drilled after the last cut of the outline.
     fn freed(&self, held: &[Held], period: f64) -> Finding {
         let mut worst = Worst::new(&rules::FREED, Some(0.0));
         let strokes = self.strokes.iter().map(|&Begun { tick, line }| {
             let line = &self.lines[line as usize];
             Seen { tick, rank: line.rank as usize, place: Sighting::at(0.0, line.point(0), line.block(0)) }
         });
-        // When the last of each rank begins.
+        // Last item of each rank.
         let mut last: Vec<Option<Seen>> = Vec::new();
         for seen in strokes.chain(self.told.iter().copied()) {
             last.resize(last.len().max(seen.rank + 1), None);
@@ -98,7 +99,8 @@ impl<'a> Order<'a> {
         worst.finding()
     }
 
-    /// How many come behind a later one. Holes are known only when the program is over, so all are brought into time first.
+    /// Finding on the number of items out of order. Holes are known only at the end of the program, so all items are merged by
+    /// time first.
     fn late(mut self, period: f64) -> Finding {
         let mut worst = Worst::new(&rules::ORDER, Some(0.0));
         let (mut greatest, mut late) = (0, 0.0);
@@ -116,7 +118,7 @@ impl<'a> Order<'a> {
                 see(before);
             }
             let line = &self.lines[line as usize];
-            // What is late against holes and events alone is shown where its line begins.
+            // An item that is late only against holes and events is shown at the start of its line.
             let place = places.next_if(|late| late.0 == i).map(|late| late.1);
             let place = place.unwrap_or_else(|| Sighting::at(0.0, line.point(0), line.block(0)));
             see(Seen { tick, rank: line.rank as usize, place });

@@ -1,6 +1,6 @@
-//! A contour as lines: parted at its corners, each line with its tolerance band and with how fast the tip may be on it.
+//! Division of a contour into lines at its corners, each with its tolerance band and speed caps.
 //!
-//! Corners and the tolerance band are found anew from the marker and the profile; see the module doc of the stage.
+//! Corners and tolerance band are derived from the marker and the profile alone; see the module documentation of the stage.
 
 use std::borrow::Cow;
 
@@ -15,53 +15,52 @@ use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Contour, Cut, OutlineNotch, Piece};
 use crate::machine::{Fit, MachineProfile, Notches};
 
-/// Longest chord that counts as a chord of a curve, mm.
+/// Longest chord that counts as part of a curve, mm.
 const CURVE_CHORD: f64 = 25.0;
 
-/// Ways along a contour that differ by less are the same, mm: rounding of their sums.
+/// Difference below which two lengths along a contour are equal, mm: rounding of their sums.
 const SAME_WAY: f64 = 1e-6;
 
-/// Smaller turns are none, rad.
+/// Turns up to this angle count as none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 
-/// What the lines of a contour have in common.
+/// Common properties of the lines of a contour.
 #[derive(Clone, Copy)]
 pub(in crate::verify) struct OfContour<'a> {
-    /// Index of its piece, and its rank.
+    /// Index of the piece, and rank of the contour.
     pub(in crate::verify) owner: [u32; 2],
-    /// Its place among the cuts of its piece.
+    /// Index among the cuts of the piece.
     pub(in crate::verify) cut: u32,
-    /// How fast the tip may be in its piece.
+    /// Feeds of the piece.
     pub(in crate::verify) feeds: Feeds<'a>,
-    /// Where it may have to be slower; `None` where it may not.
+    /// Near edges, where the tip may have to be slower; `None` without that option.
     pub(in crate::verify) near: Option<&'a Near<'a>>,
     pub(in crate::verify) profile: &'a MachineProfile,
-    /// What the points of the marker are rounded to, mm; 0 = nothing.
+    /// Rounding unit of the marker's points, mm; 0 = none.
     pub(in crate::verify) unit: f64,
 }
 
-/// What is cut of a contour.
+/// Part of a contour that is cut.
 pub(in crate::verify) struct Outline<'a> {
-    /// From the first corner on, once that is found.
+    /// Segments, starting at the first corner once that is found.
     segments: Vec<Segment>,
-    /// How it turns where each of them starts, rad.
+    /// Turn at the start of each segment, rad.
     turns: Vec<f64>,
     closed: bool,
-    /// Whether it is the edge of a part.
+    /// True for the edge of a part.
     bounds: bool,
-    /// The points between the segments where the marker keeps them side by side, from its start on; else none.
+    /// Points between the segments, from the start of the contour, if the marker keeps them adjacent; otherwise empty.
     points: &'a [Point],
-    /// The place of the first segment among those of the marker.
+    /// Index of the first segment among those of the marker.
     first: usize,
-    /// Length of the contour from its start as it is drawn to that, mm.
+    /// Length of the contour from its drawn start to the first segment, mm.
     before: f64,
-    /// Length from there to each segment, and of all, mm.
+    /// Length from the first segment to each segment, and total length, mm.
     stations: Vec<f64>,
 }
 
 impl<'a> Outline<'a> {
-    /// A contour of a piece, and the notches that it makes and that are cut otherwise than they are drawn, with their
-    /// speeds.
+    /// Outline of a contour of a piece, and its notches that are not cut as drawn, with their speeds in percent.
     pub(in crate::verify) fn new(
         contour: &Contour,
         piece: &Piece,
@@ -77,13 +76,13 @@ impl<'a> Outline<'a> {
         (Self::of_segments(segments, points, contour.closed), replaced)
     }
 
-    /// A cut of a piece whose contours are not all cut with it: these are its edges, whatever is cut of them.
+    /// Outline of a cut of a piece that shares cuts with others: the edge of the part is its contours, not this cut.
     pub(in crate::verify) fn of_cut(cut: &Cut, list: &'a SegmentList) -> Self {
         let segments = list.walk(cut.range).map(|(_, segment)| segment).collect();
         Self { bounds: false, ..Self::of_segments(segments, &[], cut.kind.is_closed()) }
     }
 
-    /// Its segments, as they are cut.
+    /// Segments as they are cut.
     pub(in crate::verify) fn segments(&self) -> &[Segment] {
         &self.segments
     }
@@ -96,13 +95,13 @@ impl<'a> Outline<'a> {
         Self { segments, turns, closed, bounds: closed, points, first: 0, before: 0.0, stations: Vec::new() }
     }
 
-    /// Its lines, which end at its corners.
+    /// Lines of the contour, which end at its corners.
     pub(in crate::verify) fn lines(mut self, place: OfContour) -> Vec<Line<'a>> {
         let limit = place.profile.corner_angle();
         let is_corner = |i: &usize| self.segments[*i].joint.lift || self.is_corner(*i, limit, place.unit);
         let mut corners: Vec<usize> = (0..self.segments.len()).filter(is_corner).collect();
         let count = self.segments.len();
-        // Where a contour ends no corner lies before the tip.
+        // At an end of the contour the tip does not slow down for a corner.
         let mut ends = vec![0];
         let mut ring = false;
         if self.closed {
@@ -130,8 +129,8 @@ impl<'a> Outline<'a> {
         stops.map(line).collect()
     }
 
-    /// Whether the contour turns by more than `limit` rad where a segment starts, and not by the rounding of its points to
-    /// `unit` mm alone.
+    /// True if the contour turns by more than `limit` rad at the start of a segment, beyond the effect of rounding its points
+    /// to `unit` mm.
     fn is_corner(&self, i: usize, limit: f64, unit: f64) -> bool {
         let (before, behind) = self.segments.split_at(i);
         let round: &[Segment] = if self.closed { &self.segments } else { &[] };
@@ -140,7 +139,7 @@ impl<'a> Outline<'a> {
         corner::is_corner(self.segments[i].from, &from, &to, limit, unit)
     }
 
-    /// The line of the segments from one up to another; `ends` are how it starts and how it ends.
+    /// Line of a range of segments; `ends` are the kinds of its start and end.
     fn line(&self, [from, to]: [usize; 2], ring: bool, ends: [End; 2], place: OfContour) -> Line<'a> {
         let OfContour { owner, cut, feeds, profile, near, .. } = place;
         let chords = &self.segments[from..to];
@@ -165,7 +164,7 @@ impl<'a> Outline<'a> {
         Line::new(owner, cut, self.points([from, to]), path, caps, ring)
     }
 
-    /// The points of the segments from one up to another: those of the marker, but for a line over its start.
+    /// Points of a range of segments: borrowed from the marker unless the line passes the start of the contour.
     fn points(&self, [from, to]: [usize; 2]) -> Cow<'a, [Point]> {
         let first = (self.first + from) % self.segments.len();
         let chords = &self.segments[from..to];
@@ -175,7 +174,7 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// What is known of the points of a line of these chords; `bulge` gives the bulge of each.
+/// Stations, bulges and blocks of the points of a line; `sagitta` returns the bulge of each chord.
 fn path(chords: &[Segment], sagitta: impl Fn(usize) -> f32) -> Box<[Vertex]> {
     let mut path = Vec::with_capacity(chords.len() + 1);
     let mut station = 0.0;
@@ -187,7 +186,7 @@ fn path(chords: &[Segment], sagitta: impl Fn(usize) -> f32) -> Box<[Vertex]> {
     path.into()
 }
 
-/// Length of segments from the first to each, and of all, mm.
+/// Length from the first segment to each segment, and total length, mm.
 fn stations(segments: &[Segment]) -> Vec<f64> {
     let mut stations = Vec::with_capacity(segments.len() + 1);
     let mut length = 0.0;
@@ -199,7 +198,7 @@ fn stations(segments: &[Segment]) -> Vec<f64> {
     stations
 }
 
-/// The corners of a closed contour at which it may begin, and end: those least far along it from its start in the file.
+/// Corners of a closed contour at which it may begin and end: those closest along it to its start in the file.
 fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
     let stations = stations(segments);
     let length = stations[segments.len()];
@@ -208,7 +207,8 @@ fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iter
     corners.iter().copied().filter(move |i| away(i) <= least + SAME_WAY)
 }
 
-/// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.
+/// Bulge of a chord, in lengths of the chord: between two turns to the same side, the flattened curve lies outside the chord by
+/// about length * turn / 8.
 fn sagitta(segment: &Segment, turns: [f64; 2], profile: &MachineProfile) -> f32 {
     let length = segment.length();
     let is_turn = |turn: &f64| turn.abs() > TURN_EPSILON && turn.abs() < profile.corner_angle();

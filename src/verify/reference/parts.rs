@@ -1,4 +1,4 @@
-//! What lies in what: whose cut-out a piece is.
+//! Nesting of shapes: assigns cut-outs to their parts.
 
 use std::cmp::Ordering;
 
@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use crate::geom::Point;
 use crate::geom::shape::Shape;
 
-/// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest
-/// of these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose
-/// rings a point lies, and `lies_in` tells whether the one shape, or most of it, lies in the other.
+/// Region of each shape: the shape itself, or, if it lies in an odd number of others, the region of the smallest of these, as
+/// its cut-out. A shape in a cut-out is a region of its own. `holders` returns the shapes whose rings contain a point;
+/// `lies_in` is true if the first shape, or most of it, lies in the second.
 pub(super) fn regions(
     shapes: &[Shape],
     holders: impl Fn(Point) -> Vec<u32> + Sync,
@@ -22,7 +22,7 @@ pub(super) fn regions(
     let holder = |own: u32| {
         let shape = &shapes[own as usize];
         let mut holders = holders(shape.inner()?);
-        // One that lies in another is the smaller one, so that no two lie in each other.
+        // A shape inside another is the smaller one, so that two shapes never lie in each other.
         let is_larger = |other: u32| (area(other), own).partial_cmp(&(area(own), other)).is_some_and(Ordering::is_gt);
         holders.retain(|&other| is_larger(other) && lies_in(own, other));
         let smallest = holders.iter().copied().min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
@@ -30,7 +30,7 @@ pub(super) fn regions(
     };
     let count = shapes.len() as u32;
     let mut regions: Vec<u32> = (0..count).collect();
-    // The largest first: what holds a shape is larger than it, and settled before.
+    // Largest first: a shape that contains another is larger and is settled before.
     let mut by_size: Vec<u32> = (0..count).collect();
     by_size.sort_by(|&a, &b| area(b).total_cmp(&area(a)).then(a.cmp(&b)));
     let held: Vec<Option<u32>> = by_size.par_iter().map(|&own| holder(own)).collect();

@@ -1,49 +1,48 @@
-//! What must be cut, whole, for judges of programs that part it otherwise than a cutter does.
+//! Required cuts as a whole, for verifiers of programs that divide them differently than a cutter does.
 
 use super::lines::{Reference, of_cuts};
 use crate::geom::Point;
 use crate::ir::Marker;
 use crate::machine::MachineProfile;
 
-/// What must be cut of a marker, as contours and notches say, found anew as for a cutter's programs.
+/// Required cuts of a marker by its contours and notches, derived as for a cutter's programs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Required {
-    /// Everything that must be cut.
+    /// All required cuts.
     pub cuts: Vec<RequiredCut>,
-    /// The edges, mm, of parts that are cut together with others': each lies beside a cut.
+    /// Edges, mm, of parts that share cuts with others: each lies beside a cut.
     pub edges: Vec<Vec<Point>>,
-    /// How far beside it that may be, mm.
+    /// Greatest distance of an edge from its cut, mm.
     pub common: f64,
 }
 
-/// A line that must be cut.
+/// Line that must be cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RequiredCut {
-    /// Its points, mm; a closed one ends with its first.
+    /// Points, mm; a closed line ends with its first point.
     pub points: Vec<Point>,
-    /// Whether it ends where it starts.
+    /// True if the line ends at its start.
     pub closed: bool,
-    /// The source blocks that it comes from, in rising order.
+    /// Source blocks, ascending.
     pub blocks: Vec<u32>,
-    /// How fast the tip may go along it, in order.
+    /// Speed caps of the tip along the line, in order.
     pub caps: Vec<Capped>,
-    /// Where the knife is lifted at a corner of it, mm from its start, in order; the start of a closed one is one of these where
-    /// there is any.
+    /// Corners at which the knife is lifted, mm from the start, in order; with any corner, the start of a closed line is one.
     pub corners: Vec<f64>,
-    /// Whether contours and notches themselves say that it is cut; else the marker does, for edges of several parts.
+    /// True if contours and notches require the cut; false for a cut that the marker adds for edges of several parts.
     pub drawn: bool,
 }
 
-/// How fast the tip may go along a stretch.
+/// Speed cap of the tip along a stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capped {
-    /// Where it ends, mm from the start of the cut.
+    /// End of the stretch, mm from the start of the cut.
     pub to: f64,
-    /// With the cut and against it, mm/s; infinite where nothing caps the tip.
+    /// Caps with the cut and against it, mm/s; infinite without a cap.
     pub speeds: [f64; 2],
 }
 
-/// What must be cut of a marker.
+/// Required cuts of a marker.
 pub fn required(marker: &Marker, profile: &MachineProfile) -> Required {
     let Reference { lines, of_pieces, open, common, .. } = Reference::new(marker, profile);
     let shared: Vec<bool> = (0..marker.pieces.len()).map(|piece| of_cuts(piece, marker).is_some()).collect();
@@ -57,7 +56,7 @@ pub fn required(marker: &Marker, profile: &MachineProfile) -> Required {
         let blocks = (0..line.chords()).map(|chord| line.block(chord));
         let caps = |from: f64| line.caps().into_iter().map(move |(to, speeds)| Capped { to: from + to, speeds });
         if last == Some(line.cut.index) {
-            // The next stretch of the same cut begins where the one before it ends.
+            // The next stretch of the same cut begins at the end of the previous one.
             let cut = cuts.last_mut().expect("a line came before");
             cut.points.extend(line.points().skip(1));
             cut.blocks.extend(blocks);

@@ -1,4 +1,4 @@
-//! Tees: where the drawing has an open cut end on another cut, as a slit does on the edge of its part.
+//! Tees: places where the drawing has an open cut end on another cut, as a slit ends on the edge of its part.
 
 use std::iter;
 
@@ -10,15 +10,15 @@ use super::lines::Reference;
 use super::shared::SAME;
 use crate::geom::{Extent, Point, Vector, cross, polyline};
 
-/// Distance from its end at which a cut is tested for lying in a part, in tolerances.
+/// Distance from its end at which a cut is tested for lying in a part, in multiples of the tolerance.
 const LOOK: f64 = 2.0;
 
-/// Part of the widest thread within which lines are drawn to meet: a file may leave a gap as wide as a thread, and so does
-/// whoever cuts what it says.
+/// Fraction of the widest thread within which lines count as meeting in the drawing: a file may leave a gap as wide as a
+/// thread, and a cut that follows it then does so, too.
 const MET_SHARE: f64 = 0.5;
 
-/// The tees of the open cuts that come out of parts. A thread may be `limit` mm wide; a line that is met may be cut
-/// beside its chord, as the curve that this stands for, or by a blade of `width` mm that is plunged over it. A slit in the waste
+/// Tees of the open cuts that come out of parts. `limit` is the greatest width of a thread, mm. The line that is met may be cut
+/// beside its chord, along the curve that the chord approximates, or by a plunged blade of `width` mm. A slit in the waste
 /// frees nothing.
 pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, limit]: [f64; 2]) -> Vec<Joint> {
     let mut found: Vec<Joint> = Vec::new();
@@ -35,18 +35,18 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
                 continue;
             }
             let cuts = [line.cut.index, other.cut.index];
-            // Where both were led on, the drawing has neither.
+            // Where both cuts were extended, the drawing has neither.
             let is_drawn = |chord| !(is_led && is_aside(other, other.chord(chord).deviation(end).1));
             let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= MET_SHARE * limit && is_drawn(chord);
             for chord in run.chords().filter(meets) {
-                // Two straight lines at the angle a, each off by d, cross within 2 d / sin a of the drawn place. At a small angle
-                // that is looked for along the ending cut alone.
+                // Two straight lines at the angle a, each off by d, cross within 2 d / sin a of the drawn place. At a small
+                // angle only the ending cut is searched that far.
                 let sine = cross(along, other.direction(chord)).abs();
                 let drawn = other.chord(chord);
                 let off = 2.0 * (reference.tolerance + limit);
                 let is_beside = sine < LEAST_SINE;
                 if is_beside && lies_along(line, run.line(), reference, grid, off) {
-                    continue; // both may lie on each other over its whole length: it parts nothing that the other does not
+                    continue; // parallel over its whole length: it separates only what the other cut separates
                 }
                 let off = off + bow(other, drawn.deviation(end).1, width) + drawn.sagitta();
                 let about = Extent::between(end, end).grown(off / sine.max(LEAST_SINE));
@@ -64,7 +64,7 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
     found
 }
 
-/// Whether the cut of a line lies along another line over its whole length: it parts nothing that the other one does not part.
+/// True if the cut of a line lies along another line over its whole length, so that it separates only what that one does.
 fn lies_along(line: &Line, other: usize, reference: &Reference, grid: &Grid, limit: f64) -> bool {
     let of_other = &reference.lines[other];
     let station = |at: Point| {
@@ -74,14 +74,14 @@ fn lies_along(line: &Line, other: usize, reference: &Reference, grid: &Grid, lim
     };
     let does = |line: &Line| {
         let Some(stations) = line.points().map(station).collect::<Option<Vec<f64>>>() else { return false };
-        // Where the line goes across a bay of the other one, the way along that is longer.
+        // Where the line crosses a bay of the other one, the way along that one is longer.
         let ways = stations.windows(2).map(|ends| along(ends[0], ends[1], of_other.cut.round));
         ways.zip(0..).all(|(way, chord)| way <= line.station(chord + 1) - line.station(chord) + limit)
     };
     does(line) && reference.lines.iter().filter(|of_cut| of_cut.cut.index == line.cut.index).all(does)
 }
 
-/// Boxes along an open line from the end at a station, `way` mm far or to its other end, each grown by `off` mm.
+/// Boxes along an open line from the end at a station over a length of `way` mm or to its other end, each grown by `off` mm.
 fn boxes_along(line: &Line, station: f64, way: f64, off: f64) -> Vec<Extent> {
     let [from, to] = if station > 0.0 { [(station - way).max(0.0), station] } else { [0.0, way.min(line.length())] };
     let inner = line.vertices(from, to).map(|vertex| line.point(vertex));
@@ -89,8 +89,8 @@ fn boxes_along(line: &Line, station: f64, way: f64, off: f64) -> Vec<Extent> {
     boxes_of(&points, off)
 }
 
-/// How far a blade of a width that is plunged over a station of a line may lie beside it there, mm: as far as an arc that turns
-/// as much.
+/// Greatest distance beside a line at a station of a blade of that width plunged over it, mm: the sagitta of an arc with the
+/// same turn.
 fn bow(line: &Line, station: f64, width: f64) -> f64 {
     let (mut heading, mut reach) = (0.0, [0.0_f64; 2]);
     for vertex in line.vertices(station - width, station + width) {
@@ -100,22 +100,22 @@ fn bow(line: &Line, station: f64, width: f64) -> f64 {
     polyline::sagitta(width, reach[1] - reach[0])
 }
 
-/// Whether a line at a station is what its cut was led on there.
+/// True if a station of a line lies on an extension of its cut.
 fn is_aside(line: &Line, station: f64) -> bool {
     line.aside.iter().any(|[from, to]| (from - SAME..=to + SAME).contains(&station))
 }
 
-/// An end of an open cut.
+/// End of an open cut.
 struct End<'a> {
     at: Point,
-    /// The unit vector along its line from there.
+    /// Unit vector along the line away from the end.
     along: Vector,
     line: &'a Line<'a>,
     station: f64,
     block: u32,
 }
 
-/// The ends of open cuts.
+/// Ends of open cuts.
 fn ends<'a>(lines: &'a [Line<'a>]) -> impl Iterator<Item = End<'a>> {
     let is_of_cut = |other: Option<&Line>, line: &Line| other.is_some_and(|other| other.cut.index == line.cut.index);
     let open = lines.iter().enumerate().filter(|(_, line)| !line.cut.is_edge && line.cut.round.is_none());

@@ -1,26 +1,26 @@
-//! Where a line is too tight for the blade: found by laying the blade on it as a chord, place by place.
+//! Places where a line is too tight for the blade, found by laying the blade on it as a chord, place by place.
 
 use super::line::Line;
 use crate::geom::{Point, Vector, polyline};
 use crate::machine::Knife;
 
-/// Cosines of the blade with a line at its heel and at its tip below which it may be that it could not follow: a little
-/// more than what is needed, because overlaps and what lies between two places matter.
+/// Cosines of the angle between blade and line at heel and tip, below which the blade might be unable to follow: a little above
+/// the actual limits, because of overlaps and of the space between two sampled places.
 const HEEL_COSINE: f64 = 0.47;
 const TIP_COSINE: f64 = 0.1;
-/// Distance of the places at which a blade is laid on a line, mm.
+/// Spacing of the places at which a blade is laid on a line, mm.
 const STEP: f64 = 0.1;
-/// Turn of a line without which it is not tight, rad (46 degrees): the blade's cosines are those of less.
+/// Least turn of a line that is tight, rad (46 degrees): with the least cosines the blade allows for less.
 const TURN_MIN: f64 = 0.8;
-/// Length of a line on which it turns that much where it is tight, in widths of the blade: twice what a blade may span.
+/// Length of a line on which it turns that much where it is tight, in blade widths: twice the greatest span of a blade.
 const WIDTHS: f64 = 3.0;
 
-/// Whether a blade, from its heel to its tip, may stand across a line that has a direction at its heel.
+/// True if a blade, from heel to tip, may stand across a line with that direction at the heel.
 pub(in crate::verify) fn stands_across(blade: Vector, direction: Vector) -> bool {
     blade.dot(&direction) < HEEL_COSINE * blade.norm()
 }
 
-/// The stretches of a line, by the stations of heel and tip, on which a blade as its chord would stand across it.
+/// Stretches of a line, by the stations of heel and tip, on which a blade as its chord would stand across it.
 pub(in crate::verify) fn stretches(line: &Line, knife: &Knife) -> Vec<[f64; 2]> {
     let width = knife.width_mm;
     if width == 0.0 || line.chords() < 2 {
@@ -44,7 +44,7 @@ pub(in crate::verify) fn stretches(line: &Line, knife: &Knife) -> Vec<[f64; 2]> 
     found
 }
 
-/// A line led straight on by its greatest overlaps, or a ring twice round; and the station of its first point there.
+/// Line extended straight by its greatest overlaps, or two laps of a ring; and the length added at the start, mm.
 fn led_on(line: &Line, knife: &Knife) -> (Vec<Point>, f64) {
     let mut path = line.twice_round();
     if line.ring {
@@ -64,7 +64,7 @@ fn led_on(line: &Line, knife: &Knife) -> (Vec<Point>, f64) {
     }
 }
 
-/// The stretches of a path, not longer than `reach` but for those that meet, on which it turns enough to be tight.
+/// Stretches of a path on which it turns enough to be tight; at most `reach` mm long unless several were joined.
 fn sharp(path: &[Point], stations: &[f64], reach: f64) -> Vec<[f64; 2]> {
     let turn = |vertex: usize| polyline::turn_at(path[vertex - 1], path[vertex], path[vertex + 1]).abs();
     let mut found: Vec<[f64; 2]> = Vec::new();
@@ -78,7 +78,7 @@ fn sharp(path: &[Point], stations: &[f64], reach: f64) -> Vec<[f64; 2]> {
         if sum >= TURN_MIN {
             let stretch = [stations[first], stations[vertex]];
             match found.last_mut() {
-                // Those whose blades reach into each other are one.
+                // Stretches whose blades overlap are joined.
                 Some(last) if stretch[0] <= last[1] + reach => last[1] = stretch[1],
                 _ => found.push(stretch),
             }
@@ -87,8 +87,8 @@ fn sharp(path: &[Point], stations: &[f64], reach: f64) -> Vec<[f64; 2]> {
     found
 }
 
-/// The station of the tip when the blade, its heel at a station, stands across the path or finds no place on it; `None`
-/// when it is a chord like any other.
+/// Station of the tip if the blade with its heel at a station stands across the path or does not fit on it; `None` for an
+/// ordinary chord.
 fn across_at(path: &[Point], stations: &[f64], heel: f64, width: f64) -> Option<f64> {
     let chord = stations.partition_point(|&s| s <= heel).clamp(1, path.len() - 1) - 1;
     let along = |chord: usize| -> Vector { (path[chord + 1] - path[chord]) / (stations[chord + 1] - stations[chord]) };
