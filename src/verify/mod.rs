@@ -1,12 +1,12 @@
-//! Verification: the emitted bytes are read back and judged against the marker and the profile.
+//! Verification: the emitted bytes are read back and checked against the marker and the profile.
 //!
-//! Receives bytes, the final marker and the profile; promises a verdict with the worst value of every rule, whether it
-//! holds or not. A checker must not share the fault that it looks for, so nothing here comes from the reader, the passes,
-//! the planner or the emitters: the rows are read, the corners found, the tolerance band laid and the blade simulated anew.
+//! Input: bytes, the final marker and the profile. Output: a verdict with the worst value of every rule, whether the rule holds
+//! or not. A checker must not share the fault that it looks for, so it uses no code of the reader, the passes, the planner or
+//! the emitters: it reads the rows, finds the corners, lays the tolerance band and simulates the blade independently.
 //!
-//! The way: `program` reads rows; `axes` watches them as they come; the rows between a plunge and a lift are a stroke,
-//! which `cut` follows along the lines of the `reference` and judges; `source` holds the marker against the bytes it
-//! came from. Heads over a conveyor and at a distance have rules and rows of their own, in [`flow`] and [`spray`].
+//! Data flow: `program` reads rows; `axes` checks them as they come; the rows between a plunge and a lift form a stroke, which
+//! `cut` follows along the lines of the `reference` and verifies; `source` compares the marker with the bytes that it came
+//! from. Heads over a conveyor and at a distance have separate rules and rows, in [`flow`] and [`spray`].
 
 mod axes;
 mod cut;
@@ -45,18 +45,18 @@ use crate::ir::Finding;
 use crate::ir::verdict::{Verdict, sort};
 use crate::machine::Job;
 
-/// What bytes are meant as, by how they begin.
+/// Format of a program, recognised by its first bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Timed setpoints, which [`setpoints`] judges.
+    /// Timed setpoints, verified by [`setpoints`].
     Setpoints,
-    /// Positions without time, which [`positions`] judges.
+    /// Positions without time, verified by [`positions`].
     Positions,
-    /// A cut file that was written from a marker, which [`cutter_file()`] judges.
+    /// Cut file that was written from a marker, verified by [`cutter_file()`].
     CutterFile,
 }
 
-/// What kind of program bytes are, be it damaged; `None` when they are none.
+/// Format of a program, even a damaged one; `None` for other bytes.
 pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
     if rows::begins(bytes) || npy::begins(bytes) || counts::begins(bytes) || hal::begins(bytes) {
         return Some(Kind::Setpoints);
@@ -68,12 +68,12 @@ pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
     cutter_file::begins(bytes).then_some(Kind::CutterFile)
 }
 
-/// Whether what bytes begin as has lines, and not records.
+/// True if the bytes are a program that consists of lines, not of records.
 pub fn has_lines(bytes: &mut dyn BufRead) -> bool {
     kind(bytes).is_some() && !npy::begins(bytes) && !counts::begins(bytes)
 }
 
-/// Why bytes do not begin as a program that can be judged does, and what to do about it; `None` when they do.
+/// Reason why bytes do not begin like a program that can be verified, and advice; `None` when they do.
 pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> {
     if kind(bytes).is_some() {
         return Ok(None);
@@ -82,7 +82,7 @@ pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> 
     Ok(gcode::foreign(bytes).or_else(|| rows::foreign(bytes)))
 }
 
-/// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what must be cut.
+/// Verifies timed setpoints of the targets `csv`, `npy`, `counts` and `hal` against the required cuts.
 pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground: &Ground, job: &Job) -> Verdict {
     let mut rows = Rows::new(program, &job.profile);
     let rounding = rows.rounding();
@@ -98,7 +98,7 @@ pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     Verdict { findings, uncut, ..Verdict::default() }
 }
 
-/// Judges positions without time, as the target `gcode` writes them, against what must be cut.
+/// Verifies positions without time, of the target `gcode`, against the required cuts.
 pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground: &Ground, job: &Job) -> Verdict {
     let mut places = Places::new(program, ground.reference.marker.moved_on, &job.profile);
     let rounding = Places::rounding(&job.profile);
@@ -110,7 +110,7 @@ pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     if is_broken {
         return Verdict { findings: vec![gcode::timeless(&format)], unread, ..Verdict::default() };
     }
-    // Of rests the program tells how long they are.
+    // The program states the length of each rest, so the reader's finding replaces this one.
     findings.retain(|finding| finding.rule != dwell.rule);
     findings.extend([format, dwell]);
     let untimed = |finding: &Finding| finding.rule.needs_time;

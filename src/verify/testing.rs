@@ -6,7 +6,7 @@ use crate::ir::list::{Joint, Segment};
 use crate::ir::marker::{Contour, Piece};
 use crate::source::Span;
 
-/// A marker of pieces whose outlines have these corners, mm.
+/// Marker of pieces whose outlines have these corners, mm.
 pub(in crate::verify) fn marker<'a>(outlines: impl IntoIterator<Item = &'a [[f64; 2]]>) -> Marker {
     let mut marker = Marker::default();
     for outline in outlines {
