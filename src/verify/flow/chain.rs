@@ -1,77 +1,78 @@
-//! What strokes cut of a line, and the chains that they make: what a head cuts without leaving the line.
+//! Parts of a line that strokes cut, and chains of strokes: consecutive strokes of a head that stay on the line.
 
 use crate::ir::verdict::Sighting;
 
-/// How far smoothing and rounding may draw the end of a stroke back from where it should be, mm.
+/// Greatest distance by which smoothing and rounding may draw back the end of a stroke, mm.
 pub(super) const END: f64 = 0.3;
 
-/// What a stroke cuts of a line.
+/// Part of a line that a stroke cuts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cover {
-    /// From where to where, mm along the line; round a closed one it goes on.
+    /// Start and end, mm along the line; on a closed line, stations continue past its length.
     pub(super) ends: [f64; 2],
-    /// Which stroke of its head it is, from 0.
+    /// Index of the stroke among those of its head, from 0.
     pub(super) number: usize,
-    /// Whether the blade only plunges.
+    /// True if the blade only plunges.
     pub(super) plunge: bool,
-    /// Where it starts in the program.
+    /// Start of the stroke in the program.
     pub(super) place: Sighting,
 }
 
 impl Cover {
-    /// The least and the greatest place along the line, mm.
+    /// Least and greatest station, mm.
     pub(super) fn span(&self) -> [f64; 2] {
         let [a, b] = self.ends;
         [a.min(b), a.max(b)]
     }
 
-    /// The same as it is counted elsewhere along a closed line.
+    /// Cover with all stations shifted by `by` mm, for another turn of a closed line.
     pub(super) fn moved(self, by: f64) -> Self {
         Self { ends: self.ends.map(|station| station + by), ..self }
     }
 
-    /// Whether it goes the other way along the line than another one.
+    /// True if it runs along the line in the opposite direction of another one.
     fn is_against(&self, other: &Self) -> bool {
         let way = |cover: &Self| if cover.plunge { 0.0 } else { cover.ends[1] - cover.ends[0] };
         way(self) * way(other) < 0.0
     }
 }
 
-/// A stroke in its chain: those that a head makes behind each other without leaving a line.
+/// Stroke in its chain; a chain is a sequence of consecutive strokes of a head that stay on the line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chained {
-    /// What it cuts.
+    /// Part of the line that the stroke cuts.
     pub(super) cover: Cover,
-    /// The number of the first stroke of the chain.
+    /// Index of the first stroke of the chain.
     first: usize,
-    /// The least and the greatest place of the chain, mm along the line as the stroke's own.
+    /// Least and greatest station of the chain, mm, counted like those of the stroke.
     pub(super) whole: [f64; 2],
 }
 
 impl Chained {
-    /// The least and the greatest place of the stroke along the line, mm.
+    /// Least and greatest station of the stroke, mm.
     pub(super) fn span(&self) -> [f64; 2] {
         self.cover.span()
     }
 
-    /// The same as it is counted elsewhere along a closed line.
+    /// Stroke with all stations shifted by `by` mm, for another turn of a closed line.
     pub(super) fn moved(self, by: f64) -> Self {
         Self { cover: self.cover.moved(by), whole: self.whole.map(|station| station + by), ..self }
     }
 
-    /// Whether both are of one chain.
+    /// True if both belong to the same chain.
     pub(super) fn is_of(&self, other: &Self) -> bool {
         (self.cover.place.head, self.first) == (other.cover.place.head, other.first)
     }
 
-    /// The same, and neither is counted a turn farther round a closed line.
+    /// True if both belong to the same chain and are counted on the same turn of a closed line.
     pub(super) fn is_beside(&self, other: &Self) -> bool {
         self.is_of(other) && (self.whole[0] - other.whole[0]).abs() < END
     }
 }
 
-/// Finds the chains of the strokes along a line, which has a length when it is closed; they come head by head, in the order of
-/// their numbers. Each stroke of a chain begins no more than `uncut` mm from what the one before has cut, and goes the same way.
+/// Groups the strokes along a line into chains. `covers` come head by head in the order of their indices; `round` is the length
+/// of a closed line. Each stroke of a chain begins within `uncut` mm of the part that the previous one has cut, and runs in the
+/// same direction.
 pub(super) fn chained(covers: &[Cover], round: Option<f64>, uncut: f64) -> Vec<Chained> {
     let mut strokes: Vec<Chained> = Vec::new();
     for &cover in covers {
@@ -83,7 +84,7 @@ pub(super) fn chained(covers: &[Cover], round: Option<f64>, uncut: f64) -> Vec<C
             strokes.push(alone);
             continue;
         };
-        // Round a closed line it is counted on from where the stroke before it ends.
+        // On a closed line, stations continue from the end of the previous stroke.
         let turn = round.map_or(0.0, |length| ((before.cover.ends[1] - cover.ends[0]) / length).round() * length);
         let next = alone.moved(turn);
         let ([low, high], [from, to]) = (before.span(), next.span());

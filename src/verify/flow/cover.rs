@@ -1,4 +1,4 @@
-//! What of each cut is cut, and how often.
+//! Coverage of each cut, and parts that are cut more than once.
 
 use super::chain::{Chained, Cover, chained};
 use super::ground::Ground;
@@ -7,7 +7,7 @@ use super::lines::Lines;
 use super::rules;
 use crate::ir::verdict::{Sighting, WorstByRule};
 
-/// What is cut of every line.
+/// Covers of all lines.
 pub(super) struct Covers<'a> {
     lines: &'a Lines,
     ground: &'a Ground<'a>,
@@ -23,7 +23,7 @@ impl<'a> Covers<'a> {
         self.of[line].push(cover);
     }
 
-    /// How much of a stretch of a line is cut already, mm.
+    /// Length of a stretch of a line that is already cut, mm, counted once per cover.
     pub(super) fn doubled(&self, line: usize, span: [f64; 2]) -> f64 {
         let length = self.lines.all[line].length();
         let mut sum = 0.0;
@@ -35,14 +35,14 @@ impl<'a> Covers<'a> {
         sum
     }
 
-    /// Judges all lines.
+    /// Verifies all lines.
     pub(super) fn judge(&self, worst: &mut WorstByRule) {
         for line in 0..self.of.len() {
             self.judge_line(line, worst);
         }
     }
 
-    /// Strokes that are no farther from each other leave nothing uncut between them, mm.
+    /// Greatest distance between two strokes that leaves no stretch uncut, mm.
     fn uncut(&self) -> f64 {
         self.ground.profile.verify.max_uncut_mm + self.ground.tolerance()
     }
@@ -67,7 +67,7 @@ impl<'a> Covers<'a> {
             let [a, b] = [a.span(), b.span()];
             a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1]))
         });
-        // Before the first one on a closed line is the last, a turn back.
+        // On a closed line, the first stroke is preceded by the last one, one turn back.
         let mut last: Option<Chained> = if of.closed {
             let last = strokes.iter().max_by(|a, b| a.span()[1].total_cmp(&b.span()[1]));
             last.map(|last| last.moved(-length))
@@ -96,7 +96,7 @@ impl<'a> Covers<'a> {
     }
 }
 
-/// How many times round a line something may lie beside where it is counted.
+/// Numbers of turns by which covers of a line may be shifted against each other.
 fn turns(closed: bool) -> impl Iterator<Item = f64> {
     (if closed { -2..=2 } else { 0..=0 }).map(f64::from)
 }
@@ -109,13 +109,13 @@ mod tests {
     use crate::machine::MachineProfile;
     use crate::verify::{Capped, Required, RequiredCut};
 
-    /// A stroke: its head, its number, from where to where, and whether the blade only plunges.
+    /// Stroke: head, index, start and end, and true if the blade only plunges.
     type Stroke = (u32, usize, [f64; 2], bool);
 
-    /// Length of the edge of a part that has 18 sides, mm.
+    /// Length of the edge of a part with 18 sides, mm.
     const ROUND: f64 = 18.0 * 40.0;
 
-    /// The rules that strokes break along that, which bends by 20 degrees each 40 mm, where strokes overlap by 4 mm.
+    /// Rules that strokes break along that edge, which bends by 20 degrees every 40 mm; strokes must overlap by 4 mm.
     fn broken(strokes: &[Stroke]) -> Vec<&'static str> {
         let mut points = vec![Point::origin()];
         for side in 0..18 {
@@ -144,7 +144,7 @@ mod tests {
         let round = |from: f64, to: f64| broken(&[(1, 0, [from, to], false)]);
         assert_eq!(round(10.0, ROUND + 14.0), [""; 0]);
         assert_eq!(round(10.0, ROUND + 12.0), ["flow-verify/overlap"]);
-        // It plunges before a bend, lifts there, and goes on from there.
+        // The head plunges before a bend, lifts there and continues from there.
         let lifted = |to: f64| broken(&[(1, 0, [-6.6, 0.0], true), (1, 1, [0.0, to], false)]);
         assert_eq!(lifted(ROUND + 2.0), [""; 0]);
         assert_eq!(lifted(ROUND - 3.5), ["flow-verify/overlap"]);
@@ -162,11 +162,11 @@ mod tests {
         let lifted = |from: f64| [(1, 0, [10.0, 300.0], false), (1, 1, [from, ROUND + 14.0], false)];
         let other = (2, 0, [298.0, 302.0], false);
         assert_eq!(broken(&[lifted(300.0), [other; 2]].concat()[..3]), ["flow-verify/overlap"]);
-        // Nor does a plunge, where the line is straight.
+        // A plunge does not hide it either, where the line is straight.
         let plunge = (1, 1, [300.0, 306.6], true);
         let plunged = [(1, 0, [10.0, 300.0], false), plunge, (1, 2, [306.6, ROUND + 14.0], false)];
         assert_eq!(broken(&plunged), ["flow-verify/overlap"]);
-        // Two strokes that come from both sides are no chain.
+        // Two strokes from both sides are not a chain.
         assert_eq!(broken(&[(1, 0, [-2.0, 362.0], false), (1, 1, [2.0, -358.0], false)]), ["flow-verify/overlap"]);
     }
 
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(broken(&[first, last(0, 360.0)]), ["flow-verify/overlap"]);
         let plunge = (2, 0, [353.4, 360.0], true);
         assert_eq!(broken(&[first, plunge, last(1, 360.0)]), [""; 0]);
-        // It cuts something else in between.
+        // The head cuts something else in between.
         assert_eq!(broken(&[first, plunge, last(2, 360.0)]), ["flow-verify/overlap"]);
     }
 }

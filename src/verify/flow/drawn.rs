@@ -1,5 +1,5 @@
-//! Whether what is cut is what is drawn: where parts have edges in common one cut stands for two of them, near to both. It may
-//! go through waste, as over the mouths of two notches that lie partly opposite each other, but not into a part.
+//! Comparison of cuts with the drawing. Where parts share edges, one cut replaces two of them and lies near both. It may pass
+//! through waste, such as the mouths of two notches that are partly opposite each other, but not through a part.
 
 use std::cell::LazyCell;
 
@@ -12,16 +12,16 @@ use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::verify::reference::band::band;
 use crate::verify::{Inside, Required};
 
-/// Places of an edge that are looked at are no farther from each other, mm.
+/// Greatest spacing of the checked places of an edge, mm.
 const STEP: f64 = 0.5;
-/// How far past its own edge a cut may go to be through the cut of another part, in distances of two edges that are cut
-/// once.
+/// Greatest distance that a cut may go past its own edge to reach the cut of another part, in multiples of the greatest
+/// distance of two shared edges.
 const ACROSS: f64 = 4.0;
 
-/// Widest mouth of two notches that lie partly opposite each other, over which a cut goes, mm.
+/// Widest mouth of two notches partly opposite each other that a cut may pass over, mm.
 const MOUTH: f64 = 20.0;
 
-/// Judges cuts against edges.
+/// Verifies cuts against edges.
 pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: &mut WorstByRule) {
     let near = required.common + ground.tolerance();
     let uncut = ground.profile.verify.max_uncut_mm + ground.tolerance();
@@ -50,7 +50,7 @@ pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: 
     }
 }
 
-/// The longest stretch of a line all of whose places are not on something, mm, and where it begins.
+/// Longest stretch of a line without a place on something, mm, and its start.
 fn longest_off(points: &[Point], is_on: impl Fn(Point) -> bool) -> (f64, Point) {
     let stations = polyline::stations(points);
     let count = (stations[stations.len() - 1] / STEP).ceil().max(1.0);
@@ -65,7 +65,7 @@ fn longest_off(points: &[Point], is_on: impl Fn(Point) -> bool) -> (f64, Point) 
             continue;
         }
         let (from, begin) = *off.get_or_insert((station, place));
-        // A place stands for the step about it.
+        // A place represents the step around it.
         if station - from + step > longest {
             (longest, at) = (station - from + step, begin);
         }
@@ -79,7 +79,7 @@ mod tests {
     use crate::machine::MachineProfile;
     use crate::verify::{RequiredCut, testing};
 
-    /// What is said of a cut for two parts, one of which has its edge 0.2 mm aside and ends 10 mm before the other.
+    /// Rules broken by a cut for two parts; the edge of one lies 0.2 mm aside and ends 10 mm before that of the other.
     fn broken(cut: &[(f64, f64)]) -> Vec<&'static str> {
         let points = |list: &[(f64, f64)]| list.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>();
         let rectangle =

@@ -1,4 +1,4 @@
-//! Which cut a stroke follows, from where to where: told from its way over the cloth alone.
+//! Assignment of strokes to cuts, from their path over the cloth alone.
 
 use super::chain::Cover;
 use super::cover::Covers;
@@ -12,25 +12,26 @@ use super::trail::{Followed, Sample, Trail, reach, samples};
 use crate::geom::{cross, polyline};
 use crate::ir::verdict::WorstByRule;
 
-/// Places of a stroke that are compared with all cuts, at the most.
+/// Maximum number of places of a stroke that are compared with all cuts.
 const PROBES: usize = 48;
-/// A cut and a stroke whose directions differ by more, as a sine, do not follow each other.
+/// Sine of the greatest angle between a cut and a stroke that follows it.
 const SINE: f64 = 0.5;
-/// How much farther than an overlap a blade may go beyond a line, mm: where it leaves it is known no better.
+/// Extra distance beyond an overlap that a blade may go past a line, mm: the place where it leaves the line is uncertain by
+/// that.
 const OVERCUT: f64 = 1.0;
 
-/// Finds the cuts of strokes.
+/// Assigns strokes to cuts.
 pub(super) struct Follower<'a> {
     pub(super) lines: &'a Lines,
     pub(super) ground: &'a Ground<'a>,
-    /// Of the conveyor, mm/s.
+    /// Speed of the conveyor, mm/s.
     pub(super) speed: f64,
-    /// What is cut so far.
+    /// Parts that are cut so far.
     pub(super) covers: Covers<'a>,
 }
 
 impl Follower<'_> {
-    /// Judges a stroke, of some number among those of its head: finds its cut, and what of it is cut.
+    /// Verifies a stroke, given its index among those of its head: assigns it to a cut and records the part that it cuts.
     pub(super) fn judge(&mut self, number: usize, stroke: &Stroke, worst: &mut WorstByRule) {
         let samples = samples(&stroke.trace);
         let Some((found, line)) = self.best(stroke, &samples) else {
@@ -48,14 +49,14 @@ impl Follower<'_> {
         self.covers.add(line, Cover { ends: found.stations, number, plunge: stroke.is_plunge(), place });
     }
 
-    /// The cut that a stroke was meant for, and what it does along it.
+    /// Cut that a stroke was meant for, and the stretch that it follows.
     fn best(&self, stroke: &Stroke, samples: &[Sample]) -> Option<(Followed, usize)> {
         let tolerance = self.ground.tolerance();
         let trail = |line: usize| Trail { samples, line: &self.lines.all[line], tolerance };
         let farthest = farthest(stroke, self.ground);
         let rank = |(found, line): &(Followed, usize)| {
             let [before, behind] = trail(*line).beyond(found);
-            // What breaks no rule on a line is of none on which it breaks one.
+            // A line on which the stroke breaks no rule comes before one on which it does.
             let excess = (before.max(behind) - farthest).max(0.0) + (found.deviation - tolerance).max(0.0);
             let is_other = !names(stroke, &self.lines.all[*line]);
             (excess, is_other, self.covers.doubled(*line, found.span()), -found.length())
@@ -69,8 +70,8 @@ impl Follower<'_> {
         best.map(|(_, found)| found)
     }
 
-    /// Judges where the blade goes: beside its line, and beyond its ends. Where the line goes on nothing may lie beside it
-    /// there, either.
+    /// Verifies the position of the blade beside its line and beyond its ends. If the line continues there, the blade must stay
+    /// on the continuation, too.
     fn place(&self, stroke: &Stroke, (trail, found): (Trail, &Followed), worst: &mut WorstByRule) {
         let tolerance = trail.tolerance;
         let at = |sample: usize| stroke.places[trail.samples[sample].row.min(stroke.places.len() - 1)];
@@ -87,8 +88,8 @@ impl Follower<'_> {
     }
 }
 
-/// The blade of a stroke, with the way that lies under it as it is plunged: the line, as far as it is under it, where the blade
-/// is none.
+/// Blade of a stroke with the path under it at the plunge: the stretch of the line under it, or just the trailing end if the
+/// stroke meets its line later.
 fn blade<'a>(stroke: &'a Stroke, found: &Followed, Trail { samples, line, .. }: Trail) -> Blade<'a> {
     let first = found.range[0];
     if samples[first].row > 0 {
@@ -101,7 +102,7 @@ fn blade<'a>(stroke: &'a Stroke, found: &Followed, Trail { samples, line, .. }: 
     Blade { stroke, under, bend: line.turns_between([from, to]) }
 }
 
-/// How far a stroke may go beyond the line that it cuts, mm.
+/// Greatest distance that a stroke may go past its line, mm.
 fn farthest(stroke: &Stroke, ground: &Ground) -> f64 {
     let knife = &ground.profile.knife;
     let [heel, front] = knife.most_overlaps();
@@ -109,12 +110,12 @@ fn farthest(stroke: &Stroke, ground: &Ground) -> f64 {
     heel.max(front) + surplus + OVERCUT
 }
 
-/// Whether all rows of a stroke name a block of a line.
+/// True if all rows of a stroke name a block of the line.
 fn names(stroke: &Stroke, line: &Line) -> bool {
     stroke.blocks.iter().all(|block| line.blocks.binary_search(block).is_ok())
 }
 
-/// The cuts along which a stroke goes somewhere.
+/// Cuts along which a stroke runs at some place.
 fn candidates(samples: &[Sample], lines: &Lines, tolerance: f64) -> Vec<usize> {
     let every = (samples.len() / PROBES).max(1);
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! How fast the blade goes along its line, over the cloth: no faster than it may, and nowhere so slowly that it stands.
+//! Speed of the blade along its line over the cloth: within the caps, and not so slow that the blade stands.
 
 use super::ground::{Ground, ROUNDING};
 use super::lines::Line;
@@ -9,32 +9,32 @@ use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
 use crate::verify::axes::crawl;
 
-/// How much farther along the line than it seems a place of the blade may be, mm: caps change at places.
+/// Greatest error of the station of the blade, mm: caps change at stations.
 const ASIDE: f64 = 1.0;
 
-/// A stroke along its line.
+/// Stroke along its line.
 pub(super) struct Going<'a> {
     pub(super) stroke: &'a Stroke,
     pub(super) line: &'a Line,
-    /// Where it comes to the line, and where it leaves it, mm along that.
+    /// Stations at which the stroke reaches and leaves the line, mm.
     pub(super) stations: [f64; 2],
     /// Speed of the cloth, mm/s.
     pub(super) conveyor: f64,
 }
 
 impl Going<'_> {
-    /// Judges both.
+    /// Verifies both rules.
     pub(super) fn judge(&self, ground: &Ground, worst: &mut WorstByRule) {
         self.feed(ground, worst);
         self.crawl(ground, worst);
     }
 
-    /// The places of the leading end, row by row.
+    /// Positions of the leading end, row by row.
     fn way(&self) -> &[Point] {
         &self.stroke.trace[1..]
     }
 
-    /// The way from row to row against the greatest cap that holds anywhere on it.
+    /// Compares the move from row to row with the greatest cap that holds anywhere on it.
     fn feed(&self, ground: &Ground, worst: &mut WorstByRule) {
         let period = ground.profile.time.period();
         let only = self.line.only_cap();
@@ -55,7 +55,8 @@ impl Going<'_> {
         }
     }
 
-    /// How long the blade stays within a millimetre: a head that waits lets the cloth pass at its own speed.
+    /// Checks the time that the blade stays within a millimetre: a waiting head lets the cloth pass at the speed of the
+    /// conveyor.
     fn crawl(&self, ground: &Ground, worst: &mut WorstByRule) {
         let times: Vec<f64> = self.stroke.places.iter().filter_map(|place| place.time).collect();
         let passing = crawl::WAY / self.conveyor / crawl::SLOWNESS_MAX;

@@ -1,5 +1,5 @@
-//! Whether the blade lies along its way over the cloth: along the tangent of the leading end's way, or as a chord of it with
-//! both ends on it. A blade that plunged as a chord of a curve comes to the tangent over the next blade width.
+//! Direction of the blade over the cloth: along the tangent of the leading end's path, or as a chord of it with both ends on
+//! it. A blade that plunged as a chord of a curve turns to the tangent over the next blade width.
 
 use super::ground::Ground;
 use super::rules;
@@ -8,26 +8,26 @@ use crate::geom::{Point, Vector, angle};
 use crate::ir::verdict::WorstByRule;
 use crate::units::deg;
 
-/// The direction of a way is taken over so much of it to either side, mm: the rounding of rows of six decimals turns that by
-/// less than 0.02 degrees, and the tightest bend within a tolerance still looks straight over it.
+/// Length of the path on either side from which its direction is computed, mm: rounding to six decimals turns it by less than
+/// 0.02 degrees, and even the tightest bend within a tolerance looks straight over it.
 const LOOK: f64 = 0.005;
 
-/// The blade of a stroke.
+/// Blade of a stroke.
 pub(super) struct Blade<'a> {
     pub(super) stroke: &'a Stroke,
-    /// The way that lies under it as it is plunged, without its leading end.
+    /// Path under the blade at the plunge, without the leading end.
     pub(super) under: Vec<Point>,
-    /// How much the line under it turns then, rad: no chord of that leans more.
+    /// Total turn of the line under the blade at the plunge, rad: an upper bound on the angle of a chord.
     pub(super) bend: f64,
 }
 
 impl Blade<'_> {
-    /// Judges its heading.
+    /// Verifies the heading of the blade.
     pub(super) fn judge(&self, ground: &Ground, worst: &mut WorstByRule) {
         let Self { stroke, under, bend } = self;
         let width = ground.profile.knife.width_mm;
         let limit = ground.profile.verify.max_heading_deg;
-        // The trailing end of a blade that is a chord goes along the line that lay under it: that is known to the tolerance.
+        // The trailing end of a blade as a chord follows the line that lay under it, which is known to within the tolerance.
         let beside = if width > 0.0 { deg((ground.tolerance() / width).atan()) } else { 0.0 };
         let way: Vec<Point> = under.iter().chain(&stroke.trace[1..]).copied().collect();
         let (mut behind, mut gone, mut lead_at_plunge) = (0, 0.0, None);
@@ -53,25 +53,25 @@ impl Blade<'_> {
     }
 }
 
-/// What is left of the angle between a blade that plunged as a chord and its way, behind a part of its width: the step of
-/// degree 7, whose first three derivatives vanish at both ends.
+/// Remaining fraction of the angle between a blade that plunged as a chord and its path, at a fraction of its width: the
+/// smoothstep polynomial of degree 7, whose first three derivatives vanish at both ends.
 fn left(part: f64) -> f64 {
     1.0 - part.powi(4) * (35.0 - part * (84.0 - part * (70.0 - part * 20.0)))
 }
 
-/// The direction of the leading end at a row: between places as far before as behind it, a little away; `None` near the
-/// ends of a stroke, and where the blade does not move.
+/// Direction of the leading end's path at a row, from the nearest clearly distinct positions before and after it; `None` near
+/// the ends of a stroke and where the blade does not move.
 fn direction(stroke: &Stroke, i: usize) -> Option<Vector> {
     let way = &stroke.trace[1..];
     let before = (0..i).rev().find(|&k| (way[k] - way[i]).norm() >= LOOK)?;
     let behind = (i + 1..way.len()).find(|&k| (way[k] - way[i]).norm() >= LOOK)?;
-    // At unequal distances the secant is the tangent elsewhere: two secants meet in it.
+    // At unequal distances a single secant is off: weight both secants so that they give the tangent.
     let [a, b] = [way[i] - way[before], way[behind] - way[i]];
     let (la, lb) = (a.norm(), b.norm());
     Some(a / la * (lb / (la + lb)) + b / lb * (la / (la + lb)))
 }
 
-/// From the place of a chord of the way that is a blade's width behind to the leading end.
+/// Vector to the leading end from the place on a chord of the path that is one blade width behind.
 fn chord([from, to]: [Point; 2], here: Point, width: f64) -> Option<Vector> {
     let (a, d) = (from - here, to - from);
     let (square, half, rest) = (d.norm_squared(), a.dot(&d), a.norm_squared() - width * width);

@@ -1,7 +1,7 @@
-//! Where strokes take over from each other along a line: how far both cut.
+//! Joins of strokes along a line, and their overlaps.
 //!
-//! A chain is judged as one: where its head lifts the blade at a bend, the strokes before and behind that are as good as one to
-//! the head that takes over from it, and to its own start where it comes round to that.
+//! A chain is verified as one: where its head lifts the blade at a bend, the strokes before and behind count as one for the
+//! head that takes over from it, and for its own start when it comes around.
 
 use super::chain::{Chained, END};
 use super::ground::Ground;
@@ -9,26 +9,26 @@ use super::lines::Line;
 use super::rules;
 use crate::ir::verdict::{Sighting, WorstByRule};
 
-/// Part of the angle of a corner by which its turn may be less: rounding.
+/// Relative amount by which the turn of a corner may fall short of the corner angle: rounding.
 const CORNER_EPSILON: f64 = 1e-6;
 
-/// Where two strokes meet on a line.
+/// Join of two strokes on a line.
 pub(super) struct Join<'a> {
     pub(super) line: &'a Line,
-    /// The one that ends there, and the one that goes on.
+    /// Stroke that ends at the join, and stroke that continues.
     pub(super) strokes: [Chained; 2],
-    /// How much both cut, mm.
+    /// Length that both cut, mm.
     pub(super) overlap: f64,
 }
 
 impl<'a> Join<'a> {
-    /// Between two strokes behind each other in their chain.
+    /// Join of two consecutive strokes of a chain.
     pub(super) fn within(line: &'a Line, strokes: [Chained; 2]) -> Self {
         let [a, b] = strokes.map(|stroke| stroke.span());
         Self { line, strokes, overlap: a[1].min(b[1]) - a[0].max(b[0]) }
     }
 
-    /// Judges that no more is cut twice than what overlaps need.
+    /// Checks that the length cut twice is not greater than the overlaps need.
     pub(super) fn judge_twice(&self, ground: &Ground, worst: &mut WorstByRule) {
         let knife = &ground.profile.knife;
         let [a, b] = self.strokes.map(|stroke| stroke.cover);
@@ -37,7 +37,7 @@ impl<'a> Join<'a> {
         worst.see_under(&rules::TWICE, self.overlap, due(ground).max(rejoined).max(blade) + 2.0 * END, b.place);
     }
 
-    /// Judges how far both go on; at a corner each goes straight on.
+    /// Checks the overlap of both; at a corner each continues straight instead.
     pub(super) fn judge_overlap(&self, ground: &Ground, worst: &mut WorstByRule) {
         let [a, b] = self.strokes.map(|stroke| stroke.span());
         let (at, reach) = (f64::midpoint(a[1].min(b[1]), a[0].max(b[0])), due(ground) + END);
@@ -47,25 +47,25 @@ impl<'a> Join<'a> {
         }
     }
 
-    /// Whether a head goes round a bend there that is too tight for its blade: it lifts it, or plunges before or behind it, and
-    /// the blade is longer than each chord of a curve.
+    /// True if a head passes a bend there that is too tight for its blade: it lifts the blade, or plunges before or behind the
+    /// bend, and the blade is longer than the chords of the curve.
     fn is_tight(&self, about: [f64; 2], ground: &Ground) -> bool {
         let [a, b] = self.strokes.map(|stroke| stroke.cover);
         let corner = ground.profile.corner_angle() * (1.0 - CORNER_EPSILON);
-        // A plunged blade stands off a bend of more than that.
+        // A plunged blade is off the line at a sharper bend.
         let bend = ground.tolerance() / ground.profile.knife.width_mm;
         let limit = if a.plunge || b.plunge { corner.min(bend) } else { corner };
         a.place.head == b.place.head && self.line.turns_between(about) >= limit
     }
 
-    /// How much both cut there, mm: of one chain the two strokes, else all of either chain.
+    /// Common length, mm: of the two strokes within one chain, otherwise of both whole chains.
     fn of_chains(&self) -> f64 {
         let [a, b] = &self.strokes;
         if a.is_beside(b) { self.overlap } else { a.whole[1].min(b.whole[1]) - a.whole[0].max(b.whole[0]) }
     }
 }
 
-/// How much two chains must overlap, mm.
+/// Required overlap of two chains, mm.
 fn due(ground: &Ground) -> f64 {
     2.0 * ground.profile.flow.overlap_mm
 }

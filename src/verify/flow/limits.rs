@@ -1,5 +1,5 @@
-//! Speed, acceleration and jerk of a head, from differences of its rows: those of the head over the table, which along the
-//! feed moves with the cloth while it cuts.
+//! Speed, acceleration and jerk of a head, from differences of its rows. They are those of the head over the table; along the
+//! feed it moves with the cloth while it cuts.
 
 use super::rows::Row;
 use super::rules;
@@ -9,10 +9,10 @@ use crate::verify::axes::differences::{Differences, ORDERS};
 
 /// Rules by the order of the difference.
 static BY_ORDER: [&Rule; ORDERS] = [&rules::SPEED, &rules::ACCELERATION, &rules::JERK];
-/// Rounding of a row, half its last decimal, mm or degrees.
+/// Rounding of a row: half of the last decimal, mm or degrees.
 const HALF_DECIMAL: f64 = 5e-7;
 
-/// Follows the rows of a head.
+/// Check of the limits of a head over its rows.
 pub(super) struct Limits(Differences);
 
 impl Limits {
@@ -20,7 +20,7 @@ impl Limits {
         Self(Differences::new(profile, [HALF_DECIMAL; 3]))
     }
 
-    /// Sees the next row.
+    /// Processes the next row.
     pub(super) fn see(&mut self, row: &Row, at: Sighting, worst: &mut WorstByRule) {
         let Some(rates) = self.0.see([row.place[0], row.place[1], row.c], row.knife) else { return };
         for (rule, rates) in BY_ORDER.into_iter().zip(rates) {

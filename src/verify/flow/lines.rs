@@ -1,27 +1,27 @@
-//! What must be cut of a marker, as lines to which places of blades are compared.
+//! Required cuts of a marker as lines, with which blade positions are compared.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, polyline};
 use crate::verify::{Capped, Required, RequiredCut};
 
-/// A cut.
+/// Required cut.
 #[derive(Debug)]
 pub(super) struct Line {
-    /// Its points; a closed one ends with its first.
+    /// Points, mm; a closed line ends with its first point.
     pub(super) points: Vec<Point>,
-    /// The way along it to each, mm.
+    /// Length along the line to each point, mm.
     pub(super) stations: Vec<f64>,
-    /// Whether it ends where it starts.
+    /// True if the line ends at its start.
     pub(super) closed: bool,
-    /// The blocks that it came from, in order.
+    /// Source blocks, ascending.
     pub(super) blocks: Vec<u32>,
-    /// How fast the tip may go, stretch by stretch.
+    /// Speed caps of the tip, stretch by stretch.
     caps: Vec<Capped>,
-    /// Where the knife is lifted at a corner, mm along it.
+    /// Stations of corners at which the knife is lifted, mm.
     corners: Vec<f64>,
 }
 
-/// All cuts.
+/// All required cuts, with an index of their segments.
 #[derive(Debug)]
 pub(super) struct Lines {
     pub(super) all: Vec<Line>,
@@ -30,17 +30,17 @@ pub(super) struct Lines {
     boxes: Boxes,
 }
 
-/// A place on a line.
+/// Place on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Foot {
-    /// The way along the line, mm; round a closed one it goes on.
+    /// Station, mm; on a closed line it may continue past the length.
     pub(super) station: f64,
-    /// How far the place that was asked for is from it, mm.
+    /// Distance of the queried point, mm.
     pub(super) distance: f64,
 }
 
 impl Lines {
-    /// Those that are required.
+    /// Lines of the required cuts.
     pub(super) fn new(required: &Required) -> Self {
         let line = |cut: &RequiredCut| Line {
             stations: polyline::stations(&cut.points),
@@ -58,7 +58,7 @@ impl Lines {
         Self { all, segments, boxes }
     }
 
-    /// The lines that come within a distance of a point, with where they do: one segment each.
+    /// Segments within a distance of a point, as line, segment and foot.
     pub(super) fn near(&self, point: Point, reach: f64) -> impl Iterator<Item = (usize, usize, Foot)> + '_ {
         let extent = Extent::between(point, point).grown(reach);
         let near = self.boxes.near(extent).map(|i| self.segments[i]);
@@ -67,12 +67,12 @@ impl Lines {
 }
 
 impl Line {
-    /// Length, mm.
+    /// Length of the line, mm.
     pub(super) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
     }
 
-    /// The foot of a point on a segment.
+    /// Foot of a point on a segment.
     fn foot(&self, segment: usize, point: Point) -> Foot {
         let (a, b) = (self.points[segment], self.points[segment + 1]);
         let share = polyline::foot(point, a, b);
@@ -80,12 +80,12 @@ impl Line {
         Foot { station, distance: (point - (a + (b - a) * share)).norm() }
     }
 
-    /// The direction of a segment.
+    /// Direction of a segment; `None` if it has no length.
     pub(super) fn along(&self, segment: usize) -> Option<Vector> {
         polyline::direction(self.points[segment], self.points[segment + 1])
     }
 
-    /// The foot of a point nearest to it among places of the line that are no farther than `reach` from a station.
+    /// Foot of a point nearest to it among places within `reach` mm of a station.
     pub(super) fn foot_near(&self, point: Point, station: f64, reach: f64) -> Foot {
         let length = self.length();
         let count = self.points.len() - 1;
@@ -118,7 +118,7 @@ impl Line {
         best
     }
 
-    /// The points of the line strictly between two stations, in the order of these.
+    /// Points of the line strictly between two stations, in the direction from the first to the second.
     pub(super) fn between(&self, [from, to]: [f64; 2]) -> Vec<Point> {
         let length = self.length();
         let (low, high) = (from.min(to), from.max(to));
@@ -133,8 +133,8 @@ impl Line {
         found
     }
 
-    /// How far a station is from the nearest place where the knife is lifted at a corner, or where an open line ends, mm;
-    /// infinite where there is none.
+    /// Distance of a station from the nearest corner at which the knife is lifted or end of an open line, mm; infinite without
+    /// any.
     pub(super) fn corner_near(&self, station: f64) -> f64 {
         let length = self.length();
         let ends = if self.closed { &[][..] } else { &[0.0, length][..] };
@@ -146,7 +146,7 @@ impl Line {
         self.corners.iter().chain(ends).map(away).fold(f64::INFINITY, f64::min)
     }
 
-    /// How much the line turns between two stations, to either side, rad.
+    /// Sum of the absolute turns of the line between two stations, rad.
     pub(super) fn turns_between(&self, ends: [f64; 2]) -> f64 {
         let [from, to] = ends.map(|station| self.place(station));
         let inner = self.between(ends);
@@ -154,23 +154,23 @@ impl Line {
         way.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum()
     }
 
-    /// The place at a station.
+    /// Point at a station.
     pub(super) fn place(&self, station: f64) -> Point {
         polyline::place(&self.points, &self.stations, self.within(station))
     }
 
-    /// A station as it is counted from the start of the line.
+    /// Station counted from the start of the line: on a closed line it is reduced to one turn.
     pub(super) fn within(&self, station: f64) -> f64 {
         if self.closed { station.rem_euclid(self.length()) } else { station }
     }
 
-    /// The one speed that caps the tip all along, mm/s; `None` when there are several.
+    /// Speed cap of the tip, mm/s, if it is the same for the whole line in both directions.
     pub(super) fn only_cap(&self) -> Option<f64> {
         let first = self.caps.first()?.speeds[0];
         self.caps.iter().all(|cap| cap.speeds == [first; 2]).then_some(first)
     }
 
-    /// The greatest cap between two stations of a tip that goes with the line, or against it, mm/s.
+    /// Greatest cap between two stations for a tip that moves with the line, or against it, mm/s.
     pub(super) fn cap(&self, [low, high]: [f64; 2], with: bool) -> f64 {
         let length = self.length();
         let over = |[low, high]: [f64; 2]| {
@@ -187,7 +187,7 @@ impl Line {
         }
     }
 
-    /// The slowest of all caps, mm/s.
+    /// Least cap of the line, mm/s.
     pub(super) fn least_cap(&self) -> f64 {
         self.caps.iter().flat_map(|cap| cap.speeds).fold(f64::INFINITY, f64::min)
     }

@@ -1,9 +1,9 @@
-//! The verifier of heads over a conveyor: judges from the bytes what blades do to the cloth, and heads to each other.
+//! Verifier of heads over a conveyor: checks from the emitted bytes how the blades cut the cloth, and that the heads keep
+//! apart.
 //!
-//! Receives the plan and the programs of all heads, the marker that they must cut, and the profile. Shares no code with
-//! what plans and writes: what must be cut it has from the contours and notches of the marker, as the verifier of cutters
-//! finds it anew; it maps every row back to the cloth for itself, and finds for itself which cut a stroke follows.
-//! Never repairs anything.
+//! Input: the plan and the programs of all heads, the marker that they must cut, and the profile. It shares no code with
+//! planning and output: required cuts come from the contours and notches of the marker, as in the verifier of cutters; every
+//! row is mapped back to the cloth, and strokes are assigned to cuts independently. Nothing is repaired.
 
 mod chain;
 mod cover;
@@ -43,10 +43,10 @@ use crate::ir::verdict::{Sighting, Verdict, WorstByRule};
 use crate::units::columns::Unread;
 use crate::verify::required;
 
-/// Gives the program of a head, by its place in the plan, once.
+/// Opens the program of a head, given its index in the plan; called once per head.
 pub type Open<'a> = &'a (dyn Fn(usize) -> io::Result<Box<dyn BufRead>> + Sync);
 
-/// Judges the programs of a plan from their bytes.
+/// Verifies the programs of a plan from their bytes.
 pub fn judge(plan: &str, (bytes, open): (Bytes, Open), ground: &Ground) -> io::Result<Verdict> {
     let mut worst = WorstByRule::default();
     let judged = plan_file::read(plan).and_then(|plan| Judge { plan, bytes, open, ground }.all(&mut worst));
@@ -59,7 +59,7 @@ pub fn judge(plan: &str, (bytes, open): (Bytes, Open), ground: &Ground) -> io::R
     Ok(Verdict { findings: worst.findings(), unread, ..Verdict::default() })
 }
 
-/// A plan with the programs of its heads.
+/// Plan with the programs of its heads.
 struct Judge<'a> {
     plan: Plan,
     bytes: Bytes,
@@ -67,13 +67,13 @@ struct Judge<'a> {
     ground: &'a Ground<'a>,
 }
 
-/// What is kept of a head when its program has been read.
+/// Result of reading the program of a head.
 struct Head {
     strokes: Vec<Stroke>,
     ys: Vec<f64>,
-    /// The worst of its rows by themselves.
+    /// Worst values of its rows by themselves.
     worst: WorstByRule,
-    /// How many of its ends are not at rest, and where.
+    /// Number of program ends that are not at rest, and the place of the last row.
     ends: (usize, Option<Sighting>),
 }
 
@@ -88,7 +88,7 @@ impl Judge<'_> {
         let mut follower = Follower { lines: &lines, ground, speed: self.plan.speed, covers };
         let mut mates = Mates { ground, heads: Vec::new() };
         let mut count = None;
-        // As many at a time as there are threads: what is kept of a head until it is judged is large.
+        // Read as many heads at a time as there are threads: the data of a head until it is verified is large.
         let heads: Vec<usize> = (0..self.plan.heads.len()).collect();
         let at_once = heads.chunks(rayon::current_num_threads());
         let read = at_once.flat_map(|some| some.par_iter().map(|&head| self.read(head)).collect::<Vec<_>>());
@@ -112,7 +112,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Reads the program of a head and judges its rows by themselves.
+    /// Reads the program of a head and verifies its rows by themselves.
     fn read(&self, head: usize) -> Result<Head, Unread> {
         let profile = self.ground.profile;
         let mut worst = WorstByRule::default();
@@ -137,7 +137,7 @@ impl Judge<'_> {
         Ok(Head { strokes: strokes.finish(), ys, worst, ends: rest.finish() })
     }
 
-    /// Whether the axes are where they can be.
+    /// Checks that the axes are within their ranges.
     fn bounds(&self, row: &Row, at: Sighting, worst: &mut WorstByRule) {
         let profile = self.ground.profile;
         let beyond = |value: f64, [least, most]: [f64; 2]| (least - value).max(value - most);
@@ -151,23 +151,23 @@ impl Judge<'_> {
     }
 }
 
-/// A place on the cloth, of a head and a row of its program, both from 0, and its time, s.
+/// Sighting on the cloth for a head and a row of its program, both from 0, and its time, s.
 fn sighting([head, row]: [usize; 2], time: f64, point: Point) -> Sighting {
     Sighting { head: head as u32 + 1, line: Some(row as u64 + 1), ..Sighting::at(time, point, 0) }
 }
 
-/// Rounding of times, s, and of ways, mm, in rows of six decimals.
+/// Rounding of times, s, and of lengths, mm, in rows with six decimals.
 const ROW_TIME: f64 = 1e-6;
 const ROW_WAY: f64 = 2e-6;
 
-/// Heads that were read, by their rows: each with where it is across the feed, mm.
+/// Heads that were read so far: row of heads, and position across the feed at each row of the program, mm.
 struct Mates<'a> {
     ground: &'a Ground<'a>,
     heads: Vec<(u64, Vec<f64>)>,
 }
 
 impl Mates<'_> {
-    /// Judges whether a head stays apart from those of its row that were read before, and adds it to them.
+    /// Checks that a head keeps apart from the heads of its row that were read before, and adds it to them.
     fn join(&mut self, row: u64, ys: Vec<f64>, worst: &mut WorstByRule) {
         let width = self.ground.profile.flow.head_width_mm;
         let period = self.ground.profile.time.period();

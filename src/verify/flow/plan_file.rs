@@ -1,16 +1,16 @@
-//! The plan, as it is read back: which heads there are, and where they stand.
+//! Plan as read back: the heads and their stations.
 
 use super::ground::Ground;
 use super::rules;
 use crate::ir::verdict::WorstByRule;
 use crate::units::columns::Unread;
 
-/// What a plan says that programs need.
+/// Values of a plan that the verification needs.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Plan {
     /// Speed of the conveyor, mm/s.
     pub(super) speed: f64,
-    /// Row, from 1, and station (mm) of each head.
+    /// Row of heads, from 1, and station, mm, of each head.
     pub(super) heads: Vec<(u64, f64)>,
 }
 
@@ -32,7 +32,7 @@ pub(super) fn read(text: &str) -> Result<Plan, Unread> {
     Ok(Plan { speed, heads: heads.iter().map(head).collect::<Result<_, Unread>>()? })
 }
 
-/// Judges what a plan says.
+/// Verifies a plan against the profile.
 pub(super) fn judge(plan: &Plan, ground: &Ground, worst: &mut WorstByRule) {
     let flow = &ground.profile.flow;
     let too_many = plan.heads.len().saturating_sub(flow.heads as usize);

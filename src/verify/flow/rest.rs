@@ -1,5 +1,5 @@
-//! Whether blades go down and come up at rest in the cloth, are all the way down and up before they are sent back, and
-//! programs begin and end at rest.
+//! Checks that blades rest in the cloth while they go down and come up, that they are fully down or up before they are sent
+//! back, and that programs begin and end at rest.
 
 use super::rows::Row;
 use super::rules;
@@ -7,24 +7,24 @@ use crate::geom::Point;
 use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::machine::MachineProfile;
 
-/// How far a blade at rest may be off from row to row, mm: rounding.
+/// Greatest move of a resting blade, mm: rounding.
 const STILL: f64 = 1e-5;
-/// How far C may turn meanwhile, degrees: likewise.
+/// Greatest turn of C at rest, degrees: rounding.
 const STILL_DEG: f64 = 1e-5;
-/// Rounding of times, s.
+/// Rounding of times, in periods.
 const TIME: f64 = 1e-9;
 
-/// Follows the rows of a head.
+/// Check of the rests of a head over its rows.
 pub(super) struct Rest {
     period: f64,
-    /// Rows that were seen.
+    /// Number of rows seen.
     rows: usize,
-    /// Rows that a blade rests behind its command down, and up; and rows until it is all the way up.
+    /// Rows that a blade rests after its down command, rows that it rests after its up command, and rows until it is fully up.
     ticks: [usize; 3],
-    /// The row at which the knife was last commanded otherwise, and where the blade was then.
+    /// Row of the last change of the knife command, with the position of the blade and of C, degrees, at that row.
     since: Option<(usize, Point, f64)>,
     is_down: bool,
-    /// The first two rows and the last two.
+    /// First two rows and last two rows.
     ends: [Vec<(Row, Sighting)>; 2],
 }
 
@@ -37,7 +37,7 @@ impl Rest {
         Self { period, rows: 0, ticks, since: None, is_down: false, ends: [Vec::new(), Vec::new()] }
     }
 
-    /// Sees the next row.
+    /// Processes the next row.
     pub(super) fn see(&mut self, row: &Row, at: Sighting, worst: &mut WorstByRule) {
         let number = self.rows;
         self.rows += 1;
@@ -68,7 +68,7 @@ impl Rest {
         }
     }
 
-    /// How many ends of a program are not at rest, and where the last one is.
+    /// Number of ends of the program that are not at rest, and the place of the last row.
     pub(super) fn finish(self) -> (usize, Option<Sighting>) {
         let rests = |rows: &[(Row, Sighting)]| match rows {
             [(a, from), (b, to)] => {

@@ -1,11 +1,11 @@
-//! The programs of heads, as they are read back: rows of text or records of an array.
+//! Reader of programs of heads: rows of text or records of an array.
 
 use std::io::BufRead;
 
 use crate::units::columns::{self, Lines, Unread, float};
 use crate::verify::program::number;
 
-/// What kind of bytes the programs of heads are.
+/// Format of the programs of heads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bytes {
     /// Rows of text.
@@ -14,32 +14,32 @@ pub enum Bytes {
     Records,
 }
 
-/// A row of a head's program.
+/// Row of a head's program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Row {
-    /// s.
+    /// Time, s.
     pub(super) time: f64,
     /// Position of the conveyor, mm.
     pub(super) conveyor: f64,
-    /// Along the feed from the station, and across, mm.
+    /// Position of the head along the feed, from its station, and across the feed, mm.
     pub(super) place: [f64; 2],
-    /// degrees.
+    /// Position of C, degrees.
     pub(super) c: f64,
-    /// Whether the knife is commanded down.
+    /// True if the knife is commanded down.
     pub(super) knife: bool,
-    /// The source block; 0 = none.
+    /// Source block; 0 = none.
     pub(super) block: u32,
 }
 
-/// Bytes of a record: five numbers, a flag, a block.
+/// Bytes of a record: five numbers, a flag and a block.
 const RECORD: usize = 5 * 8 + 1 + 4;
-/// The names of the fields, in their order.
+/// Names of the fields, in order.
 const NAMES: &str = "t_s,conv_mm,x_mm,y_mm,c_deg,knife,block";
-/// The fields of a record.
+/// Fields of a record.
 const FIELDS: &str = "('t_s','<f8'),('conv_mm','<f8'),('x_mm','<f8'),('y_mm','<f8'),('c_deg','<f8'),\
     ('knife','|u1'),('block','<u4')";
 
-/// Reads a program, row by row.
+/// Reads a program and calls `each` for every row.
 pub(super) fn read(bytes: Bytes, input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread> {
     match bytes {
         Bytes::Rows => text(input, each),
@@ -58,7 +58,7 @@ fn text(input: &mut dyn BufRead, each: &mut dyn FnMut(Row)) -> Result<(), Unread
     Ok(())
 }
 
-/// The row before: a head that waits has the same fields behind time and conveyor for long, and these are read once.
+/// Cache of the previous row: a waiting head repeats the fields behind time and conveyor, which are then parsed only once.
 #[derive(Default)]
 struct Last {
     fields: Vec<u8>,
@@ -79,7 +79,7 @@ impl Last {
     }
 }
 
-/// A row, of its fields behind time and conveyor.
+/// Row from its fields behind time and conveyor.
 fn of_fields(fields: &[u8]) -> Option<Row> {
     let mut fields = fields.split(|&byte| byte == b',');
     let mut number = || number::decimal(fields.next()?);

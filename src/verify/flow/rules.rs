@@ -1,4 +1,4 @@
-//! Every rule that programs of heads over a conveyor are judged by.
+//! Rules for programs of heads over a conveyor.
 
 use crate::ir::verdict::rules;
 

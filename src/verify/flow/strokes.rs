@@ -1,4 +1,4 @@
-//! Strokes: what a head cuts from a command down to the next one up, as its blade lies on the cloth.
+//! Strokes of a head: the rows from a down command to the next up command, with the blade as it lies on the cloth.
 
 use super::rows::Row;
 use crate::geom::{Point, Rotation, Vector};
@@ -6,32 +6,32 @@ use crate::ir::verdict::Sighting;
 use crate::machine::MachineProfile;
 use crate::units::rad;
 
-/// A stroke.
+/// Stroke of a head.
 #[derive(Debug, Clone)]
 pub(super) struct Stroke {
-    /// Where the blade's leading end goes, mm: the first point is the trailing end at the plunge.
+    /// Path of the blade's leading end, mm; the first point is the trailing end at the plunge.
     pub(super) trace: Vec<Point>,
-    /// The direction of the blade, from the trailing end to the leading one, for each point behind the first.
+    /// Direction of the blade from the trailing to the leading end, for each point after the first.
     pub(super) along: Vec<Vector>,
-    /// Where each of these is in the program.
+    /// Place in the program of each point after the first.
     pub(super) places: Vec<Sighting>,
-    /// The blocks that its rows name.
+    /// Blocks that the rows name, ascending, without repetition.
     pub(super) blocks: Vec<u32>,
 }
 
-/// Gathers the strokes of a head.
+/// Collects the strokes of a head.
 pub(super) struct Strokes {
     width: f64,
     radius: f64,
     yaw: f64,
-    /// Whether the blade has two edges, so that it may go heel first.
+    /// True if the blade has two edges, so that it may go heel first.
     is_double: bool,
-    /// The rows of the stroke that goes on.
+    /// Rows of the open stroke.
     now: Vec<(Point, Vector, Sighting, u32)>,
     done: Vec<Stroke>,
 }
 
-/// A blade whose centre goes less than that does not move, mm.
+/// Greatest move of the centre of a blade that stands still, mm.
 const STILL: f64 = 1e-3;
 
 impl Strokes {
@@ -42,7 +42,7 @@ impl Strokes {
         Self { width, radius, yaw, is_double, now: Vec::new(), done: Vec::new() }
     }
 
-    /// Sees the next row.
+    /// Processes the next row.
     pub(super) fn see(&mut self, row: &Row, at: Sighting) {
         let along = Rotation(rad(row.c) - self.yaw).unit();
         if row.knife {
@@ -58,7 +58,8 @@ impl Strokes {
         let rows = std::mem::take(&mut self.now);
         let (first, last) = (rows[0], rows[rows.len() - 1]);
         let moved = rows.iter().map(|row| row.0 - first.0).find(|way| way.norm() > STILL);
-        // A blade with one edge goes that way, or it tears the cloth: then it lies the wrong way along its line.
+        // A blade with one edge must go tip first; otherwise it tears the cloth and is found lying the wrong way along its
+        // line.
         let is_turned = self.is_double && moved.is_some_and(|way| way.dot(&first.1) < 0.0);
         let (lead, side) = if is_turned { (self.width - self.radius, -1.0) } else { (self.radius, 1.0) };
         let along: Vec<Vector> = rows.iter().map(|row| row.1 * side).collect();
@@ -71,7 +72,7 @@ impl Strokes {
         self.done.push(Stroke { trace, along, places: rows.iter().map(|row| row.2).collect(), blocks });
     }
 
-    /// All strokes; one that is not ended by a lift counts up to its last row.
+    /// All strokes; a stroke without a lift extends to the last row.
     pub(super) fn finish(mut self) -> Vec<Stroke> {
         if !self.now.is_empty() {
             self.close();
@@ -81,7 +82,7 @@ impl Strokes {
 }
 
 impl Stroke {
-    /// Whether the blade never moves.
+    /// True if the blade never moves.
     pub(super) fn is_plunge(&self) -> bool {
         self.trace[1..].iter().all(|point| (point - self.trace[1]).norm() <= STILL)
     }

@@ -1,34 +1,34 @@
-//! The way of a blade beside a cut: the longest stretch of it along that.
+//! Path of a blade along a cut: its longest stretch on the line.
 
 use super::lines::{Foot, Line};
 use crate::geom::{Point, polyline};
 
-/// Longest step between places of the blade that are compared with the line, mm; and of the blade as it is plunged.
+/// Longest step between the places of the path that are compared with the line, mm; and between those of the plunged blade.
 const STEP: f64 = 0.2;
 const PLUNGED_STEP: f64 = 0.05;
-/// Most steps between two rows: a jump that takes more is a fault of the axes.
+/// Maximum number of steps between two rows: a jump that needs more is a fault of the axes.
 const STEPS_MAX: f64 = 4096.0;
-/// How much farther along the line a place may be than along the way of the blade, in steps and mm.
+/// Greatest advance along the line per step: a factor on the length of the step, and an addition, mm.
 const SLACK: [f64; 2] = [2.0, 1.0];
-/// Way beside a line behind which a blade is no more expected on it, mm.
+/// Path length beside a line after which a blade is no longer expected to return to it, mm.
 const RETURN: f64 = 60.0;
 
-/// How far along a line a place may be from the one before, when the blade went so far between them, mm.
+/// Greatest advance along a line for a path of length `way`, mm.
 pub(super) fn reach(way: f64) -> f64 {
     SLACK[0] * way + SLACK[1]
 }
 
-/// A place of the blade's leading end.
+/// Place of the blade's leading end.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample {
     pub(super) point: Point,
-    /// The row that it is before, counted from the first of the stroke.
+    /// Index of the row before the place, from the first row of the stroke.
     pub(super) row: usize,
-    /// Whether it lies under the plunged blade, between its ends: that is straight, and lies beside a curve.
+    /// True for a place under the plunged blade, between its ends: the blade is straight and may lie beside a curve.
     pub(super) under: bool,
 }
 
-/// Places of the way of a blade, near to each other.
+/// Closely spaced places along the path of a blade.
 pub(super) fn samples(trace: &[Point]) -> Vec<Sample> {
     let mut samples = vec![Sample { point: trace[0], row: 0, under: false }];
     for (row, ends) in trace.windows(2).enumerate() {
@@ -45,23 +45,23 @@ pub(super) fn samples(trace: &[Point]) -> Vec<Sample> {
     samples
 }
 
-/// The way of a blade, and a cut that it may follow.
+/// Path of a blade, and a cut that it may follow.
 #[derive(Clone, Copy)]
 pub(super) struct Trail<'a> {
     pub(super) samples: &'a [Sample],
     pub(super) line: &'a Line,
-    /// How far the blade may be beside it, mm.
+    /// Greatest permitted distance of the blade from the line, mm.
     pub(super) tolerance: f64,
 }
 
-/// What a stroke cuts of a line.
+/// Stretch of a line that a stroke follows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Followed {
-    /// The first and the last sample on it.
+    /// First and last sample on the line.
     pub(super) range: [usize; 2],
-    /// Their stations.
+    /// Stations of these samples, mm.
     pub(super) stations: [f64; 2],
-    /// How far samples between them are from it at the most, mm, and which.
+    /// Greatest distance of the samples in between from the line, mm, and the index of that sample.
     pub(super) deviation: f64,
     pub(super) worst: usize,
 }
@@ -78,7 +78,7 @@ impl Followed {
 }
 
 impl Trail<'_> {
-    /// The longest stretch of the way along the line.
+    /// Longest stretch of the path along the line; `None` if it never is on it.
     pub(super) fn followed(&self) -> Option<Followed> {
         let mut best: Option<Followed> = None;
         let mut first = 0;
@@ -91,13 +91,13 @@ impl Trail<'_> {
                     best = Some(found);
                 }
             }
-            // A stretch that is most of the stroke needs no other.
+            // After a stretch that is most of the stroke, no other is needed.
             first = if farthest > first { farthest + 1 } else { first + 1 };
         }
         best
     }
 
-    /// Where a point is on the line: each place of it.
+    /// Stations of all places of the line that are near a point.
     fn starts(&self, point: Point) -> Vec<f64> {
         let line = self.line;
         let mut found: Vec<f64> = Vec::new();
@@ -114,7 +114,7 @@ impl Trail<'_> {
         found
     }
 
-    /// Follows the line from a sample on, as long as later samples come back to it.
+    /// Follows the line from a sample for as long as later samples return to it.
     fn track(&self, first: usize, station: f64) -> Followed {
         let samples = self.samples;
         let mut found = Followed { range: [first; 2], stations: [station; 2], deviation: 0.0, worst: first };
@@ -132,7 +132,7 @@ impl Trail<'_> {
                 if aside.is_none_or(|(worst, _)| distance > worst) {
                     aside = Some((distance, i));
                 }
-                // What has left the line by so much does not come back.
+                // After that length beside the line the path does not return.
                 if step > RETURN {
                     break;
                 }
@@ -151,13 +151,14 @@ impl Trail<'_> {
         found
     }
 
-    /// The way of the blade before the stretch that follows the line, and behind it, mm.
+    /// Path length of the blade before and behind the stretch that follows the line, mm.
     pub(super) fn beyond(&self, found: &Followed) -> [f64; 2] {
         let way = |range: &[Sample]| range.windows(2).map(|ends| (ends[1].point - ends[0].point).norm()).sum::<f64>();
         [way(&self.samples[..=found.range[0]]), way(&self.samples[found.range[1]..])]
     }
 
-    /// How far it goes beside the line there at the most, mm, and where: places under the plunged blade do not count.
+    /// Greatest distance from the line before and behind the stretch, mm, and the sample there; places under the plunged blade
+    /// do not count.
     pub(super) fn aside(&self, found: &Followed) -> [Option<(f64, usize)>; 2] {
         let [first, last] = found.range;
         let farthest = |range: std::ops::Range<usize>, station: f64| {
