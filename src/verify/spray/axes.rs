@@ -1,4 +1,4 @@
-//! Times, ends, and the limits of the axes by finite differences of the rows.
+//! Checks of times, program ends and axis limits, by finite differences of the rows.
 
 use super::rows::{POSITION_ROUNDING, Row, SPEED_ROUNDING, TIME_ROUNDING};
 use super::rules::{self, OF_AXES};
@@ -6,10 +6,10 @@ use crate::ir::verdict::WorstByRule;
 use crate::machine::{Job, Table};
 use crate::verify::axes::differences::{Differences, ORDERS};
 
-/// Rounding of times, s.
+/// Rounding of computed times, s.
 const TIME_EPSILON: f64 = 1e-9;
 
-/// Judges how the axes move.
+/// Verifies the motion of the axes.
 pub(super) fn judge(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let profile = &job.profile;
     let period = profile.time.period();
@@ -30,7 +30,7 @@ pub(super) fn judge(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     velocities(rows, job, worst);
 }
 
-/// The first and the last row.
+/// Checks the first and the last row.
 fn ends(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let away = |row: &Row, [x, y, c]: [f64; 3]| {
         let turned = (row.c_deg - c).abs();
@@ -44,7 +44,7 @@ fn ends(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     worst.see_under(&rules::END, end, 2.0 * POSITION_ROUNDING, last.sighting());
 }
 
-/// Differences of order 1 to 3; before the first row and behind the last the axes rest.
+/// Checks differences of order 1 to 3; the axes rest before the first row and behind the last.
 fn differences(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let mut differences = Differences::new(&job.profile, [POSITION_ROUNDING; 3]).with_run_ups();
     let last = &rows[rows.len() - 1];
@@ -58,7 +58,7 @@ fn differences(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     }
 }
 
-/// Velocities against the mean of the ways before and behind a row: these differ by what jerk can do in a period.
+/// Compares velocities with the mean velocity before and behind a row: these may differ by the effect of jerk in a period.
 fn velocities(rows: &[Row], job: &Job, worst: &mut WorstByRule) {
     let period = job.profile.time.period();
     let [x, y, _] = job.profile.axes.limits();

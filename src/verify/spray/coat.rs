@@ -1,4 +1,4 @@
-//! What the jet leaves on the edges: every place that a head can face is passed, and once.
+//! Coat of the edges: the jet must pass every place that a head can face exactly once.
 
 use super::ground::{Chord, Ground};
 use super::rows::{EPSILON, Row, WAY};
@@ -8,50 +8,50 @@ use crate::geom::{Extent, Point, polyline};
 use crate::ir::verdict::{Sighting, WorstByRule};
 use crate::machine::Job;
 
-/// How far beside the edge the middle of the jet may pass, mm: far less than any jet is wide.
+/// Greatest distance of the middle of the jet from the edge as it passes, mm: far less than the width of any jet.
 const SPOT: f64 = 2.0;
-/// How far places of the edge are apart at which it is looked at, mm.
+/// Spacing of the checked places of the edge, mm.
 const STEP: f64 = 1.0;
 
-/// Bare stretches of up to so much do not count, mm, beside places that no head can face: where its way ends the head may be a
-/// little before or beyond.
+/// Longest bare stretch that does not count beside places that no head can face, mm: the head's path may end slightly early or
+/// late.
 const FEW: f64 = SPOT;
 
-/// The jet from a row to the next.
+/// Motion of the jet from one row to the next.
 struct Way {
-    /// Where its middle is, mm.
+    /// Middle of the jet at both rows, mm.
     ends: [Point; 2],
-    /// Where the head is, mm.
+    /// Position of the head, mm.
     head: Point,
-    /// The row.
+    /// Index of the second row.
     row: usize,
 }
 
-/// What there is to say of a place.
+/// State of the coat at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Coated {
-    /// No head can face it.
+    /// No head can face the place.
     Hidden,
-    /// It has no coat.
+    /// The place has no coat.
     Bare,
-    /// It is passed once.
+    /// The jet passes the place once.
     Once,
-    /// It is passed again later.
+    /// The jet passes the place again later.
     Again,
 }
 
-/// Places in a row of which the same is said.
+/// Run of adjacent places with the same state.
 #[derive(Debug, Clone, Copy)]
 struct Run {
     coated: Coated,
-    /// mm.
+    /// Length, mm.
     length: f64,
-    /// The first place, and its block.
+    /// First place, and its block.
     at: Point,
     block: u32,
 }
 
-/// The coat of the edges.
+/// Coat of the edges.
 pub(super) struct Coat<'a> {
     ground: &'a Ground,
     job: &'a Job,
@@ -60,7 +60,7 @@ pub(super) struct Coat<'a> {
 }
 
 impl<'a> Coat<'a> {
-    /// That of some rows, with the middle of the jet at each.
+    /// Coat sprayed by some rows, with the middle of the jet at each.
     pub(super) fn new(rows: &[Row], spots: &[Point], ground: &'a Ground, job: &'a Job) -> Self {
         let way = |i: usize| Way { ends: [spots[i - 1], spots[i]], head: rows[i].head, row: i };
         let ways: Vec<Way> = (1..rows.len()).filter(|&i| rows[i].jet && rows[i - 1].jet).map(way).collect();
@@ -68,7 +68,7 @@ impl<'a> Coat<'a> {
         Self { ground, job, ways, boxes }
     }
 
-    /// Judges it.
+    /// Verifies the coat.
     pub(super) fn judge(&self, worst: &mut WorstByRule) {
         let (mut bare, mut first, mut again) = (0.0, None, (0.0, None));
         let is_joined = |a: &Chord, b: &Chord| a.ends[1] == b.ends[0];
@@ -88,14 +88,15 @@ impl<'a> Coat<'a> {
             }
         }
         worst.see_under(&rules::COVERAGE, bare, EPSILON, first);
-        // Where a closed edge begins it ends, too; and the jet may be ahead there or behind by what the head may look askew.
+        // A closed edge ends where it begins; there the jet may be ahead or behind by the permitted error of the head's
+        // direction.
         let profile = &self.job.profile;
         let ahead = profile.tool.distance_mm * profile.verify.max_heading_deg.to_radians().tan();
         let most = 2.0 * (SPOT + self.ground.tolerance + ahead);
         worst.see_under(&rules::TWICE, again.0, most, again.1);
     }
 
-    /// What there is to say of the places of a chord.
+    /// States of the places of a chord, each with its step length.
     fn places(&self, chord: &Chord) -> Vec<Run> {
         let [from, to] = chord.ends;
         let length = (to - from).norm();
@@ -111,7 +112,8 @@ impl<'a> Coat<'a> {
         if passes > 0 {
             return if passes == 1 { Coated::Once } else { Coated::Again };
         }
-        // In a bay as tight as the distance the head has no way: on a centimetre of it, none that is longer than the tolerance.
+        // In a bay of radius near the distance the head has no path: on a centimetre of it, at most one as long as the
+        // tolerance.
         let has_way = 1.0 - distance * chord.bay() > 2.0 * tolerance / WAY;
         if !has_way || self.ground.is_nearer(place + chord.out * distance, distance - tolerance) {
             Coated::Hidden
@@ -120,8 +122,8 @@ impl<'a> Coat<'a> {
         }
     }
 
-    /// How often the jet passes a place of a chord: on its side, and so that no gap is left along it that is longer than what
-    /// the jet goes in a period.
+    /// Number of times that the jet passes a place of a chord: on the right side, and without a gap along the chord longer than
+    /// the jet's motion in a period.
     fn passes(&self, place: Point, chord: &Chord) -> usize {
         let (tool, period) = (&self.job.profile.tool, self.job.profile.time.period());
         let across = SPOT + self.ground.tolerance;
@@ -137,14 +139,14 @@ impl<'a> Coat<'a> {
         let near = self.boxes.near(Extent::between(place, place).grown(across)).map(|i| &self.ways[i]);
         let mut rows: Vec<usize> = near.filter(|way| is_passed(way)).map(|way| way.row).collect();
         rows.sort_unstable();
-        // Longer than a centimetre takes, the jet was elsewhere meanwhile.
+        // After a pause longer than the jet needs for a centimetre, it was elsewhere in between.
         let away = WAY / tool.edge_speed_mm_s / period + 1.0;
         let again = rows.windows(2).filter(|pair| (pair[1] - pair[0]) as f64 > away).count();
         again + usize::from(!rows.is_empty())
     }
 }
 
-/// Places around a ring, joined where the same is said of them.
+/// Runs of places around a ring with equal states.
 fn runs(places: impl Iterator<Item = Run>) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for place in places {
@@ -154,7 +156,7 @@ fn runs(places: impl Iterator<Item = Run>) -> Vec<Run> {
         }
     }
     if runs.len() > 1 && runs[0].coated == runs[runs.len() - 1].coated {
-        // A ring has no first place.
+        // The start of a ring is arbitrary: join its first and last run.
         let last = runs.pop().expect("more than one");
         runs[0] = Run { length: runs[0].length + last.length, ..last };
     }

@@ -1,4 +1,4 @@
-//! How long the jet stays about a place: a jet that stands floods it.
+//! Time of the jet at a place: a jet that stands still floods it.
 
 use super::rows::{EPSILON, Row, WAY};
 use super::rules;
@@ -7,14 +7,14 @@ use crate::ir::verdict::WorstByRule;
 use crate::machine::{Job, Limits};
 use crate::units::rad;
 
-/// How many times as long as at its speeds the jet may take: the axes are shared, and bends ask more of them.
+/// Permitted ratio of the jet's time to the time at its speeds: axes are shared, and bends demand more of them.
 const PATIENCE: f64 = 2.0;
 
-/// Judges how long the jet is about each place, on any centimetre of its way at the most.
+/// Verifies the time of the jet at each place, over any stretch of at most a centimetre.
 pub(super) fn judge(rows: &[Row], spots: &[Point], job: &Job, worst: &mut WorstByRule) {
     let (period, allowed) = (job.profile.time.period(), Allowed::of(job));
     let step = |i: usize| (spots[i] - spots[i - 1]).norm();
-    // From there to here: way of the jet, way of the head, turn of C.
+    // Sums from row `from` to the current row: path of the jet, path of the head, turn of C.
     let (mut from, mut way, mut head, mut turn) = (0, 0.0, 0.0, 0.0);
     let moved = |i: usize| (rows[i].head - rows[i - 1].head).norm();
     let turned = |i: usize| rad((rows[i].c_deg - rows[i - 1].c_deg).abs());
@@ -33,9 +33,9 @@ pub(super) fn judge(rows: &[Row], spots: &[Point], job: &Job, worst: &mut WorstB
     }
 }
 
-/// What a head needs that is as fast as it should be.
+/// Permitted time of a head that moves at its intended speeds.
 struct Allowed {
-    /// Time of the jet on a centimetre, and of coming to rest and leaving it, s.
+    /// Time of the jet on a centimetre plus the time to stop and start again, s.
     always: f64,
     /// Speed of the head, mm/s, and of C, rad/s.
     speeds: [f64; 2],
@@ -47,13 +47,13 @@ impl Allowed {
         let slower = if x.speed < y.speed { x } else { y };
         let speed = |asked: f64| asked.min(slower.speed);
         let [edge, corner] = [tool.edge_speed_mm_s, tool.corner_speed_mm_s].map(speed);
-        // To a speed and back from it, at a steady jerk and acceleration.
+        // Time to reach a speed and to stop from it, at constant jerk and acceleration.
         let rest = |limits: Limits, speed: f64| 2.0 * (speed / limits.acceleration + limits.acceleration / limits.jerk);
         let rests = rest(x, edge.max(corner)).max(rest(y, edge.max(corner))) + rest(c, c.speed);
         Self { always: PATIENCE * WAY / edge + rests, speeds: [corner, c.speed] }
     }
 
-    /// With that way of the head and that turn of C, s.
+    /// Permitted time for a path of the head, mm, and a turn of C, rad, in s.
     fn time(&self, head: f64, turn: f64) -> f64 {
         self.always + PATIENCE * (head / self.speeds[0] + turn / self.speeds[1])
     }

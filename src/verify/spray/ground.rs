@@ -1,4 +1,4 @@
-//! The edges as drawn, to measure by: which is nearest, which way is out, what a head can face.
+//! Edges as drawn: nearest edge, outward direction, and places that a head can face.
 
 use std::collections::BTreeMap;
 
@@ -7,29 +7,29 @@ use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::Marker;
 use crate::machine::{Fit, MachineProfile};
 
-/// Points nearer to each other than that are one, mm.
+/// Distance below which two points coincide, mm.
 const SAME_EPSILON: f64 = 1e-6;
-/// How far beside an edge it is tried whether that is outside, mm.
+/// Distance from an edge at which its outer side is tested, mm.
 const BESIDE: f64 = 1e-3;
 
-/// A chord of an edge.
+/// Chord of an edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
-    /// Its ends, mm.
+    /// Ends, mm.
     pub(super) ends: [Point; 2],
     /// Unit vector away from the material.
     pub(super) out: Vector,
-    /// How far the way out of a curve through its ends may be turned from that at each end, rad, to the left positive: as far
-    /// as the way out of the chord beyond is; at a corner as at the other end.
+    /// Greatest turn of the outward direction of a curve through the ends, relative to `out`, at each end, rad, positive to
+    /// the left: that of the neighbouring chord's outward direction; at a corner, the value of the other end.
     pub(super) bent: [f64; 2],
-    /// How far such a curve may lie on the near side of the chord, seen from outside, and on the far side, mm.
+    /// Greatest distance of such a curve from the chord on its outer side and on its inner side, mm.
     pub(super) bulge: [f64; 2],
-    /// Its block.
+    /// Source block.
     pub(super) block: u32,
 }
 
 impl Chord {
-    /// Curvature of the curve that it stands for, 1/mm, inwards (a bay) positive.
+    /// Curvature of the curve that the chord approximates, 1/mm, positive inwards (a bay).
     pub(super) fn bay(&self) -> f64 {
         let way = self.ends[1] - self.ends[0];
         let turn = 0.5 * (self.bent[1] - self.bent[0]);
@@ -37,17 +37,17 @@ impl Chord {
     }
 }
 
-/// What of a curve there is at one end of a chord.
+/// Neighbourhood of a curve at one end of a chord.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Side {
-    /// The turn to the chord beyond, rad; nothing at a corner.
+    /// Turn to the neighbouring chord, rad; 0 at a corner.
     turn: f64,
-    /// The length of that chord, mm.
+    /// Length of the neighbouring chord, mm; 0 at a corner.
     length: f64,
 }
 
 impl Side {
-    /// Between a chord and the one before it or behind it.
+    /// Neighbourhood of a chord towards the previous or the next chord.
     fn of(chord: [Point; 2], other: [Point; 2], corner: f64) -> Self {
         let turn = if other[1] == chord[0] {
             polyline::turn_at(other[0], chord[0], chord[1])
@@ -57,32 +57,33 @@ impl Side {
         if turn.abs() < corner { Self { turn, length: (other[1] - other[0]).norm() } } else { Self::default() }
     }
 
-    /// This, or at a corner the other one.
+    /// This side, or at a corner the other one.
     fn or(self, other: Self) -> Self {
         if self.length > 0.0 { self } else { other }
     }
 
-    /// How far a circle through the vertex and its neighbours bulges on a chord of that length, mm.
+    /// Bulge on a chord of that length of the circle through the vertex and its neighbours, mm.
     fn bulge(self, length: f64) -> f64 {
         0.25 * length * self.turn * length / (length + self.length)
     }
 }
 
-/// All edges.
+/// All edges, with an index of their chords.
 #[derive(Debug)]
 pub struct Ground {
     pub(super) chords: Vec<Chord>,
-    /// How far from its distance a head may be, mm.
+    /// Greatest permitted error of a head's distance, mm.
     pub(super) tolerance: f64,
     boxes: Boxes,
-    /// The greatest X of any edge, mm.
+    /// Greatest X of any edge, mm.
     right: f64,
-    /// The chords of each block.
+    /// Chords of each block.
     blocks: BTreeMap<u32, Vec<usize>>,
 }
 
 impl Ground {
-    /// The closed contours of a marker; vertices that turn by less than the corner angle of the profile stand for curves.
+    /// Ground of the closed contours of a marker; vertices that turn by less than the profile's corner angle approximate
+    /// curves.
     pub fn new(marker: &Marker, profile: &MachineProfile) -> Self {
         let corner = profile.corner_angle();
         let mut chords: Vec<Chord> = Vec::new();
@@ -104,7 +105,7 @@ impl Ground {
                 let bent = [-sides[0].or(sides[1]).turn, sides[1].or(sides[0]).turn];
                 let most = if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 };
                 let bulge = sides.map(|side| side.bulge((ends[1] - ends[0]).norm()).clamp(-most, most));
-                // A turn to the left bulges to the right, which is inwards as long as left is out.
+                // A turn to the left bulges to the right, which is inwards as long as left is outwards.
                 let bulge = [bulge[0].min(bulge[1]).min(0.0).abs(), bulge[0].max(bulge[1]).max(0.0)];
                 chords.push(Chord { ends, out, bent, bulge, block });
             }
@@ -127,7 +128,7 @@ impl Ground {
         ground
     }
 
-    /// Whether a place lies in a part: a ray to the right, to the end of everything, crosses an odd number of edges.
+    /// True if a point lies in a part: a ray to the right crosses an odd number of edges.
     fn is_material(&self, place: Point) -> bool {
         let crosses = |&i: &usize| {
             let [a, b] = self.chords[i].ends;
@@ -137,11 +138,12 @@ impl Ground {
         self.boxes.near(ray).filter(crosses).count() % 2 == 1
     }
 
-    /// The chord nearest to a place, and how far outside of it that is, mm, inside being negative; looked for as far as `reach`.
+    /// Chord nearest to a point and the signed distance outside of it, mm, negative inside; `None` without a chord within
+    /// `reach`.
     pub(super) fn nearest(&self, place: Point, reach: f64) -> Option<(&Chord, f64)> {
         let near = self.boxes.near(Extent::between(place, place).grown(reach)).map(|i| &self.chords[i]);
         let away = |chord: &Chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]);
-        // Of two that meet in the nearest vertex the one that faces the place tells outside from inside.
+        // If two chords meet in the nearest vertex, the one that faces the point determines the side.
         let height = |chord: &Chord| (place - chord.ends[0]).dot(&chord.out);
         let order = |a: &&Chord, b: &&Chord| {
             let [far_a, far_b] = [away(a), away(b)];
@@ -155,18 +157,18 @@ impl Ground {
         Some((chord, away(chord).copysign(height(chord))))
     }
 
-    /// The chords that are no farther from a place than that, mm.
+    /// Chords within a distance of a point, mm.
     pub(super) fn within(&self, place: Point, distance: f64) -> impl Iterator<Item = &Chord> {
         let near = self.boxes.near(Extent::between(place, place).grown(distance)).map(|i| &self.chords[i]);
         near.filter(move |chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]) <= distance)
     }
 
-    /// The chords that a block draws.
+    /// Chords drawn by a block.
     pub(super) fn of_block(&self, block: u32) -> impl Iterator<Item = &Chord> {
         self.blocks.get(&block).into_iter().flatten().map(|&i| &self.chords[i])
     }
 
-    /// Whether any edge is nearer to a place than that, mm.
+    /// True if any edge is closer to a point than `distance`, mm.
     pub(super) fn is_nearer(&self, place: Point, distance: f64) -> bool {
         self.boxes.near(Extent::between(place, place).grown(distance)).any(|i| {
             let [a, b] = self.chords[i].ends;

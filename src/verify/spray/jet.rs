@@ -1,4 +1,4 @@
-//! What the jet does: how far the head is from the edge, which way it looks, how fast the jet goes, what it leaves.
+//! Checks of the jet: distance of the head from the edge, its direction, speed of the jet, and coat.
 
 use super::coat::Coat;
 use super::dwell;
@@ -10,27 +10,27 @@ use crate::ir::verdict::WorstByRule;
 use crate::machine::Job;
 use crate::units::{deg, rad};
 
-/// Sprays that are shorter are no edge, mm.
+/// Sprays up to this length are not an edge, mm.
 const SHORT: f64 = 2.0;
 
-/// What the jet does on the edges.
+/// Check of the jet on the edges.
 pub(super) struct Jet<'a> {
     rows: &'a [Row],
-    /// Where the middle of the jet is at each row.
+    /// Middle of the jet at each row.
     spots: Vec<Point>,
     ground: &'a Ground,
     job: &'a Job,
 }
 
 impl<'a> Jet<'a> {
-    /// That of some rows.
+    /// Check of the jet in some rows.
     pub(super) fn new(rows: &'a [Row], ground: &'a Ground, job: &'a Job) -> Self {
         let distance = job.profile.tool.distance_mm;
         let spots = rows.iter().map(|row| row.head + Rotation(rad(row.c_deg)).unit() * distance).collect();
         Self { rows, spots, ground, job }
     }
 
-    /// Judges it.
+    /// Verifies the jet.
     pub(super) fn judge(&self, worst: &mut WorstByRule) {
         let rows = self.rows;
         if !self.job.mode.cuts() {
@@ -52,7 +52,7 @@ impl<'a> Jet<'a> {
         coat.judge(worst);
     }
 
-    /// Distance and direction of one row, and the block that it names.
+    /// Checks distance and direction of a row, and the block that it names.
     fn aimed(&self, row: &Row, spot: Point, worst: &mut WorstByRule) {
         let (profile, ground) = (&self.job.profile, self.ground);
         let (distance, tolerance) = (profile.tool.distance_mm, ground.tolerance);
@@ -61,11 +61,11 @@ impl<'a> Jet<'a> {
             worst.see_under(&rules::DISTANCE, f64::INFINITY, tolerance, row.sighting());
             return;
         };
-        // What a curve lies beside its chord does not count; over the material the distance is negative.
+        // The bulge of a curve beyond its chord does not count; over the material the distance is negative.
         let [near, far] = chord.bulge;
         let off = (distance - far - away).max(away - distance - near).max(0.0);
         worst.see_under(&rules::DISTANCE, off, tolerance + EPSILON, row.sighting());
-        // Where the head is between two edges it may look at either.
+        // Between two equally distant edges the head may face either.
         let equal = ground.within(row.head, away.abs() + 2.0 * tolerance);
         let askew = equal.map(|chord| askew(row, chord)).fold(f64::INFINITY, f64::min);
         let limit = profile.verify.max_heading_deg + POSITION_ROUNDING + EPSILON;
@@ -73,11 +73,11 @@ impl<'a> Jet<'a> {
         let named = ground.of_block(row.block);
         let off = named.map(|chord| polyline::distance_to_segment(spot, chord.ends[0], chord.ends[1]));
         let off = off.fold(f64::INFINITY, f64::min);
-        // About the ends of a chord that stands for a curve the jet is ahead of the head, or behind it.
+        // Near the ends of a chord that approximates a curve, the jet is ahead of the head or behind it.
         worst.see_under(&rules::BLOCK, off, tolerance + WAY, row.sighting());
     }
 
-    /// The speed of the jet over each centimetre of its way.
+    /// Checks the speed of the jet over each centimetre of its path.
     fn speeds(&self, worst: &mut WorstByRule) {
         let (rows, spots, tool) = (self.rows, &self.spots, &self.job.profile.tool);
         let period = self.job.profile.time.period();
@@ -88,7 +88,7 @@ impl<'a> Jet<'a> {
         let mut slowest = None;
         for (i, row) in rows.iter().enumerate().skip(1) {
             if !row.jet {
-                // What was too short for a centimetre is judged as a whole.
+                // A spray that is shorter than a centimetre is checked as a whole.
                 if way > SHORT && way < WAY {
                     let speed = way / ((i - 1 - from) as f64 * period);
                     worst.see_under(&rules::EDGE_SPEED, speed, limit * (1.0 + EPSILON), row.sighting());
@@ -115,14 +115,14 @@ impl<'a> Jet<'a> {
     }
 }
 
-/// How far a row looks from square to a chord, rad.
+/// Deviation of a row's direction from the normal of a chord, rad.
 fn askew(row: &Row, chord: &Chord) -> f64 {
     let [from, to] = chord.ends;
     let along = polyline::foot(row.head, from, to).clamp(0.0, 1.0);
     let foot = from + (to - from) * along;
     let looks = Rotation(rad(row.c_deg)).heading();
     let aim = Heading::of(foot - row.head).turn_to(looks);
-    // The way out of a curve goes from that of one chord to that of the next.
+    // The outward direction of a curve varies from that of one chord to that of the next.
     let across = Heading::of(-chord.out).turn_to(looks);
     let [from, to] = [chord.bent[0] * (1.0 - along), chord.bent[1] * along];
     let bent = (across - from.max(to).max(0.0)).max(from.min(to).min(0.0) - across).max(0.0);

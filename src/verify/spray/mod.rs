@@ -1,7 +1,7 @@
-//! The verifier of a head at a distance: judges from the bytes where the head is, which way it looks and what it sprays.
+//! Verifier of a head at a distance: checks from the emitted bytes where the head is, which way it points and what it sprays.
 //!
-//! Receives the bytes of a program, the marker as read and the profile. Shares no code with what offsets, times and fits: it
-//! measures from the chords as drawn. Never repairs anything.
+//! Input: the bytes of a program, the marker as read, and the profile. It shares no code with offsetting, timing and fitting:
+//! it measures from the chords as drawn. Nothing is repaired.
 
 mod axes;
 mod coat;
@@ -21,12 +21,12 @@ use crate::ir::verdict::{Verdict, WorstByRule};
 use crate::machine::Job;
 use crate::units::columns::Unread;
 
-/// Whether bytes begin as a program of a head does.
+/// True if bytes begin like a program of a head.
 pub fn begins(bytes: &[u8]) -> bool {
     bytes.starts_with(rows::HEADER.as_bytes())
 }
 
-/// Judges a program from its bytes.
+/// Verifies a program from its bytes.
 pub fn judge(input: &mut dyn BufRead, ground: &Ground, job: &Job) -> io::Result<Verdict> {
     let mut worst = WorstByRule::default();
     let read = rows::read(input);

@@ -1,4 +1,4 @@
-//! Rows of a program, read from its bytes.
+//! Reader of the rows of a program.
 
 use std::io::BufRead;
 
@@ -6,44 +6,44 @@ use crate::geom::Point;
 use crate::ir::verdict::Sighting;
 use crate::units::columns::{Lines, Unread};
 
-/// How a program begins.
+/// First line of a program.
 pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,vx_mm_s,vy_mm_s,jet,block";
 /// Half of the last decimal of positions (mm, degrees), times (s) and speeds (mm/s).
 pub(super) const POSITION_ROUNDING: f64 = 0.5e-6;
 pub(super) const TIME_ROUNDING: f64 = 0.5e-6;
 pub(super) const SPEED_ROUNDING: f64 = 0.5e-4;
-/// Rounding of computations with them, mm, degrees and s.
+/// Rounding error of computations with these values, mm, degrees and s.
 pub(super) const EPSILON: f64 = 1e-6;
-/// Way of the jet over which its speed is measured, mm: less than any jet is wide.
+/// Path length of the jet over which its speed is measured, mm: less than the width of any jet.
 pub(super) const WAY: f64 = 10.0;
 
-/// A row.
+/// Row of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Row {
-    /// Its line, the first being 1.
+    /// Line number, from 1.
     pub(super) line: u64,
-    /// s.
+    /// Time, s.
     pub(super) time: f64,
-    /// The head, mm.
+    /// Position of the head, mm.
     pub(super) head: Point,
-    /// C, degrees.
+    /// Position of C, degrees.
     pub(super) c_deg: f64,
-    /// Speeds of X and Y, mm/s.
+    /// Velocities of X and Y, mm/s.
     pub(super) velocity: [f64; 2],
-    /// Whether the jet is on.
+    /// True if the jet is on.
     pub(super) jet: bool,
-    /// The block.
+    /// Source block; 0 = none.
     pub(super) block: u32,
 }
 
 impl Row {
-    /// Place and time of the row.
+    /// Sighting of the row.
     pub(super) fn sighting(&self) -> Sighting {
         Sighting { line: Some(self.line), ..Sighting::at(self.time, self.head, self.block) }
     }
 }
 
-/// All rows.
+/// Reads all rows.
 pub(super) fn read(input: &mut dyn BufRead) -> Result<Vec<Row>, Unread> {
     let (mut rows, mut lines) = (Vec::new(), Lines::default());
     lines.header(input, HEADER)?;
@@ -55,7 +55,7 @@ pub(super) fn read(input: &mut dyn BufRead) -> Result<Vec<Row>, Unread> {
     if rows.is_empty() { Err(lines.is("there is no row")) } else { Ok(rows) }
 }
 
-/// The row of a line, still without the number of that.
+/// Row of a line, without its line number; `None` when the line is malformed.
 fn row(text: &str) -> Option<Row> {
     let fields: Vec<&str> = text.split(',').collect();
     let [time, x, y, c, vx, vy, jet, block] = fields[..] else { return None };

@@ -1,4 +1,4 @@
-//! Every rule that the program of a head at a distance is judged by.
+//! Rules for the program of a head at a distance.
 
 use crate::ir::verdict::{Rule, rules};
 
@@ -30,6 +30,6 @@ rules! {
     BLOCK { name: "spray-verify/block", unit: "mm", about: "rows with the jet on name the block that drew the edge there, and no others name one", more: "A program is resumed, and reports say where, by the blocks that its rows name. The value is how far the named block is from where the jet meets the edge." }
 }
 
-/// The rules of order 1 to 3, axis by axis.
+/// Rules of axis limits, by order of the derivative and axis.
 pub(super) static OF_AXES: [[&Rule; 3]; 3] =
     [[&SPEED_X, &SPEED_Y, &SPEED_C], [&ACCELERATION_X, &ACCELERATION_Y, &ACCELERATION_C], [&JERK_X, &JERK_Y, &JERK_C]];
