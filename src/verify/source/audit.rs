@@ -1,5 +1,5 @@
-//! A small scan of the source bytes by other means than the reader's: what it counts must be what the marker holds, so
-//! that a fault of the reader is seen, too.
+//! Independent scan of the source bytes, by other means than the reader's. Its counts must agree with the marker, so that a
+//! fault of the reader is detected, too.
 
 use super::census::Census;
 use super::drawing;
@@ -11,11 +11,11 @@ use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
 use crate::verify::rules;
 
-/// Rounding of sums of lengths, as a part of them.
+/// Rounding error of sums of lengths, relative.
 const LENGTH_EPSILON: f64 = 1e-9;
-/// Rounding of sums of moments, as a part of them: sums of a million lines agree to a thousandth of that.
+/// Rounding error of sums of moments, relative: sums of a million lines agree to a thousandth of it.
 const MOMENT_EPSILON: f64 = 1e-10;
-/// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.
+/// Compares a marker as read with a scan of the bytes; `None` for a dialect without a scan.
 pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
     let (scanned, slack) = match dialect {
         "iso" => scan_iso(bytes, read.unit, profile),
@@ -33,7 +33,7 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
         worst.see(value, nowhere);
         Finding { place: None, ..worst.finding() }
     };
-    // A length in another unit is another length.
+    // Equal lengths in different units count as different.
     let is_same_unit = read.unit.to_bits() == scanned.unit.to_bits();
     let length = if is_same_unit { (read.length - scanned.length).abs() } else { f64::INFINITY };
     let mut findings = vec![
@@ -42,7 +42,7 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
         finding(&rules::SOURCE_BOUNDS, bounds, LENGTH_EPSILON + slack.bounds),
     ];
     if dialect == "iso" {
-        // What is a hole in a drawing is deduced from its shapes: the bytes do not say it.
+        // Holes of a drawing are deduced from its shapes: the bytes do not contain them.
         findings.insert(1, finding(&rules::SOURCE_DRILLS, read.drills.abs_diff(scanned.drills) as f64, 0.0));
     } else {
         let corners = [read.bounds.min, read.bounds.max, scanned.bounds.min, scanned.bounds.max];

@@ -1,4 +1,4 @@
-//! What is cut, as numbers: counted of a marker and, by other means, of the bytes that it was read from.
+//! Statistics of everything that is cut: counted from a marker and, by other means, from the bytes that it was read from.
 
 use std::collections::BTreeMap;
 
@@ -8,41 +8,42 @@ use crate::ir::Marker;
 use crate::ir::drawing::{Account, Aside, Redrawn, Vertex};
 use crate::ir::marker::Notch;
 
-/// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
+/// Greatest distance of the chords of an arc from the arc, as a fraction of the tolerance: a coarser approximation leaves the
 /// knife no room.
 pub(in crate::verify) const ARC_SAGITTA: f64 = 0.25;
-/// Farthest that a place of a drawing may be moved so that lines meet, mm: a third of a millimetre shows on no part.
+/// Greatest distance by which a place of a drawing may be moved to make lines meet, mm: a third of a millimetre is invisible on
+/// any part.
 const REDRAWN: f64 = 0.3;
 
-/// What is cut: points reached with the knife down, holes, length and bounds.
+/// Statistics of everything that is cut: points reached with the knife down, holes, length and bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Census {
-    /// Points that the knife is led to while it is down.
+    /// Number of points that the knife reaches while it is down.
     pub points: usize,
-    /// Holes.
+    /// Number of holes.
     pub drills: usize,
-    /// Way of the knife while it is down, mm.
+    /// Path length of the knife while it is down, mm.
     pub length: f64,
-    /// The box around all of it.
+    /// Bounding box.
     pub bounds: Extent,
-    /// What the numbers of the file are multiples of, mm.
+    /// Unit of which the numbers of the file are multiples, mm.
     pub unit: f64,
-    /// Where it lies: a stroke that is moved within the box keeps all of the above. Of plots only.
+    /// Moments of the lines, which detect a stroke moved inside the box; the other numbers do not. Only for plots.
     pub(in crate::verify) moments: Moments,
 }
 
 impl Census {
-    /// Nothing yet of a file whose numbers are multiples of that many mm.
+    /// Empty census of a file with numbers that are multiples of `unit` mm.
     pub(in crate::verify) fn empty(unit: f64) -> Self {
         Self { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit, moments: Moments::default() }
     }
 
-    /// The census of a marker as it was read, before any pass.
+    /// Census of a marker as read, before any pass.
     pub fn of(marker: &Marker) -> Self {
         let mut census = Self { length: marker.drawn_length(), ..Self::empty(marker.unit) };
         let is_plot = marker.drawing.is_some();
         for piece in &marker.pieces {
-            // What has no length cuts nothing.
+            // A stroke without length cuts nothing.
             for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
                 census.points += 1;
                 census.bounds.add(stroke.from);
@@ -61,7 +62,7 @@ impl Census {
                 for (_, segment) in marker.list.walk(contour.range) {
                     census.bounds.add(segment.from);
                     census.bounds.add(segment.to);
-                    // The chords of an arc come from one place and are one point of the file.
+                    // The chords of an arc come from one place of the file and count as one point.
                     let is_new = segment.span.block == 0 || span.replace(segment.span) != Some(segment.span);
                     census.points += usize::from(is_new && segment.from != segment.to);
                 }
@@ -73,7 +74,7 @@ impl Census {
         census
     }
 
-    /// Adds what a plot draws beyond what is cut: its marker keeps all of it.
+    /// Adds the lines of a plot that are not cut: the marker keeps all of them.
     fn add_aside(&mut self, marker: &Marker, Account { aside, .. }: &Account) {
         let standing = if aside.moved.doubled.is_empty() { BTreeMap::new() } else { standing(marker, aside) };
         let stands_twice =
@@ -91,19 +92,19 @@ impl Census {
                 vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
         }
         self.points = (self.points + aside.moved.points).saturating_sub(aside.moved.repeated);
-        // An edge that two parts share may be drawn once; what does not stand twice does not.
+        // An edge that two parts share may be drawn only once; discount it only if it stands twice.
         for places in doubled {
             let moments = Moments::of(places.iter().map(|vertex| vertex.at));
             self.length -= moments.length();
             self.moments -= moments;
         }
-        // Nobody drew the lines that close outlines.
+        // Lines that were added to close outlines are not in the file.
         for places in &aside.moved.closed {
             let moments = Moments::of(places.iter().copied());
             self.length -= moments.length();
             self.moments -= moments;
         }
-        // What was drawn elsewhere is another line, whatever the account says.
+        // A line that was moved too far counts as a different one, whatever the account says.
         for Redrawn { drawn, now: [from, to] } in aside.moved.redrawn.iter().filter(|line| is_redrawn_nearby(line)) {
             let moments = [Moments::of(drawn.iter().copied()), Moments::line(*from, *to)];
             self.length += moments[0].length() - moments[1].length();
@@ -116,7 +117,7 @@ impl Census {
     }
 }
 
-/// The bits of the ends of a chord, in either direction.
+/// Bits of the ends of a chord, independent of its direction.
 type Chord = [[u64; 2]; 2];
 
 fn chord_of(from: Point, to: Point) -> Chord {
@@ -125,7 +126,7 @@ fn chord_of(from: Point, to: Point) -> Chord {
     ends
 }
 
-/// How often each chord stands in what a marker cuts and what it keeps beside that.
+/// Number of occurrences of each chord among the lines that a marker cuts and those that it keeps besides.
 fn standing(marker: &Marker, aside: &Aside) -> BTreeMap<Chord, usize> {
     let mut standing = BTreeMap::new();
     let cut = marker.pieces.iter().flat_map(|piece| &piece.contours);
@@ -135,7 +136,7 @@ fn standing(marker: &Marker, aside: &Aside) -> BTreeMap<Chord, usize> {
     standing
 }
 
-/// Whether every place of a line as it was drawn lies near to what it is now, and its ends near to the ends.
+/// True if every place of a drawn line is near its present position, and its ends are near the present ends.
 fn is_redrawn_nearby(Redrawn { drawn, now: [from, to] }: &Redrawn) -> bool {
     let [Some(first), Some(last)] = [drawn.first(), drawn.last()] else { return false };
     let off = |place: &Point| polyline::distance_to_segment(*place, *from, *to);
@@ -143,12 +144,12 @@ fn is_redrawn_nearby(Redrawn { drawn, now: [from, to] }: &Redrawn) -> bool {
     drawn.iter().map(off).chain(ends).all(|distance| distance <= REDRAWN)
 }
 
-/// What the chords of arcs may change, mm.
+/// Permitted differences due to chords of arcs, mm.
 pub(in crate::verify) struct Slack {
-    /// Farthest that a chord may lie off its arc.
+    /// Greatest distance of a chord from its arc.
     pub(in crate::verify) sagitta: f64,
     pub(in crate::verify) length: f64,
     pub(in crate::verify) bounds: f64,
-    /// What moments may differ; compared for plots.
+    /// Permitted difference of moments; compared only for plots.
     pub(in crate::verify) moments: Moments,
 }

@@ -1,19 +1,19 @@
-//! Where cloth that wanders on its conveyor carries what is drawn: read again from the bytes of the centre line, and found by
-//! other means than those of the pass that moves the marker.
+//! Displacement of a drawing by cloth that wanders on its conveyor. It is read again from the bytes of the centre line and
+//! computed by other means than in the pass that moves the marker.
 
 use crate::geom::Point;
 use crate::ir::list::{Joint, Segment};
 use crate::machine::Job;
 
-/// Rounding of places along the feed, mm: nothing moves a place there.
+/// Rounding error of positions along the feed, mm: the cloth does not displace places in that direction.
 const ALONG_EPSILON: f64 = 1e-6;
 
-/// A cloth by the rows of its centre line: place along the feed and of the centre, mm.
+/// Centre line of a cloth: rows of a position along the feed and the offset of the centre across, mm.
 #[derive(Debug, Clone)]
 pub(super) struct Cloth(Vec<[f64; 2]>);
 
 impl Cloth {
-    /// That of a job; `None` where the cloth lies in the middle.
+    /// Cloth of a job; `None` for a cloth in the middle of the conveyor.
     pub(super) fn of(job: &Job) -> Option<Self> {
         let centre = job.centre.as_ref()?;
         let bytes = centre.source.bytes();
@@ -24,7 +24,7 @@ impl Cloth {
         };
         let mut rows: Vec<[f64; 2]> = bytes.split(|&byte| byte == b'\n').filter_map(row).collect();
         if let Some(rulers) = centre.rulers {
-            // While the conveyor counts up, what is under the rulers has ever less X.
+            // The conveyor position increases while the X under the rulers decreases.
             for row in &mut rows {
                 row[0] = rulers - row[0];
             }
@@ -33,7 +33,7 @@ impl Cloth {
         Some(Self(rows))
     }
 
-    /// How far the cloth is carried across at a place along the feed, mm; not a number where nothing tells.
+    /// Displacement of the cloth across at a position along the feed, mm; NaN without rows.
     fn across(&self, x: f64) -> f64 {
         let Self(rows) = self;
         let [[start, first], .., [end, last]] = rows[..] else { return f64::NAN };
@@ -52,19 +52,20 @@ impl Cloth {
         (from * (b - x) + to * (x - a)) / (b - a)
     }
 
-    /// Where a place comes to lie.
+    /// Point displaced with the cloth.
     pub(super) fn carried(&self, at: Point) -> Point {
         Point::new(at.x, at.y + self.across(at.x))
     }
 
-    /// How far a point is from where the line between two places comes to lie, mm.
+    /// Distance of a point from the displaced line between two places, mm.
     fn off([from, to]: [Point; 2], at: Point, across: f64) -> f64 {
         let x = at.x.clamp(from.x.min(to.x), from.x.max(to.x));
         let share = if (to.x - from.x).abs() > ALONG_EPSILON { (x - from.x) / (to.x - from.x) } else { return 0.0 };
         (at.x - x).hypot(at.y - (from.y + (to.y - from.y) * share + across))
     }
 
-    /// How far a stroke is from where the line between two places comes to lie, mm, at its ends and wherever that bends.
+    /// Greatest distance of a stroke from the displaced line between two places, mm, at its ends and at each bend of the centre
+    /// line.
     fn astray(&self, line: [Point; 2], [from, to]: [Point; 2]) -> f64 {
         let Self(rows) = self;
         let ends = [from, to].map(|at| Self::off(line, at, self.across(at.x)));
@@ -77,8 +78,8 @@ impl Cloth {
         ends.into_iter().chain(bends).fold(0.0, worse)
     }
 
-    /// How far a line as the sheet lays it is from its parts, which come first among `parts`, mm; they are taken out of these.
-    /// Infinite where they are none of it.
+    /// Greatest distance of a line of the sheet from its parts, mm. The parts come first in `parts` and are consumed. Infinite
+    /// if the parts do not belong to the line.
     pub(super) fn parted<'s>(&self, line: &Segment, parts: &mut impl Iterator<Item = &'s Segment>) -> f64 {
         let ends = [line.from, line.to];
         let along = line.to.x - line.from.x;
@@ -105,7 +106,7 @@ impl Cloth {
     }
 }
 
-/// The greater of two; what is no number is the greatest.
+/// Greater of two values; infinite if either is NaN.
 fn worse(one: f64, other: f64) -> f64 {
     if one.is_nan() || other.is_nan() { f64::INFINITY } else { one.max(other) }
 }

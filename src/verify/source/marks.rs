@@ -1,28 +1,28 @@
-//! Registration marks, read again from the bytes of their file; their map is solved by other means than the compiler's.
+//! Registration marks, read again from the bytes of their file; their map is solved by another method than the compiler's.
 
 use crate::machine::Job;
 
-/// Fewest marks of which a wrong one shows.
+/// Smallest number of marks with which a wrong one can be detected.
 const LEAST: usize = 4;
-/// Least squared width of the marks, as a share of their squared length: across a narrower strip the map is a guess.
+/// Least squared width of the marks, relative to their squared length: for a narrower strip the map is uncertain.
 const LEAST_WIDTH: f64 = 1e-4;
 
-/// Least share of a wrong reading that shows: below it the other marks lie on a line.
+/// Least visible share of a wrong reading: below it the other marks are collinear.
 const LEAST_SHOWN: f64 = 1e-4;
 
-/// The affine map of the marks of a job, and its greatest residual.
+/// Affine map of the marks of a job, and its greatest residual.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ByMarks {
-    /// Where a step of 1 mm along X goes, and one along Y.
+    /// Images of steps of 1 mm along X and Y.
     pub(super) axes: [[f64; 2]; 2],
-    /// Where the origin goes, mm.
+    /// Image of the origin, mm.
     pub(super) by: [f64; 2],
     /// Greatest deleted residual, mm: distance of a mark from its place by the map of the others; infinite without a map.
     pub(super) off: f64,
 }
 
 impl ByMarks {
-    /// Map of the marks of a job; `None` without marks. A file that cannot be read gives no map.
+    /// Map of the marks of a job; `None` without marks. A file that cannot be read has no map: `off` is infinite.
     pub(super) fn of(job: &Job) -> Option<Self> {
         let marks = job.marks.as_ref()?;
         let text = String::from_utf8_lossy(marks.source().bytes());
@@ -34,9 +34,9 @@ impl ByMarks {
         Some(Self::through(&rows.map(row).collect::<Option<Vec<_>>>().unwrap_or_default()))
     }
 
-    /// The map with the least sum of squares through rows of X and Y as drawn and as found, mm.
+    /// Least-squares map through rows of X and Y as drawn and as found, mm.
     ///
-    /// The columns 1, x and y are made orthogonal (Gram-Schmidt), and what is found is projected on each of them.
+    /// The columns 1, x and y are made orthogonal (Gram-Schmidt), and the found coordinates are projected on each of them.
     fn through(rows: &[[f64; 4]]) -> Self {
         let count = rows.len() as f64;
         let means = [0, 1, 2, 3].map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / count);
@@ -53,7 +53,7 @@ impl ByMarks {
         let [of_x, of_y] = [part(2), part(3)];
         let axes = [[of_x[0], of_y[0]], [of_x[1], of_y[1]]];
         let by = [0, 1].map(|k| means[2 + k] - axes[0][k] * means[0] - axes[1][k] * means[1]);
-        // Leverage of a mark; one less that is the share of a wrong reading that its residual shows.
+        // Leverage of a mark; one minus it is the share of a wrong reading that its residual shows.
         let own =
             |k: usize| 1.0 / count + x[k] * x[k] / dot(&x, &x) + upright[k] * upright[k] / dot(&upright, &upright);
         let off = |(k, row): (usize, &[f64; 4])| {

@@ -1,8 +1,8 @@
-//! The audit of the source: its bytes, read by other means than the reader's, hold what the marker holds, no pass
-//! loses any of it, and all of it lies where the sheet and the cloth have it.
+//! Audit of the source. Its bytes, read by other means than the reader's, must contain the same as the marker; no pass may lose
+//! any of it; and all of it must be at its place by sheet and cloth.
 //!
-//! Receives the bytes, and the marker as it was read and as it is cut; promises a finding under each rule `source/`. Never
-//! uses a reader of `front`.
+//! Input: the bytes, and the marker as read and as cut. Output: a finding for each rule `source/`. It uses no reader of
+//! `front`.
 
 pub(super) mod audit;
 pub(super) mod census;

@@ -1,4 +1,4 @@
-//! A small scan of a cut file by other means than the reader's: it follows the knife and counts, and makes nothing.
+//! Minimal scan of a cut file by other means than the reader's: it follows the knife and computes statistics.
 
 use std::f64::consts::TAU;
 
@@ -11,14 +11,14 @@ use crate::machine::keys::CODE_NAMES;
 
 /// Codes that drill.
 const DRILLS: [&str; 6] = ["R", "M43", "M44", "M45", "M72", "M73"];
-/// Codes that may stand between the place of a contour's start and its knife-down.
+/// Codes that may stand between the start place of a contour and its knife-down.
 const BEFORE_DOWN: [&str; 10] = ["A", "M15", "M17", "M18", "H", "G90", "D1", "D2", "D4", "M30"];
-/// Which way [`Scan::way`] goes: the sense of rotation of arcs, none for straight lines.
+/// Values of [`Scan::way`]: straight lines, or the rotation of arcs.
 const STRAIGHT: f64 = 0.0;
 const CLOCKWISE: f64 = -1.0;
 const COUNTERCLOCKWISE: f64 = 1.0;
 
-/// Scans a cut file whose unit is that many mm. Only what moves the knife matters; everything else is passed over.
+/// Scans a cut file with a unit of `unit` mm. Only codes that move the knife matter; all others are skipped.
 pub(super) fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack) {
     let mut scan = Scan {
         blocks: Blocks::new(bytes),
@@ -52,14 +52,14 @@ struct Scan<'a> {
     profile: &'a MachineProfile,
     census: Census,
     slack: Slack,
-    /// What is being cut, while the knife is down.
+    /// Current stroke, while the knife is down.
     stroke: Option<Drawn>,
     at: Point,
-    /// Whether the knife was led here in the air, and nothing was drilled here yet.
+    /// True if the knife moved here in the air, and nothing has been drilled here yet.
     fresh: bool,
-    /// Whether a hole waits for its place.
+    /// True if a hole waits for its place.
     waiting: bool,
-    /// Which way arcs go.
+    /// Rotation of arcs.
     way: f64,
 }
 
@@ -86,7 +86,7 @@ impl Scan<'_> {
         }
         let place = Some(block).filter(|block| moves && block.has_place());
         if drills {
-            // Behind the end no place follows, and the one behind M31 is the label's.
+            // No place follows the end of the program, and a place behind M31 belongs to the label.
             let may_wait = !is_label && block.codes.iter().all(|word| word.name() != "M0");
             if place.is_none() && may_wait && !self.fresh && self.place_follows() {
                 self.waiting = true;
@@ -101,7 +101,7 @@ impl Scan<'_> {
         }
     }
 
-    /// The end of a stroke: one that never moves cuts nothing.
+    /// Ends a stroke; a stroke that never moves cuts nothing.
     fn up(&mut self) {
         self.fresh = false;
         let Some(stroke) = self.stroke.take().filter(|stroke| stroke.points > 0) else { return };
@@ -111,7 +111,7 @@ impl Scan<'_> {
         self.census.bounds.add(stroke.bounds.max);
     }
 
-    /// Where the coordinates of a block lie.
+    /// Point of the coordinates of a block.
     fn place(&self, block: &Block) -> Point {
         let [x, y, ..] = block.place.map(|number| number.map(|number| number * self.unit));
         Point::new(x.unwrap_or(self.at.x), y.unwrap_or(self.at.y))
@@ -135,20 +135,20 @@ impl Scan<'_> {
                 stroke.arc(to, centre, self.way, &mut self.slack);
             }
             Some(radius) => stroke.arc(to, bulge(to - self.at, radius, self.way), self.way, &mut self.slack),
-            None if turns => {} // an arc without a centre is a fault of the file
+            None if turns => {} // an arc without a centre is an error in the file
             None => stroke.line(to),
         }
         self.at = to;
     }
 
-    /// A hole where the knife is.
+    /// Adds a hole at the knife.
     fn hole(&mut self) {
         self.census.drills += 1;
         self.census.bounds.add(self.at);
         self.fresh = false;
     }
 
-    /// A hole at the place of its block, or where the knife is.
+    /// Adds a hole at the place of its block, or at the knife.
     fn drill(&mut self, place: Option<&Block>) {
         if let Some(block) = place {
             self.at = self.place(block);
@@ -156,7 +156,7 @@ impl Scan<'_> {
         self.hole();
     }
 
-    /// Whether the next block is a place, but not the start of a contour.
+    /// True if the next block is a place, but not the start of a contour.
     fn place_follows(&self) -> bool {
         let mut ahead = self.blocks.clone();
         if !ahead.skip_if(|block| block.codes.is_empty() && block.has_place()) {
@@ -178,7 +178,7 @@ impl Scan<'_> {
         true
     }
 
-    /// Passes over the texts and places behind M31.
+    /// Skips the texts and places behind M31.
     fn label(&mut self, place: Option<&Block>) {
         if place.is_none() {
             self.blocks.skip_if(|block| block.codes.is_empty() && block.is_whole_place());
@@ -186,7 +186,7 @@ impl Scan<'_> {
             return;
         }
         self.blocks.skip_text();
-        // The text for mirrored pieces is no codes, a second place with M31 follows it, and then codes again.
+        // The text for mirrored pieces is not codes; it is followed by a second place with M31 and then by codes.
         let mut ahead = self.blocks.clone();
         if ahead.next().is_none_or(|text| is_known(text.as_ref().ok())) {
             return;
@@ -202,12 +202,12 @@ impl Scan<'_> {
     }
 }
 
-/// Whether a block holds known codes and coordinates, and nothing else.
+/// True if a block consists of known codes and coordinates.
 fn is_known(block: Option<&Block>) -> bool {
     block.is_some_and(|block| block.codes.iter().all(|word| CODE_NAMES.contains(&word.name().as_str())))
 }
 
-/// What the knife does between going down and up.
+/// Path of the knife between down and up.
 struct Drawn {
     at: Point,
     points: usize,
@@ -229,8 +229,8 @@ impl Drawn {
         self.at = to;
     }
 
-    /// An arc around `at + centre`, `way` 1 counter-clockwise and -1 clockwise; it is longer than its chords by
-    /// s / (3 r) of its length, s their sagitta.
+    /// Adds an arc around `at + centre`, `way` 1 counter-clockwise and -1 clockwise. It exceeds its chords by s / (3 r) of its
+    /// length, with s their sagitta.
     fn arc(&mut self, to: Point, centre: Vector, way: f64, slack: &mut Slack) {
         let around = self.at + centre;
         let (start, end) = (-centre, to - around);
@@ -255,7 +255,7 @@ impl Drawn {
     }
 }
 
-/// Where the centre of an arc lies as seen from its start, when the file gives the radius: negative, the longer way round.
+/// Centre of an arc relative to its start, from the radius in the file; a negative radius selects the longer way around.
 fn bulge(chord: Vector, radius: f64, way: f64) -> Vector {
     let half = chord.norm() / 2.0;
     let height = (radius * radius - half * half).max(0.0).sqrt() * way * radius.signum();

@@ -1,17 +1,18 @@
-//! The blocks of a cut file and their words, for the scan of the source: cut and read by other means than the reader's.
+//! Blocks of a cut file and their words, for the scan of the source: divided and read by other means than the reader's.
 
-/// Digits of a whole number that is exact in `f64` all along.
+/// Maximum number of digits of an integer that `f64` represents exactly.
 const EXACT_DIGITS: usize = 15;
-/// Digits of a whole number that is below [`GREATEST`].
+/// Maximum number of digits of an integer that stays within [`GREATEST`].
 const SHORT_DIGITS: usize = 8;
-/// Most codes of a block, most decimals that count, and the greatest number: what goes beyond is a fault of the file.
+/// Maximum number of codes of a block and of significant decimals, and the greatest number: anything beyond is an error in the
+/// file.
 const MOST_CODES: usize = 6;
 const MOST_DECIMALS: usize = 6;
 const GREATEST: f64 = 1e8;
-/// Letters whose number is a value and no part of the code's name.
+/// Letters with a number that is a value and not part of the code's name.
 const VALUED: &str = "FHNZ";
 
-/// A code: a letter and, mostly, a number.
+/// Code: a letter, usually with a number.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Word {
     pub(in crate::verify) letter: char,
@@ -19,7 +20,7 @@ pub(in crate::verify) struct Word {
 }
 
 impl Word {
-    /// The code as the profile names it.
+    /// Code as the profile names it.
     pub(in crate::verify) fn name(self) -> String {
         match self.number.filter(|_| !VALUED.contains(self.letter)) {
             Some(number) => format!("{}{}", self.letter, number + 0.0), // zero has no sign
@@ -28,7 +29,7 @@ impl Word {
     }
 }
 
-/// What a block says.
+/// Contents of a block.
 #[derive(Debug, Clone, Default)]
 pub(in crate::verify) struct Block {
     pub(in crate::verify) codes: Vec<Word>,
@@ -37,17 +38,17 @@ pub(in crate::verify) struct Block {
 }
 
 impl Block {
-    /// Whether it has a coordinate.
+    /// True if it has a coordinate.
     pub(in crate::verify) fn has_place(&self) -> bool {
         self.place.iter().any(Option::is_some)
     }
 
-    /// Whether it gives X and Y, and no centre.
+    /// True if it has X and Y, and no centre.
     pub(in crate::verify) fn is_whole_place(&self) -> bool {
         self.place.map(|number| number.is_some()) == [true, true, false, false]
     }
 
-    /// Reads a block without blanks; `None` when it is something else: a text, or damaged.
+    /// Reads a block without blanks; `None` for a text or a damaged block.
     fn read(text: &[u8]) -> Option<Self> {
         let mut block = Self::default();
         let mut rest = text;
@@ -61,8 +62,8 @@ impl Block {
         (block.codes.len() <= MOST_CODES).then_some(block)
     }
 
-    /// Reads a block of places in short whole numbers alone, as nearly all are, and says how long it is with its asterisk;
-    /// `None` when it is any other.
+    /// Reads a block of places in short integers, the usual case, and returns it with its length including the asterisk; `None`
+    /// for any other block.
     fn read_place(text: &[u8]) -> Option<(Self, usize)> {
         let mut block = Self::default();
         let mut at = 0;
@@ -84,8 +85,8 @@ impl Block {
         (text.get(at) == Some(&b'*')).then_some((block, at + 1))
     }
 
-    /// Takes a letter with its number behind others, the last of which was a coordinate or not; says whether this one is.
-    /// `None` when it cannot stand there.
+    /// Adds a letter with its number; `last_was_coordinate` tells whether the one before was a coordinate. Returns true if this
+    /// one is; `None` if it is not allowed here.
     fn take(&mut self, letter: u8, number: Option<f64>, last_was_coordinate: bool) -> Option<bool> {
         if !letter.is_ascii_uppercase() {
             return None;
@@ -102,7 +103,7 @@ impl Block {
     }
 }
 
-/// A number with or without sign and decimals.
+/// Number with or without sign and decimals.
 fn number(text: &[u8]) -> Option<f64> {
     let (is_negative, digits) = match text {
         [b'-', digits @ ..] => (true, digits),
@@ -123,14 +124,14 @@ fn number(text: &[u8]) -> Option<f64> {
     (value <= GREATEST).then_some(if text.starts_with('-') { -value } else { value })
 }
 
-/// A block that is none: damaged, or a text.
+/// Error for a damaged block or a text in place of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::verify) struct Unsound;
 
-/// Bytes that most blocks are shorter than.
+/// Capacity, bytes, that is sufficient for most blocks.
 const BLOCK_ROOM: usize = 32;
 
-/// The blocks of a file, one after the other. A clone looks ahead.
+/// Iterator over the blocks of a file. A clone looks ahead.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Blocks<'a> {
     bytes: &'a [u8],
@@ -139,7 +140,7 @@ pub(in crate::verify) struct Blocks<'a> {
 
 impl<'a> Blocks<'a> {
     pub(in crate::verify) fn new(bytes: &'a [u8]) -> Self {
-        // A byte order mark, and lines of per cent signs, say nothing.
+        // A byte order mark and lines of percent signs are skipped.
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let frame = |byte: &u8| is_blank(*byte) || *byte == b'%';
         let start = bytes.iter().position(|byte| !frame(byte)).unwrap_or(bytes.len());
@@ -147,7 +148,7 @@ impl<'a> Blocks<'a> {
         Self { bytes: &bytes[start..end], at: 0 }
     }
 
-    /// The next block. What stands between two slashes is deleted.
+    /// Next block. Text between two slashes is deleted.
     pub(in crate::verify) fn next(&mut self) -> Option<Result<Block, Unsound>> {
         if self.at >= self.bytes.len() {
             return None;
@@ -159,13 +160,13 @@ impl<'a> Blocks<'a> {
         }
         let end = memchr::memchr(b'*', rest).unwrap_or(rest.len());
         if !rest[..end].iter().any(|&byte| byte == b'/' || is_blank(byte)) {
-            // As nearly all are.
+            // The usual case.
             self.at += (end + 1).min(rest.len());
             return Some(Block::read(&rest[..end]).ok_or(Unsound));
         }
         let mut text = Vec::with_capacity(BLOCK_ROOM);
         let mut sound = true;
-        // Blanks and marks since the last other byte; line breaks may stand anywhere.
+        // Blanks and marks since the last other byte; line breaks are allowed anywhere.
         let (mut has_blank, mut has_mark) = (false, false);
         while let Some(&byte) = self.bytes.get(self.at) {
             self.at += 1;
@@ -190,13 +191,13 @@ impl<'a> Blocks<'a> {
         Some(Block::read(&text).filter(|_| sound).ok_or(Unsound))
     }
 
-    /// Passes over a text, in which nothing is deleted.
+    /// Skips a text, in which nothing is deleted.
     pub(in crate::verify) fn skip_text(&mut self) {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
         self.at += rest.iter().position(|&byte| byte == b'*').map_or(rest.len(), |length| length + 1);
     }
 
-    /// Passes over the next block if it is the one that is looked for.
+    /// Skips the next block if `wanted` is true for it.
     pub(in crate::verify) fn skip_if(&mut self, wanted: impl Fn(&Block) -> bool) -> bool {
         let mut ahead = self.clone();
         let is_wanted = ahead.next().is_some_and(|next| next.is_ok_and(|block| wanted(&block)));

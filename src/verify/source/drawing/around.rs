@@ -1,42 +1,43 @@
-//! Open lines around a cut: where they run along nearly all of it from outside, and nobody cuts them, they are its outline,
-//! and a seam line is cut. An outline in dashes, in sides that do not meet or in stretches between notches is such.
+//! Open lines around a cut. If uncut lines run along nearly all of it from outside, they are its outline, and the cut is a seam
+//! line by mistake. Examples are an outline in dashes, in sides that do not meet, or in stretches between notches.
 //!
-//! The lines are looked at place by place, whatever stroke these are of. Nothing that is cut may stand between.
+//! Lines are examined place by place, regardless of strokes. No cut may lie in between.
 
 use super::rectangle;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, Vector, cross, left, polyline, ring};
 
-/// Smallest cut that is looked at, mm.
+/// Smallest cut that is examined, mm.
 const LEAST_SIZE: f64 = 30.0;
-/// Places of a cut from which its surroundings are looked at.
+/// Number of places of a cut whose surroundings are examined.
 const SAMPLES: usize = 64;
-/// Share of them beside which the lines must run.
+/// Fraction of these places beside which lines must run.
 const NEARLY_ALL: f64 = 0.8;
-/// Distance of an outline from a line that is cut for it, mm: less is the same edge, more is another part.
+/// Range of the distance of an outline from a line that is cut instead, mm: closer is the same edge, farther is another part.
 const OFF: [f64; 2] = [1.5, 50.0];
-/// How far beyond the box of a cut the lines around it go, mm: longer ones are the edges of the cloth.
+/// Greatest distance of surrounding lines beyond the box of a cut, mm: longer lines are edges of the cloth.
 const BEYOND: f64 = 100.0;
-/// Cosine of the greatest angle between the way to a line and the square to the cut, and the sine of that between them.
+/// Cosine of the greatest angle between the direction to a line and the normal of the cut; then the sine of the greatest angle
+/// between line and cut.
 const AHEAD: f64 = 0.7;
 const ALONG: f64 = 0.5;
-/// Places of a line are so far from each other, mm.
+/// Spacing of the sampled places of a line, mm.
 const SPACING: f64 = 3.0;
-/// How near to a cut the places of a line are that is cut, mm.
+/// Distance from a cut within which a place counts as cut, mm.
 const CUT: f64 = 0.3;
-/// Largest letter, mm; a dash is straight.
+/// Largest letter, mm; unlike a letter, a dash is straight.
 const LETTER: f64 = 15.0;
-/// Farthest that a place of a straight stroke lies off it, mm.
+/// Greatest deviation of a straight stroke, mm.
 const STRAIGHT: f64 = 0.1;
 
-/// A place of a line that is not cut, and the edge that it is of.
+/// Place of a line that is not cut, and its edge.
 struct Uncut {
     at: Point,
     edge: [Point; 2],
 }
 
-/// Edges by their boxes.
+/// Edges indexed by their boxes.
 struct Edges {
     all: Vec<[Point; 2]>,
     boxes: Boxes,
@@ -58,14 +59,14 @@ impl Edges {
         self.near(Extent::between(at, at).grown(CUT)).any(|[a, b]| polyline::distance_to_segment(at, a, b) <= CUT)
     }
 
-    /// Whether one of them stands between two places.
+    /// True if an edge lies between two places.
     fn part(&self, [from, to]: [Point; 2]) -> bool {
         self.near(Extent::between(from, to)).any(|edge| polyline::distance_of_segments([from, to], edge) <= 0.0)
     }
 }
 
-/// The cuts that open lines go around, given by their indices. Ends within `close` of each other, mm, may be one place; a cut
-/// that the search does not come to is among them.
+/// Indices of the cuts that open lines surround. Ends within `close` mm of each other may be one place. If the work budget runs
+/// out, the remaining cuts are included.
 pub(super) fn surrounded(drawn: &[Vec<Point>], cuts: &[Vec<Point>], close: f64) -> Vec<usize> {
     let rectangles = rectangle::drawn(drawn, close);
     let is_open = |stroke: &&Vec<Point>| {
@@ -93,14 +94,14 @@ fn is_straight(stroke: &[Point]) -> bool {
     far.is_some_and(|far| stroke.iter().all(|at| polyline::distance_to_segment(*at, stroke[0], *far) <= STRAIGHT))
 }
 
-/// Places of an edge.
+/// Sampled places of an edge.
 fn places(edge: [Point; 2]) -> impl Iterator<Item = Uncut> {
     let way = edge[1] - edge[0];
     let count = (way.norm() / SPACING).ceil().max(1.0) as usize;
     (0..count).map(move |k| Uncut { at: edge[0] + way * ((k as f64 + 0.5) / count as f64), edge })
 }
 
-/// Lines of a plot about its cuts: places of those that are not cut, and the edges that are.
+/// Lines of a plot around its cuts: places of the uncut lines, and the edges of the cuts.
 struct Around {
     places: Vec<Uncut>,
     boxes: Boxes,
@@ -108,7 +109,7 @@ struct Around {
 }
 
 impl Around {
-    /// Whether lines go around a cut, or no work is left to find out.
+    /// True if lines surround a cut, or the work budget is used up.
     fn goes_around(&self, cut: &[Point], work: &mut Budget) -> bool {
         let extent = Extent::of(cut);
         let (width, height) = extent.size();
@@ -137,7 +138,7 @@ impl Around {
         beside as f64 >= NEARLY_ALL * SAMPLES as f64
     }
 
-    /// Whether a line runs beside a place of a cut, outside, with nothing that is cut between them.
+    /// True if a line runs beside a place of a cut, on its outer side, without another cut in between.
     fn is_beside(&self, at: Point, way: Vector, outward: Vector, within: &Extent) -> bool {
         let near = self.boxes.near(Extent::between(at, at).grown(OFF[1])).map(|k| &self.places[k]);
         let ahead = near.filter_map(|place| {

@@ -1,27 +1,28 @@
-//! The edge of the cloth among the lines of a plot: a rectangle around parts beside each other is not cut in their place,
-//! and nothing outside such rectangles is cut.
+//! Edge of the cloth among the lines of a plot: a rectangle around several parts must not be cut instead of the parts, and
+//! nothing outside such rectangles may be cut.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, ring};
 
-/// Share of a rectangle that outlines in it fill which are not cut: then it is the edge of the cloth.
+/// Fraction of a rectangle that uncut outlines in it must fill for it to be the edge of the cloth.
 const FILLED: f64 = 0.6;
-/// Share of the area of one outline that another one beside it has, at the least: less is a mark.
+/// Smallest ratio of the areas of two adjacent outlines: a smaller one is a mark.
 const LEAST_BESIDE: f64 = 0.15;
-/// Largest outlines in a rectangle among which two beside each other are looked for.
+/// Maximum number of outlines in a rectangle, largest first, that are searched for two side by side.
 const MOST_BESIDE: usize = 512;
-/// Greatest length by which outlines stand over the edge that they touch, mm.
+/// Greatest overhang of outlines beyond the edge that they touch, mm.
 const OVER: f64 = 0.5;
 
-/// An outline of a plot.
+/// Outline of a plot.
 pub(super) struct Outline<'a> {
     pub(super) stroke: &'a [Point],
     pub(super) is_rectangle: bool,
     pub(super) is_cut: bool,
 }
 
-/// A rectangle that is cut though outlines beside each other fill it that are not: it is around nearly all of the plot.
-/// Open lines may be outlines that hold others: where one lies in it beside those outlines nothing is known.
+/// Start of a rectangle that is cut although uncut outlines side by side fill it, and that surrounds nearly the whole plot.
+/// Open lines may be outlines that contain others: with one inside the rectangle but outside these outlines, the result is
+/// `None`.
 pub(super) fn cut_edge(outlines: &[Outline], open: &[Extent]) -> Option<Point> {
     let area = |outline: &Outline| ring::area(outline.stroke).abs();
     let edge = outlines.iter().max_by(|a, b| area(a).total_cmp(&area(b))).filter(|edge| edge.is_rectangle)?;
@@ -54,7 +55,7 @@ pub(super) fn cut_edge(outlines: &[Outline], open: &[Extent]) -> Option<Point> {
     let are_beside = |(a, size): &(Extent, f64), (b, other): &(Extent, f64)| {
         !a.meets(b) && size.min(*other) >= LEAST_BESIDE * size.max(*other)
     };
-    // Those like the largest one are many where it is the edge of the cloth.
+    // At the edge of a cloth, outlines about as large as the largest one are many.
     let mut by_size: Vec<&(Extent, f64)> = tops.iter().collect();
     by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
     by_size.truncate(MOST_BESIDE);
@@ -63,8 +64,7 @@ pub(super) fn cut_edge(outlines: &[Outline], open: &[Extent]) -> Option<Point> {
     (is_known && is_beside_another && filled >= FILLED * area(edge)).then(|| edge.stroke[0])
 }
 
-/// Starts of closed lines that are cut outside all edges of the cloth: rectangles that are not cut, around cuts beside each
-/// other.
+/// Starts of closed lines that are cut outside all edges of the cloth: uncut rectangles around cuts that lie side by side.
 pub(super) fn outside<'a>(edges: &[Extent], cuts: impl Iterator<Item = &'a Vec<Point>>) -> Vec<Point> {
     if edges.is_empty() {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Strokes of a drawing as they are read a second time.
+//! Strokes of a drawing in its second reading.
 
 use std::collections::BTreeSet;
 
@@ -7,16 +7,16 @@ use crate::machine::{Job, layers};
 
 /// Strokes of a drawing.
 pub(in crate::verify::source) struct Drawn {
-    /// Places between two lifts, mm.
+    /// Points between two lifts, mm.
     pub(in crate::verify::source) strokes: Vec<Vec<Point>>,
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    /// Unit of which the numbers of the file are multiples, mm; 0 when they are not rounded.
     pub(in crate::verify::source) unit: f64,
-    /// Names of the layers that draw; none of a plot, which has pens.
+    /// Names of the layers with strokes; empty for a plot, which has pens.
     pub(in crate::verify::source) layers: BTreeSet<String>,
 }
 
 impl Drawn {
-    /// Whether anybody says of pens or layers what their lines are: then shapes do not tell what is cut.
+    /// True if the use of pens or layers is specified: then shapes do not determine what is cut.
     pub(in crate::verify::source) fn is_said(&self, job: &Job) -> bool {
         let layers: Vec<&str> = self.layers.iter().map(String::as_str).collect();
         let uses = layers::uses(&layers, job.lines.layers.as_ref(), &job.profile.drawing.layers);

@@ -1,9 +1,9 @@
-//! Second readings of drawings, a row a dialect, and whether the right lines of one are cut.
+//! Second readings of drawings, one per dialect, and the check that the right lines are cut.
 //!
-//! The census knows nothing of what is cut: a marker of a drawing keeps account of what it leaves aside, and both together
-//! must be what is drawn. Holes are deduced from shapes, so their number is not in the bytes. `outermost` judges by the same
-//! strokes whether the right lines are cut: `around` whether others go around these, `cloth` whether the edge of the cloth is
-//! cut, whose rectangles `rectangle` finds, `slits` whether slits are lost.
+//! The census does not know which lines are cut: the marker of a drawing keeps account of the lines left aside, and both
+//! together must equal the drawing. Holes are deduced from shapes, so their number is not in the bytes. `outermost` verifies
+//! from the same strokes that the right lines are cut: `around` checks that no others surround them, `cloth` that the edge of
+//! the cloth is not cut, `rectangle` finds such edges, and `slits` checks that no slits are lost.
 
 mod around;
 mod cloth;
@@ -19,13 +19,13 @@ use super::dxf::plain;
 use super::{hpgl, svg};
 use crate::machine::MachineProfile;
 
-/// Second reading of a dialect that says what is drawn, by other means than the reader's.
+/// Second reading of a dialect, by other means than the reader's.
 pub(super) struct Second {
     /// Name of the dialect.
     dialect: &'static str,
-    /// Counts what is drawn.
+    /// Computes statistics of the drawing.
     pub(super) census: fn(&[u8], &MachineProfile) -> (Census, Slack),
-    /// Gathers what is drawn.
+    /// Collects the strokes of the drawing.
     pub(super) strokes: fn(&[u8], &MachineProfile) -> Drawn,
 }
 
@@ -35,7 +35,7 @@ const SECONDS: &[Second] = &[
     Second { dialect: "svg", census: svg::scan, strokes: svg::drawn },
 ];
 
-/// The second reading of the dialect of that name; `None` of one that says what is cut.
+/// Second reading of a dialect; `None` for a dialect that states what is cut.
 pub(super) fn second(dialect: &str) -> Option<&'static Second> {
     SECONDS.iter().find(|second| second.dialect == dialect)
 }

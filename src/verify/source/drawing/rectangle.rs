@@ -1,23 +1,23 @@
-//! Rectangles that a plot draws, in one stroke or several: the edge of the cloth, along which outlines may be closed.
+//! Rectangles drawn by a plot, in one stroke or several: the edge of the cloth, along which outlines may be closed.
 //!
-//! The strokes of one are straight along X or Y and meet at their ends. A stroke may go on past its start.
+//! Their strokes are straight along X or Y and meet at their ends. A stroke may continue past its start.
 
 use crate::geom::{Extent, Point, polyline};
 
-/// Places of a line along a rectangle that are looked at, less one.
+/// Number of steps between the sampled places of a line along a rectangle.
 const STEPS: usize = 16;
-/// Smaller side of the smallest rectangle that closes outlines, mm: less is a line.
+/// Smaller side of the smallest rectangle that closes outlines, mm: a narrower one is a line.
 const LEAST_SIZE: f64 = 30.0;
-/// How far the two ends of an edge along an axis may lie beside each other, mm: rounding.
+/// Greatest offset between the two ends of an edge along an axis, mm: rounding.
 const ASKEW: f64 = 0.2;
 
-/// A rectangle: its box, and the edges that are drawn of it.
+/// Rectangle: its box, and its drawn edges.
 pub(super) struct Rectangle {
     extent: Extent,
     edges: Vec<[Point; 2]>,
 }
 
-/// The rectangles of some strokes, whose ends meet within `reach`, mm. Each side of one has an edge on it.
+/// Rectangles among some strokes, whose ends meet within `reach`, mm. Each side of a rectangle has a drawn edge.
 pub(super) fn drawn(strokes: &[Vec<Point>], reach: f64) -> Vec<Rectangle> {
     let straight = strokes.iter().filter(|stroke| stroke.len() > 1 && stroke.windows(2).all(is_along_axis));
     let straight: Vec<&Vec<Point>> = straight.collect();
@@ -42,10 +42,10 @@ pub(super) fn drawn(strokes: &[Vec<Point>], reach: f64) -> Vec<Rectangle> {
     rectangles.into_iter().flatten().filter(|rectangle| rectangle.is_whole(reach)).collect()
 }
 
-/// Ends beside one that are compared: where more lie, no outline is closed.
+/// Maximum number of neighbouring ends that are compared: where more lie, no outline is closed.
 const MOST_ENDS: usize = 64;
 
-/// The least stroke of a group.
+/// Stroke of least index in a group.
 fn root(group: &mut [usize], of: usize) -> usize {
     let mut at = of;
     while group[at] != at {
@@ -66,7 +66,7 @@ impl Rectangle {
         [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
     }
 
-    /// Whether each of its sides is drawn.
+    /// True if each side is drawn.
     fn is_whole(&self, reach: f64) -> bool {
         let (width, height) = self.extent.size();
         let corners = self.corners();
@@ -74,14 +74,14 @@ impl Rectangle {
             && (0..4).all(|side| self.is_drawn([corners[side], corners[(side + 1) % 4]], reach))
     }
 
-    /// Whether an edge is drawn all along.
+    /// True if an edge is drawn over its whole length.
     fn is_drawn(&self, [from, to]: [Point; 2], reach: f64) -> bool {
         let place = |k: usize| from + (to - from) * (k as f64 / STEPS as f64);
         let is_near = |at: Point| self.edges.iter().any(|[a, b]| polyline::distance_to_segment(at, *a, *b) <= reach);
         (0..=STEPS).all(|k| is_near(place(k)))
     }
 
-    /// Whether each edge of a line runs along one side, where that is drawn.
+    /// True if each edge of a line runs along one drawn side.
     pub(super) fn runs_along(&self, line: &[Point], reach: f64) -> bool {
         let corners = self.corners();
         let is_on = |side: usize, ends: &[Point]| {

@@ -1,29 +1,29 @@
-//! Straight strokes of a plot at the edges of what is cut: a slit that is drawn by itself is cut, and an arm of a cross or a
-//! barb of an arrow is not.
+//! Straight strokes of a plot at the edges of cuts: a slit that is drawn by itself must be cut; an arm of a cross or a barb of
+//! an arrow must not.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, cross, polyline};
 
-/// Lengths of slits that are looked at, mm.
+/// Range of the lengths of slits, mm.
 const LENGTH: [f64; 2] = [1.5, 14.5];
-/// Greatest distance of the foot of a slit from the edge, and least distance of its tip, mm.
+/// Greatest distance of the foot of a slit from the edge; then least distance of its tip, mm.
 const FOOT: f64 = 0.05;
 const DEPTH: f64 = 1.2;
-/// Ends of strokes that meet lie so near to each other, mm.
+/// Greatest distance of two ends that meet, mm.
 const MEET: f64 = 0.25;
-/// Shares of two strokes at which they may make a cross where they cross, and those at which they surely do.
+/// Positions of a crossing on both strokes, as fractions, that may make a cross; then those that certainly do.
 const MAY_CROSS: [f64; 2] = [0.15, 0.85];
 const CROSS: [f64; 2] = [0.42, 0.58];
-/// Greatest ratio of the lengths of two strokes that may be a sign, and of two that surely are.
+/// Greatest ratio of the lengths of two strokes that may form a sign; then of two that certainly do.
 const MAY_BE_LONGER: f64 = 1.3;
 const LONGER: f64 = 1.2;
-/// Angle between a barb of an arrow and its stem, rad; how far one differs from the other.
+/// Range of the angle between a barb of an arrow and its stem, rad; then the tolerance between the two barbs.
 const BARB: [f64; 2] = [0.15, 0.9];
 const EVEN: f64 = 0.08;
-/// Strokes near one that are compared.
+/// Maximum number of strokes near one that are compared.
 const MOST_NEAR: usize = 256;
 
-/// Strokes of a plot by their boxes.
+/// Strokes of a plot indexed by their boxes.
 pub(super) struct Strokes<'a> {
     all: &'a [Vec<Point>],
     boxes: Boxes,
@@ -34,14 +34,14 @@ impl<'a> Strokes<'a> {
         Self { all, boxes: Boxes::new(all.iter().map(|stroke| Extent::of(stroke).grown(MEET)).collect()) }
     }
 
-    /// The strokes near a place or a stroke; none of them where they are many.
+    /// Strokes near a box; `None` if there are too many.
     fn near(&self, extent: Extent) -> Option<Vec<&'a Vec<Point>>> {
         let near: Vec<&Vec<Point>> = self.boxes.near(extent).take(MOST_NEAR + 1).map(|k| &self.all[k]).collect();
         (near.len() <= MOST_NEAR).then_some(near)
     }
 
-    /// Slits on an edge that are drawn by themselves: nothing goes on from their tip, and no other stroke makes a sign of
-    /// them. Given from foot to tip.
+    /// Slits on an edge that are drawn by themselves: nothing continues from their tip, and no other stroke forms a sign with
+    /// them. From foot to tip.
     pub(super) fn slits(&self, edge: &[Point]) -> Vec<[Point; 2]> {
         let around = Extent::of(edge).grown(MEET);
         let is_slit = |stroke: &&Vec<Point>| stroke.len() == 2 && (LENGTH[0]..=LENGTH[1]).contains(&length(stroke));
@@ -49,7 +49,7 @@ impl<'a> Strokes<'a> {
         let leads = strokes.flat_map(|stroke| [[stroke[0], stroke[1]], [stroke[1], stroke[0]]]);
         let leads: Vec<[Point; 2]> = leads.collect();
         if leads.is_empty() {
-            return Vec::new(); // as around most parts
+            return Vec::new(); // the usual case
         }
         let chords = Boxes::new(edge.windows(2).map(|ends| Extent::between(ends[0], ends[1])).collect());
         let is_within = |at: Point, reach: f64| {
@@ -60,7 +60,7 @@ impl<'a> Strokes<'a> {
         stands.filter(|slit| self.is_alone(*slit)).collect()
     }
 
-    /// Whether a box holds more than `most` strokes that go around something.
+    /// True if a box contains more than `most` strokes for which `goes_around` is true.
     pub(super) fn has_more_in(&self, extent: Extent, most: usize, goes_around: impl Fn(&[Point]) -> bool) -> bool {
         let is_in = |k: &usize| extent.grown(MEET).covers(&self.boxes.all()[*k]) && goes_around(&self.all[*k]);
         self.boxes.near(extent).filter(is_in).take(most + 1).count() > most
@@ -73,7 +73,7 @@ impl<'a> Strokes<'a> {
         let ends = |stroke: &[Point]| [stroke[0], stroke[stroke.len() - 1]];
         let begins = |stroke: &&&Vec<Point>| ends(stroke).iter().any(|end| (end - foot).norm() <= MEET);
         let others = || near.iter().filter(|stroke| !is_own(stroke));
-        // Three lines from one place may be an arrow.
+        // Three lines from one place may form an arrow.
         let is_arrow = others().filter(|stroke| stroke.len() == 2).filter(begins).count() > 1;
         !is_arrow
             && others().all(|stroke| {
@@ -90,7 +90,7 @@ impl<'a> Strokes<'a> {
             })
     }
 
-    /// Whether a leg that is cut is an arm of a cross or a barb of an arrow, from its root on.
+    /// True if a leg that is cut, given from its root, is an arm of a cross or a barb of an arrow.
     pub(super) fn is_sign(&self, leg: [Point; 2]) -> bool {
         let [root, tip] = leg;
         let Some(near) = self.near(Extent::between(root, tip)) else { return false };
@@ -99,7 +99,7 @@ impl<'a> Strokes<'a> {
         let is_crossed = near.iter().filter(|stroke| stroke.len() == 2).any(|stroke| {
             are_alike(length(stroke), own, LONGER) && crossing(leg, [stroke[0], stroke[1]]).is_some_and(is_half)
         });
-        // Ways from the root, with the lengths of the strokes.
+        // Direction of each stroke from the root, relative to the leg, and its length.
         let straight = near.iter().filter(|stroke| stroke.len() == 2);
         let ways: Vec<(f64, f64)> = straight
             .flat_map(|stroke| [[stroke[0], stroke[1]], [stroke[1], stroke[0]]])
@@ -126,7 +126,7 @@ fn are_alike(a: f64, b: f64, ratio: f64) -> bool {
     a.max(b) <= ratio * a.min(b)
 }
 
-/// The crossing of two straight strokes, as shares of their lengths.
+/// Crossing of two straight strokes, as fractions of their lengths.
 fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<[f64; 2]> {
     let (one, other) = (b - a, d - c);
     let turn = cross(one, other);

@@ -1,7 +1,7 @@
-//! Lines that go along themselves again behind their start, found anew: the overcut of another cutter, and further rounds.
-//! A line is walked from its first place. Where it comes back there, all of it behind must be where it was as far from its
-//! start, or on whole rounds as far from its end, or go straight on out of the ring. A last stretch that closes the line may lead
-//! straight back over it.
+//! Lines that retrace themselves behind their start: the overcut of another cutter, and further rounds. This is an independent
+//! implementation of the reader's rule. A line is walked from its first place. Where it returns there, everything behind must
+//! coincide with the walk at the same distance from its start (or, on whole rounds, from its end), or continue straight out of
+//! the ring. A last stretch that closes the line may lead straight back over it.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -10,19 +10,19 @@ use super::lines::{MEETS, Path, Round};
 use crate::geom::{Point, cross, polyline, ring};
 use crate::machine::patterns::Dxf;
 
-/// How far two walks along one line may be apart in length: in millimetres, and as a part of them.
+/// Greatest difference in length between two walks along a line: in mm, and relative.
 const SLIP: f64 = 0.2;
 const SLIP_SHARE: f64 = 0.002;
-/// Returns to the start that are looked at.
+/// Maximum number of returns to the start that are examined.
 const MOST_RETURNS: usize = 8;
-/// Lines that are walked as one: their ends are compared with each other.
+/// Maximum number of lines that are walked as one: their ends are compared with each other.
 const MOST_PATHS: usize = 2000;
-/// Stretches that are compared at the most, as a multiple of those of the walk.
+/// Maximum number of compared stretches, as a multiple of those of the walk.
 const MOST_COMPARED: usize = 64;
-/// Places of a curve that are looked at.
+/// Number of sampled places of a curve.
 const SAMPLES: usize = 16;
 
-/// Lines that belong together, without what goes along them again.
+/// Lines that belong together, without the parts that retrace them.
 pub(super) fn once(paths: Vec<Path>) -> Vec<Path> {
     let Some(walk) = walk(&paths) else { return paths };
     let legs = Legs::of(&walk);
@@ -35,8 +35,8 @@ pub(super) fn once(paths: Vec<Path>) -> Vec<Path> {
     kept
 }
 
-/// Lines in the order in which they are walked, each in the direction of the walk, from the start of the first one or, before
-/// it, of those that lead there; `None` when they branch.
+/// Lines in walking order, each in the direction of the walk, beginning with the first one or with those that lead to its
+/// start; `None` if they branch.
 fn walk(paths: &[Path]) -> Option<Vec<Path>> {
     let [first, others @ ..] = paths else { return None };
     if others.is_empty() {
@@ -47,7 +47,7 @@ fn walk(paths: &[Path]) -> Option<Vec<Path>> {
     }
     let mut left: Vec<&Path> = others.iter().collect();
     let mut walked = vec![first.clone()];
-    // On from the end of the first one, then on from its start, each time with all of it turned afterwards.
+    // Continue from the end of the first line, then from its start; reverse the whole walk each time.
     for _ in 0..2 {
         loop {
             let at = *walked.last()?.points.last()?;
@@ -69,14 +69,14 @@ fn walk(paths: &[Path]) -> Option<Vec<Path>> {
 }
 
 impl Path {
-    /// The same in the other direction.
+    /// Path in the opposite direction.
     fn turned(&self) -> Self {
         let turned = |round: &Round| Round { start: round.start + round.sweep, sweep: -round.sweep, ..*round };
         let curves = self.curves.iter().rev().map(|curve| curve.as_ref().map(turned)).collect();
         Self { points: self.points.iter().rev().copied().collect(), curves, ..self.clone() }
     }
 
-    /// Ends a line amid an edge at a place; one that is a ring of its own becomes closed.
+    /// Ends a line inside an edge at a point; a line that is a ring by itself becomes closed.
     fn end_at(&mut self, edge: usize, at: Point, is_ring: bool) {
         self.points.truncate(edge + 1);
         self.curves.truncate(edge + 1);
@@ -91,7 +91,7 @@ impl Path {
 }
 
 impl Round {
-    /// Share of the curve, from 0 to 1, up to its place nearest to a point.
+    /// Fraction of the curve, 0 to 1, up to its place nearest to a point.
     fn share(&self, at: Point) -> f64 {
         let spoke = at - self.centre;
         let angle = (spoke.y.atan2(spoke.x) - self.start) * self.sweep.signum();
@@ -104,7 +104,7 @@ impl Round {
     }
 }
 
-/// A stretch of a walk.
+/// Stretch of a walk.
 #[derive(Debug, Clone, Copy)]
 struct Leg {
     ends: [Point; 2],
@@ -125,25 +125,25 @@ impl Leg {
     }
 }
 
-/// A round behind the first one, or the beginning of one.
+/// Part of a walk behind the first round: a further round, or the beginning of one.
 #[derive(Debug, Clone, Copy)]
 struct Lap {
-    /// The stretch that closes the first round, and the length of that, mm.
+    /// Stretch that closes the first round, and length of that round, mm.
     last: usize,
     round: f64,
-    /// Where it begins and ends, mm behind the first round.
+    /// Start and end, mm behind the first round.
     from: f64,
     to: f64,
-    /// Whether it goes in the other direction.
+    /// True if it runs in the opposite direction.
     is_back: bool,
 }
 
-/// A walk in stretches.
+/// Walk divided into stretches.
 struct Legs {
     all: Vec<Leg>,
-    /// The line and the edge of it that each one is.
+    /// Path and edge of each stretch.
     owner: Vec<(usize, usize)>,
-    /// Lengths from the start to the start of each one, mm, and of the whole.
+    /// Length from the start to the start of each stretch, and total length, mm.
     stations: Vec<f64>,
 }
 
@@ -168,7 +168,7 @@ impl Legs {
         self.stations[self.stations.len() - 1]
     }
 
-    /// The place at a station.
+    /// Point at a station.
     fn at(&self, station: f64) -> Point {
         let k = self.stations.partition_point(|&at| at <= station).clamp(1, self.all.len()) - 1;
         let length = self.stations[k + 1] - self.stations[k];
@@ -176,12 +176,12 @@ impl Legs {
         self.all[k].at(share.clamp(0.0, 1.0))
     }
 
-    /// The stretch that closes the ring, if the walk goes along itself behind it.
+    /// Stretch that closes the ring, if the walk retraces itself behind it or continues straight.
     fn closing(&self) -> Option<usize> {
         self.first_return(|k, round| self.goes_again(k, round) || self.goes_straight_on(k))
     }
 
-    /// The stretch that closes the ring of a line whose last stretch leads straight back over all that goes along the ring again.
+    /// Stretch that closes the ring of a line whose last stretch leads straight back over the whole retraced part.
     fn closing_before_last(&self) -> Option<usize> {
         let ([others @ .., back], [stations @ .., _]) = (&self.all[..], &self.stations[..]) else { return None };
         if others.is_empty() || back.curve.is_some() {
@@ -193,7 +193,7 @@ impl Legs {
         open.all[last..].iter().all(is_on_back).then_some(last)
     }
 
-    /// The first stretch that comes back to the start and ends a ring.
+    /// First stretch that returns to the start and for which `ends_ring` is true.
     fn first_return(&self, ends_ring: impl Fn(usize, f64) -> bool) -> Option<usize> {
         let start = self.start();
         let comes_back = |k: &usize| self.all[*k].distance(start) <= Dxf::RETRACE_OFF;
@@ -204,7 +204,7 @@ impl Legs {
         })
     }
 
-    /// Whether all behind a stretch that comes back to the start goes straight on from there, out of the ring.
+    /// True if everything behind a stretch that returns to the start continues straight from there, out of the ring.
     fn goes_straight_on(&self, last: usize) -> bool {
         let (start, behind) = (self.start(), &self.all[last..]);
         let Some(along) = (start - behind[0].ends[0]).try_normalize(Dxf::RETRACE_OFF) else { return false };
@@ -219,7 +219,7 @@ impl Legs {
             && !ring::contains(&ring, end)
     }
 
-    /// Whether what the walk encloses up to a stretch is nothing.
+    /// True if the walk up to a stretch encloses no area.
     fn is_flat(&self, last: usize) -> bool {
         let start = self.start();
         let places = self.all[..=last].iter().flat_map(|leg| {
@@ -231,8 +231,8 @@ impl Legs {
         doubled.abs() <= Dxf::RETRACE_OFF * polyline::length(&places)
     }
 
-    /// Whether all behind the first `round` mm, which end on a stretch, lies where the walk was a round before; of a whole
-    /// round it may lie there in the other direction.
+    /// True if everything behind the first `round` mm, which end on stretch `last`, coincides with the walk one round earlier;
+    /// a whole round may run in the opposite direction.
     fn goes_again(&self, last: usize, round: f64) -> bool {
         let again = self.length() - round;
         if again <= Dxf::RETRACE_OFF {
@@ -248,7 +248,7 @@ impl Legs {
             })
     }
 
-    /// Whether the walk lies where it was on the first round, on one of those behind it.
+    /// True if the walk on a further round coincides with the first round.
     fn goes_along(&self, lap: Lap) -> bool {
         let Lap { last, round, from, to, is_back } = lap;
         let first = |station: f64| if is_back { round - (station - from) } else { station - from };
@@ -257,7 +257,7 @@ impl Legs {
             let ends = [self.stations[k], self.stations[k + 1]];
             let count = if self.all[k].curve.is_some() { SAMPLES } else { 1 };
             let own = (0..count).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / count as f64);
-            // Those of the first round, and its own.
+            // Stations of the first round, and of the lap itself.
             stations.extend(own.clone().map(|at| from + if is_back { round - at } else { at }));
             stations.extend(own.map(|at| at - round));
         }
@@ -272,7 +272,7 @@ impl Legs {
         })
     }
 
-    /// Stretches about a station of the walk.
+    /// Stretches around a station of the walk.
     fn near(&self, station: f64, slip: f64) -> Range<usize> {
         let first = self.stations.partition_point(|&at| at < station - slip).saturating_sub(1);
         first..self.stations.partition_point(|&at| at <= station + slip).min(self.all.len())

@@ -1,4 +1,4 @@
-//! A marker as it was read against what its file cuts, place by place.
+//! Comparison of a marker as read with the cuts of its file, place by place.
 
 use std::collections::BTreeMap;
 
@@ -17,28 +17,28 @@ use crate::machine::Job;
 use crate::machine::patterns::Dxf;
 use crate::verify::rules;
 
-/// Rounding of places on a table that is a kilometre long, mm, and of sums of lengths, as a part of them.
+/// Rounding error of places on a table of a kilometre, mm; and of sums of lengths, relative.
 const PLACE_EPSILON: f64 = 1e-6;
 const LENGTH_EPSILON: f64 = 1e-9;
-/// How far a notch may be from its point, mm.
+/// Greatest distance of a notch from its point, mm.
 const NOTCH_OFF: f64 = Dxf::NOTCH_OFF;
-/// How far points of notches may be from each other that are one, along their edge, mm.
+/// Greatest distance along the edge between points of notches that count as one, mm.
 const SAME_PLACE: f64 = 0.2;
-/// How much of the turn of its chords a line may have at a curve point.
+/// Greatest turn of a line at a curve point, relative to the turn of its chords.
 const SMOOTHER: f64 = 0.75;
-/// How much shorter than the edge a mouth may be that is cut into it, as a part.
+/// Greatest relative shortfall of a mouth against the edge that it is cut into.
 const MOUTH_SHORTER: f64 = 0.05;
 
-/// Compares a marker as it was read with a scan of the bytes of a set of patterns.
+/// Compares a marker as read with a scan of the bytes of a set of patterns.
 pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> {
     let mut judged = cloths(bytes, read, job).into_iter().map(|cloth| judged(cloth, read));
     let first = judged.next().unwrap_or_default();
     let holds = |findings: &Vec<Finding>| findings.iter().all(Finding::holds);
-    // Pieces that insertions put on each other may lie in a row instead.
+    // Pieces that insertions place on top of each other may lie in a row instead.
     if holds(&first) { first } else { judged.find(holds).unwrap_or(first) }
 }
 
-/// Compares what was read with what is cut of the file, places of which may be so far off, mm.
+/// Compares the marker with one possible layout of the file, in which places may be off by up to `off` mm.
 fn judged((cuts, off): (Cuts, f64), read: &CutPlaces) -> Vec<Finding> {
     let mut marks = cuts.marks.clone();
     marks.sort_by_key(|mark| mark.block);
@@ -48,21 +48,21 @@ fn judged((cuts, off): (Cuts, f64), read: &CutPlaces) -> Vec<Finding> {
     vec![both.points(), both.holes(), both.length(), both.notches()]
 }
 
-/// What the file asks for and what was read of it.
+/// Cuts of the file and of the marker.
 struct Both<'a> {
     cuts: Cuts,
-    /// Where notches should be, sorted by their blocks.
+    /// Marks of notches, sorted by block.
     marks: Vec<Mark>,
     read: &'a CutPlaces,
     lines: Vec<Line>,
-    /// How far places may be off, mm.
+    /// Greatest permitted distance between places, mm.
     reach: f64,
 }
 
-/// A contour, its notches apart.
+/// Contour with its notches separated.
 #[derive(Debug, Default)]
 struct Line {
-    /// Its places but those of notches, and the two ends of their mouths.
+    /// Places other than those of notches, and both ends of each notch's mouth.
     drawn: Vec<(Point, u32)>,
     /// Places of notches.
     notched: Vec<(Point, u32)>,
@@ -70,7 +70,7 @@ struct Line {
     widths: Vec<f64>,
 }
 
-/// The marks of a block among all, which are sorted by it.
+/// Marks of a block; `marks` is sorted by block.
 fn of_block(marks: &[Mark], block: u32) -> &[Mark] {
     let first = marks.partition_point(|mark| mark.block < block);
     let end = marks.partition_point(|mark| mark.block <= block);
@@ -94,7 +94,7 @@ impl Line {
     }
 }
 
-/// The edges of lines, their notches apart.
+/// Edges of lines without their notches.
 struct Edges {
     ends: Vec<[Point; 2]>,
     boxes: Boxes,
@@ -108,13 +108,13 @@ impl Edges {
         Self { ends, boxes }
     }
 
-    /// How far a place is from the nearest, mm; infinite beyond a reach.
+    /// Distance of a point from the nearest edge, mm; infinite beyond `reach`.
     fn distance(&self, at: Point, reach: f64) -> f64 {
         let near = self.boxes.near(Extent::between(at, at).grown(reach));
         near.map(|k| polyline::distance_to_segment(at, self.ends[k][0], self.ends[k][1])).fold(f64::INFINITY, f64::min)
     }
 
-    /// Where a straight line through a place meets them next, within a reach to both sides, mm.
+    /// Nearest intersection of a straight line through a point with the edges, within `reach` mm on both sides.
     fn met(&self, at: Point, along: Vector, reach: f64) -> Option<Point> {
         let way = [at - along * reach, at + along * reach];
         let meets = |k: usize| {
@@ -128,7 +128,7 @@ impl Edges {
     }
 }
 
-/// Moves marks that lie beside a chord, in whose stead a curve is cut, straight up to the curve.
+/// Moves marks beside a chord that is replaced by a curve perpendicularly onto the curve.
 fn slide(marks: &mut [Mark], chords: &[[Point; 2]], lines: &[Line]) {
     if chords.is_empty() || marks.is_empty() {
         return;
@@ -149,7 +149,7 @@ fn slide(marks: &mut [Mark], chords: &[[Point; 2]], lines: &[Line]) {
 }
 
 impl Bow {
-    /// How far a curve may leave the edge, mm.
+    /// Greatest distance of a curve from the edge, mm.
     fn height(&self) -> f64 {
         Dxf::CURVE_OFF * (self.ends[1] - self.ends[0]).norm()
     }
@@ -163,7 +163,7 @@ impl Bow {
     }
 }
 
-/// Findings that are counted.
+/// Rule whose value is a count.
 struct Count {
     worst: Worst,
     count: f64,
@@ -181,8 +181,8 @@ impl Count {
 }
 
 impl Both<'_> {
-    /// How many places of the file no line comes to, how many of the lines the file does not have, and how much of it
-    /// cannot be understood.
+    /// Finding on the number of places of the file that no line reaches, of places of lines that the file does not have, and of
+    /// parts of the file that cannot be understood.
     fn points(&self) -> Finding {
         let Self { cuts, lines, reach, .. } = self;
         let mut wrong = Count::of(&rules::SOURCE_POINTS);
@@ -221,14 +221,14 @@ impl Both<'_> {
         wrong.worst.finding()
     }
 
-    /// Curve points at which lines turn as much as their chords do: nothing was laid through them.
+    /// Counts curve points at which lines turn as much as their chords: no curve was laid through them.
     fn bends(&self, wrong: &mut Count) {
         let Self { cuts, lines, reach, .. } = self;
         let bends = Lookup::of(cuts.bends.iter().map(|bend| bend.at), *reach);
         for line in lines.iter().filter(|_| !cuts.bends.is_empty()) {
             let mut drawn = line.drawn.clone();
             drawn.dedup_by(|next, before| next.0 == before.0);
-            // A closed one comes round to its second place.
+            // A closed line continues to its second place.
             if drawn.len() > 2 && drawn[0].0 == drawn[drawn.len() - 1].0 {
                 drawn.push(drawn[1]);
             }
@@ -241,7 +241,7 @@ impl Both<'_> {
         }
     }
 
-    /// How many holes are missing or too many.
+    /// Finding on the number of missing or surplus holes.
     fn holes(&self) -> Finding {
         let Self { cuts, read, reach, .. } = self;
         let mut worst = Worst::new(&rules::SOURCE_DRILLS, Some(0.0));
@@ -254,7 +254,7 @@ impl Both<'_> {
         worst.finding()
     }
 
-    /// Whether the lines are as long as those of the file, their notches apart.
+    /// Finding on the length of the lines without notches, compared with the file.
     fn length(&self) -> Finding {
         let Self { cuts, lines, .. } = self;
         let of_line = |line: &Line| {
@@ -272,8 +272,8 @@ impl Both<'_> {
         worst.finding()
     }
 
-    /// How many notches no point of the file asks for, at its place and as deep as it says, and how many points that ask
-    /// for one have none and are not told either.
+    /// Finding on the number of notches that no mark of the file requests at their place and depth, and of marks without a
+    /// notch that are not reported either.
     fn notches(&self) -> Finding {
         let Self { read, reach, marks, .. } = self;
         let mut wrong = Count::of(&rules::SOURCE_NOTCHES);
@@ -298,7 +298,7 @@ impl Both<'_> {
         wrong.worst.finding()
     }
 
-    /// Points that ask for a notch and have none, but for those that are told.
+    /// Counts marks without a notch, except reported ones.
     fn missing(&self, notched: &[(Point, u32)], wrong: &mut Count) {
         let Self { read, reach, marks, .. } = self;
         let made: Vec<(Point, u32)> = read.notches.iter().map(|notch| (notch.root, notch.span.block)).collect();
@@ -309,7 +309,7 @@ impl Both<'_> {
         let mut told: BTreeMap<u32, usize> = BTreeMap::new();
         read.left_out.iter().for_each(|&block| *told.entry(block).or_default() += 1);
         for mark in marks {
-            // Marks at one place that ask for the same are one.
+            // Equal marks at one place count as one.
             let is_like = |block: u32| {
                 let other = of_block(marks, block).first();
                 block == mark.block || other.is_some_and(|other| other.depth == mark.depth && other.width == mark.width)
@@ -326,7 +326,7 @@ impl Both<'_> {
 }
 
 impl Mark {
-    /// Whether it asks for a notch: of its block, as deep as it says, and of a T as wide.
+    /// True if the mark requests the notch: same block and depth, and for a T the same width.
     fn asks_for(&self, notch: &Notch, reach: f64) -> bool {
         let is_bar = match notch.kind {
             NotchKind::Slit => true,
@@ -344,12 +344,12 @@ impl Mark {
 }
 
 impl Cuts {
-    /// Whether ends of lines miss each other.
+    /// True if some ends of lines do not coincide.
     fn gaps(&self) -> bool {
         let ends = || self.places.iter().filter(|place| place.is_end);
         let mut points: Vec<[f64; 2]> = ends().map(|place| [place.at.x, place.at.y]).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        // Each has one at least at the same place, to rounding.
+        // Each end must coincide with at least one other, up to rounding.
         !points
             .chunk_by(|a, b| (a[0] - b[0]).abs() <= PLACE_EPSILON && (a[1] - b[1]).abs() <= PLACE_EPSILON)
             .all(|same| same.len() > 1)

@@ -1,29 +1,29 @@
-//! Curves of plain drawings, by other formulas than the reader's: as functions that give a place for each part of them.
+//! Curves of plain drawings, by other formulas than the reader's: functions from a fraction of the curve to a place.
 
 use super::tags::Item;
 
-/// A place, in units of the file.
+/// Place, in units of the file.
 pub(super) type Place = [f64; 2];
 
-/// A curve: its place after so much of it, from 0 to 1.
+/// Curve: maps a fraction of it, 0 to 1, to a place.
 pub(super) type Curve = Box<dyn Fn(f64) -> Place>;
 
-/// Rounds in which slopes are balanced: each halves what they are off at the least, since the middle of a row outweighs its
-/// neighbours twice.
+/// Number of iterations for balancing slopes: each at least halves their error, since the diagonal of a row is twice as large
+/// as its neighbours.
 const ROUNDS: usize = 100;
-/// Turn below which an arc comes round, rad.
+/// Greatest difference from a full turn at which an arc counts as a circle, rad.
 const ROUND_EPSILON: f64 = 1e-7;
 /// Greatest rounding of two written angles a turn apart, rad: they have four decimals.
 const WRITTEN_EPSILON: f64 = 2.1e-4;
 
-/// A circle, or an arc of one that goes from one angle, rad, to another.
+/// Circle, or circular arc between two angles, rad.
 pub(super) fn round(item: &Item) -> Option<Curve> {
     let (centre, radius) = (item.pair([10, 20])?, item.number(40)?.abs());
     let ends = if item.kind == b"CIRCLE" { [0.0, 0.0] } else { item.pair([50, 51])?.map(f64::to_radians) };
     Some(turning(centre, [[radius, 0.0], [0.0, radius]], ends))
 }
 
-/// An ellipse, or an arc of one. Seen from the back it turns the other way.
+/// Ellipse, or elliptical arc. Seen from the back it turns in the opposite direction.
 pub(super) fn ellipse(item: &Item, is_from_below: bool) -> Option<Curve> {
     let (centre, [x, y]) = (item.pair([10, 20])?, item.pair([11, 21])?);
     let ratio = item.number(40)?.abs() * if is_from_below { -1.0 } else { 1.0 };
@@ -31,7 +31,7 @@ pub(super) fn ellipse(item: &Item, is_from_below: bool) -> Option<Curve> {
     Some(turning(centre, [[x, y], [-y * ratio, x * ratio]], ends))
 }
 
-/// An ellipse by its centre and two half axes, between two angles; once around where those are one.
+/// Ellipse by its centre and two semi-axes, between two angles, rad; full ellipse if these coincide.
 fn turning(centre: Place, [a, b]: [Place; 2], [start, end]: [f64; 2]) -> Curve {
     let whole = std::f64::consts::TAU;
     let turn = (end - start).rem_euclid(whole);
@@ -44,30 +44,30 @@ fn turning(centre: Place, [a, b]: [Place; 2], [start, end]: [f64; 2]) -> Curve {
     })
 }
 
-/// An arc from one place to another whose height over the chord is half the chord times its bulge, to the right of it.
+/// Arc between two places with a height over the chord of half the chord times the bulge, to the right of the chord.
 pub(super) fn bulge(from: Place, to: Place, bulge: f64) -> Curve {
-    // The place at angle `a` before the end is seen from it at half the angle: by sines over the chord.
+    // Seen from the end of the chord, a place at arc angle `a` before the end appears under half that angle.
     let quarter = bulge.atan();
     Box::new(move |share| {
         if share >= 1.0 {
             return to;
         }
-        // Half the angle that is gone, and half that is to come; together they are twice the quarter.
+        // Half of the angle passed and half of the angle remaining; they add up to twice `quarter`.
         let (gone, left) = (2.0 * quarter * share, 2.0 * quarter * (1.0 - share));
         let whole = (gone + left).sin();
         if whole.abs() < f64::EPSILON {
-            // Once around and more has no chord; half a turn of the angle in the circle does not come here.
+            // A full turn or more has no chord; the other zero of the sine cannot occur.
             return from;
         }
         let way = [to[0] - from[0], to[1] - from[1]];
-        // Law of sines: the chord to the place is to the whole chord as the sine of half its angle to that of all of it.
+        // Law of sines: chord to the place : whole chord = sine of half its angle : sine of half the whole angle.
         let reach = gone.sin() / whole;
         let (sin, cos) = (-left).sin_cos();
         [from[0] + reach * (way[0] * cos - way[1] * sin), from[1] + reach * (way[0] * sin + way[1] * cos)]
     })
 }
 
-/// A spline by its control points, or through the points that it was fitted to.
+/// Spline by its control points, or through its fit points; `None` when malformed.
 pub(super) fn spline(item: &Item) -> Option<Curve> {
     let all = |code: i32| item.each([code; 3]).map(|(_, number)| number).collect::<Vec<f64>>();
     let points = |codes: [i32; 2]| -> Option<Vec<Place>> {
@@ -87,7 +87,7 @@ pub(super) fn spline(item: &Item) -> Option<Curve> {
     Some(Box::new(move |share| {
         let at = first + share * (last - first);
         let mut sums = [0.0; 3];
-        // Only the control points of the span have a part in it; at its end the next ones begin.
+        // Only the control points of the span contribute; at its end the next ones begin.
         let span = knots.partition_point(|&knot| knot <= at);
         let near = span.saturating_sub(degree + 2)..control.len().min(span + 1);
         for k in near {
@@ -99,7 +99,8 @@ pub(super) fn spline(item: &Item) -> Option<Curve> {
     }))
 }
 
-/// Basis function of a control point and a degree, by its definition (Cox and de Boor); the last span has its end, too.
+/// B-spline basis function of a control point and a degree, by its recursive definition (Cox and de Boor); the last span
+/// includes its end.
 fn basis(knots: &[f64], [k, degree]: [usize; 2], at: f64, last: f64) -> f64 {
     if at < knots[k] || at > knots[k + degree + 1] {
         return 0.0;
@@ -114,7 +115,7 @@ fn basis(knots: &[f64], [k, degree]: [usize; 2], at: f64, last: f64) -> f64 {
             * basis(knots, [k + 1, degree - 1], at, last)
 }
 
-/// The cubic curve through points whose second derivative by the length of its chords has no steps.
+/// Cubic curve through points with a continuous second derivative with respect to chord length.
 fn fit(mut points: Vec<Place>, is_closed: bool) -> Option<Curve> {
     points.dedup();
     if is_closed && points.len() > 2 && points.first() == points.last() {
@@ -137,7 +138,7 @@ fn fit(mut points: Vec<Place>, is_closed: bool) -> Option<Curve> {
             let before = if is_closed { Some((k + count - 1) % count) } else { k.checked_sub(1) };
             let behind = Some(k).filter(|k| *k < spans);
             slopes[k] = [0, 1].map(|axis| {
-                // Each neighbour pulls with three times the slope of the chord less half its own slope.
+                // Each neighbour contributes three times the slope of the chord minus its own slope.
                 let pull = |span: Option<usize>, other: usize| match span {
                     Some(span) => {
                         let h = lengths[span];
@@ -160,7 +161,7 @@ fn fit(mut points: Vec<Place>, is_closed: bool) -> Option<Curve> {
         }
         let (h, next) = (lengths[k], (k + 1) % count);
         let t = (left / h).min(1.0);
-        // Hermite: places and slopes at both ends.
+        // Cubic Hermite interpolation from places and slopes at both ends.
         [0, 1].map(|axis| {
             let [p, q] = [points[k][axis], points[next][axis]];
             let [m, n] = [slopes[k][axis] * h, slopes[next][axis] * h];
@@ -169,12 +170,12 @@ fn fit(mut points: Vec<Place>, is_closed: bool) -> Option<Curve> {
     }))
 }
 
-/// Parameters at which a spline may bend sharply, as parts of it: its knots.
+/// Fractions of a curve at which it may bend sharply: the knots of a spline.
 pub(super) fn breaks(item: &Item) -> Vec<f64> {
     let knots: Vec<f64> = item.each([40; 3]).map(|(_, number)| number).collect();
     let degree = item.number(71).unwrap_or(3.0) as usize;
     if item.kind == b"SPLINE" && knots.is_empty() {
-        // As many stretches as the curve has points: no longer one needs more chords.
+        // As many stretches as the curve has points: a longer one does not need more chords.
         let count = item.each([11; 3]).count().max(1);
         return (0..=count).map(|k| k as f64 / count as f64).collect();
     }

@@ -1,12 +1,12 @@
-//! Blocks that are left out: each piece of them must have a number that the selection of the job leaves out. The numbers are
-//! counted here, in the order in which the file lays its blocks.
+//! Check of blocks that are left out: each of their pieces must have a number that the job's selection excludes. The numbers
+//! are counted here, in the order in which the file lays its blocks.
 
 use super::places::{CutPlaces, SourcePiece};
 use super::tags::Sheet;
 use crate::machine::Selection;
 
-/// Number of pieces that are left out without cause: the selection has them, or the file lays their block elsewhere. `order`
-/// gives the block of each laid piece.
+/// Number of pieces that are left out without a reason: they are selected, or the file lays their block elsewhere. `order`
+/// yields the block of each laid piece.
 pub(super) fn wrong_count(
     order: impl Iterator<Item = usize>,
     blocks: &[Sheet],
@@ -19,7 +19,7 @@ pub(super) fn wrong_count(
     for k in order {
         let (first, behind) = (blocks[k].number, blocks.get(k + 1).map_or(u32::MAX, |next| next.number));
         if is_left_out(&blocks[k]) {
-            // A block that cannot be cut is one piece.
+            // A block that cannot be cut is a single piece.
             let is_left = |(piece, number): &(&SourcePiece, u32)| {
                 piece.is_bare && piece.block == first && piece.number == *number && !selection.has(*number)
             };
@@ -28,6 +28,6 @@ pub(super) fn wrong_count(
             while pieces.next_if(|(piece, _)| !piece.is_bare && (first..behind).contains(&piece.block)).is_some() {}
         }
     }
-    // Pieces in no block come last, and all of them are cut.
+    // Pieces outside blocks come last, and all of them are cut.
     wrong + pieces.filter(|(piece, _)| piece.is_bare).count()
 }

@@ -1,4 +1,4 @@
-//! A second reading of the letters of texts: the encoding in which the most texts say something.
+//! Second decoding of texts: the encoding is the one in which the most texts are meaningful.
 
 use encoding_rs::{
     BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, KOI8_U, MACINTOSH, SHIFT_JIS, UTF_8, WINDOWS_1250, WINDOWS_1251,
@@ -7,7 +7,7 @@ use encoding_rs::{
 
 use crate::machine::labels::Labels;
 
-/// An encoding of texts that are no UTF-8.
+/// Encoding of texts that are not UTF-8.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Letters(&'static Encoding);
 
@@ -29,8 +29,8 @@ const PAGES: [&Encoding; 13] = [
 ];
 
 impl Letters {
-    /// Of all encodings that may be meant the one in which the most is said: that of the profile or of the header's code page
-    /// unless more is said in another one, and in no other as much that is something else.
+    /// Encoding in which `said` finds the most. The encoding of the profile or of the header's code page is kept unless another
+    /// finds more; among several others with the same number, all must find the same.
     pub(super) fn of<T: PartialEq>(header: &[u8], labels: &Labels, said: impl Fn(Self) -> Vec<T>) -> Self {
         let own = Encoding::for_label(labels.encoding.as_bytes()).filter(|own| *own != UTF_8);
         let first = Self(own.or_else(|| page(header)).unwrap_or(UTF_8));
@@ -44,11 +44,11 @@ impl Letters {
         if best.all(|(_, other)| other == said) { letters } else { first }
     }
 
-    /// The text of some bytes.
+    /// Decodes a text.
     pub(super) fn read(self, bytes: &[u8]) -> String {
         let Self(page) = self;
         let utf_8 = String::from_utf8(bytes.to_vec()).ok();
-        // What has pairs of bytes only may be either: in a page of pairs it is that.
+        // A text of byte pairs only may be UTF-8 or a double-byte encoding; prefer the latter in such a code page.
         let is_pairs = |text: &String| !text.is_ascii() && text.chars().all(|c| c.len_utf8() < 3);
         let is_of_pairs = !page.is_single_byte() && page != UTF_8;
         let text = utf_8.filter(|text| !(is_of_pairs && is_pairs(text)));
@@ -56,7 +56,7 @@ impl Letters {
     }
 }
 
-/// The encoding of a code page of Windows, by the number at the end of its name, or of another name.
+/// Encoding of a Windows code page, by the number at the end of its name, or of an encoding's name.
 fn page(name: &[u8]) -> Option<&'static Encoding> {
     let digits = name.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
     let (name, number) = name.split_at(name.len() - digits);
@@ -75,7 +75,7 @@ fn page(name: &[u8]) -> Option<&'static Encoding> {
     }
 }
 
-/// A text without codes: each stands for a letter by its number, or for a sign.
+/// Text with its codes replaced: each denotes a letter by its number, or a sign.
 fn plain(text: &str, page: &'static Encoding) -> String {
     let mut parts = Vec::new();
     let mut letters = text.chars();

@@ -1,4 +1,4 @@
-//! Lines of a block as the file draws them: their places and curves, without joining anything.
+//! Lines of a block as drawn in the file: places and curves, without joins.
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
@@ -8,33 +8,33 @@ use super::tags::Item;
 use crate::geom::{Extent, Point, Vector, left};
 use crate::machine::patterns::Dxf;
 
-/// How near to a fold line a place is on it, and how far lines that are one may miss each other, mm.
+/// Greatest distance from a fold line of a place on it, and between lines that count as one, mm.
 pub(super) const MEETS: f64 = Dxf::ENDS_MEET;
-/// Radius beyond which a curve is straight, mm: on a circle so large the rounding of its centre moves every place.
+/// Radius beyond which a curve counts as straight, mm: on such a large circle, rounding of the centre moves every place.
 const STRAIGHT: f64 = 1e9;
-/// Angle below which an arc comes round, rad.
+/// Angle below which an arc counts as a full turn, rad.
 const ROUND_EPSILON: f64 = 1e-8;
 
-/// A circle that a curve is of.
+/// Circle of a curve.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Round {
     pub(super) centre: Point,
     pub(super) radius: f64,
-    /// Where the curve starts and how far it goes, rad.
+    /// Start angle and sweep, rad.
     pub(super) start: f64,
     pub(super) sweep: f64,
 }
 
-/// A line of the file.
+/// Line of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Path {
     pub(super) points: Vec<Point>,
-    /// Behind each point the curve that leads on from it, if any.
+    /// Curve that leads on from each point, if any.
     pub(super) curves: Vec<Option<Round>>,
     pub(super) is_closed: bool,
-    /// Places that the file has twice in a row.
+    /// Places that the file repeats immediately.
     pub(super) doubled: Vec<Point>,
-    /// How often the knife goes along it.
+    /// Number of times that the knife follows the line.
     pub(super) times: f64,
 }
 
@@ -44,34 +44,34 @@ impl Default for Path {
     }
 }
 
-/// How the numbers of a file are read.
+/// Parameters for reading the numbers of a file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     /// Length of a unit, mm.
     pub(super) unit: f64,
-    /// Farthest that chords lie off their curve, mm.
+    /// Greatest distance of chords from their curve, mm.
     pub(super) sagitta: f64,
-    /// Depth of notches without one, mm.
+    /// Depth of notches that state none, mm.
     pub(super) notch: f64,
 }
 
-/// A line that may have curves, as it stands in the file.
+/// Line that may have curves, as it stands in the file.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Stroke {
     pub(super) layer: u32,
     pub(super) is_closed: bool,
-    /// Whether an edge of it is an arc: then it has vertices that the file does not tell.
+    /// True if one of its edges is an arc: then it has vertices that the file does not contain.
     pub(super) has_arcs: bool,
-    /// Its vertices with the numbers of the groups that they begin with.
+    /// Vertices, each with the number of the group that it begins with.
     pub(super) vertices: Vec<(Point, u32)>,
 }
 
-/// Whether an arc leads on from a vertex.
+/// True if an arc leads on from a vertex.
 fn bulges(item: &Item) -> bool {
     item.each([42; 3]).any(|(_, bulge)| bulge != 0.0)
 }
 
-/// The lines that may have curves, in the order of the file.
+/// Lines that may have curves, in file order.
 pub(super) fn strokes(items: &[Item], unit: f64) -> Vec<Stroke> {
     let mut strokes: Vec<Stroke> = Vec::new();
     let mut is_open = false;
@@ -103,7 +103,7 @@ pub(super) fn strokes(items: &[Item], unit: f64) -> Vec<Stroke> {
 }
 
 impl Round {
-    /// A box around its curve.
+    /// Box around the curve.
     pub(super) fn extent(&self) -> Extent {
         let half = self.sweep.abs() / 2.0;
         if half >= FRAC_PI_2 {
@@ -113,14 +113,14 @@ impl Round {
         Extent::of(&[self.at(0.0), self.at(1.0)]).grown(height)
     }
 
-    /// Its place after so much of it.
+    /// Place at a fraction of the curve.
     pub(super) fn at(&self, share: f64) -> Point {
         let angle = self.start + share * self.sweep;
         self.centre + Vector::new(angle.cos(), angle.sin()) * self.radius
     }
 }
 
-/// The lines of a layer.
+/// Lines of a layer.
 pub(super) fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
     let mut paths: Vec<Path> = Vec::new();
     let mut is_vertex = false;
@@ -181,7 +181,7 @@ pub(super) fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
     distinct(paths)
 }
 
-/// Lines that have a length, each once; of an open and a closed one of the same places the closed one.
+/// Lines with a length, without duplicates; a closed line takes precedence over an open one of the same places.
 fn distinct(mut paths: Vec<Path>) -> Vec<Path> {
     paths.iter_mut().for_each(Path::tidy);
     let is_dot = |path: &Path| path.curves.iter().flatten().any(|round| round.radius == 0.0);
@@ -192,7 +192,7 @@ fn distinct(mut paths: Vec<Path>) -> Vec<Path> {
     paths
 }
 
-/// An arc or a circle.
+/// Path of an arc or a circle.
 pub(super) fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -> Option<Path> {
     let (centre, radius) = (centre?, item.number(40)?.abs() * measure.unit);
     let whole = Round { centre, radius, start: 0.0, sweep: std::f64::consts::TAU };
@@ -214,12 +214,12 @@ pub(super) fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -
 }
 
 impl Path {
-    /// One edge.
+    /// Path of a single edge.
     pub(super) fn straight(ends: [Point; 2]) -> Self {
         Self { points: ends.to_vec(), curves: vec![None], ..Self::default() }
     }
 
-    /// The same without ways that go out and straight back, and these apart, each to be gone along twice.
+    /// Path without spikes, parts that go out and straight back; and the spikes, each to be followed twice.
     pub(super) fn without_spikes(&self) -> (Self, Vec<Self>) {
         let count = self.points.len();
         let at = |k: usize| self.points[k % count];
@@ -247,18 +247,18 @@ impl Path {
         Self { curves: vec![None; points.len() - 1], points, ..Self::default() }
     }
 
-    /// How long an edge is, mm.
+    /// Length of an edge, mm.
     pub(super) fn length(&self, k: usize) -> f64 {
         let [from, to] = self.edge(k);
         self.curves[k].map_or((to - from).norm(), |round| round.radius * round.sweep.abs())
     }
 
-    /// The ends of an edge.
+    /// Ends of an edge.
     pub(super) fn edge(&self, k: usize) -> [Point; 2] {
         [self.points[k], self.points[(k + 1) % self.points.len()]]
     }
 
-    /// Drops what has no length: equal places beside each other, and the way back of a line that goes out and back.
+    /// Removes parts without length: adjacent equal places, and the way back of a line that goes out and back.
     fn tidy(&mut self) {
         if self.curves.iter().any(Option::is_some) {
             return;
@@ -278,7 +278,7 @@ impl Path {
         self.curves = vec![None; edges];
     }
 
-    /// The same for lines with the same places in either order; what curves is its own.
+    /// Key that is equal for lines with the same places in either order; paths with curves have directed keys.
     fn key(&self) -> Vec<[u64; 2]> {
         let way: Vec<[u64; 2]> = self.points.iter().map(|point| [point.x.to_bits(), point.y.to_bits()]).collect();
         let curves = self.curves.iter().flatten();
@@ -287,7 +287,7 @@ impl Path {
         if curves.is_empty() { way.min(back) } else { [way, curves].concat() }
     }
 
-    /// Finds the curves of bulges: by the height of the arc over its chord, which is half the chord times the bulge.
+    /// Computes the curves of bulges from the height of each arc over its chord, half the chord times the bulge.
     fn bend(&mut self, bulges: &[f64]) {
         let count = self.points.len();
         let edges = if self.is_closed { count } else { count.saturating_sub(1) };
@@ -296,7 +296,8 @@ impl Path {
             let chord = to - from;
             let bulge = bulges.get(k).copied().unwrap_or(0.0);
             let height = bulge * chord.norm() / 2.0;
-            // Signed: the centre is as far from the middle of the arc, which lies right of the chord for a bulge above 0.
+            // Signed: distance of the centre from the middle of the arc, which lies to the right of the chord for a positive
+            // bulge.
             let radius = (chord.norm_squared() / 4.0 + height * height) / (2.0 * height);
             if !radius.is_finite() || radius.abs() > STRAIGHT {
                 self.curves.push(None);
@@ -311,7 +312,7 @@ impl Path {
     }
 }
 
-/// Lines whose ends meet belong together.
+/// Groups lines whose ends meet.
 pub(super) fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
     let mut owner: Vec<usize> = (0..paths.len()).collect();
     let ends = |k: usize| [paths[k].points[0], paths[k].points[paths[k].points.len() - 1]];
@@ -331,7 +332,7 @@ pub(super) fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
     clusters
 }
 
-/// The one that stands for all that belong together.
+/// Representative of a group.
 fn root(owner: &mut [usize], mut k: usize) -> usize {
     while owner[k] != k {
         owner[k] = owner[owner[k]];

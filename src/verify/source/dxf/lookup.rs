@@ -1,8 +1,8 @@
-//! Places that are looked up by where they are, in a grid.
+//! Point lookup by position, in a grid.
 
 use crate::geom::Point;
 
-/// Places in cells as wide as the reach within which they are sought, each with its place in the order they came in.
+/// Points in cells as wide as the search radius, each with its original index.
 #[derive(Debug)]
 pub(super) struct Lookup {
     reach: f64,
@@ -10,7 +10,7 @@ pub(super) struct Lookup {
 }
 
 impl Lookup {
-    /// For places that are sought within `reach` mm.
+    /// Lookup of points within `reach` mm.
     pub(super) fn of(points: impl Iterator<Item = Point>, reach: f64) -> Self {
         let mut lookup = Self { reach, places: Vec::new() };
         lookup.places = points.zip(0..).map(|(point, k)| (lookup.cell(point), point, k)).collect();
@@ -22,7 +22,7 @@ impl Lookup {
         [at.x, at.y].map(|value| (value / self.reach).floor() as i64)
     }
 
-    /// Those near a place.
+    /// Indices of the points within reach of a point.
     pub(super) fn near(&self, at: Point) -> impl Iterator<Item = usize> + '_ {
         let [x, y] = self.cell(at);
         let column = move |x: i64| {
@@ -33,7 +33,7 @@ impl Lookup {
         around.filter(move |(_, point, _)| (point - at).norm() <= self.reach).map(|&(.., k)| k)
     }
 
-    /// Whether there is one.
+    /// True if a point is within reach.
     pub(super) fn has(&self, at: Point) -> bool {
         self.near(at).next().is_some()
     }

@@ -1,40 +1,40 @@
-//! Where a marker cuts, as it was read: places with the groups of the file that they come from.
+//! Cuts of a marker as read: places with the groups of the file that they come from.
 
 use crate::geom::Point;
 use crate::ir::Marker;
 use crate::ir::marker::{Contour, Notch, Piece};
 
-/// Where a marker cuts, as it was read.
+/// Cuts of a marker as read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPlaces {
     pub(super) contours: Vec<Vec<(Point, u32)>>,
     pub(super) notches: Vec<Notch>,
     pub(super) holes: Vec<(Point, u32)>,
-    /// Notches that are told and not cut, by the blocks that they come from.
+    /// Blocks of notches that are reported and not cut.
     pub(super) left_out: Vec<u32>,
     /// Blocks whose pieces cannot be cut and are left out.
     pub(super) blocks_left_out: Vec<u32>,
-    /// The pieces in their order.
+    /// Pieces in order.
     pub(super) pieces: Vec<SourcePiece>,
 }
 
-/// Piece as it was read.
+/// Piece as read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SourcePiece {
-    /// Number by which the selection names it.
+    /// Number of the piece in the selection.
     pub(super) number: u32,
     pub(super) block: u32,
-    /// Whether nothing of it is cut.
+    /// True if nothing of the piece is cut.
     pub(super) is_bare: bool,
 }
 
 impl CutPlaces {
-    /// Those of a marker before any pass, each with the block that it comes from.
+    /// Places of a marker before any pass, each with its block.
     pub fn of(marker: &Marker) -> Self {
         let line = |(_, contour): (usize, &Contour)| {
             let mut line: Vec<(Point, u32)> =
                 marker.list.vertices(contour.range).map(|(at, span)| (at, span.block)).collect();
-            // What leads to the first place of a closed one is told by its last.
+            // The edge to the first place of a closed contour has the block of the last.
             if let (true, Some(&(_, block))) = (contour.closed, line.last()) {
                 line[0].1 = block;
             }

@@ -1,4 +1,4 @@
-//! Plain drawings as they are read a second time: what is drawn where, by way of insertions.
+//! Second reading of plain drawings: strokes at their places, including insertions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,23 +14,24 @@ use crate::verify::source::drawing::drawn::Drawn;
 /// Lengths of units by their numbers in the header, mm.
 const UNITS: [(f64, f64); 7] =
     [(1.0, MM_PER_INCH), (2.0, 304.8), (4.0, 1.0), (5.0, 10.0), (6.0, 1000.0), (10.0, 914.4), (14.0, 100.0)];
-/// Longest side of a drawing, mm, in a unit of its header that is larger than an inch.
+/// Longest side of a drawing, mm, in a header unit that is larger than an inch.
 const LONGEST: f64 = 3e4;
-/// Insertions around another one, and all that are followed: beyond them readers refuse.
+/// Maximum nesting depth of insertions, and maximum number of insertions and of items that are followed: beyond these, readers
+/// refuse the file.
 const DEEPEST: usize = 32;
 const MOST_INSERTS: usize = 100_000;
 const MOST_ITEMS: usize = 8_000_000;
-/// Chords of a curve between two breaks, the farthest that they may be off it as a part of what the reader's may, and how
-/// often their number is doubled at the most to that end.
+/// Initial number of chords of a curve between two breaks; their greatest deviation relative to the reader's; and the maximum
+/// number of doublings to reach it.
 const CHORDS: usize = 16;
 const FINER: f64 = 1.0 / 16.0;
 const DOUBLINGS: usize = 9;
 /// Factor of the length that chords lack: a third of their height times the angle that they cut off.
 const LACKING: f64 = 1.0 / 3.0;
-/// Room for the rounding of that.
+/// Safety factor for the rounding of that length.
 const ROOM: f64 = 2.0;
 
-/// A map: the places of the unit vectors and of the origin.
+/// Affine map: images of the unit vectors, and of the origin.
 #[derive(Debug, Clone, Copy)]
 struct Map([Place; 3]);
 
@@ -40,7 +41,7 @@ impl Map {
         [o[0] + a[0] * x + b[0] * y, o[1] + a[1] * x + b[1] * y]
     }
 
-    /// The map that does another one first.
+    /// Composition of two maps; `first` is applied first.
     fn after(&self, first: &Self) -> Self {
         let origin = self.at(first.0[2]);
         let way = |to: Place| {
@@ -51,29 +52,29 @@ impl Map {
     }
 }
 
-/// A drawing that is followed.
+/// State of the traversal of a drawing.
 struct Scan<'a> {
     blocks: BTreeMap<Vec<u8>, &'a Sheet<'a>>,
     hidden: &'a BTreeMap<Vec<u8>, bool>,
-    /// Farthest that the reader's chords lie off their curve, mm.
+    /// Greatest distance of the reader's chords from their curve, mm.
     sagitta: f64,
     census: Census,
     slack: Slack,
     strokes: Vec<Vec<Point>>,
-    /// Names of the layers that draw them.
+    /// Names of the layers with strokes.
     layers: BTreeSet<&'a [u8]>,
-    /// Insertions that may still be followed, and items that may still be looked at.
+    /// Numbers of insertions and of items that may still be followed.
     left: usize,
     items_left: usize,
 }
 
-/// Counts what a drawing draws.
+/// Statistics of a drawing.
 pub(in crate::verify::source) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
     let (_, census, slack) = scanned(bytes, profile);
     (census, slack)
 }
 
-/// The strokes of a drawing.
+/// Strokes of a drawing.
 pub(in crate::verify::source) fn drawn(bytes: &[u8], profile: &MachineProfile) -> Drawn {
     scanned(bytes, profile).0
 }
@@ -119,7 +120,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Follows what a block draws, or what stands in none; what is on layer 0 of a block is on the layer of its insertion.
+    /// Follows the items of a block, or those outside blocks; items on layer 0 of a block are on the layer of its insertion.
     fn items(&mut self, items: &'a [Item<'a>], map: &Map, layer: Option<&'a [u8]>, depth: usize) {
         let mut rest = items;
         while let [item, behind @ ..] = rest {
@@ -208,7 +209,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// A stroke of straight lines and arcs.
+    /// Adds a stroke of straight lines and arcs.
     fn chain(&mut self, places: &[(Place, f64)], is_closed: bool, map: &Map) {
         let mut stroke: Vec<Point> = Vec::new();
         let edges = if is_closed { places.len() } else { places.len().saturating_sub(1) };
@@ -226,7 +227,7 @@ impl<'a> Scan<'a> {
         self.end(stroke);
     }
 
-    /// A curve that is a stroke of its own.
+    /// Adds a curve as a stroke of its own.
     fn alone(&mut self, curve: Option<Curve>, breaks: &[f64], map: &Map) {
         let Some(curve) = curve else { return };
         let mut stroke = vec![point(map.at(curve(0.0)))];
@@ -239,7 +240,8 @@ impl<'a> Scan<'a> {
         stroke.push(to);
     }
 
-    /// Follows a curve in chords finer than any reader's, and lets those lack what they may.
+    /// Follows a curve in chords finer than those of any reader, and adds the permitted shortfall of the reader's chords to the
+    /// slack.
     fn curve(&mut self, curve: &Curve, breaks: &[f64], map: &Map, stroke: &mut Vec<Point>) {
         let place = |share: f64| point(map.at(curve(share)));
         let mut fine = vec![stroke[stroke.len() - 1]];
@@ -284,7 +286,7 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// Turn of a line of three places, rad.
+/// Absolute turn of a polyline of three points, rad.
 fn turned([a, b, c]: [Point; 3]) -> f64 {
     let [v, w] = [b - a, c - b];
     (v.x * w.y - v.y * w.x).atan2(v.dot(&w)).abs()
@@ -294,12 +296,12 @@ fn point([x, y]: Place) -> Point {
     Point::new(x, y)
 }
 
-/// Whether an item is seen from the back of the cloth.
+/// True if an item is seen from the back of the cloth.
 fn is_from_below(item: &Item) -> bool {
     item.number(230).is_some_and(|up| up < 0.0)
 }
 
-/// The map of an item on its own plane: seen from the back X goes to the left.
+/// Map of an item on its own plane: seen from the back, X points left.
 fn plane(item: &Item, map: &Map) -> Map {
     let [x, y, origin] = map.0;
     if is_from_below(item) { Map([[-x[0], -x[1]], y, origin]) } else { *map }

@@ -1,30 +1,30 @@
-//! A second, small reading of the lines of a DXF file: what stands in which block.
+//! Second, minimal reading of the lines of a DXF file: the contents of each block.
 
 use std::collections::BTreeMap;
 
 use super::letters::Letters;
 use crate::machine::labels::Labels;
 
-/// A code and its value.
+/// Group code and its value.
 #[derive(Debug, Clone, Copy)]
 struct Tag<'a> {
     code: i32,
     text: &'a [u8],
 }
 
-/// Something that is drawn, or a text.
+/// Entity, text or structural item of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Item<'a> {
-    /// What it is, in capitals.
+    /// Type, in capitals.
     pub(super) kind: Vec<u8>,
     /// Number of the group that it begins with.
     pub(super) number: u32,
     tags: Vec<Tag<'a>>,
-    /// How its texts are encoded; `None` before that is known.
+    /// Encoding of its texts; `None` before it is known.
     letters: Option<Letters>,
 }
 
-/// Other words of some keys, as CAD systems of other countries write them.
+/// Other words for some keys, as written by CAD systems in other countries.
 #[rustfmt::skip] // a table: a row a key
 const ALSO: [(&str, &[&str]); 5] = [
     ("SIZE", &["SIZE NO.", "SZ.", "BEDEN", "GR.", "GROESSE", "GROSSE", "GRÖSSE", "MAAT", "MARIME", "MARIMEA", "MERET", "MISURA", "MÉRET", "MĂRIME", "MĂRIMEA", "ROZMIAR", "SIZE NAME", "STOERRELSE", "STORLEK", "STØRRELSE", "TAGLIA", "TAILLE", "TALLA", "TAMANHO", "TAMANO", "TAMAÑO", "VELIKOST", "VELKOST", "VEĽKOSŤ", "РАЗМЕР", "РОЗМІР", "サイズ", "号型", "尺码", "尺碼", "码数", "碼數", "號型", "사이즈", "치수"]),
@@ -34,18 +34,18 @@ const ALSO: [(&str, &[&str]); 5] = [
     ("PIECE NAME", &["NOM DE PIECE", "NOM DE PIÈCE", "NOMBRE DE PIEZA", "NOME DA PEÇA", "NOME PEZZO", "TEIL", "TEILENAME", "裁片名称", "NAZWA CZESCI", "NAZWA CZĘŚCI", "ONDERDEEL", "PARCA", "PARÇA", "ДЕТАЛЬ", "НАЗВА ДЕТАЛІ"]),
 ];
 
-/// A block, or what stands in none.
+/// Block, or the items outside blocks.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sheet<'a> {
     pub(super) name: Vec<u8>,
     /// Number of the group that it begins with.
     pub(super) number: u32,
-    /// Place of the block that an insertion puts somewhere, in units of the file; `None` when it is damaged.
+    /// Base point that an insertion places, in units of the file; `None` when it is damaged.
     pub(super) base: Option<[f64; 2]>,
     pub(super) items: Vec<Item<'a>>,
 }
 
-/// How far the direction from which something is seen may be off, by rounding.
+/// Tolerance for the components of the viewing direction, and for other plain values: rounding.
 const FLAT: f64 = 1e-5;
 
 impl<'a> Item<'a> {
@@ -57,18 +57,18 @@ impl<'a> Item<'a> {
         number(self.text(code))
     }
 
-    /// The numbers of two codes.
+    /// Numbers of two codes.
     pub(super) fn pair(&self, codes: [i32; 2]) -> Option<[f64; 2]> {
         Some([self.number(codes[0])?, self.number(codes[1])?])
     }
 
-    /// Whether a bit of the flags of a line is set; `None` when they are damaged.
+    /// True if a bit of the flags of a line is set; `None` when the flags are damaged.
     pub(super) fn flag(&self, bit: u32) -> Option<bool> {
         let is_line = [&b"POLYLINE"[..], b"LWPOLYLINE", b"VERTEX"].contains(&&self.kind[..]);
         if is_line && self.has(70) { self.number(70).map(|flags| flags as u32 & bit != 0) } else { Some(false) }
     }
 
-    /// The value of a variable of the header.
+    /// Value of a variable of the header.
     fn variable(&self, name: &[u8]) -> Option<&'a [u8]> {
         let at = self.tags.iter().position(|tag| tag.code == 9 && tag.text.eq_ignore_ascii_case(name))?;
         Some(self.tags.get(at + 1)?.text)
@@ -78,7 +78,7 @@ impl<'a> Item<'a> {
         self.tags.iter().any(|tag| tag.code == code)
     }
 
-    /// Whether it is drawn as it is seen from above, and once. Lines and points stand in space themselves.
+    /// True if it is drawn as seen from above, and once. Lines and points have coordinates in space instead.
     pub(super) fn is_plain(&self) -> bool {
         if ![&b"INSERT"[..], b"POLYLINE", b"LWPOLYLINE", b"ARC", b"CIRCLE"].contains(&&self.kind[..]) {
             return true;
@@ -88,12 +88,12 @@ impl<'a> Item<'a> {
         is(210, 0.0) && is(220, 0.0) && is(230, 1.0) && !is_array
     }
 
-    /// Whether it is drawn on a layer that asks for cuts.
+    /// True if it is drawn on a layer that requests cuts.
     pub(super) fn is_of_cuts(&self) -> bool {
         self.kind != b"INSERT" && !self.is_text() && matches!(self.layer(), Some(1 | 4 | 6 | 11 | 13 | 80..=83))
     }
 
-    /// The number of its layer.
+    /// Number of its layer; `None` when the name is not a number.
     pub(super) fn layer(&self) -> Option<u32> {
         std::str::from_utf8(self.text(8)).ok()?.parse().ok()
     }
@@ -115,13 +115,14 @@ impl<'a> Item<'a> {
         places
     }
 
-    /// Each value of some codes, in their order.
+    /// Each value of some codes, in order.
     pub(super) fn each(&self, codes: [i32; 3]) -> impl Iterator<Item = (i32, f64)> {
         let tags = self.tags.iter().filter(move |tag| codes.contains(&tag.code));
         tags.filter_map(|tag| Some((tag.code, number(tag.text)?)))
     }
 
-    /// Of a layer that is off or frozen: whether it is frozen, so that blocks on it show nothing at all.
+    /// State of a layer that is off or frozen: true if it is frozen, so that blocks on it show nothing at all; `None` for a
+    /// visible layer.
     fn frozen(&self) -> Option<bool> {
         let is_frozen = self.number(70).is_some_and(|flags| flags as u32 & 1 != 0);
         (is_frozen || self.number(62).is_some_and(|colour| colour < 0.0)).then_some(is_frozen)
@@ -131,12 +132,12 @@ impl<'a> Item<'a> {
         [&b"TEXT"[..], b"MTEXT", b"ATTDEF", b"ATTRIB"].contains(&&self.kind[..])
     }
 
-    /// What a text says under a key: what stands behind `KEY:`, or the value of an attribute of that tag.
+    /// Value of a text under a key: the part behind `KEY:`, or the value of an attribute with that tag.
     pub(super) fn says(&self, key: &str) -> Option<&'a [u8]> {
         self.says_in(self.letters?, key)
     }
 
-    /// The keys under which a text says something when it is read in these letters.
+    /// Keys under which a text has a value when it is decoded with these letters.
     fn keys_in(&self, letters: Letters) -> impl Iterator<Item = &'static str> {
         ALSO.iter().map(|(key, _)| *key).filter(move |key| self.says_in(letters, key).is_some())
     }
@@ -164,7 +165,8 @@ impl<'a> Item<'a> {
     }
 }
 
-/// The two sides of the colon of a line: a wide one, in UTF-8 or a code page, behind a key, else the first.
+/// Both sides of the colon of a line: a full-width colon, in UTF-8 or a code page, behind a key; otherwise the first plain
+/// colon.
 fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> {
     for at in 0..line.len() {
         let (name, rest) = line.split_at(at);
@@ -178,7 +180,7 @@ fn colon(line: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<(&[u8], &[u8])> 
     Some((&line[..at], &line[at + 1..]))
 }
 
-/// Name and value of a count without a colon: the texts before and behind the first blank or `=` that a digit follows.
+/// Name and value of a count without a colon: the texts before and behind the first blank or `=` that precedes a digit.
 fn bare_count(line: &[u8]) -> Option<(&[u8], &[u8])> {
     let at = line.windows(2).position(|pair| matches!(pair[0], b' ' | b'=') && pair[1].is_ascii_digit())?;
     let name = line[..at].trim_ascii_end();
@@ -187,8 +189,7 @@ fn bare_count(line: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((name.trim_ascii_end(), &line[at + 1..]))
 }
 
-/// What stands behind a key and its colon in a text whose lines end at `\P`, and in which codes with a backslash and braces say
-/// how letters look.
+/// Value behind a key and its colon in a text with lines that end at `\P`, and with formatting codes in backslashes and braces.
 fn behind(mut text: &[u8], is_count: bool, is_key: impl Fn(&[u8]) -> bool) -> Option<&[u8]> {
     while !text.is_empty() {
         let end = text.windows(2).position(|pair| pair == b"\\P").unwrap_or(text.len());
@@ -205,7 +206,7 @@ fn behind(mut text: &[u8], is_count: bool, is_key: impl Fn(&[u8]) -> bool) -> Op
     None
 }
 
-/// A text behind the codes with which it begins: `{`, one letter for lines beside the letters, or more up to a `;`.
+/// Text behind its leading codes: `{`, single letters for lines at the letters, or longer codes up to a `;`.
 fn bare(text: &[u8]) -> &[u8] {
     let text = text.trim_ascii_start();
     match text {
@@ -222,33 +223,33 @@ fn number(text: &[u8]) -> Option<f64> {
 }
 
 impl Sheet<'_> {
-    /// Whether anything in it asks for cuts, or may.
+    /// True if an item of the sheet requests cuts, or may.
     pub(super) fn asks_for_cuts(&self) -> bool {
         let is_part = |item: &Item| item.kind == b"VERTEX" || item.kind == b"SEQEND";
         self.items.iter().any(|item| item.is_of_cuts() && !is_part(item) || item.kind == b"INSERT")
     }
 
-    /// What its texts say under a key, the first of them.
+    /// Value of the first of its texts under a key.
     pub(super) fn says(&self, key: &str) -> Option<&[u8]> {
         self.items.iter().find_map(|item| item.says(key))
     }
 }
 
-/// What a file holds.
+/// Contents of a file.
 #[derive(Debug)]
 pub(super) struct File<'a> {
     pub(super) blocks: Vec<Sheet<'a>>,
-    /// What stands in no block.
+    /// Items outside blocks.
     pub(super) loose: Sheet<'a>,
-    /// The number of the unit that its header has.
+    /// Number of the unit in the header.
     pub(super) unit: Option<f64>,
-    /// How its texts are encoded.
+    /// Encoding of the texts.
     pub(super) letters: Letters,
-    /// Layers that are off or frozen, by name: whether they are frozen.
+    /// Layers that are off or frozen, by name; true for frozen ones.
     pub(super) hidden: BTreeMap<Vec<u8>, bool>,
 }
 
-/// Items with their texts in the letters in which the most of them say something.
+/// Finds the encoding in which the most texts have a value, and sets it for all items.
 fn lettered(items: &mut [Item], labels: &Labels) -> Letters {
     let page = items.iter().find_map(|item| item.variable(b"$DWGCODEPAGE"));
     let is_foreign = |item: &&Item| item.is_text() && item.tags.iter().any(|tag| !tag.text.is_ascii());
@@ -267,7 +268,7 @@ fn lettered(items: &mut [Item], labels: &Labels) -> Letters {
 /// Reads a file.
 pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    // Some programs end lines with carriage returns alone.
+    // Some programs end lines with a carriage return alone.
     let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
     let lines: Vec<&[u8]> = bytes.split(|&byte| byte == end).map(<[u8]>::trim_ascii).collect();
     let mut items: Vec<Item> = Vec::new();
@@ -284,11 +285,11 @@ pub(super) fn sheets<'a>(bytes: &'a [u8], labels: &Labels) -> File<'a> {
     let letters = lettered(&mut items, labels);
     let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
     let (mut section, mut is_in_block, mut unit, mut hidden) = (Vec::new(), false, None, BTreeMap::new());
-    // What has 1 in group 67 stands on the sheet around the drawing; only what it says is of interest.
+    // Items with 1 in group 67 are on the sheet around the drawing; of these only texts matter.
     let is_part =
         |item: &Item| [&b"VERTEX"[..], b"SEQEND", b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK"].contains(&&item.kind[..]);
     let is_drawn = |item: &Item| item.number(67) != Some(1.0) || item.is_text() || is_part(item);
-    // The attributes of an insertion stand behind it, and are where that is.
+    // Attributes follow their insertion and are on the same sheet.
     let mut is_on_paper = false;
     for item in items {
         is_on_paper = if item.kind == b"ATTRIB" { is_on_paper } else { !is_drawn(&item) };

@@ -1,27 +1,27 @@
 //! Arcs and Bezier curves, by other formulas than the reader's and with finer chords.
 //!
-//! An arc is one in the numbers of the file; where they are scaled by two factors it is an ellipse on the table.
+//! An arc is circular in the numbers of the file; under a scale with two factors it is an ellipse on the table.
 
 use std::f64::consts::TAU;
 
 use super::scan::{Chords, Gathered, Place, Scan};
 use crate::geom::moments::Moments;
 
-/// How many chords stand here for one of the reader's, and how many those may be at the most.
+/// Number of chords here per chord of the reader, and maximum number of the reader's chords.
 const FINER: usize = 4;
 const MOST_CHORDS: f64 = 100_000.0;
-/// Rounding of a number of chords, as a part of it.
+/// Rounding error of a number of chords, relative.
 const COUNT_EPSILON: f64 = 1e-9;
-/// How much longer than the reader's chords those here may be, as a part of what chords of the greatest length lack.
+/// Permitted excess of the length here over the reader's, relative to the shortfall of chords of the greatest length.
 const LACKING: f64 = 1.5;
-/// The same for moments, around those of the chords that the reader should have; and where rounding decides between two
-/// numbers of chords.
+/// Permitted difference of moments, relative to the shortfall of the chords that the reader should have; then where rounding
+/// decides between two numbers of chords.
 const LACKING_MOMENTS: f64 = 0.1;
 const DOUBTFUL_MOMENTS: f64 = 1.0;
-/// Height of a triangle, in units of the plotter, below which its corners lie on a line.
+/// Height of a triangle, in plotter units, below which its corners are collinear.
 const STRAIGHT: f64 = 1e-6;
 
-/// What the reader's chords lack beside those here.
+/// Shortfall of the reader's chords against those here.
 #[derive(Debug, Clone, Copy)]
 struct Lack {
     moments: Moments,
@@ -29,18 +29,18 @@ struct Lack {
 }
 
 impl Scan<'_> {
-    /// Units of the plotter for one of the file, along each axis.
+    /// Plotter units per unit of the file, along each axis.
     fn factor(&self) -> Place {
         self.scale.map_or([1.0; 2], |[_, factor]| factor)
     }
 
-    /// The way between two places in numbers of the file.
+    /// Vector between two places in numbers of the file.
     fn way(&self, from: Place, to: Place) -> Place {
         let factor = self.factor();
         [(to[0] - from[0]) / factor[0], (to[1] - from[1]) / factor[1]]
     }
 
-    /// The ends of the chords of an arc around a centre.
+    /// End points of the chords of an arc around a centre.
     pub(super) fn arc(&self, from: Place, centre: Place, sweep: f64) -> Chords {
         let factor = self.factor();
         let sagitta = self.sagitta / factor[0].abs().max(factor[1].abs());
@@ -56,7 +56,7 @@ impl Scan<'_> {
         Chords { points: (1..=chords).map(at).collect(), share }
     }
 
-    /// A place turned about a centre, rad. A full turn ends where it started, whatever rounding says.
+    /// Place rotated about a centre by `angle` rad. A full turn ends exactly where it started, despite rounding.
     pub(super) fn on_arc(&self, [from, centre]: [Place; 2], angle: f64) -> Place {
         if angle == 0.0 || angle.abs() >= TAU {
             return from;
@@ -66,8 +66,8 @@ impl Scan<'_> {
         [centre[0] + factor[0] * (x * cos - y * sin), centre[1] + factor[1] * (x * sin + y * cos)]
     }
 
-    /// Lets the reader's chords of a curve lack what every fourth of its places here lacks; those of a polygon do when
-    /// it is drawn. Its places go on from here.
+    /// Allows the reader's chords of a curve the shortfall of every fourth place here; for the curves of a polygon this is done
+    /// when it is drawn. The curve starts at the pen.
     pub(super) fn allow(&mut self, Chords { points, share }: &Chords) {
         let from = self.pen.at;
         if self.part.is_some() {
@@ -78,7 +78,7 @@ impl Scan<'_> {
         }
     }
 
-    /// The same for the curves of the polygon, which is drawn now: only the turn that is in force now matters.
+    /// Allows the shortfall of all curves of the polygon, which is drawn now under the current rotation.
     pub(super) fn allow_polygon(&mut self) {
         for i in 0..self.curves.len() {
             let Gathered { from, first, count, share } = self.curves[i];
@@ -128,7 +128,7 @@ impl Scan<'_> {
             let (chords, share) = chords((0.75 * bend(0).max(bend(1)) / self.sagitta).sqrt());
             let at = |i: usize| {
                 let t = i as f64 / chords as f64;
-                // De Casteljau.
+                // De Casteljau's algorithm.
                 let mix = |a: Place, b: Place| [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
                 let (a, b, c) = (mix(p[0], p[1]), mix(p[1], p[2]), mix(p[2], p[3]));
                 if i == chords { p[3] } else { mix(mix(a, b), mix(b, c)) }
@@ -138,11 +138,10 @@ impl Scan<'_> {
         }
     }
 
-    /// Centre and sweep of the arc by way of the middle one of three places; `None` on a line, or where rounding cannot be
-    /// told from a bend.
+    /// Centre and sweep of the arc through three places; `None` if they are collinear, or as far as rounding can tell.
     pub(super) fn circle(&self, [from, middle, to]: [Place; 3]) -> Option<(Place, f64)> {
         let factor = self.factor();
-        // Rounding is stretched like everything else.
+        // Rounding is scaled like everything else.
         let straight = STRAIGHT / factor[0].abs().min(factor[1].abs());
         let (a, b) = (self.way(from, middle), self.way(from, to));
         let length = |v: Place| v[0].hypot(v[1]);
@@ -165,9 +164,9 @@ impl Scan<'_> {
     }
 }
 
-/// The number of chords where the reader needs so many, and how far moments may then be off.
+/// Number of chords if the reader needs `needed`, and the permitted difference of moments as a share of the shortfall.
 fn chords(needed: f64) -> (usize, f64) {
-    // At least one: a curve that hardly bends is a line.
+    // At least one: a curve that hardly bends becomes a line.
     let whole = |needed: f64| needed.ceil().clamp(1.0, MOST_CHORDS);
     let least = whole(needed * (1.0 - COUNT_EPSILON));
     let is_doubtful = least < whole(needed * (1.0 + COUNT_EPSILON));

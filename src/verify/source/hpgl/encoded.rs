@@ -2,16 +2,16 @@
 
 use super::scan::Scan;
 
-/// Fraction bits, of either sign.
+/// Maximum absolute number of fraction bits.
 const MOST_BITS: f64 = 26.0;
 
 impl Scan<'_> {
-    /// PE: digits of base 64 or 32, least first.
+    /// PE: numbers in digits of base 64 or 32, least significant first.
     pub(super) fn encoded(&mut self) {
         let (mut base, mut last_from) = (64.0, 191);
         let (mut bits, mut is_up, mut is_absolute, mut flag) = (0, false, false, b' ');
         let (mut value, mut weight) = (0.0, 1.0);
-        // Where the number begins that is being read.
+        // Start of the number that is being read.
         let mut begun = None;
         let mut first: Option<(f64, usize)> = None;
         while let Some(&raw) = self.bytes.get(self.at) {
@@ -23,13 +23,13 @@ impl Scan<'_> {
                 self.at += 1;
             }
             match byte {
-                // A number without its last digit is the instruction that comes next.
+                // A number without its last digit belongs to the next instruction.
                 b';' | b'0'..=b'9' | b'+' | b'-' | b',' if begun.is_some() => {
                     self.at = begun.unwrap_or(self.at);
                     return;
                 }
                 b';' => return,
-                // A change of language.
+                // Change of language.
                 0x1b if begun.is_none() && self.bytes.get(self.at) == Some(&b'%') => {
                     self.at -= 1;
                     return;
@@ -53,7 +53,7 @@ impl Scan<'_> {
                     match (std::mem::replace(&mut flag, b' '), first.take()) {
                         (b':', kept) => (first, self.pen.cause) = (kept, None),
                         (b'>', kept) if number.abs() <= MOST_BITS => (first, bits) = (kept, number as i32),
-                        // The reader takes no more of it, either.
+                        // The reader ignores the rest, too.
                         (b'>', _) => return,
                         (_, None) => first = Some((number * 2.0_f64.powi(-bits), self.at)),
                         (_, Some((x, cause))) => {

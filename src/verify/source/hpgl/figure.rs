@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use super::scan::{Corner, Scan};
 
-/// Degrees of a full turn.
+/// Full turn, degrees.
 const FULL_TURN: f64 = 360.0;
 impl Scan<'_> {
-    /// Figures and arcs.
+    /// Executes figures and arcs.
     pub(super) fn figure(&mut self, mnemonic: [u8; 2], numbers: &[f64], cause: usize) {
         match &mnemonic {
             b"AA" | b"AR" => self.arc_about(mnemonic == *b"AR", numbers, cause),
@@ -21,7 +21,7 @@ impl Scan<'_> {
         }
     }
 
-    /// AA, AR: an arc about a centre.
+    /// AA, AR: arc about a centre.
     fn arc_about(&mut self, is_relative: bool, numbers: &[f64], cause: usize) {
         let &[x, y, degrees, ..] = numbers else { return };
         let from = self.pen.at;
@@ -35,7 +35,7 @@ impl Scan<'_> {
         }
     }
 
-    /// AT, RT: an arc by way of a place.
+    /// AT, RT: arc through a place.
     fn arc_by_way_of(&mut self, is_relative: bool, numbers: &[f64], cause: usize) {
         let &[x1, y1, x2, y2, ..] = numbers else { return };
         let from = self.pen.at;
@@ -50,7 +50,7 @@ impl Scan<'_> {
         self.go(to, cause, self.pen.is_down);
     }
 
-    /// CI: a circle about where the pen is.
+    /// CI: circle about the pen.
     fn whole_circle(&mut self, numbers: &[f64], cause: usize) {
         let &[radius, ..] = numbers else { return };
         let from = self.pen.at;
@@ -61,7 +61,7 @@ impl Scan<'_> {
         self.go(from, cause, false);
     }
 
-    /// EA, ER: a rectangle from where the pen is.
+    /// EA, ER: rectangle from the pen.
     fn rectangle(&mut self, is_relative: bool, numbers: &[f64], cause: usize) {
         let &[x, y, ..] = numbers else { return };
         let from = self.pen.at;
@@ -73,7 +73,7 @@ impl Scan<'_> {
         self.go(from, cause, false);
     }
 
-    /// EW: a wedge about where the pen is.
+    /// EW: wedge about the pen.
     fn wedge(&mut self, numbers: &[f64], cause: usize) {
         let &[radius, start, degrees, ..] = numbers else { return };
         let from = self.pen.at;
@@ -90,7 +90,7 @@ impl Scan<'_> {
         self.go(from, cause, false);
     }
 
-    /// PM: a polygon is gathered, its next part begins, or it ends.
+    /// PM: starts a polygon, begins its next part, or ends it.
     fn gather(&mut self, numbers: &[f64], cause: usize) {
         let from = self.pen.at;
         let kind = numbers.first().copied().unwrap_or(0.0);
@@ -110,7 +110,7 @@ impl Scan<'_> {
         }
     }
 
-    /// EP: the polygon that was gathered is drawn; the pen stays where it is.
+    /// EP: draws the current polygon; the pen keeps its place.
     fn polygon(&mut self) {
         let from = self.pen.at;
         self.pen.cause = None;

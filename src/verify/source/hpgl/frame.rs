@@ -1,12 +1,12 @@
-//! What the numbers of a plot mean: scale, corners, page and turn.
+//! Coordinate system of a plot: scale, corners, page and rotation.
 
 use super::scan::{Place, Scan};
 
-/// Corners of the scale where the file gives none, in units of the file.
+/// Default corners of the scale, in units of the file.
 const CORNERS: [f64; 4] = [250.0, 596.0, 10_250.0, 7796.0];
 
 impl Scan<'_> {
-    /// Scale, corners, page and turn. The pen stays where it is on the table.
+    /// Executes scale, corners, page and rotation. The pen keeps its place on the table.
     pub(super) fn frame(&mut self, mnemonic: [u8; 2], numbers: &[f64]) {
         let on_table = self.turned(self.pen.at);
         self.set_frame(mnemonic, numbers);
@@ -15,7 +15,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Quarter turns about the origin, then the way that brings the page back to it.
+    /// Place after the quarter turns about the origin and the shift that brings the page back to it.
     pub(super) fn turned(&self, place: Place) -> Place {
         let [x, y] = (0..self.quarters).fold(place, |[x, y], _| [-y, x]);
         let [dx, dy] = self.way_back();
@@ -68,7 +68,7 @@ impl Scan<'_> {
         }
     }
 
-    /// The corners of a scale have moved.
+    /// Computes the scale again for changed corners.
     fn rescale(&mut self) {
         let ranges = std::mem::take(&mut self.ranges);
         if let (Some(_), [x0, x1, y0, y1, kind @ ..]) = (self.scale, &ranges[..]) {
@@ -77,7 +77,7 @@ impl Scan<'_> {
         self.ranges = ranges;
     }
 
-    /// Whether there is such a scale; else the one before it stays.
+    /// Sets a scale; `false` if it is invalid, and the previous one remains.
     fn set_scale(&mut self, [x0, x1, y0, y1]: [f64; 4], kind: &[f64]) -> bool {
         let [a, b, c, d] = self.corners.unwrap_or(CORNERS);
         let mut factor = [(c - a) / (x1 - x0), (d - b) / (y1 - y0)];

@@ -1,14 +1,15 @@
-//! Instructions, escapes and labels: what stands between two numbers that lead the pen.
+//! Instructions, escape sequences and labels of a plot.
 
 use super::scan::{Pen, Place, Scan};
 
-/// The terminator of labels unless DT gives another: ETX.
+/// Terminator of labels by default: ETX.
 pub(super) const ETX: u8 = 3;
-/// Places behind PD, after a PU with a place, from which on a label is no text: it has swallowed an outline.
+/// Number of places behind PD, after a PU with a place, from which a label is not a text: its terminator is lost, and it
+/// contains an outline.
 const DRAWN_PLACES: usize = 3;
-/// Ends of a text that stands without quotes behind CO, MG or BP.
+/// End bytes of a text without quotes behind CO, MG or BP.
 const END_OF_WORDS: &[u8] = b";\r\n\x03";
-/// Longest label, bytes, before its terminator counts as lost.
+/// Longest label, bytes; in a longer one the terminator counts as lost.
 const LABEL_BYTES: usize = 1024;
 
 impl Scan<'_> {
@@ -20,7 +21,7 @@ impl Scan<'_> {
             } else if self.bytes[self.at..].starts_with(b"@PJL") {
                 self.at += self.until(b"\n", usize::MAX);
             } else if byte == b'"' && self.quote() {
-                // A text that no instruction asks for.
+                // Text without an instruction.
             } else if byte.is_ascii_alphabetic() && next.is_ascii_alphabetic() {
                 self.at += 2;
                 self.instruction([byte.to_ascii_uppercase(), next.to_ascii_uppercase()]);
@@ -30,7 +31,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Bytes up to one of `ends`, or up to the end of the file or of `most`.
+    /// Number of bytes up to one of `ends`, the end of the file or `most`.
     pub(super) fn until(&self, ends: &[u8], most: usize) -> usize {
         let rest = &self.bytes[self.at..];
         rest.iter().take(most).position(|byte| ends.contains(byte)).unwrap_or(rest.len().min(most))
@@ -59,7 +60,7 @@ impl Scan<'_> {
             [mark, ..] if b"!\"#$&'()*+,/".contains(mark) => {
                 let end = after(1, &|b| b.is_ascii_digit() || b.is_ascii_lowercase() || b"+-.".contains(&b));
                 let ends_well = rest.get(end).is_some_and(|b| b.is_ascii_uppercase() || *b == b'@');
-                // Data that reach beyond the end make no sequence of it.
+                // Data beyond the end of the file invalidate the sequence.
                 let length = end + 1 + if ends_well { data_behind(&rest[..=end]) } else { 0 };
                 if ends_well && length <= rest.len() { length } else { 0 }
             }
@@ -69,7 +70,7 @@ impl Scan<'_> {
         self.at += 1 + length;
     }
 
-    /// IN; DF leaves the pen, the corners and the turn alone.
+    /// IN: resets everything; DF in contrast keeps the pen, the corners and the rotation.
     pub(super) fn reset(&mut self) {
         self.pen = Pen::default();
         self.is_up = true;
@@ -132,7 +133,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Whether nothing stands behind a text between quotes.
+    /// True if nothing follows a text in quotes.
     fn is_quoted_alone(&mut self) -> bool {
         let start = self.at;
         let is_alone = self.quote() && matches!(self.bytes.get(self.at), None | Some(&(b';' | b'\r' | b'\n' | ETX)));
@@ -140,8 +141,8 @@ impl Scan<'_> {
         is_alone
     }
 
-    /// A text between quotes, which stand twice within it; `false` where none stands, or only one quote, or an outline between
-    /// two.
+    /// Skips a text in quotes; quotes inside it are doubled. `false` without a text, with a single quote, or with an outline
+    /// between two quotes.
     fn quote(&mut self) -> bool {
         let blanks = self.bytes[self.at..].iter().take_while(|&&byte| byte == b' ').count();
         let mut at = self.at + blanks;
@@ -164,7 +165,7 @@ impl Scan<'_> {
         false
     }
 
-    /// BP: numbers with texts between them. One without quotes, behind a comma, is all that stands before the semicolon.
+    /// BP: numbers with texts in between. A text without quotes, behind a comma, extends to the semicolon.
     fn title(&mut self) {
         while self.number().is_some() || {
             let before = self.bytes[self.at..].iter().take_while(|&&byte| matches!(byte, b',' | b' ')).count();
@@ -197,7 +198,7 @@ impl Scan<'_> {
         }
     }
 
-    /// A place of the file: the first one behind PM 1 starts a part, whatever leads there.
+    /// Leads the pen to a place of the file; the first place behind PM 1 starts a part without drawing.
     pub(super) fn lead(&mut self, to: Place, cause: usize) {
         let starts = self.part.is_some() && std::mem::take(&mut self.is_fresh);
         if starts {
@@ -207,8 +208,8 @@ impl Scan<'_> {
     }
 }
 
-/// How many bytes of data stand behind a sequence: the number before its last letter, where that is W, or V of raster rows, or
-/// X of texts that are printed as they are.
+/// Number of data bytes behind a sequence: the number before its last letter, if that is W, V for raster rows, or X for texts
+/// printed verbatim.
 fn data_behind(sequence: &[u8]) -> usize {
     let [mark, group, .., last] = *sequence else { return 0 };
     if !matches!([mark, group, last], [_, _, b'W'] | [b'*', b'b', b'V'] | [b'&', b'p', b'X']) {
@@ -227,7 +228,7 @@ fn data_behind(sequence: &[u8]) -> usize {
     count
 }
 
-/// Whether a label draws: by the commas between PD and the next letter.
+/// True if a label draws, judged by the commas between PD and the next letter.
 fn draws(label: &[u8]) -> bool {
     let starts = |mnemonic: &[u8]| {
         let places: Vec<usize> = memchr::memmem::find_iter(label, mnemonic).collect();

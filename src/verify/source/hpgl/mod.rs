@@ -1,6 +1,7 @@
-//! A second, small reading of a plot: where the pen goes while it is down, by other means than the reader's.
+//! Second, minimal reading of a plot by other means than the reader's: the path of the pen while it is down.
 //!
-//! `instruction` obeys what moves the pen of [`Scan`], `curve` and `figure` draw, `encoded` reads PE, `frame` SC and RO.
+//! `instruction` executes the instructions that move the pen of [`Scan`]; `curve` and `figure` draw; `encoded` reads PE,
+//! `frame` SC and RO.
 
 mod curve;
 mod encoded;
@@ -21,13 +22,13 @@ use crate::verify::source::census::Census;
 use crate::verify::source::census::Slack;
 use crate::verify::source::drawing::drawn::Drawn;
 
-/// Scans a plot.
+/// Statistics of a plot.
 pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
     let scan = scanned(bytes, profile, None);
     (scan.census, scan.slack)
 }
 
-/// The strokes of a plot.
+/// Strokes of a plot.
 pub(super) fn drawn(bytes: &[u8], profile: &MachineProfile) -> Drawn {
     let strokes = scanned(bytes, profile, Some(Vec::new())).strokes.unwrap_or_default();
     Drawn { strokes, unit: profile.hpgl.unit.mm(), layers: BTreeSet::new() }

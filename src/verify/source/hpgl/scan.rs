@@ -1,31 +1,31 @@
-//! The pen of a plot as it is read a second time, and what it draws.
+//! Pen of the second reading of a plot, and its lines.
 
 use crate::geom::Point;
 use crate::geom::moments::Moments;
 use crate::verify::source::census::{Census, Slack};
 
-/// Most numbers of an instruction that is no list of places.
+/// Maximum number of numbers of an instruction, except lists of places.
 const MOST_NUMBERS: usize = 8;
 
-/// A place, in units of the file.
+/// Place, in units of the file.
 pub(super) type Place = [f64; 2];
 
-/// The pen, in units of the file before RO.
+/// Pen, in units of the file before RO.
 #[derive(Default)]
 pub(super) struct Pen {
     pub(super) at: Place,
     pub(super) is_down: bool,
     pub(super) is_relative: bool,
-    /// Whether no pen is taken, so that nothing is drawn.
+    /// True if no pen is selected, so that nothing is drawn.
     pub(super) is_away: bool,
-    /// What the stroke was last led on by; `None` when the pen was lifted.
+    /// Position of the instruction or number that last extended the stroke; `None` after the pen was lifted.
     pub(super) cause: Option<usize>,
 }
 
-/// A corner of PM.
+/// Corner of a PM polygon.
 pub(super) struct Corner {
     pub(super) at: Place,
-    /// What leads there.
+    /// Position of the instruction or number that leads there.
     pub(super) cause: usize,
     pub(super) draws: bool,
 }
@@ -33,55 +33,55 @@ pub(super) struct Corner {
 pub(super) struct Scan<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) at: usize,
-    /// Whether the whole file is UTF-8, so that high bytes of PE are pairs.
+    /// True if the whole file is UTF-8, so that high bytes of PE are pairs.
     pub(super) is_text: bool,
     pub(super) terminator: u8,
     pub(super) unit: f64,
-    /// Of curves, in units of the file.
+    /// Sagitta of curves, in units of the file.
     pub(super) sagitta: f64,
     pub(super) pen: Pen,
     pub(super) corners: Option<[f64; 4]>,
     pub(super) page: Option<Place>,
     /// Offset and factor of each axis.
     pub(super) scale: Option<[Place; 2]>,
-    /// The numbers of SC that it was made of.
+    /// Numbers of the SC instruction of the scale.
     pub(super) ranges: Vec<f64>,
     pub(super) quarters: u8,
     pub(super) polygon: Vec<Corner>,
-    /// Where the part of the polygon that is gathered starts, and whether the next place starts another.
+    /// Start index of the current part of the polygon; and true if the next place starts another part.
     pub(super) part: Option<usize>,
     pub(super) is_fresh: bool,
     pub(super) census: Census,
-    /// What is drawn since the pen was lifted: short sums of long ones lose less by rounding.
+    /// Moments since the pen was lifted: summing strokes separately reduces rounding.
     pub(super) stroke: Moments,
     pub(super) slack: Slack,
-    /// The curves of the polygon.
+    /// Curves of the polygon.
     pub(super) curves: Vec<Gathered>,
-    /// The strokes, where they are asked for, and whether the next line begins one.
+    /// Strokes, if requested; and true if the next line begins one.
     pub(super) strokes: Option<Vec<Vec<Point>>>,
     pub(super) is_up: bool,
 }
 
-/// A curve as chords.
+/// Curve as chords.
 pub(super) struct Chords {
-    /// Their ends.
+    /// End points of the chords.
     pub(super) points: Vec<Place>,
-    /// How far moments may be off, as a part of what the reader's chords lack.
+    /// Permitted difference of moments, as a share of the shortfall of the reader's chords.
     pub(super) share: f64,
 }
 
-/// A curve of the polygon that PM gathers, drawn whenever the polygon is.
+/// Curve of the PM polygon, drawn whenever the polygon is.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gathered {
     pub(super) from: Place,
-    /// Its first corner among those of the polygon, and how many they are.
+    /// Index of its first corner in the polygon, and number of its corners.
     pub(super) first: usize,
     pub(super) count: usize,
     pub(super) share: f64,
 }
 
 impl Scan<'_> {
-    /// The next number of the instruction.
+    /// Next number of the instruction.
     pub(super) fn number(&mut self) -> Option<f64> {
         let mut at = self.at;
         while self.bytes.get(at).is_some_and(|byte| b", \t\r\n".contains(byte)) {
@@ -116,7 +116,7 @@ impl Scan<'_> {
         (self.pen.is_down, self.pen.cause) = (false, None);
     }
 
-    /// A move; `cause` tells moves of one number or curve from others.
+    /// Moves the pen; `cause` identifies the number or curve of the file that the move belongs to.
     pub(super) fn go(&mut self, to: Place, cause: usize, draws: bool) {
         let from = std::mem::replace(&mut self.pen.at, to);
         if self.part.is_some() {
@@ -135,7 +135,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Notes a line of a stroke.
+    /// Adds a line to the strokes.
     fn note(&mut self, [a, b]: [Point; 2]) {
         let is_new = std::mem::take(&mut self.is_up);
         let Some(strokes) = self.strokes.as_mut().filter(|_| !self.pen.is_away) else { return };
@@ -150,12 +150,12 @@ impl Scan<'_> {
         self.census.moments += std::mem::take(&mut self.stroke);
     }
 
-    /// Whether moves draw, now or when the polygon is drawn.
+    /// True if moves leave a line, now or when the polygon is drawn.
     pub(super) fn leaves_trace(&self) -> bool {
         self.pen.is_down || self.part.is_some()
     }
 
-    /// Along the chords of a curve, with the pen as it is.
+    /// Follows the chords of a curve with the pen as it is.
     pub(super) fn follow(&mut self, chords: &Chords, cause: usize) {
         if self.pen.is_down {
             self.draw_along(chords, cause);

@@ -1,9 +1,9 @@
-//! Transforms, as two rows of a matrix.
+//! Affine transforms as two rows of a matrix.
 
 use super::numbers::list;
 use crate::geom::{Point, Vector};
 
-/// Rows for x and y: what a unit of x, a unit of y and the origin become.
+/// Rows for x and y: images of the unit of x, the unit of y, and the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Map(pub(super) [[f64; 3]; 2]);
 
@@ -16,7 +16,7 @@ impl Map {
         Self([[x, 0.0, 0.0], [0.0, y, 0.0]])
     }
 
-    /// The product with a map that acts first.
+    /// Product with a map that is applied first.
     pub(super) fn times(self, first: Self) -> Self {
         let cell = |row: [f64; 3], k: usize| {
             let sum = row[0] * first.0[0][k] + row[1] * first.0[1][k];
@@ -34,7 +34,7 @@ impl Map {
         self.at(x, y) - self.at(0.0, 0.0)
     }
 
-    /// The maps of a `transform`, the last of which acts first.
+    /// Map of a `transform` attribute; its last transform is applied first.
     pub(super) fn read(text: &str) -> Option<Self> {
         let mut map = Self::shift(0.0, 0.0);
         for call in

@@ -1,8 +1,8 @@
-//! A second, small reading of an SVG drawing: where its lines go, by other means than the reader's.
+//! Second, minimal reading of an SVG drawing by other means than the reader's.
 //!
-//! [`mod@numbers`] finds numbers and lengths, [`map`] has the transforms, [`rules`] the style sheets, [`page`] the size;
-//! [`walk`] goes through the elements, [`outline`] follows shapes and [`path`] path data, whose lines
-//! and curves [`trace`] leads to the [`pen`], which counts and makes curves of more chords than the reader's.
+//! [`mod@numbers`] reads numbers and lengths, [`map`] has the transforms, [`rules`] the style sheets, [`page`] the size;
+//! [`walk`] traverses the elements, [`outline`] follows shapes and [`path`] path data; [`trace`] passes their lines and curves
+//! to the [`pen`], which computes statistics and divides curves into more chords than the reader.
 
 mod map;
 mod numbers;
@@ -24,24 +24,24 @@ use crate::machine::MachineProfile;
 use crate::verify::source::census::{ARC_SAGITTA, Census, Slack};
 use crate::verify::source::drawing::drawn::Drawn;
 
-/// Farthest that a chord of the reader may lie off its curve, mm.
+/// Greatest distance of a chord of the reader from its curve, mm.
 const SAGITTA: f64 = 0.02;
 /// Bytes in which a file names its encoding.
 const HEAD: usize = 200;
 
-/// Counts what a drawing draws.
+/// Statistics of a drawing.
 pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
     let pen = followed(bytes, profile, None);
     (pen.census, pen.slack)
 }
 
-/// The strokes of a drawing.
+/// Strokes of a drawing.
 pub(super) fn drawn(bytes: &[u8], profile: &MachineProfile) -> Drawn {
     let Pen { strokes, layers, .. } = followed(bytes, profile, Some(Vec::new()));
     Drawn { strokes: strokes.unwrap_or_default(), unit: 0.0, layers }
 }
 
-/// The pen behind all that a file draws; nothing of a file that is no XML.
+/// Pen after drawing a whole file; unused if the file is not XML.
 fn followed(bytes: &[u8], profile: &MachineProfile, strokes: Option<Vec<Vec<Point>>>) -> Pen {
     let sagitta = (profile.tolerance(0.0) * ARC_SAGITTA).min(SAGITTA);
     let mut pen = Pen::new(sagitta, strokes);
@@ -55,7 +55,7 @@ fn followed(bytes: &[u8], profile: &MachineProfile, strokes: Option<Vec<Vec<Poin
     pen
 }
 
-/// The letters of a file: UTF-8, UTF-16 by its mark or its zeros, else one byte each.
+/// Text of a file: UTF-8, UTF-16 by its mark or its zeros, otherwise one byte per letter.
 fn text(bytes: &[u8]) -> String {
     let wide = |bytes: &[u8], pair: fn([u8; 2]) -> u16| {
         let (pairs, _) = bytes.as_chunks::<2>();
@@ -71,7 +71,7 @@ fn text(bytes: &[u8]) -> String {
     }
 }
 
-/// Letters of one byte each, in the encoding that stands behind `encoding` and a quote.
+/// Text with one byte per letter, in the encoding named in quotes behind `encoding`.
 fn narrow(bytes: &[u8]) -> String {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]).into_owned();
     let quoted = head.split_once("encoding").and_then(|(_, rest)| rest.split(['"', '\'']).nth(1));

@@ -1,6 +1,6 @@
 //! Numbers, flags and lengths.
 
-/// Bytes that are read from the front.
+/// Sequential reader of bytes.
 pub(super) struct Numbers<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) at: usize,
@@ -15,14 +15,14 @@ impl<'a> Numbers<'a> {
         self.bytes.get(self.at).copied()
     }
 
-    /// Passes over blanks and commas.
+    /// Skips blanks and commas.
     pub(super) fn skip(&mut self) {
         while self.peek().is_some_and(|byte| byte.is_ascii_whitespace() || byte == b',') {
             self.at += 1;
         }
     }
 
-    /// The next number.
+    /// Next number.
     pub(super) fn number(&mut self) -> Option<f64> {
         self.skip();
         let (mut end, mut has_point, mut has_exponent, mut has_digit) = (self.at, false, false, false);
@@ -48,7 +48,7 @@ impl<'a> Numbers<'a> {
         value.is_finite().then_some(value)
     }
 
-    /// Whether digits follow an `e`.
+    /// True if digits follow an `e`.
     fn is_exponent(&self, at: usize) -> bool {
         match &self.bytes[at + 1..] {
             [b'+' | b'-', digit, ..] | [digit, ..] => digit.is_ascii_digit(),
@@ -56,7 +56,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The flag of an arc.
+    /// Flag of an arc.
     pub(super) fn flag(&mut self) -> Option<bool> {
         self.skip();
         let flag = self.peek().filter(|byte| b"01".contains(byte))?;
@@ -71,7 +71,7 @@ pub(super) fn list(text: &str) -> Vec<f64> {
     std::iter::from_fn(|| numbers.number()).collect()
 }
 
-/// A length in pixels of which so many make an inch; `whole` is what percents are of.
+/// Length in pixels at `dots` pixels per inch; percentages refer to `whole`.
 pub(super) fn length(text: &str, dots: f64, whole: f64) -> Option<f64> {
     let mut numbers = Numbers::of(text.trim());
     let value = numbers.number()?;

@@ -10,7 +10,7 @@ use super::path;
 use super::pen::{Bow, Pen};
 use super::trace::Trace;
 
-/// Measures of the lengths of an element: pixels to the inch, and the size that percents are of.
+/// Units of an element's lengths: pixels per inch, and the size that percentages refer to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ruler {
     pub(super) dots: f64,
@@ -18,7 +18,7 @@ pub(super) struct Ruler {
 }
 
 impl Ruler {
-    /// A length of an element, by its name: those along x begin with one of its letters.
+    /// Length of an element by the name of its attribute, which determines the size that percentages refer to.
     pub(super) fn of(self, node: Node, name: &str) -> Option<f64> {
         let [width, height] = self.whole;
         let whole = match name {
@@ -64,7 +64,7 @@ pub(super) fn draw(node: Node, map: Map, ruler: Ruler, pen: &mut Pen) {
     pen.lift();
 }
 
-/// A rectangle from its left upper corner, with x, then y growing.
+/// Rectangle from its upper left corner, along growing x, then growing y.
 fn rectangle(node: Node, ruler: Ruler, trace: &mut Trace) {
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|name| ruler.or_zero(node, name));
     let [rx, ry] = ["rx", "ry"].map(|name| ruler.of(node, name));
@@ -92,7 +92,7 @@ fn rectangle(node: Node, ruler: Ruler, trace: &mut Trace) {
     trace.close();
 }
 
-/// A whole ellipse from its place farthest in x, with y growing.
+/// Full ellipse from its place of greatest x, towards growing y.
 fn ellipse(node: Node, ruler: Ruler, trace: &mut Trace) {
     let radius = ruler.of(node, "r").filter(|_| node.tag_name().name() == "circle");
     let own = |name: &str| ruler.of(node, name).filter(|_| node.tag_name().name() == "ellipse");

@@ -1,4 +1,4 @@
-//! The size of a page, and view boxes.
+//! Size of a page, and view boxes.
 
 use roxmltree::{Document, Node};
 
@@ -9,12 +9,12 @@ use super::outline::Ruler;
 const MM_PER_INCH: f64 = 25.4;
 pub(super) const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
-/// The map from units of the file to mm, and what lengths are measured by; `None` of a page without a size.
+/// Map from units of the file to mm, and the units of lengths; `None` for a page without a size.
 pub(super) fn page(document: &Document) -> Option<(Map, Ruler)> {
     let root = document.root_element();
     let dots = dots(document);
     let mm = |pixels: f64| pixels / dots * MM_PER_INCH;
-    // A page in hundredths of a window is as large as its view box.
+    // A page with a size in percent of a window is as large as its view box.
     let side = |name: &str| {
         let text = root.attribute(name).filter(|text| !text.trim_end().ends_with('%'))?;
         length(text, dots, 0.0).map(mm)
@@ -36,7 +36,7 @@ pub(super) fn page(document: &Document) -> Option<(Map, Ruler)> {
     Some((map, Ruler { dots, whole: [wide, high] }))
 }
 
-/// Pixels to the inch, by the marks of programs that have others than browsers.
+/// Pixels per inch; programs that differ from browsers are recognised by their marks.
 fn dots(document: &Document) -> f64 {
     let root = document.root_element();
     if let Some(version) = root.attribute((INKSCAPE, "version")) {
@@ -54,7 +54,7 @@ fn dots(document: &Document) -> f64 {
     if is_adobe { 72.0 } else { 96.0 }
 }
 
-/// The map from a view box to a window whose corner is the origin.
+/// Map from a view box to a window with its corner at the origin.
 pub(super) fn window([x, y, wide, high]: [f64; 4], [width, height]: [f64; 2], rule: Option<&str>) -> Option<Map> {
     if !(wide > 0.0 && high > 0.0) {
         return None;

@@ -1,19 +1,19 @@
-//! Path data: each command has so many numbers.
+//! Path data: commands with fixed numbers of parameters.
 
 use super::numbers::Numbers;
 use super::trace::Trace;
 
-/// Commands and how many numbers each takes.
+/// Commands, and the number of parameters of each.
 const COMMANDS: [(u8, usize); 10] =
     [(b'M', 2), (b'L', 2), (b'H', 1), (b'V', 1), (b'C', 6), (b'S', 4), (b'Q', 4), (b'T', 2), (b'A', 7), (b'Z', 0)];
-/// Places of the flags among the numbers of an arc.
+/// Indices of the flags among the parameters of an arc.
 const FLAGS: std::ops::Range<usize> = 3..5;
 
 /// Follows path data as far as it can be read.
 pub(super) fn follow(text: &str, trace: &mut Trace) {
     let mut numbers = Numbers::of(text);
     let mut letter = 0;
-    // The last control point of a cubic and of a quadratic curve.
+    // Last control point of a cubic and of a quadratic curve.
     let mut knees: [Option<[f64; 2]>; 2] = [None; 2];
     loop {
         numbers.skip();
@@ -47,7 +47,7 @@ pub(super) fn follow(text: &str, trace: &mut Trace) {
     trace.pen.lift();
 }
 
-/// Adds the place of the pen to the numbers of a command in a small letter.
+/// Adds the position of the pen to the parameters of a command in lower case.
 fn make_absolute(values: &mut [f64; 7], letter: u8, [x, y]: [f64; 2]) {
     let from = if letter.is_ascii_lowercase() { [x, y] } else { [0.0; 2] };
     match letter.to_ascii_uppercase() {
@@ -61,7 +61,7 @@ fn make_absolute(values: &mut [f64; 7], letter: u8, [x, y]: [f64; 2]) {
     }
 }
 
-/// Obeys a command; gives the control points that a smooth one may go on from.
+/// Executes a command and returns the control points that a smooth command may continue from.
 fn obey(capital: u8, v: &[f64; 7], knees: [Option<[f64; 2]>; 2], trace: &mut Trace) -> [Option<[f64; 2]>; 2] {
     let [x, y] = trace.at;
     let mirror = |knee: Option<[f64; 2]>| knee.map_or([x, y], |[a, b]| [2.0 * x - a, 2.0 * y - b]);

@@ -1,4 +1,4 @@
-//! The pen of the second reading: it counts lines, and has more chords for a curve than the reader.
+//! Pen of the second reading: it computes statistics, and divides curves into more chords than the reader.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -8,40 +8,40 @@ use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, Vector};
 use crate::verify::source::census::{Census, Slack};
 
-/// Chords that stand here for one of the reader's, and the most of those.
+/// Number of chords here per chord of the reader, and maximum number of the reader's chords.
 const FINER: usize = 4;
 const MOST_CHORDS: f64 = 100_000.0;
-/// Rounding of a number of chords, as a part of it.
+/// Rounding error of a number of chords, relative.
 const COUNT_EPSILON: f64 = 1e-9;
-/// How far lengths and moments may be off, as a part of what the chords that the reader should have lack; and where
+/// Permitted difference of lengths and moments, relative to the shortfall of the chords that the reader should have; then where
 /// rounding decides between two numbers of chords.
 const LACKING: f64 = 0.1;
 const DOUBTFUL: f64 = 1.0;
-/// Lines shorter than this are rounding, mm: a place is a line's end only where it lies farther from the last one.
+/// Length below which a line is rounding, mm: a place this close to the last one is not a new end of a line.
 const ROUNDING: f64 = 1e-6;
 
-/// A curve in mm.
+/// Curve in mm.
 pub(super) enum Bow {
-    /// Control points of a Bezier curve: three of a quadratic one, four of a cubic one.
+    /// Control points of a Bezier curve: three for a quadratic one, four for a cubic one.
     Bezier(Vec<Point>),
-    /// An ellipse: centre, two conjugate half axes, where it starts and how far it turns, rad.
+    /// Ellipse: centre, two conjugate semi-axes, start angle and sweep, rad.
     Ellipse { centre: Point, axes: [Vector; 2], start: f64, sweep: f64 },
 }
 
-/// Pen that makes strokes of the steps of paths.
+/// Pen that turns the steps of paths into strokes.
 pub(super) struct Pen {
     sagitta: f64,
     pub(super) census: Census,
     pub(super) slack: Slack,
-    /// The strokes, where they are asked for.
+    /// Strokes, if requested.
     pub(super) strokes: Option<Vec<Vec<Point>>>,
-    /// Names of the layers that draw, and how many strokes were drawn.
+    /// Names of the layers with strokes, and number of strokes drawn.
     pub(super) layers: BTreeSet<String>,
     pub(super) drawn: usize,
-    /// Places since the pen was lifted, and what led to the last.
+    /// Points since the pen was lifted, and the cause of the last one.
     places: Vec<Point>,
     cause: usize,
-    /// Moments that the chords of curves since then have and the reader's lack.
+    /// Shortfall in moments of the reader's chords of curves since then.
     lack: Moments,
 }
 
@@ -69,7 +69,7 @@ impl Pen {
         self.places.push(at);
     }
 
-    /// A straight line; `cause` tells what leads there from other things, and is not 0.
+    /// Adds a straight line; `cause` identifies its step, and is not 0.
     pub(super) fn line(&mut self, to: Point, cause: usize) {
         if self.places.last().is_none_or(|last| (to - last).norm() <= ROUNDING) {
             return;
@@ -78,7 +78,7 @@ impl Pen {
         self.census.points += usize::from(std::mem::replace(&mut self.cause, cause) != cause);
     }
 
-    /// A curve that ends at a place.
+    /// Adds a curve that ends at `to`.
     pub(super) fn curve(&mut self, bow: &Bow, to: Point, cause: usize) {
         let Some(&from) = self.places.last() else { return };
         let needed = bow.needed(self.sagitta);
@@ -103,7 +103,7 @@ impl Pen {
         }
     }
 
-    /// Ends a stroke. A last place that is the first but for rounding is the first.
+    /// Ends a stroke. A last point equal to the first up to rounding is replaced by it.
     pub(super) fn lift(&mut self) {
         let mut places = std::mem::take(&mut self.places);
         self.cause = 0;
@@ -140,7 +140,7 @@ impl Bow {
                 (degree * (degree - 1.0) / 8.0 * bends.fold(0.0, f64::max) / sagitta).sqrt()
             }
             Self::Ellipse { axes: [u, v], sweep, .. } => {
-                // The greater singular value of a matrix of two rows and columns.
+                // Greater singular value of the 2 x 2 matrix.
                 let longest = f64::midpoint((u.x + v.y).hypot(u.y - v.x), (u.x - v.y).hypot(u.y + v.x));
                 let step = if sagitta < longest {
                     2.0 * (sagitta * (2.0 * longest - sagitta)).sqrt().atan2(longest - sagitta)
@@ -152,7 +152,7 @@ impl Bow {
         }
     }
 
-    /// A place, by de Casteljau's scheme or the angle.
+    /// Point at a fraction of the curve, by de Casteljau's algorithm or by the angle.
     fn at(&self, share: f64) -> Point {
         match self {
             Self::Bezier(controls) => {
@@ -169,24 +169,24 @@ impl Bow {
         }
     }
 
-    /// The arc of a path: its ends, radii and turn (degrees), and whether it is the large one and its angle grows; `None`
-    /// of what is straight.
+    /// Arc of a path: its ends, radii and rotation (degrees), then the flags for the large arc and for a growing angle; `None`
+    /// for a straight line.
     pub(super) fn arc(ends: [[f64; 2]; 2], numbers: [f64; 3], flags: [bool; 2], map: Map) -> Option<Self> {
         let [rx, ry] = [numbers[0].abs(), numbers[1].abs()];
         let [[x0, y0], [x1, y1]] = ends;
         if rx == 0.0 || ry == 0.0 || ends[0] == ends[1] {
             return None;
         }
-        // The frame in which the ellipse is the circle of radius 1.
+        // Frame in which the ellipse is the unit circle.
         let frame = Map::read(&format!("rotate({})", numbers[2]))?.times(Map::scale(rx, ry));
         let (cos, sin) = (frame.0[0][0] / rx, frame.0[1][0] / rx);
         let seen = |x: f64, y: f64| Vector::new((x * cos + y * sin) / rx, (y * cos - x * sin) / ry);
         let chord = seen(x1 - x0, y1 - y0);
-        // A circle that does not reach from end to end grows.
+        // An ellipse that is too small to reach from end to end is enlarged.
         let radius = (chord.norm() / 2.0).max(1.0);
         let height = (radius * radius - chord.norm_squared() / 4.0).max(0.0).sqrt();
         let side = if flags[0] == flags[1] { -height } else { height };
-        // Left of the chord where x turns to y.
+        // To the left of the chord when x turns to y.
         let spoke = -chord / 2.0 - Vector::new(-chord.y, chord.x).normalize() * side;
         let start = spoke.y.atan2(spoke.x);
         let end = spoke + chord;

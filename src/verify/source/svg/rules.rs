@@ -1,10 +1,10 @@
-//! Style sheets, as far as they decide what is drawn.
+//! Style sheets, as far as they determine what is drawn.
 
 use std::collections::HashMap;
 
 use roxmltree::Node;
 
-/// A part of a selector.
+/// Part of a selector.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Part {
     Any,
@@ -13,7 +13,7 @@ enum Part {
     Id(String),
 }
 
-/// A value for a property, by rank: importance, ids, classes, elements, and its place among all.
+/// Value of a property, with its rank: importance, numbers of ids, classes and elements, and position among all rules.
 #[derive(Debug)]
 struct Value {
     rank: (bool, [usize; 3], usize),
@@ -21,7 +21,7 @@ struct Value {
     text: String,
 }
 
-/// Sheets of a document.
+/// Style sheets of a document.
 #[derive(Default)]
 pub(super) struct Rules {
     /// Selectors in parts, each with its values.
@@ -30,7 +30,7 @@ pub(super) struct Rules {
 }
 
 impl Rules {
-    /// Adds a sheet.
+    /// Adds a style sheet.
     pub(super) fn add(&mut self, sheet: &str) {
         let plain = without_comments(sheet).replace("<!--", " ").replace("-->", " ");
         let (mut head, mut body, mut depth) = (String::new(), String::new(), 0_usize);
@@ -41,7 +41,7 @@ impl Rules {
                     self.rule(head.trim(), &body);
                     (head, body, depth) = (String::new(), String::new(), 0);
                 }
-                // A statement without a block.
+                // Statement without a block.
                 ';' if depth == 0 => head.clear(),
                 letter if depth == 0 => head.push(letter),
                 letter => {
@@ -71,14 +71,14 @@ impl Rules {
             let value =
                 |(property, text, is_important)| Value { rank: (is_important, strength, place), property, text };
             let values = declarations(body).into_iter().map(value).collect();
-            // The last part is the one that the fewest elements have.
+            // Index by the last part, which the fewest elements have.
             let key = parts.last().cloned().unwrap_or(Part::Any);
             self.by_part.entry(key).or_default().push(place);
             self.all.push((parts, values));
         }
     }
 
-    /// The value of a property of an element, by whatever says it most strongly.
+    /// Value of a property of an element, from the declaration of highest precedence.
     pub(super) fn value(&self, node: Node, property: &str) -> Option<String> {
         let own = node.attribute("style").map(|style| declarations(&without_comments(style))).unwrap_or_default();
         let own = |important: bool| {
@@ -108,7 +108,7 @@ impl Rules {
     }
 }
 
-/// The parts of a selector without blanks or signs between them: the element, then classes and ids, ids last.
+/// Parts of a selector without combinators: the element, then classes and ids, ids last; `None` for any other selector.
 fn parts(text: &str) -> Option<Vec<Part>> {
     let is_name = |name: &str| {
         !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || letter == '-' || letter == '_')
@@ -140,7 +140,7 @@ fn parts(text: &str) -> Option<Vec<Part>> {
     if found.iter().filter(|part| matches!(part, Part::Id(_))).count() > 1 { None } else { Some(found) }
 }
 
-/// Properties with their values, and whether each is important.
+/// Properties with their values; true for important ones.
 fn declarations(text: &str) -> Vec<(String, String, bool)> {
     let mut found = Vec::new();
     for declaration in text.split(';') {
@@ -155,7 +155,7 @@ fn declarations(text: &str) -> Vec<(String, String, bool)> {
     found
 }
 
-/// A text with a blank for each comment.
+/// Text with a blank in place of each comment.
 fn without_comments(text: &str) -> String {
     let mut parts = text.split("/*");
     let mut plain = parts.next().unwrap_or_default().to_owned();

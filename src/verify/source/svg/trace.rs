@@ -1,19 +1,19 @@
-//! The pen in the units of an element: lines and curves of its subpaths.
+//! Pen in the units of an element: lines and curves of its subpaths.
 
 use super::map::Map;
 use super::pen::{Bow, Pen};
 
-/// A pen in the units of an element.
+/// Pen in the units of an element.
 pub(super) struct Trace<'p> {
     pub(super) pen: &'p mut Pen,
-    /// To mm.
+    /// Map to mm.
     pub(super) map: Map,
-    /// Place of the pen, and start of the subpath.
+    /// Position of the pen, and start of the subpath.
     pub(super) at: [f64; 2],
     first: [f64; 2],
-    /// Whether a line has been drawn since it began.
+    /// True once a line of the subpath has been drawn.
     is_down: bool,
-    /// Number of the step that is drawn, and whether each step has its own.
+    /// Number of the current step; and true if each step is counted separately.
     step: usize,
     is_stepping: bool,
 }
@@ -37,21 +37,21 @@ impl<'p> Trace<'p> {
         self.step += usize::from(self.is_stepping);
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub(super) fn line(&mut self, to: [f64; 2]) {
         self.lower();
         self.pen.line(self.map.at(to[0], to[1]), self.step);
         self.at = to;
     }
 
-    /// A curve.
+    /// Draws a curve.
     pub(super) fn bow(&mut self, bow: &Bow, to: [f64; 2]) {
         self.lower();
         self.pen.curve(bow, self.map.at(to[0], to[1]), self.step);
         self.at = to;
     }
 
-    /// Back to the start of the subpath; the next line begins another one there.
+    /// Draws a line to the start of the subpath; the next line begins another subpath there.
     pub(super) fn close(&mut self) {
         if self.is_down {
             self.line(self.first);
@@ -59,7 +59,7 @@ impl<'p> Trace<'p> {
         self.start(self.first);
     }
 
-    /// A Bezier curve by what stands behind its start; gives its last control point but one.
+    /// Draws a Bezier curve from its control points behind the start, and returns the last control point before its end.
     pub(super) fn bezier(&mut self, controls: &[[f64; 2]]) -> Option<[f64; 2]> {
         let map: Map = self.map;
         let places = std::iter::once(&self.at).chain(controls).map(|[x, y]| map.at(*x, *y)).collect();
@@ -68,7 +68,7 @@ impl<'p> Trace<'p> {
         before.last().copied()
     }
 
-    /// An arc of an ellipse.
+    /// Draws an elliptical arc.
     pub(super) fn arc(&mut self, numbers: [f64; 3], flags: [bool; 2], to: [f64; 2]) {
         match Bow::arc([self.at, to], numbers, flags, self.map) {
             Some(bow) => self.bow(&bow, to),

@@ -1,4 +1,4 @@
-//! The elements that are drawn.
+//! Traversal of the elements that are drawn.
 
 use std::collections::HashMap;
 use std::str::FromStr;
@@ -13,11 +13,11 @@ use super::page::{INKSCAPE, window};
 use super::pen::Pen;
 use super::rules::Rules;
 
-/// Elements around each other, copies included, and elements in all, beyond which nothing is followed.
+/// Maximum nesting depth of elements, copies included, and maximum number of elements; nothing is followed beyond.
 const MOST_DEPTH: usize = 210;
 const MOST_ELEMENTS: usize = 2_500_000;
 
-/// Elements that are gone into, and those that draw a line.
+/// Elements with children that are followed, and elements that draw a line.
 const GROUPS: [&str; 4] = ["g", "a", "svg", "switch"];
 const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
 
@@ -30,7 +30,7 @@ pub(super) struct Walk<'d, 'i, 'p> {
     elements: usize,
 }
 
-/// Properties that hold for an element.
+/// Inherited properties of an element.
 #[derive(Debug, Clone)]
 struct State {
     map: Map,
@@ -38,7 +38,7 @@ struct State {
     stroke: String,
     fill: String,
     is_seen: bool,
-    /// Label of the layer of Inkscape, and id of the outermost group that has one.
+    /// Label of the Inkscape layer, and id of the outermost group with one.
     label: Option<String>,
     group: Option<String>,
     is_copy: bool,
@@ -46,7 +46,7 @@ struct State {
 }
 
 impl State {
-    /// Name of the layer that lines are in, or their colour.
+    /// Name of the layer of a line, or its colour.
     fn layer(&self) -> String {
         if let Some(name) = self.label.as_ref().or(self.group.as_ref()) {
             return name.clone();
@@ -58,7 +58,7 @@ impl State {
         )
     }
 
-    /// Takes the name of a group.
+    /// Takes over the name of a group.
     fn enter(&mut self, group: Node) {
         let named = |name: Option<&str>| name.filter(|name| !name.trim().is_empty()).map(str::to_owned);
         let label = named(group.attribute((INKSCAPE, "label")))
@@ -89,7 +89,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         Self { document, rules, ids, pen, elements: 0 }
     }
 
-    /// Follows all that is drawn on a page.
+    /// Follows everything that is drawn on a page.
     pub(super) fn run(&mut self, (map, ruler): (Map, Ruler)) {
         let root = self.document.root_element();
         let state = State {
@@ -114,7 +114,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         }
     }
 
-    /// The state of an element; `None` of one that is not displayed.
+    /// State of an element; `None` if it is not displayed.
     fn styled(&self, node: Node, state: &State) -> Option<State> {
         if self.rules.value(node, "display").as_deref() == Some("none") {
             return None;
@@ -164,7 +164,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         }
     }
 
-    /// A shape, where it is seen: a line has no area.
+    /// Draws a shape if it is visible; a `line` element has no area to fill.
     fn shape(&mut self, node: Node, state: &State) {
         let has_area = is_paint(&state.fill) && node.tag_name().name() != "line";
         if !state.is_seen || !is_paint(&state.stroke) && !has_area {
@@ -177,7 +177,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         }
     }
 
-    /// A copy: the element lies where the copy says.
+    /// Draws a copy: the element is at the place of the copy.
     fn copy(&mut self, node: Node<'d, 'i>, state: &State) {
         let link = node.attribute("href").or_else(|| node.attribute(("http://www.w3.org/1999/xlink", "href")));
         let id = link.and_then(|link| link.trim().strip_prefix('#'));
@@ -191,7 +191,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         if state.depth > MOST_DEPTH {
             return;
         }
-        // A symbol is displayed by its copies, whatever it says.
+        // A symbol is displayed through its copies, regardless of its own properties.
         let size = ["width", "height"].map(|name| state.ruler.of(node, name));
         let Some(mut inner) = self.styled(target, &state).or_else(|| Some(state.clone())) else { return };
         if transform(target, &mut inner) {
@@ -199,7 +199,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         }
     }
 
-    /// The inside of an element with a view box, as large as a copy or the element says.
+    /// Draws the inside of an element with a view box, in the size of the copy or of the element.
     fn window(&mut self, node: Node<'d, 'i>, state: &State, copied: [Option<f64>; 2]) {
         let mut inner = state.clone();
         let own = ["width", "height"].map(|name| state.ruler.of(node, name));
@@ -220,7 +220,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
     }
 }
 
-/// Applies the transform of an element; `false` where it cannot be read.
+/// Applies the transform of an element; `false` if it cannot be read.
 fn transform(node: Node, state: &mut State) -> bool {
     let Some(map) = node.attribute("transform").map_or(Some(Map::shift(0.0, 0.0)), Map::read) else { return false };
     state.map = state.map.times(map);
