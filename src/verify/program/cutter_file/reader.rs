@@ -1,4 +1,4 @@
-//! The blocks of a cut file as it is written here, one after the other.
+//! Reader of the blocks of a cut file in our own spelling.
 
 use super::said::{Cut, Said};
 use crate::geom::Point;
@@ -7,17 +7,17 @@ use crate::ir::toolpath::Event;
 use crate::machine::Job;
 use crate::units::{MM_PER_INCH, S_PER_MIN};
 
-/// The unit of G71, mm.
+/// Unit of G71, mm.
 const TENTH: f64 = 0.1;
 
-/// What the knife cuts between two statements.
+/// Cut between two statements.
 struct Drawn {
     cut: Cut,
-    /// Whether M19 says that it is a slit.
+    /// True if M19 marks it as a slit.
     is_slit: bool,
 }
 
-/// Follows the blocks of a file.
+/// Reader of the blocks of a file.
 pub(super) struct Reader<'a> {
     bytes: &'a [u8],
     offset: usize,
@@ -27,7 +27,7 @@ pub(super) struct Reader<'a> {
     slowed: u8,
     slow: u8,
     of_piece: u8,
-    /// Asked for by M18 for the next lift.
+    /// True if M18 forbids the overcut at the next lift.
     no_overcut: bool,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The next block; `None` when there is none, or it does not end as it must.
+    /// Next block; `None` at the end, or when the block is not terminated correctly.
     fn block(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.offset..];
         let end = memchr::memchr(b'*', rest)?;
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
         Some(&rest[..end])
     }
 
-    /// Looks at the next block without taking it.
+    /// Next block, without consuming it.
     fn ahead(&mut self) -> Option<&'a [u8]> {
         let offset = self.offset;
         let block = self.block();
@@ -66,7 +66,7 @@ impl<'a> Reader<'a> {
         block
     }
 
-    /// Everything that the file says; `None` when a block is not one that is written here.
+    /// All statements of the file; `None` when a block is not in our own spelling.
     pub(super) fn read(&mut self) -> Option<Vec<Said>> {
         let mut said = Vec::new();
         if self.block()? != b"H1" {
@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
         Some(said)
     }
 
-    /// A text behind M31, with or without its place.
+    /// Text behind M31, with or without its place.
     fn text(&mut self) -> Option<Said> {
         let at = self.ahead().and_then(|block| point(block, self.unit));
         if at.is_some_and(|(_, code)| code.is_empty()) {
@@ -113,7 +113,7 @@ impl<'a> Reader<'a> {
         Some(Said::Label { text: self.block()?.to_vec(), mirrored: None, at: at.map(|at| at.0), direction: None })
     }
 
-    /// What is said at the place that was read last by the code behind it; `before` was said before.
+    /// Statement at the current place, by the code behind it; `before` is the previous statement.
     fn at_place(&mut self, code: &[u8], before: Option<&Said>) -> Option<Said> {
         let at = self.at;
         Some(match code {
@@ -130,7 +130,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The list of values behind the end.
+    /// List of values behind the end.
     fn fields(&self) -> Option<Vec<Said>> {
         let list = &self.bytes[self.offset..];
         if list.is_empty() {
@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
         lines.split(|&byte| byte == b'\n').map(field).collect()
     }
 
-    /// A code of speed.
+    /// Executes a code of speed; `false` for any other block.
     fn speed(&mut self, block: &[u8]) -> bool {
         match block {
             b"M25" => self.slow = self.slowed,
@@ -159,7 +159,7 @@ impl<'a> Reader<'a> {
         (u32::from(self.slow) * u32::from(self.of_piece) / u32::from(FULL_SPEED)).max(1) as u8
     }
 
-    /// A label with a second point, whose first one was read.
+    /// Label with a second point, after its first point was read.
     fn label(&mut self, at: Point) -> Option<Said> {
         let text = self.block()?.to_vec();
         let (mut mirrored, mut next) = (None, self.block()?);
@@ -176,7 +176,7 @@ impl<'a> Reader<'a> {
         Some(Said::Label { text, mirrored, at: Some(at), direction })
     }
 
-    /// What is cut from here on, from the knife down to its last lift.
+    /// Cut from the current place, from the knife down to its last lift.
     fn cut(&mut self) -> Option<Drawn> {
         let mut cut = Cut { points: vec![self.at], feed: self.feed, ..Cut::default() };
         let mut joint = self.plunge(Joint::default())?;
@@ -233,7 +233,7 @@ impl<'a> Reader<'a> {
         Some(Drawn { cut, is_slit })
     }
 
-    /// The knife goes down, or down again where a contour was left.
+    /// Knife down, possibly after an interruption of a contour.
     fn plunge(&mut self, joint: Joint) -> Option<Joint> {
         let mut block = self.block()?;
         let full_advance = block == b"M17";
@@ -243,7 +243,7 @@ impl<'a> Reader<'a> {
         (block == b"M14").then_some(Joint { full_advance, ..joint })
     }
 
-    /// A cut as what it is: a straight slit, the crossbar that its tip divides, or a contour.
+    /// Statement for a cut: a straight slit, the crossbar that the slit's tip divides, or a contour.
     fn named(&self, Drawn { cut, is_slit }: Drawn, before: Option<&Said>) -> Said {
         if is_slit && cut.chords.len() == 1 {
             return Said::Slit(cut);
@@ -252,7 +252,7 @@ impl<'a> Reader<'a> {
             let tip = slit.points[1];
             let (ahead, way) = (tip - from, to - from);
             let share = ahead.dot(&way) / way.norm_squared();
-            // Two points of a grid may miss the line between others by its diagonal.
+            // Two points of a grid may be off the line between two others by the grid's diagonal.
             let is_near = (ahead - way * share).norm() <= self.unit * 2.0_f64.sqrt();
             if is_near && share > 0.0 && share < 1.0 && cut.chords[0].1 == Joint::default() {
                 return Said::Bar(cut);
@@ -262,7 +262,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A block that is a place: the point, mm, and what stands behind it.
+/// Point of a block that is a place, mm, and the text behind it.
 fn point(block: &[u8], unit: f64) -> Option<(Point, &[u8])> {
     let rest = block.strip_prefix(b"X")?;
     let middle = memchr::memchr(b'Y', rest)?;
