@@ -14,7 +14,7 @@ pub(in crate::verify) struct Table {
     up: [Option<[f64; 2]>; 2],
     /// Distances of tip and heel from the C axis along the blade, mm.
     blade: [f64; 2],
-    /// Length of a conveyor's window, mm. The range of X that the blade has reached while down follows.
+    /// Length of a conveyor's window, mm; then the least and the greatest X of the blade while it is down, mm.
     window: Option<f64>,
     reached: [f64; 2],
     off: Worst,

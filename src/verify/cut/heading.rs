@@ -85,7 +85,7 @@ impl Moving<'_> {
                 way.try_normalize(0.0).unwrap_or_default()
             } else {
                 // Nearest rows on either side with a clearly different tip position: at rest, positions are only noise. Both
-                // indices only increase, so that a long rest is no more costly than a path.
+                // indices only increase, so that long rests are cheap, too.
                 while before + 1 < i && is_clear(i, before + 1) {
                     before += 1;
                 }
@@ -211,8 +211,8 @@ impl Plunge<'_> {
         if line.station(here + 1) - at <= CURVE_CHORD && (here + 1 < count || line.ring) {
             add((here + 1) % count);
         }
-        // A path that bows over a length l inside the band bows by up to twice `band`: its curvature is then 16 band / l^2, and
-        // it leads the blade by half of that times the width.
+        // Along a straight stretch of length l a path may bow by twice `band`: its curvature is then 16 band / l^2, and it
+        // leads the blade by half of that times the width.
         let slack = self.straight().map_or(0.0, |length| 8.0 * self.band * width / length.max(width).powi(2));
         [lead[0] - slack, lead[1] + slack]
     }

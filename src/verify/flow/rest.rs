@@ -11,7 +11,7 @@ use crate::machine::MachineProfile;
 const STILL: f64 = 1e-5;
 /// Greatest turn of C at rest, degrees: rounding.
 const STILL_DEG: f64 = 1e-5;
-/// Rounding of times, in periods.
+/// Rounding of times, s, and of numbers of periods.
 const TIME: f64 = 1e-9;
 
 /// Check of the rests of a head over its rows.

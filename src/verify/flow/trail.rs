@@ -22,7 +22,7 @@ pub(super) fn reach(way: f64) -> f64 {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample {
     pub(super) point: Point,
-    /// Index of the row before the place, from the first row of the stroke.
+    /// Index of the row at the place or next after it, from the first row of the stroke.
     pub(super) row: usize,
     /// True for a place under the plunged blade, between its ends: the blade is straight and may lie beside a curve.
     pub(super) under: bool,

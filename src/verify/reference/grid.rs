@@ -17,7 +17,7 @@ const CELLS_A_CHORD_PASSES: f64 = 8.0;
 /// Greatest shift of a cell edge due to rounding, mm: markers are shorter than a thousand kilometres.
 const EDGE: f64 = 1e-6;
 
-/// Chords that pass each cell, in compressed form cell by cell.
+/// Runs of chords that pass each cell, in buckets (CSR).
 #[derive(Debug)]
 pub(in crate::verify) struct Grid {
     origin: Point,

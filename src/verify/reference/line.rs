@@ -51,7 +51,7 @@ impl OfCut {
     }
 }
 
-/// Stretch of a cut between two lifts. Lengths and stations are in mm.
+/// Stretch that is cut from one end to the other, without a corner. Lengths and stations are in mm.
 #[derive(Debug)]
 pub(in crate::verify) struct Line<'a> {
     /// Cut that the line belongs to.

@@ -10,7 +10,7 @@ const HEEL_COSINE: f64 = 0.47;
 const TIP_COSINE: f64 = 0.1;
 /// Spacing of the places at which a blade is laid on a line, mm.
 const STEP: f64 = 0.1;
-/// Least turn of a line that is tight, rad (46 degrees): with the least cosines the blade allows for less.
+/// Least turn of a line that may be tight, rad (46 degrees): less than the cosines above require.
 const TURN_MIN: f64 = 0.8;
 /// Length of a line on which it turns that much where it is tight, in blade widths: twice the greatest span of a blade.
 const WIDTHS: f64 = 3.0;

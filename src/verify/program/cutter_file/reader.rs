@@ -233,7 +233,7 @@ impl<'a> Reader<'a> {
         Some(Drawn { cut, is_slit })
     }
 
-    /// Knife down, possibly after an interruption of a contour.
+    /// Reads a knife-down, at the start of a cut or after a lift within it; `None` for any other block.
     fn plunge(&mut self, joint: Joint) -> Option<Joint> {
         let mut block = self.block()?;
         let full_advance = block == b"M17";

@@ -46,7 +46,7 @@ fn turning(centre: Place, [a, b]: [Place; 2], [start, end]: [f64; 2]) -> Curve {
 
 /// Arc between two places with a height over the chord of half the chord times the bulge, to the right of the chord.
 pub(super) fn bulge(from: Place, to: Place, bulge: f64) -> Curve {
-    // Seen from the end of the chord, a place at arc angle `a` before the end appears under half that angle.
+    // Seen from the start, a place at arc angle `a` before the end appears at half that angle from the chord.
     let quarter = bulge.atan();
     Box::new(move |share| {
         if share >= 1.0 {

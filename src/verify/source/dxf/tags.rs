@@ -45,7 +45,7 @@ pub(super) struct Sheet<'a> {
     pub(super) items: Vec<Item<'a>>,
 }
 
-/// Tolerance for the components of the viewing direction, and for other plain values: rounding.
+/// Tolerance for the components of the viewing direction: rounding.
 const FLAT: f64 = 1e-5;
 
 impl<'a> Item<'a> {
