@@ -1,8 +1,8 @@
 //! Pass `bend`: lifts the knife where the heel would swing out by more than `knife.max_swing_mm`.
 //!
-//! Needs runs split at corners, among which are the single vertices that turn too far for that key. Leaves runs that are
-//! lifted amid a curve before the heel would leave it too far, and plunged again with the heel overlap of a corner, which
-//! here lies along the contour. There is no front overlap: behind the bend is where the heel would swing.
+//! Needs runs split at corners, including single vertices that turn too far for that key. Leaves runs that are lifted on a
+//! curve before the heel swings out too far, and plunged again with the heel overlap of a corner, which here lies along the
+//! contour. There is no front overlap: the heel would swing out behind the bend.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -25,12 +25,12 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, &scene.job.profile.knife));
 }
 
-/// The parts of a run between its lifts.
+/// Splits a run at its lifts.
 pub(super) fn split(run: Run, knife: &Knife) -> Vec<Run> {
     let found = bends(&run, knife);
     let Some(&first) = found.first() else { return vec![run] };
     let way = Way::new(&run);
-    // From its first bend on a ring is an open run.
+    // A ring with a bend becomes an open run that starts at its first bend.
     let (from, ends, lifts) = if way.is_ring() {
         let from = way.station(first.cast_signed());
         let open = way.part(from, from + way.length(), [REJOINED; 2]);

@@ -1,17 +1,16 @@
-//! Continuation of a short cut: the straight stretches of its line before and behind it, over which a blade that is longer
-//! than the cut may lie, since they are cut anyway.
+//! Straight continuation of a short cut: the stretches of its line before and behind it. A blade that is longer than the cut
+//! may lie over them, because they are cut anyway.
 
 use super::spare::drawn;
 use crate::analysis::cloth::Surroundings;
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{Run, Side, Step};
 
-/// Tolerances by which the straight stretch of a line may be shorter than the blade that lies on it: one at either end, and one
-/// for where it bends.
+/// Shortfall of a straight stretch against the blade that lies on it, in tolerances: one at either end, one for where it bends.
 const SHORT: f64 = 3.0;
 
-/// Straight continuations of the line before the start and behind the end of the run that is a step, mm; none where the run and
-/// they together are shorter than the blade.
+/// Straight continuations of the line before the start and behind the end of a run, mm. Both are 0 if the run is longer than
+/// the blade, or if run and continuations together are shorter than it. `step` is the index of the run.
 pub(super) fn continuations(steps: &[Step], step: usize, run: &Run, around: &Surroundings) -> [f64; 2] {
     let width = around.knife.width_mm;
     let ends = [run.points[0], run.points[run.points.len() - 1]];
@@ -32,7 +31,8 @@ pub(super) fn continuations(steps: &[Step], step: usize, run: &Run, around: &Sur
     if is_long { beyond } else { [0.0; 2] }
 }
 
-/// The points of the strokes before or behind a step, away from it, as long as each goes on where the one nearer to it ends.
+/// Points of the strokes before or behind a step, leading away from it, as long as each stroke starts where the previous one
+/// ends.
 fn points_from(steps: &[Step], step: usize, is_before: bool) -> impl Iterator<Item = Point> + '_ {
     let others: Box<dyn Iterator<Item = &Step>> =
         if is_before { Box::new(steps[..step].iter().rev()) } else { Box::new(steps[step + 1..].iter()) };
@@ -54,7 +54,7 @@ fn points_from(steps: &[Step], step: usize, is_before: bool) -> impl Iterator<It
     others.map_while(next).flat_map(|points| points.into_iter().skip(1))
 }
 
-/// The points of a stroke, and whether it is cut against the order of the file.
+/// Points of a stroke, and true if it is cut against the order of the file.
 fn points_of(step: &Step) -> Option<(&[Point], bool)> {
     match step {
         Step::Run(run) => Some((&run.points, run.turned)),
@@ -63,17 +63,17 @@ fn points_of(step: &Step) -> Option<(&[Point], bool)> {
     }
 }
 
-/// Band along a straight way.
+/// Band along a straight line.
 struct Band {
     from: Point,
     /// Unit vector.
     along: Vector,
-    /// How far beside it a place may lie and still be on it, mm.
+    /// Half the width of the band, mm.
     beside: f64,
 }
 
 impl Band {
-    /// How far some points that follow each other from its start lie on it, mm, `reach` at the most.
+    /// Length of a path from the start of the band to where it leaves the band or turns back, mm, at most `reach`.
     fn straight(&self, points: impl Iterator<Item = Point>, reach: f64) -> f64 {
         let [mut way, mut aside] = [0.0; 2];
         for point in points {

@@ -1,7 +1,7 @@
 //! Pass `corner`: splits a contour where the blade cannot turn in the cloth.
 //!
-//! Needs raw runs. Leaves runs without a corner inside, each with its two ends named; a closed contour with corners
-//! starts at the one nearest to the file's start, a closed contour without any stays a ring.
+//! Needs raw runs. Leaves runs without a corner inside and with both ends described. A closed contour with corners starts at
+//! the corner nearest to the start in the file; one without corners stays a ring.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -24,16 +24,16 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, limit));
 }
 
-/// What is a corner.
+/// Criterion for a corner.
 #[derive(Clone, Copy)]
 struct Limit {
-    /// The least turn that is one, rad.
+    /// Least turn of a corner, rad.
     angle: f64,
-    /// What the points are rounded to, mm; 0 = nothing.
+    /// Grid to which the points are rounded, mm; 0 = none.
     unit: f64,
 }
 
-/// The runs between the corners of a run.
+/// Splits a run at its corners.
 fn split(mut run: Run, limit: Limit) -> Vec<Run> {
     let last = run.points.len() - 1;
     let mut corners: Vec<usize> = (1..last).filter(|&i| is_corner(&run, i, limit)).collect();
@@ -52,7 +52,7 @@ fn split(mut run: Run, limit: Limit) -> Vec<Run> {
         run.shape = Shape::Open;
     }
     let mut runs = Vec::with_capacity(corners.len() + 1);
-    // The joints since the last plunge, whose codes act at the next one.
+    // First joint since the last plunge: the codes of joints take effect at the next plunge.
     let (mut asked, mut from) = (0, 0);
     for to in corners.into_iter().chain([last]) {
         let ends = ends([from > 0, to < last], &run.joints[asked..=from], &run.joints[from + 1..=to]);
@@ -62,7 +62,7 @@ fn split(mut run: Run, limit: Limit) -> Vec<Run> {
     runs
 }
 
-/// Whether the knife is lifted at a point; those of a ring are looked at round and round.
+/// True if the knife is lifted at a point. On a ring, neighbouring points are looked up cyclically.
 fn is_corner(run: &Run, i: usize, Limit { angle, unit }: Limit) -> bool {
     // A ring ends with its first point.
     let round = if run.shape == Shape::Ring { run.points.len() - 1 } else { 0 };
@@ -72,7 +72,7 @@ fn is_corner(run: &Run, i: usize, Limit { angle, unit }: Limit) -> bool {
     run.joints[i].lift || corner::is_corner(run.points[i], &before.copied(), &behind.copied(), angle, unit)
 }
 
-/// The corner that is least far along the contour from its start, the later one of two alike.
+/// Corner nearest to the start of the contour, measured along it; the first of two at the same distance.
 fn nearest_to_start(run: &Run, corners: &[usize]) -> usize {
     let stations = polyline::stations(&run.points);
     let length = stations[stations.len() - 1];
@@ -92,9 +92,8 @@ fn rotate(run: &mut Run, first: usize) {
     run.joints.push(run.joints[0]);
 }
 
-/// The ends of a run: `corner` says which of them lie inside a contour. A code acts at the next plunge or lift:
-/// `before` are the joints from the plunge of the run before up to the plunge of this one, `along` those from there up
-/// to its lift.
+/// Ends of a run. `corner` tells which of them lie inside a contour. A code takes effect at the next plunge or lift: `before`
+/// are the joints from the plunge of the previous run to the plunge of this one, `along` the joints from there to its lift.
 fn ends(corner: [bool; 2], before: &[Joint], along: &[Joint]) -> [End; 2] {
     let bare = [before.iter().any(|joint| joint.full_advance), along.iter().any(|joint| joint.no_overcut)];
     [0, 1].map(|i| End { corner: corner[i], bare: bare[i], ..End::default() })

@@ -1,7 +1,7 @@
-//! Pass `down`: no run is longer than the knife may stay down.
+//! Pass `down`: limits the length of runs to what the knife may cut without a lift.
 //!
-//! Needs runs split at corners. Leaves none that with its overlaps is longer than `knife.max_down_mm`, when that is set: a
-//! longer one is lifted after equal parts and rejoined with the overlaps of a corner, which here lie along the contour.
+//! Needs runs split at corners. If `knife.max_down_mm` is set, every run, overlaps included, stays within it: a longer run is
+//! lifted after equal parts and rejoined with the overlaps of a corner, which here lie along the contour.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -15,9 +15,9 @@ use crate::ir::toolpath::{Run, Toolpath};
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "down", about: "lifts runs that are longer than knife.max_down_mm", run, chained: false };
 
-/// Least length of a part, in what it would be if all were alike.
+/// Least length of a part, as a share of the length that equal parts would have.
 const SHARE_MIN: f64 = 0.5;
-/// How far behind a place it is looked whether the blade can plunge there, in widths of it.
+/// Distance behind a place that is checked for a plunge there, in blade widths.
 const LOOK: f64 = 3.0;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
@@ -26,8 +26,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, longest, &around));
 }
 
-/// Parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner. They are
-/// as long as each other but for what lets the next one begin where the run is straight.
+/// Splits a run into the fewest parts that stay within `longest` mm, each extended along the contour by the overlaps of a
+/// corner. The parts have equal lengths, except where a shorter one lets the next begin on a straight stretch.
 fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
     let knife = around.knife;
     let way = Way::new(&run);
@@ -39,8 +39,8 @@ fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
     let mut parts: Vec<Run> = Vec::new();
     let lead = |station: f64| way.lead(station, knife);
     let spans = [heel + front, knife.width_mm];
-    // Where the blade cannot enter, the first stretch would be a cut of its own over what is cut already. Over one bend of a
-    // curve it lies straight, and beside it the smoothed curve bulges away.
+    // Where the blade cannot enter, the first stretch would become a cut of its own over what is already cut. Over a single
+    // bend of a curve the blade lies straight, and the smoothed curve bulges away from it.
     let enters = |place: f64, is_good: fn(&Deviation) -> bool| {
         let next = way.part(place - lead(place)[0], place + LOOK * knife.width_mm, [REJOINED; 2]);
         Deviation::of(&next, around).is_none_or(|deviation| is_good(&deviation))
@@ -48,7 +48,7 @@ fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
     let goods: [fn(&Deviation) -> bool; 2] =
         [|deviation| deviation.fits && deviation.is_curve, |deviation| deviation.fits];
     let entered = |range| goods.into_iter().find_map(|good| way.gentlest(range, spans, |place| enters(place, good)));
-    // A ring begins where the file has it, or behind that.
+    // A ring begins where the file begins it, or further on.
     let begins_elsewhere = way.is_ring() && !enters(0.0, goods[0]);
     let start = if begins_elsewhere { entered([0.0, length / (length / longest).ceil()]) } else { None };
     let start = start.unwrap_or(0.0);
@@ -64,10 +64,11 @@ fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
             parts.push(way.part(from, last, [first, ends]));
             return parts;
         }
-        // At the least as long as leaves the rest no part more, and half of what is alike; at the most what is alike.
+        // A part has at most the equal length. It has at least half of that, and enough to need no additional part for the
+        // rest.
         let least = (rest - (count - 1.0) * longest).max(SHARE_MIN * rest / count);
         let range = [at + least.min(rest / count), at + rest / count];
-        // Rather a part more than one that the blade cannot enter.
+        // An additional part is better than one that the blade cannot enter.
         let to = entered(range).or_else(|| entered([at + SHARE_MIN * rest / count, range[1]]));
         let to = to.or_else(|| way.gentlest(range, spans, |_| true)).unwrap_or(range[1]);
         parts.push(way.part(from, to + lead(to)[1], [first, REJOINED]));

@@ -1,9 +1,9 @@
 //! Pass `entry`: splits where a plunged blade would leave the path.
 //!
-//! Needs runs split at corners. Leaves runs on which the blade, plunged as a chord at the start, lies as near to the
-//! path as to an arc that turns as much under it (w^2 k / 8 when it turns little, k its curvature), and not across it.
-//! A sharper bend that near to a start, though no corner, is cut as one: up to it, and on from it, without overlaps,
-//! because they would leave the path.
+//! Needs runs split at corners. On the runs it leaves, the blade that plunges as a chord at the start lies along the path, and
+//! as near to it as to an arc with the same turn under the blade (w^2 k / 8 at small turns, k = curvature). A sharper bend that
+//! close to a start is cut like a corner, although it is none: up to the bend, then on from it, without overlaps, because these
+//! would leave the path.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -29,8 +29,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, &around));
 }
 
-/// The parts of a run that the blade can enter. What lies before a bend is looked at anew: the blade that went over the bend
-/// lies otherwise over that alone.
+/// Splits a run into parts that the blade can enter. The part before a bend is checked again, because the blade lies
+/// differently over it once the bend is cut off.
 pub(super) fn split(run: Run, around: &Surroundings) -> Vec<Run> {
     let Some(bend) = bend(&run, around) else { return vec![run] };
     let ([start, end], last) = (run.ends, run.points.len() - 1);
@@ -39,7 +39,7 @@ pub(super) fn split(run: Run, around: &Surroundings) -> Vec<Run> {
     [before, behind].into_iter().flat_map(|part| split(part, around)).collect()
 }
 
-/// The first point at which an open run must be split so that the blade can enter it; `None` when it can.
+/// First point at which an open run must be split for the blade to enter it; `None` if it need not be split.
 fn bend(run: &Run, around: &Surroundings) -> Option<usize> {
     let deviation = if run.shape == Shape::Open { Deviation::of(run, around)? } else { return None };
     (!deviation.fits && !deviation.is_curve).then_some(deviation.vertex)

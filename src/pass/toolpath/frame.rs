@@ -1,12 +1,12 @@
-//! The frame of a marker: once around its box with the knife up, to see on the cloth where it will lie.
+//! Frame of a marker: one round along its bounding box with the knife up, which shows on the cloth where the marker will lie.
 
 use crate::geom::{Point, Vector};
 use crate::ir::Marker;
 use crate::ir::toolpath::{Air, Pose, Step, Toolpath};
 use crate::machine::Job;
 
-/// The C axis from `home` along the box around everything that is cut or drilled, and back; C does not turn. On a conveyor it is
-/// the box around all windows, each as it lies on the table. An empty marker has no frame.
+/// Toolpath of the C axis from `home` along the box around all cuts and drills, and back; C does not turn. On a conveyor the
+/// box encloses all windows, each as it lies on the table. An empty marker gives an empty toolpath.
 pub fn frame(marker: &Marker, home: Pose, job: &Job) -> Toolpath {
     let extent = marker.extent_on_table();
     let tolerance = job.profile.tolerance(marker.unit);

@@ -1,20 +1,20 @@
-//! How far C turns along a run, and once round a ring.
+//! Rotation of C along a run, and over one lap of a ring.
 
 use super::stretch::Way;
 use crate::geom::{Heading, polyline};
 use crate::ir::toolpath::{OrientationMode, Run};
 use crate::machine::Knife;
 
-/// How far C stays away from the ends of its range on a ring that is cut in one, at the least, rad (4 degrees).
+/// Least margin of C from the ends of its range on a ring that is cut without a lift, rad (4 degrees).
 pub(super) const SLIM_MARGIN: f64 = 0.069_813_170_079_773_18;
 /// Rounding of an angle, rad.
 const ANGLE_EPSILON: f64 = 1e-9;
-/// Turns that differ by less are alike where a ring begins, rad (2 degrees).
+/// Step to which turns are rounded before starts of a ring are compared, rad (2 degrees).
 const TURN_STEP: f64 = 0.034_906_585_039_886_59;
-/// Chords of a ring amid which it is tried to begin, at the most, evenly among all.
+/// Greatest number of chords, evenly spaced, whose midpoints are tried as the start of a ring.
 const STARTS: usize = 360;
 
-/// Once round a ring.
+/// One lap of a ring.
 pub(super) struct Lap<'a> {
     pub(super) way: &'a Way<'a>,
     pub(super) winding: &'a Winding,
@@ -23,17 +23,17 @@ pub(super) struct Lap<'a> {
 }
 
 impl Lap<'_> {
-    /// Whether it can be cut in one from a station on, its overlap included, with C inside a range.
+    /// True if the ring, overlap included, can be cut without a lift from a station on, with C inside a range.
     pub(super) fn fits(&self, at: f64, [least, greatest]: [f64; 2]) -> bool {
         let [low, high] = self.reach(at);
         let turns = |angle: f64| angle / self.winding.period;
         (turns(least - low) - ANGLE_EPSILON).ceil() <= (turns(greatest - high) + ANGLE_EPSILON).floor()
     }
 
-    /// The least and the greatest direction of the blade from a station on all round and over the overlap, unwrapped, rad.
+    /// Least and greatest heading of the blade over a lap from a station on, overlap included, unwrapped, rad.
     pub(super) fn reach(&self, at: f64) -> [f64; 2] {
         let Self { way, winding, knife, orientation } = self;
-        // The blade plunges along the ring, or as a chord of what lies behind its tip.
+        // The blade plunges along the tangent, or as a chord that ends at its tip.
         let from = match orientation {
             OrientationMode::Tangent => at,
             OrientationMode::Chord => at - knife.width_mm,
@@ -46,7 +46,7 @@ impl Lap<'_> {
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], heading| [low.min(heading), high.max(heading)])
     }
 
-    /// The direction at a station, unwrapped: that of a chord in its middle, turning on from one to the next.
+    /// Heading at a station, unwrapped, rad: that of the chord at its midpoint, interpolated between midpoints.
     pub(super) fn heading(&self, station: f64) -> f64 {
         let Self { way, winding, .. } = self;
         let here = way.chord_at(station);
@@ -55,13 +55,14 @@ impl Lap<'_> {
         a.1 + (b.1 - a.1) * ((station - a.0) / (b.0 - a.0))
     }
 
-    /// The station amid a chord.
+    /// Station of the midpoint of a chord, mm.
     fn middle(&self, chord: isize) -> f64 {
         f64::midpoint(self.way.station(chord), self.way.station(chord + 1))
     }
 
-    /// The station, amid a chord, from which on the ring can be cut in one, its overlap included, with C inside a
-    /// range: where it turns least, and of such places the nearest to where it starts.
+    /// Station, at the midpoint of a chord, from which the ring, overlap included, can be cut without a lift with C inside a
+    /// range. It is the one where the ring turns least, and the nearest to the start of the ring among equals; `None` if there
+    /// is none.
     pub(super) fn start(&self, range: [f64; 2]) -> Option<f64> {
         let Self { way, knife, .. } = self;
         let chords = way.chords();
@@ -77,18 +78,18 @@ impl Lap<'_> {
     }
 }
 
-/// How far a curve turns on from the direction of its last chord to its end, by its turn at the vertex before, rad.
+/// Turn of a curve from its last chord to its tangent at the end, rad, estimated from its turn at the vertex before.
 pub(super) fn half_turn(turn: f64) -> f64 {
     turn / 2.0
 }
 
-/// The directions of the chords of a run, unwrapped.
+/// Headings of the chords of a run, unwrapped.
 pub(super) struct Winding {
-    /// Of one lap, rad.
+    /// Headings of one lap, rad.
     headings: Vec<f64>,
-    /// By how much a lap turns, rad.
+    /// Turn over one lap, rad.
     lap: f64,
-    /// After which turn the blade cuts the same again, rad.
+    /// Rotation after which the blade cuts the same line again, rad.
     period: f64,
 }
 
@@ -104,13 +105,13 @@ impl Winding {
         Self { lap: heading + closing - headings[0], headings, period: knife.period() }
     }
 
-    /// The direction of a chord, which may be of another lap.
+    /// Heading of a chord, rad. Chord numbers continue over the laps.
     pub(super) fn at(&self, chord: isize) -> f64 {
         let chords = self.headings.len().cast_signed();
         self.headings[chord.rem_euclid(chords) as usize] + self.lap * chord.div_euclid(chords) as f64
     }
 
-    /// The chord along which C is nearest to the middle of a range.
+    /// Chord whose heading is nearest to the middle of a range.
     pub(super) fn amid(&self, [least, greatest]: [f64; 2]) -> isize {
         let away = |chord: isize| {
             let turns = (self.at(chord) - f64::midpoint(least, greatest)) / self.period;
@@ -120,18 +121,18 @@ impl Winding {
         chords.min_by(|&a, &b| away(a).total_cmp(&away(b))).unwrap_or(0)
     }
 
-    /// The chord, up to `end`, before which C leaves its range, from the equivalent of chord `first` that goes on longest;
-    /// `None` when not even that is in the range.
+    /// Chord, at most `end`, before which C leaves its range, starting from the equivalent heading of chord `first` that lasts
+    /// longest; `None` if no equivalent is in the range.
     pub(super) fn reach(&self, first: isize, end: isize, [least, greatest]: [f64; 2]) -> Option<isize> {
         let heading = self.at(first);
         let low = ((least - heading) / self.period - ANGLE_EPSILON).ceil();
         let high = ((greatest - heading) / self.period + ANGLE_EPSILON).floor();
         let is_in = |c: f64| (least - ANGLE_EPSILON..=greatest + ANGLE_EPSILON).contains(&c);
-        // Of all equivalents the first or the last goes on longest, unless the way swings both ways; few are legal at all.
+        // Of all equivalents the first or the last lasts longest, unless the run turns both ways; only a few are legal.
         let turns = (0..=(high - low).max(-1.0) as isize).map(|k| (low + k as f64) * self.period);
         let reached = |turns: f64| {
             let stop = (first..end).find(|&chord| !is_in(self.at(chord) + turns))?;
-            // Lifted amid a curve the blade has turned on by half as much as at the vertex before.
+            // When the knife is lifted on a curve, the blade has turned further by half of the turn at the vertex before.
             let is_left = |stop: isize| {
                 let [last, before] = [1, 2].map(|back| self.at(stop - back));
                 is_in(last + half_turn(last - before) + turns)

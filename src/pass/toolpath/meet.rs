@@ -1,7 +1,7 @@
-//! Pass `meet`: where cuts of several parts cross each other the tip keeps nearer to its line.
+//! Pass `meet`: keeps the tip nearer to its line where cuts of several parts cross.
 //!
-//! Needs runs with all their points. Leaves marked the chords of these that come by a junction of the marker: there both cuts
-//! may be off their lines, and must cross all the same.
+//! Needs runs with all their points. Marks the chords that pass a junction of the marker: both cuts may be off their lines
+//! there, and must cross all the same.
 
 use super::pass::ToolpathPass;
 use super::runs;

@@ -1,7 +1,7 @@
 //! Passes over the toolpath of one contour, notch or drill.
 //!
-//! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it. They
-//! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
+//! [`trace()`] makes a toolpath of one run as it is in the file. The passes split it at corners, give it overlaps, and place
+//! it. They take the cloth around it, the [`Scene`], into account: an overlap goes into the waste.
 
 mod bend;
 mod continuation;

@@ -1,14 +1,14 @@
-//! Near lines of a marker, to be asked which stretches of a run are some of them.
+//! Near lines of a marker, searchable by run.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
 use crate::ir::marker::NearEdge;
 
-/// How far a run may be from an edge that it is a stretch of, mm, and how short a stretch is none: rounding.
+/// Distance of a run from the edge it lies on, and length of a negligible stretch, mm: rounding.
 const SAME: f64 = 1e-6;
 
-/// Edges beside which another part's run, by place.
+/// Spatial index of the edges beside which another part's edge runs.
 #[derive(Debug)]
 pub(super) struct NearLines<'a> {
     edges: &'a [NearEdge],
@@ -16,13 +16,13 @@ pub(super) struct NearLines<'a> {
 }
 
 impl<'a> NearLines<'a> {
-    /// Those of a marker.
+    /// Indexes the near lines of a marker.
     pub(super) fn new(marker: &'a Marker) -> Self {
         let extents = marker.near.iter().map(|edge| Extent::between(edge.ends[0], edge.ends[1]).grown(SAME));
         Self { edges: &marker.near, boxes: Boxes::new(extents.collect()) }
     }
 
-    /// The stretches of a run of a piece that lie on near lines of that, by their stations, joined, mm.
+    /// Stretches of a run of a piece that lie on near lines of that piece: pairs of stations, merged, mm.
     pub(super) fn along(&self, piece: u32, points: &[Point]) -> Vec<[f64; 2]> {
         let mut found: Vec<[f64; 2]> = Vec::new();
         for (chord, start) in points.windows(2).zip(polyline::stations(points)) {
@@ -41,7 +41,7 @@ impl<'a> NearLines<'a> {
     }
 }
 
-/// From where to where a chord lies on an edge.
+/// Stretch of a chord that lies on an edge, as two distances from its start, mm.
 fn stretch([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 2]> {
     let along = polyline::direction(from, to)?;
     if ends.iter().any(|end| polyline::distance_to_line(*end, from, along) > SAME) {

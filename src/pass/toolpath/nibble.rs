@@ -1,4 +1,4 @@
-//! Nibbling: stretches of a run are cut by plunges without motion, each along as many chords as stay near to its blade.
+//! Nibbling: cuts stretches of a run by plunges without motion, each along as many chords as stay near its blade.
 
 use super::stretch::{REJOINED, Way};
 use crate::analysis::cloth::Surroundings;
@@ -7,21 +7,20 @@ use crate::analysis::tight::TightCurve;
 use crate::geom::polyline;
 use crate::ir::toolpath::Run;
 
-/// Halvings that make plunges alike: to a thousandth of a curve, which is finer than its chords.
+/// Number of bisection steps that equalise plunges: to a thousandth of a curve, finer than its chords.
 const HALVINGS: usize = 10;
 
-/// A stretch of a run that is nibbled, and whether it is meant to be one plunge.
+/// Stretch of a nibbled run; `is_plunge` is true if it is meant to be cut by one plunge.
 pub(super) struct Stretch {
     pub(super) run: Run,
     pub(super) is_plunge: bool,
 }
 
-/// What becomes of a run whose tight curves, one at least, are nibbled: what lies before, between and behind them, and the
-/// plunges.
+/// Splits a run with at least one tight curve into plunges along the curves and the stretches before, between and behind them.
 pub(super) fn nibbled(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Vec<Stretch> {
     let way = Way::new(run);
     let chords = way.chords();
-    // A ring begins at its first tight curve and ends where that begins again; an open run has its own ends.
+    // A ring begins at its first tight curve and ends there; an open run keeps its own ends.
     let start = if way.is_ring() { *curves[0].vertices.start() } else { 0 };
     let end = start + chords;
     let mut stretches = Vec::new();
@@ -47,8 +46,8 @@ pub(super) fn nibbled(run: &Run, curves: &[TightCurve], around: &Surroundings) -
     stretches
 }
 
-/// The curves of a way that ends at two vertices, from vertex to vertex, each with what lies before or behind it and is
-/// shorter than the blade: that could only be a plunge, too. Those that meet are joined.
+/// Vertex ranges of the curves of a run between two vertices. Each includes an adjacent stretch that is shorter than the blade,
+/// since that could only be a plunge as well. Adjoining ranges are joined.
 fn lengthened(way: &Way, [start, end]: [usize; 2], curves: &[TightCurve], width: f64) -> Vec<[usize; 2]> {
     let station = |vertex: usize| way.station(vertex.cast_signed());
     let is_short = |from: usize, to: usize| station(to) - station(from) < width;
@@ -66,7 +65,7 @@ fn lengthened(way: &Way, [start, end]: [usize; 2], curves: &[TightCurve], width:
     lengthened
 }
 
-/// How deep the worst of the plunges that a whole run is nibbled with would cut into parts, mm.
+/// Greatest overcut of the plunges by which a whole run is nibbled, mm.
 pub(super) fn worst_overcut(run: &Run, curve: &TightCurve, around: &Surroundings) -> f64 {
     let plunges = nibbled(run, std::slice::from_ref(curve), around).into_iter().map(|Stretch { run, .. }| {
         let lengths = overlaps(&run, around).map(|overlap| overlap.length);
@@ -75,8 +74,8 @@ pub(super) fn worst_overcut(run: &Run, curve: &TightCurve, around: &Surroundings
     plunges.fold(0.0, f64::max)
 }
 
-/// The plunges that cut a stretch between two vertices, each within `allowed` mm of its chord: as few as there can be,
-/// and of these the ones whose longest is shortest, so that none is a rest that the one before has cut already.
+/// Plunges that cut the stretch between two vertices, each within `allowed` mm of its chord: the fewest possible, with the
+/// longest of them as short as possible, so that the last is not a remnant which the previous one has cut already.
 fn plunges(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
     let length = way.station(last.cast_signed()) - way.station(first.cast_signed());
     let no_longer_than = |longest: f64| {
@@ -101,8 +100,8 @@ fn plunges(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]
     no_longer_than(high)
 }
 
-/// The vertex up to which a plunge from another vertex on reaches, one chord on at the least: no longer than `longest` mm,
-/// and within `allowed` mm of all that lies between.
+/// Farthest vertex that a plunge from another vertex reaches, at least one chord on: at most `longest` mm away, with all
+/// vertices between within `allowed` mm of the plunge.
 fn plunge_end(way: &Way, [from, last]: [usize; 2], [longest, allowed]: [f64; 2]) -> usize {
     let is_near = |to: usize| {
         let (a, b) = (way.vertex(from), way.vertex(to));
@@ -110,7 +109,7 @@ fn plunge_end(way: &Way, [from, last]: [usize; 2], [longest, allowed]: [f64; 2])
     };
     let length = |to: usize| way.station(to.cast_signed()) - way.station(from.cast_signed());
     let is_in = |to: usize| to <= last && length(to) <= longest && is_near(to);
-    // Twice as far each time, then halving: each look costs as much as it looks at.
+    // Exponential search, then bisection: each test costs as much as its length.
     let (mut to, mut step) = (from + 1, 1);
     while is_in(to + step) {
         (to, step) = (to + step, 2 * step);

@@ -1,12 +1,11 @@
-//! Pass `overlap`: how far the blade goes past the ends of each run.
+//! Pass `overlap`: sets the overlaps of the blade past the ends of each run.
 //!
-//! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the
-//! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where
-//! it is the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less
-//! `knife.clearance_mm` where a part lies ahead, but to no less than one tolerance where the end is not bare; slits
-//! begin as far before their edge. At a junction it goes on, whatever lies there, until it is
-//! through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged
-//! blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating
+//! Needs runs split at corners. Leaves every run with its overlaps, each straight beyond its end. An overlap has the length of
+//! the profile in waste, and `knife.reflex_front_overlap_mm` or `knife.reflex_heel_overlap_mm` in the part itself (at a reflex
+//! corner or the inner end of a slit). Where a part lies ahead it is shortened to the gap less `knife.clearance_mm`, but to no
+//! less than one tolerance unless the end is bare; slits begin as far before their edge. At a junction it goes on until it is
+//! through the other's cut, whatever lies there. A run that begins on a curve has only as much heel overlap as keeps the
+//! plunged blade near its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating
 //! Algorithm*, 2013, doi 10.7690/bgzdh.2013.02.026.
 
 use std::collections::BTreeMap;
@@ -24,8 +23,8 @@ use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
 use crate::units::number::fixed;
 
-/// Part of the tolerance by which a plunged blade may pass the start of its run where that must meet another cut: a small one
-/// of the widest thread.
+/// Share of the tolerance by which a plunged blade may miss the start of its run where that must meet another cut: a small
+/// share of the widest thread.
 const MEETING_SHARE: f64 = 0.02;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -56,7 +55,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// How far a run must go past its start and its end to be through cuts of other parts that end beside it, mm.
+/// Lengths by which a run must go past its start and its end to cross cuts of other parts that end beside it, mm.
 fn across(run: &Run, scene: &Scene) -> [f64; 2] {
     let n = run.points.len();
     let beyond = |end: usize, before: usize| {
@@ -69,9 +68,9 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
     }
 }
 
-/// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, its own part at a reflex
-/// corner, too. The cut that it must meet there may be off by that. A blade that a curve turns away from its start has less
-/// there, and passes it. `met` counts the ends of runs at each place.
+/// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, including its own part at
+/// a reflex corner, because the cut that it must meet there may be off by that. The start has less on a curve that would turn
+/// the blade away from it. `met` counts the ends of runs at each place.
 fn meeting(run: &Run, met: &BTreeMap<[u64; 2], usize>, around: &Surroundings) -> [f64; 2] {
     let is_meant = |k: usize| {
         let End { side, bare, .. } = run.ends[k];
@@ -98,7 +97,8 @@ fn at_root(run: &Run, part: u32, scene: &Scene, around: &Surroundings) -> [f64; 
     least
 }
 
-/// The part of an overlap of `length` mm at an end of a run that a blade can have which a curve turns away from its start.
+/// Share of an overlap of `length` mm that a blade can have at an end of a run, given that a curve turns it away from the
+/// start.
 fn share(run: &Run, end: usize, length: f64, around: &Surroundings) -> f64 {
     let allowed = MEETING_SHARE * around.tolerance;
     if end == 0 { heel_share(run, length, allowed, around.knife.width_mm) } else { 1.0 }

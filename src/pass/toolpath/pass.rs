@@ -1,4 +1,4 @@
-//! What a pass over a toolpath is.
+//! Description of a pass over a toolpath.
 
 use super::scene::Scene;
 use crate::diagnostic::Diagnostics;
@@ -9,10 +9,10 @@ use crate::ir::Toolpath;
 pub struct ToolpathPass {
     /// Name, as `--dump-after` takes it.
     pub name: &'static str,
-    /// What it does, in a line.
+    /// Effect, in a line.
     pub about: &'static str,
-    /// Does it.
+    /// Function that runs it.
     pub run: fn(&mut Toolpath, &Scene, &mut Diagnostics),
-    /// Whether it looks at where the toolpath before ends: it and all behind it see one toolpath after the other.
+    /// True if it depends on where the previous toolpath ends. This pass and all later ones take the toolpaths in sequence.
     pub chained: bool,
 }

@@ -1,9 +1,8 @@
-//! Pass `place`: where the axes stand at the ends of each step, and the moves through the air between them.
+//! Pass `place`: poses of the axes at the ends of each step, and the moves through the air between them.
 //!
-//! Needs runs with overlaps, and plunge cuts over their place. Leaves every step with its nominal poses: C unwrapped,
-//! each plunge at the equivalent of its heading that is nearest to where C stands, inside `c.range_deg`; a turn or a
-//! travel before each step that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what
-//! the runs really have.
+//! Needs runs with overlaps, and plunge cuts with their positions. Leaves every step with its nominal poses: C unwrapped, each
+//! plunge at the equivalent of its heading that is nearest to the current C, inside `c.range_deg`. A turn or a travel precedes
+//! each step that starts elsewhere. Smoothing changes the headings of runs a little; `plan` uses the actual ones.
 
 use super::lap::{Lap, SLIM_MARGIN, Winding, half_turn};
 use super::pass::ToolpathPass;
@@ -52,7 +51,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     toolpath.steps = placed;
 }
 
-/// The pose in which an edge cuts along a unit vector as far as a point.
+/// Pose in which an edge of the blade cuts along a unit vector with its tip at a point.
 fn pose_at(tip: Point, along: Vector, c: Rotation, edge: Edge, knife: &Knife) -> Pose {
     Pose { centre: tip - along * edge.lead(knife.ends()), c }
 }
@@ -73,7 +72,7 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     let n = run.points.len();
     let first = direction(run.points[0], run.points[1]);
     let last = direction(run.points[n - 2], run.points[n - 1]);
-    // How far C is from the first chord's direction at the plunge.
+    // Angle of C at the plunge against the first chord.
     let plunge = match (run.shape, run.orientation) {
         (Shape::Ring, OrientationMode::Tangent) => -angle::turn(last, first) / 2.0,
         (Shape::Ring, OrientationMode::Chord) => chord_lag_back(&run.points, knife) - angle::turn(last, first),
@@ -119,16 +118,16 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     run.end = pose_at(end, Rotation(end_c.0 - edge.turn()).unit(), end_c, edge, knife);
 }
 
-/// How far C turns along a run from the direction of its first chord, rad.
+/// Rotation of C along a run, measured from its first chord, rad.
 struct Turned {
-    /// To its lift.
+    /// Total rotation at the lift.
     all: f64,
-    /// The least and the greatest on the way.
+    /// Least and greatest rotation along the run.
     range: [f64; 2],
 }
 
 impl Turned {
-    /// That along a run, at whose plunge C is turned by `plunge`.
+    /// Rotation along a run whose plunge has C turned by `plunge`.
     fn along(run: &Run, plunge: f64, knife: &Knife) -> Self {
         let (mut all, mut range) = (0.0, [plunge.min(0.0), plunge.max(0.0)]);
         let mut last = 0.0;
@@ -155,7 +154,7 @@ impl Turned {
     }
 }
 
-/// A ring from its start round to where its overlap along itself ends.
+/// Points of a ring from its start round to the end of its overlap.
 fn once_round(run: &Run) -> Vec<Point> {
     let way = Way::new(run);
     way.part(0.0, way.length() + run.front, run.ends).points
@@ -165,13 +164,13 @@ fn direction(a: Point, b: Point) -> Vector {
     polyline::direction(a, b).expect("no chord of a run has length zero")
 }
 
-/// How far the chord of a blade whose tip is at the end of a path is turned from its last chord, rad, without jumps.
+/// Angle between the chord of a blade whose tip is at the end of a path and the last chord of the path, rad, unwrapped.
 fn chord_lag_back(path: &[Point], knife: &Knife) -> f64 {
     let back: Vec<Point> = path.iter().rev().copied().collect();
     chord_lag(&back, knife)
 }
 
-/// How far the chord of a blade whose heel is at the start of a path is turned from its first chord, rad, without jumps.
+/// Angle between the chord of a blade whose heel is at the start of a path and the first chord of the path, rad, unwrapped.
 fn chord_lag(path: &[Point], knife: &Knife) -> f64 {
     let Some((tip, chord)) = polyline::first_at_distance(path, knife.width_mm) else { return 0.0 };
     let first = direction(path[0], path[1]);
@@ -184,8 +183,8 @@ fn chord_lag(path: &[Point], knife: &Knife) -> f64 {
     lag
 }
 
-/// The position of C nearest to `before` at which an edge of the blade shows `heading` and from which C may move through
-/// `range` (rad) without leaving `c.range_deg`, by a margin if it turns; `None` when there is none.
+/// Position of C nearest to `before` at which an edge of the blade has `heading` and from which C may move through `range`
+/// (rad) inside `c.range_deg`, if possible with a margin when it turns; `None` if there is none.
 fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<(Rotation, Edge)> {
     let edges = if job.profile.knife.edges == 1 { &[Edge::Front][..] } else { &[Edge::Front, Edge::Back] };
     let [low, high] = range;
@@ -205,7 +204,8 @@ fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) ->
     (high > low).then(|| nearest(wide)).flatten().or_else(|| nearest(range))
 }
 
-/// The equivalent of C by the fewest whole turns from which it may move through `range` between two ends, rad.
+/// Equivalent of C by the fewest whole turns from which it can move through `range` between two ends, rad; `None` if there is
+/// none.
 fn whole_turns(nearest: Rotation, range: [f64; 2], [least, greatest]: [f64; 2]) -> Option<Rotation> {
     let turn = std::f64::consts::TAU;
     let up = ((least - range[0] - nearest.0) / turn - RANGE_EPSILON).ceil();
@@ -213,9 +213,9 @@ fn whole_turns(nearest: Rotation, range: [f64; 2], [least, greatest]: [f64; 2]) 
     (up <= down).then(|| Rotation(nearest.0 + turn * 0.0_f64.clamp(up, down)))
 }
 
-/// Turns that differ by less are the same, rad: then the front edge cuts.
+/// Difference of rotations that count as equal, rad; the front edge cuts then.
 const SAME_TURN: f64 = 1e-9;
-/// Part of a turn by which C may seem to leave its range: rounding.
+/// Share of a turn by which C may exceed its range through rounding.
 const RANGE_EPSILON: f64 = 1e-9;
 
 fn out_of_range(span: crate::source::Span) -> Diagnostic {

@@ -1,10 +1,10 @@
-//! Pass `plunge`: runs on which the blade has nowhere to go between plunge and lift become one plunge cut, without motion.
+//! Pass `plunge`: replaces runs on which the blade has no room to move by one plunge cut, without motion.
 //!
-//! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight
-//! one, no point of the path at the distance w from its start on a curved one. The surplus of the blade lies first along its
-//! own line where that goes on straight, then in the waste as far as there is room, then where it is least deep in any
-//! part. Plunges of a nibbled curve that cut nothing new are left out. A surplus in a part is warned of, and refused where
-//! the profile does not allow it.
+//! Needs runs with their overlaps. Leaves no run that the plunged blade covers: L + F + H <= w on a straight run, no point of
+//! the path at the distance w from its start on a curved one. The surplus length of the blade lies first along its own line
+//! where that goes on straight, then in the waste as far as there is room, then where it reaches least deep into any part.
+//! Plunges of a nibbled curve that cut nothing new are omitted. A surplus in a part gives a warning, or an error where the
+//! profile does not allow it.
 
 use super::continuation::continuations;
 use super::pass::ToolpathPass;
@@ -25,7 +25,7 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// Share of `verify.max_uncut_mm` within which two blades count as meeting; the rest is left for rounding.
+/// Share of `verify.max_uncut_mm` within which two blades meet; the rest allows for rounding.
 const THREAD_SHARE: f64 = 0.9;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
@@ -53,7 +53,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The step of a run that is cut by one plunge.
+/// Plunge cut that replaces a run.
 fn plunge_cut(run: &Run, cut: &BladePlacement, around: &Surroundings) -> PlungeCut {
     let end = |i: usize| {
         let is_in_part = cut.overcut[i].deepest() > 0.0 && run.ends[i].side != Side::Contour;
@@ -73,14 +73,14 @@ fn plunge_cut(run: &Run, cut: &BladePlacement, around: &Surroundings) -> PlungeC
     }
 }
 
-/// How deep a plunge cut lies in parts, beyond either end, mm.
+/// Depth of a plunge cut in parts, mm; the greater one of both ends.
 fn depth(plunge_cut: &PlungeCut) -> Overcut {
     plunge_cut.overcut[0].max(plunge_cut.overcut[1])
 }
 
-/// Where it does, in words.
+/// Depths of a plunge cut in parts and the ends where they occur, in words.
 fn beyond(plunge_cut: &PlungeCut) -> String {
-    // As it is drawn.
+    // Ends in the direction of the drawing.
     let ends =
         if plunge_cut.turned { ["past its end", "before its start"] } else { ["before its start", "past its end"] };
     let overcuts = plunge_cut.overcut.into_iter().zip(ends).filter(|(overcut, _)| overcut.deepest() > 0.0);
@@ -92,7 +92,7 @@ fn beyond(plunge_cut: &PlungeCut) -> String {
     overcuts.map(said).collect::<Vec<String>>().join(", ")
 }
 
-/// Warns of a plunge cut into a part, or refuses it.
+/// Warning or error of a plunge cut into a part.
 fn said(plunge_cut: &PlungeCut, is_refused: bool, knife: &Knife) -> Diagnostic {
     let (code, hint) = if is_refused {
         let keys = "`verify.max_overcut_part_mm` and `verify.max_overcut_neighbour_mm` allow more";

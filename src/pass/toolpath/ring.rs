@@ -1,8 +1,8 @@
-//! Pass `ring`: a smooth closed contour begins where its plunge harms least.
+//! Pass `ring`: begins a smooth closed contour where its plunge does least harm.
 //!
-//! Needs runs split at corners. Leaves rings that begin where the file begins them, unless the heel of the blade, which
-//! plunges along the tangent, would stand in a part there: then where it stands least deep, in the waste or on a straight
-//! stretch if there is one, and of places that are alike at the nearest.
+//! Needs runs split at corners. Leaves rings at their start in the file, unless the heel of the blade, which plunges along the
+//! tangent, would stand in a part there. Such a ring begins where the heel stands least deep, in the waste or on a straight
+//! stretch if possible; among equals at the nearest place.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -20,11 +20,11 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// Places of a ring that are looked at, at the most, evenly along it.
+/// Greatest number of places tried as the start of a ring, evenly spaced.
 const STARTS: usize = 360;
-/// How far before and behind a place its direction is looked for, mm: points as near as their rounding show none.
+/// Distance before and behind a place between which its direction is taken, mm: nearer points show only their rounding.
 const LOOK: f64 = 0.5;
-/// Depths that differ by less are alike, mm: no worker sees it.
+/// Difference of depths that count as equal, mm: too small to be noticed.
 const SAME_DEPTH: f64 = 0.1;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
@@ -38,7 +38,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     }
 }
 
-/// The ring as it begins elsewhere; `None` where no place is better than its own.
+/// Ring with its start moved; `None` if no place is better than its own.
 fn begun(run: &Run, around: &Surroundings) -> Option<Run> {
     let width = around.knife.width_mm;
     let way = Way::new(run);

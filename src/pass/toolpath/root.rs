@@ -1,7 +1,7 @@
-//! The root of a slit: how far the slit goes past it, so that it meets the cut of the edge that it comes from.
+//! Extension of a slit past its root, so that it meets the cut of the edge where it begins.
 //!
-//! Slit and edge may each be cut beside their line, to opposite sides: by the tolerance, and the edge by the sagitta of its
-//! chord too, where that stands for a curve.
+//! Slit and edge may be cut off their lines to opposite sides: each by the tolerance, the edge also by the sagitta of its chord
+//! where that stands for a curve.
 
 use super::scene::Scene;
 use crate::analysis::bulge::bulge;
@@ -9,11 +9,11 @@ use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::marker::CutKind;
 use crate::machine::Fit;
 
-/// Least sine of the angle between a slit and its edge: flatter ones would need a reach without bound.
+/// Least sine of the angle between a slit and its edge: at flatter angles the extension would have no bound.
 const LEAST_SINE: f64 = 0.4;
 
-/// Length by which a slit of a part goes past its root along a unit vector, mm: at most the longest overlap plus the
-/// tolerance. A root on no edge of its own part lies on a neighbour's edge, for which the greatest sagitta is assumed.
+/// Length by which a slit of a part extends past its root along a unit vector, mm: at most the longest overlap plus the
+/// tolerance. A root that is on no edge of its own part lies on a neighbour's edge, for which the greatest sagitta is assumed.
 pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene: &Scene) -> f64 {
     let profile = &scene.job.profile;
     let edges = scene.marker.cuts_of(part).iter().filter(|cut| cut.kind != CutKind::Slit);
@@ -28,7 +28,7 @@ pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene
     reaches.reduce(f64::max).unwrap_or(tolerance + most(scene)).min(longest)
 }
 
-/// Sagitta of a chord, mm; the greatest one at the ends of what is not closed, whose turn there is another cut's.
+/// Sagitta of a chord, mm; the greatest one at the ends of an open cut, whose turn there belongs to another cut.
 fn sagitta(points: &[Point], chord: usize, scene: &Scene) -> f64 {
     let chords = points.len() - 1;
     let is_closed = points[0] == points[chords];
@@ -42,7 +42,7 @@ fn sagitta(points: &[Point], chord: usize, scene: &Scene) -> f64 {
     bulge((points[chord + 1] - points[chord]).norm(), [before, behind], &scene.job.profile).abs()
 }
 
-/// The greatest sagitta of a chord, mm.
+/// Greatest sagitta of a chord, mm.
 fn most(scene: &Scene) -> f64 {
     let path = &scene.job.profile.path;
     if path.fit == Fit::Curve { path.chord_sag_max_mm } else { 0.0 }

@@ -1,8 +1,8 @@
-//! The runs of a toolpath, which most passes edit alone.
+//! Access to the runs of a toolpath: most passes edit only these.
 
 use crate::ir::toolpath::{Run, Step, Toolpath};
 
-/// Every run, in order.
+/// Iterates over the runs, in order.
 pub(super) fn each(toolpath: &mut Toolpath) -> impl Iterator<Item = &mut Run> {
     toolpath.steps.iter_mut().filter_map(|step| match step {
         Step::Run(run) => Some(run),
@@ -10,7 +10,7 @@ pub(super) fn each(toolpath: &mut Toolpath) -> impl Iterator<Item = &mut Run> {
     })
 }
 
-/// Puts what `parts` makes of each run in its place.
+/// Replaces each run by its `parts`.
 pub(super) fn replace(toolpath: &mut Toolpath, mut parts: impl FnMut(Run) -> Vec<Run>) {
     let steps = std::mem::take(&mut toolpath.steps);
     toolpath.steps.reserve(steps.len());

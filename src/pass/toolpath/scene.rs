@@ -1,4 +1,4 @@
-//! What passes look at beside a toolpath: the job, and the cloth around it.
+//! Context of the toolpath passes: the job, and the cloth around a toolpath.
 
 use super::junctions::Junctions;
 use super::near::NearLines;
@@ -6,7 +6,7 @@ use crate::analysis::cloth::{Cloth, Surroundings};
 use crate::ir::{Marker, Toolpath};
 use crate::machine::Job;
 
-/// The job, and the parts that lie on the cloth.
+/// Context of a toolpath: the job, and the parts on the cloth.
 #[derive(Debug)]
 pub struct Scene<'a> {
     /// The job.
@@ -15,11 +15,11 @@ pub struct Scene<'a> {
     pub cloth: Cloth<'a>,
     /// The marker, which holds the cuts as they are drawn.
     pub(super) marker: &'a Marker,
-    /// The edges beside which another part's run.
+    /// Edges beside which another part's edge runs.
     pub(super) near: NearLines<'a>,
-    /// Where cuts of several parts cross each other.
+    /// Crossings of the cuts of several parts.
     pub(super) junctions: Junctions<'a>,
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
+    /// Grid of the numbers in the file, mm; 0 if they are not rounded.
     pub unit: f64,
 }
 
@@ -30,7 +30,7 @@ impl<'a> Scene<'a> {
         Self { job, cloth: Cloth::new(marker, &job.profile), marker, near, junctions, unit: marker.unit }
     }
 
-    /// The cloth and the blade as the cuts of a toolpath see them.
+    /// Cloth and blade around the cuts of a toolpath.
     pub(super) fn around(&self, toolpath: &Toolpath) -> Surroundings<'_> {
         self.cloth.around(toolpath, &self.job.profile.knife)
     }

@@ -1,8 +1,8 @@
-//! Pass `slow`: the knife slows down beside another part's edge, and before it is lifted at a corner.
+//! Pass `slow`: slows the knife down beside another part's edge, and before a lift at a corner.
 //!
-//! Needs runs split at corners, on their lines. Leaves near lines capped at `knife.near_percent` of the speed that holds
-//! there, and the last `slow.before_corner_mm` of every run that ends at a corner at `slow.before_corner_percent` of that,
-//! with points where these stretches begin and end.
+//! Needs runs split at corners, on their lines. Caps near lines at `knife.near_percent` of their speed, and the last
+//! `slow.before_corner_mm` of every run that ends at a corner at `slow.before_corner_percent` of it. Inserts points at the ends
+//! of these stretches.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -12,7 +12,7 @@ use crate::geom::polyline;
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Toolpath};
 
-/// Places of a run that are nearer to each other are one, mm: rounding.
+/// Distance within which two places of a run are the same, mm: rounding.
 const SAME: f64 = 1e-6;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -24,7 +24,7 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let job = scene.job;
-    // A slowed cut needs something to be slower than: without any feed, what the tip can always reach.
+    // A share needs a speed to refer to: without a feed that is the speed which the tip can always reach.
     let [x, y, _] = job.profile.axes.limits();
     let fastest = x.speed.min(y.speed);
     if let Some(share) = job.profile.knife.near_share() {
@@ -48,7 +48,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     }
 }
 
-/// Puts a point at a station of a run, mm, and gives the first chord behind it.
+/// Inserts a point at a station of a run, mm, and returns the index of the first chord behind it.
 fn divide(run: &mut Run, from: f64) -> usize {
     let stations = polyline::stations(&run.points);
     let behind = stations.partition_point(|&station| station < from - SAME);

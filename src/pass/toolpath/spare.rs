@@ -1,4 +1,4 @@
-//! Plunge cuts that nobody needs: the blade before, or those before and behind together, cut all of their stretch, as on a
+//! Redundant plunge cuts: their stretch is cut by the blade before them, or by those before and behind together, as on a
 //! nibbled curve whose steps are shorter than the blade. The blades before and behind must meet without them.
 
 use crate::analysis::cloth::Surroundings;
@@ -6,8 +6,8 @@ use crate::analysis::plunge::{PASSING_SHARE, Plunge};
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 
-/// Removes plunge cuts whose stretch other blades cut, but never two in a row: the second may be what cuts the stretch of the
-/// first. One whose removal would leave a gap wider than `thread` mm stays.
+/// Removes plunge cuts whose stretch other blades cut, but never two in a row: the second may be the one that cuts the stretch
+/// of the first. A cut whose removal would leave a gap wider than `thread` mm stays.
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings, thread: f64) {
     let mut i = 1;
     while i < steps.len() {
@@ -25,27 +25,27 @@ pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings, thread: f6
 struct Strokes<'a> {
     steps: &'a [Step],
     around: &'a Surroundings<'a>,
-    /// Greatest distance of two strokes that meet, mm.
+    /// Greatest distance between two strokes that meet, mm.
     thread: f64,
 }
 
 impl Strokes<'_> {
-    /// Whether a step is a plunge cut that nobody needs.
+    /// True if a step is a redundant plunge cut.
     fn is_spare(&self, i: usize) -> bool {
         let Self { steps, around, .. } = *self;
         let [Step::PlungeCut(before), Step::PlungeCut(cut)] = &steps[i - 1..=i] else { return false };
-        // A line from corner to corner is cut by itself, even beside another one, but for one that goes straight back.
+        // A line from corner to corner is cut by itself, even beside another one, unless it goes straight back.
         let goes_back = before.points.first() == cut.points.last() && before.points.last() == cut.points.first();
         if goes_back {
             return asks_no_overlap(cut, around) && is_over(&Blade::of(before, around), cut, around);
         }
-        // The first stretch of a line is cut by itself, too, however near the line before it ends.
+        // The first stretch of a line is cut by itself too, however near to it the previous line ends.
         let goes_on = cut.ends[usize::from(cut.turned)].side == Side::Contour;
         if !goes_on || !asks_no_overlap(cut, around) {
             return false;
         }
         let (before, behind) = (Blade::of(before, around), self.behind(i, cut));
-        // Of one that ends at a corner the overlap there is asked for, which two others may not give.
+        // A cut that ends at a corner needs its overlap there, which two others may not provide.
         let is_amid = cut.ends.iter().all(|end| end.side == Side::Contour);
         let behind_starts = || steps.get(i + 1).and_then(|step| Blade::at_start(step, around));
         let are_over = |behind: Blade| are_over(&[before, behind], cut, around);
@@ -53,7 +53,7 @@ impl Strokes<'_> {
         is_cut && behind.is_none_or(|step| self.meets(&before, step))
     }
 
-    /// Whether the last step is a plunge cut amid a closed contour, and the blade that begins this contour lies over it.
+    /// True if the last step is a plunge cut amid a closed contour that is covered by the blade which begins the contour.
     fn ends_over_start(&self) -> bool {
         let [first, .., before, Step::PlungeCut(cut)] = self.steps else { return false };
         let Some(start) = Blade::at_start(first, self.around) else { return false };
@@ -61,7 +61,7 @@ impl Strokes<'_> {
         is_amid && is_over(&start, cut, self.around) && self.meets(&start, before)
     }
 
-    /// The stroke that goes on from the end of a cut; of the last one of a contour that is closed the first.
+    /// Stroke that continues from the end of a cut; for the last one of a closed contour, the first.
     fn behind(&self, i: usize, cut: &PlungeCut) -> Option<&Step> {
         let end = drawn(&cut.points, cut.turned)[1];
         let goes_on = |step: &&Step| match step {
@@ -72,13 +72,13 @@ impl Strokes<'_> {
         self.steps.get(i + 1).filter(goes_on).or_else(|| self.steps.first().filter(goes_on))
     }
 
-    /// Whether a blade comes as near to a stroke as two that meet.
+    /// True if a blade is near enough to a stroke to meet it.
     fn meets(&self, blade: &Blade, step: &Step) -> bool {
         let width = self.around.knife.width_mm;
         let way = match step {
             Step::PlungeCut(cut) => Blade::of(cut, self.around).ends(width).to_vec(),
             Step::Run(run) if run.shape == Shape::Open => {
-                // The blade lies from the start of the way to its tip.
+                // The blade lies from the start of the path to its tip.
                 let path = run.extended();
                 std::iter::once(Plunge::at_start(&path, width).tip).chain(path).collect()
             }
@@ -89,15 +89,15 @@ impl Strokes<'_> {
     }
 }
 
-/// The first and the last place of a stroke as the file has it.
+/// First and last point of a stroke in the order of the file.
 pub(super) fn drawn(points: &[Point], turned: bool) -> [Point; 2] {
     let ends = [points[0], points[points.len() - 1]];
     if turned { [ends[1], ends[0]] } else { ends }
 }
 
-/// Whether the profile asks for no overlap at either end of a plunge cut.
+/// True if the profile requires no overlap at either end of a plunge cut.
 fn asks_no_overlap(cut: &PlungeCut, around: &Surroundings) -> bool {
-    // Where the part itself lies beyond, nothing is overcut unless the profile asks for it.
+    // With the part itself beyond the end, nothing is overcut unless the profile asks for it.
     let knife = around.knife;
     let spares_parts = knife.reflex_front_overlap_mm == 0.0 && knife.reflex_heel_overlap_mm == 0.0;
     cut.ends.iter().all(|end| match end.side {
@@ -107,26 +107,26 @@ fn asks_no_overlap(cut: &PlungeCut, around: &Surroundings) -> bool {
     })
 }
 
-/// A blade that is plunged.
+/// Plunged blade.
 #[derive(Debug, Clone, Copy)]
 struct Blade {
     tip: Point,
-    /// Unit vector from its heel to its tip.
+    /// Unit vector from heel to tip.
     along: Vector,
 }
 
 impl Blade {
-    /// That of a plunge cut.
+    /// Blade of a plunge cut.
     fn of(cut: &PlungeCut, around: &Surroundings) -> Self {
         Self { tip: cut.pose.centre + cut.along * around.knife.radius(), along: cut.along }
     }
 
-    /// Its heel and its tip.
+    /// Heel and tip.
     fn ends(&self, width: f64) -> [Point; 2] {
         [self.tip - self.along * width, self.tip]
     }
 
-    /// Where a step begins; `None` when it does not with a plunge.
+    /// Blade at the start of a step; `None` if the step does not begin with a plunge.
     fn at_start(step: &Step, around: &Surroundings) -> Option<Self> {
         match step {
             Step::PlungeCut(cut) => Some(Self::of(cut, around)),
@@ -139,13 +139,13 @@ impl Blade {
     }
 }
 
-/// Whether a blade lies over all of the stretch of another, which would then cut nothing that is not cut already.
+/// True if a blade covers the whole stretch of a plunge cut, which would then cut nothing new.
 fn is_over(blade: &Blade, cut: &PlungeCut, around: &Surroundings) -> bool {
     let beside = around.tolerance;
     cut.points.windows(2).all(|ends| under(blade, [ends[0], ends[1]], beside, around) == Some([0.0, 1.0]))
 }
 
-/// Whether two blades together surely lie over all of the stretch of another.
+/// True if two blades together reliably cover the whole stretch of a plunge cut.
 fn are_over(blades: &[Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
     let beside = PASSING_SHARE * around.tolerance;
     cut.points.windows(2).all(|ends| {
@@ -158,7 +158,7 @@ fn are_over(blades: &[Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool
     })
 }
 
-/// The part of a segment, from 0 at its start to 1 at its end, that lies no farther beside a blade than so many mm.
+/// Part of a segment, from 0 at its start to 1 at its end, that lies at most `beside` mm beside a blade.
 fn under(
     &Blade { tip, along }: &Blade,
     [from, to]: [Point; 2],
@@ -175,7 +175,7 @@ fn under(
     })
 }
 
-/// Where a value that goes evenly from one to another between 0 and 1 lies in a range.
+/// Interval of [0, 1] in which a linear function lies in a range.
 fn between(start: f64, end: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     let slope = end - start;
     if slope == 0.0 {

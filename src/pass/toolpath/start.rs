@@ -1,4 +1,4 @@
-//! Where a run begins on a curve beside which the plunged blade would lie too far.
+//! Starts of runs on curves from which the plunged blade deviates too far.
 
 use super::stretch::{REJOINED, Way};
 use crate::analysis::cloth::Surroundings;
@@ -6,23 +6,23 @@ use crate::analysis::plunge::{Deviation, REACH};
 use crate::analysis::tight::{TightCurve, least_radius, radius};
 use crate::ir::toolpath::{Run, Shape};
 
-/// A run that begins on a curve which the blade that plunges there lies too far beside.
+/// Start of a run on a curve from which the plunged blade deviates too far.
 #[derive(Debug)]
 pub(super) struct CurvedStart {
-    /// How that blade lies.
+    /// Deviation of the plunged blade.
     pub(super) deviation: Deviation,
-    /// The curve: up to the vertex from which on a blade could plunge well.
+    /// Curve up to the first vertex at which the blade could plunge well.
     pub(super) curve: TightCurve,
 }
 
-/// How an open run begins on a curve that the plunged blade cannot enter, or would lie more than `knife.max_bow_mm` beside,
-/// or more than its tolerance when it covers all of it; `None` when it does not.
+/// Start of an open run on a curve that the plunged blade cannot enter, or from which it would deviate by more than
+/// `knife.max_bow_mm`, or by more than its tolerance if it covers all of the run; `None` if the run starts well.
 pub(super) fn curved_start(run: &Run, around: &Surroundings) -> Option<CurvedStart> {
     let is_bad = |deviation: &Deviation| deviation.is_curve && !deviation.is_good(around);
     if run.shape == Shape::Ring {
         return None;
     }
-    // Nearly always that is all.
+    // Nearly all runs end here.
     Deviation::of(run, around).filter(is_bad)?;
     let way = Way::new(run);
     let from = |vertex: usize| {

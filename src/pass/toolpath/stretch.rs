@@ -1,6 +1,6 @@
-//! A stretch of a run: what lies between two stations of it, as a run of its own.
+//! Stretch of a run between two stations, as a run of its own.
 //!
-//! The passes that lift the knife amid a run part it so that each part leads on along the contour by the overlaps of a
+//! The passes that lift the knife amid a run split it so that each part continues along the contour by the overlaps of a
 //! corner.
 
 use crate::geom::{Point, polyline, spline};
@@ -8,19 +8,19 @@ use crate::ir::list::Joint;
 use crate::ir::toolpath::{End, Run, Shape, Side};
 use crate::machine::Knife;
 
-/// Turns that differ by less are alike, rad: a curve is no gentler for its rounding.
+/// Difference of turns that count as equal, rad: rounding does not make a curve gentler.
 const TURN_EPSILON: f64 = 0.02;
-/// Greatest turn under a blade over which overlaps lead on, rad (11 degrees): there it lies as near to its line as its
-/// tolerance.
+/// Greatest turn under a blade over which overlaps may continue, rad (11 degrees): up to there the blade lies within its
+/// tolerance of the line.
 const GENTLE_TURN: f64 = 0.2;
 
-/// Points that are nearer to each other are the same, mm: rounding.
+/// Distance within which two points are the same, mm: rounding.
 const SAME_EPSILON: f64 = 1e-9;
 
-/// Where a run is lifted on its way: its overlap already lies along the contour.
+/// End of a run that is lifted amid a contour: its overlap lies along the contour already.
 pub(super) const REJOINED: End = End { corner: true, bare: true, side: Side::Contour };
 
-/// A run from one of its vertices to another.
+/// Run between two vertices of another run.
 pub(super) fn between(run: &Run, [from, to]: [usize; 2], ends: [End; 2]) -> Run {
     Run {
         points: run.points[from..=to].to_vec(),
@@ -33,7 +33,7 @@ pub(super) fn between(run: &Run, [from, to]: [usize; 2], ends: [End; 2]) -> Run 
     }
 }
 
-/// The chords of a run by their stations; on a ring they go round and round.
+/// Chords of a run by their stations; on a ring the numbering continues over the laps.
 pub(super) struct Way<'a> {
     run: &'a Run,
     stations: Vec<f64>,
@@ -58,28 +58,28 @@ impl<'a> Way<'a> {
         self.stations.len() - 1
     }
 
-    /// The station at which a chord begins; on a ring chords are counted on over the laps, forwards and backwards.
+    /// Station at which a chord begins, mm; on a ring chord numbers continue over the laps, forwards and backwards.
     pub(super) fn station(&self, chord: isize) -> f64 {
         let chords = self.chords().cast_signed();
         self.stations[chord.rem_euclid(chords) as usize] + self.length() * chord.div_euclid(chords) as f64
     }
 
-    /// The place of a vertex, counted like that.
+    /// Point of a vertex; on a ring vertex numbers continue over the laps.
     pub(super) fn vertex(&self, vertex: usize) -> Point {
         let chords = self.chords();
         self.run.points[if vertex == chords { chords } else { vertex % chords }]
     }
 
-    /// The chord that goes on from a station, counted like that.
+    /// Chord that continues from a station; on a ring its number continues over the laps.
     pub(super) fn chord_at(&self, station: f64) -> isize {
         let lap = if self.is_ring() { (station / self.length()).floor() } else { 0.0 };
         spline::span(&self.stations, station - lap * self.length()).cast_signed()
             + lap as isize * self.chords().cast_signed()
     }
 
-    /// Where between two stations, of the places that are good, a run is best lifted to go on from there: where it turns least
-    /// from `before` mm before that place to `behind` mm behind it, at the last of such places. On a straight the blade plunges
-    /// as it should, on a curve beside it.
+    /// Best station between two others to lift a run and continue it, among those that are good: the last one of least turn
+    /// from `before` mm before it to `behind` mm behind it. On a straight stretch the blade plunges along the line, on a curve
+    /// beside it.
     pub(super) fn gentlest(
         &self,
         [low, high]: [f64; 2],
@@ -89,7 +89,7 @@ impl<'a> Way<'a> {
         let turned = |station: f64| self.turned([station - before, station + behind]);
         let middles = (self.chord_at(low)..self.chord_at(high)).rev().map(|chord| {
             let [from, to] = [self.station(chord).max(low), self.station(chord + 1)];
-            // Of a long chord the end, as near as lets the next cut begin on it.
+            // On a long chord the end is best, as near to it as lets the next cut begin on the chord.
             f64::midpoint(from, to).max(to - behind).min(to)
         });
         let places = std::iter::once(high).chain(middles.filter(|&place| place >= low));
@@ -97,26 +97,26 @@ impl<'a> Way<'a> {
         Some(places.reduce(|a, b| if b.1 < a.1 - TURN_EPSILON { b } else { a })?.0)
     }
 
-    /// Whether a run that is lifted at a station can go on with overlaps, from `before` mm before it to `behind` mm
-    /// behind it: on a bend the blade would plunge over what is cut already, and leave it.
+    /// True if a run that is lifted at a station can continue with overlaps, from `before` mm before it to `behind` mm behind
+    /// it. On a bend the blade would plunge over what is already cut, and leave the line.
     pub(super) fn leads_on(&self, station: f64, [before, behind]: [f64; 2]) -> bool {
         self.turned([station - before, station + behind]) <= GENTLE_TURN
     }
 
-    /// By how much the stretches before and behind a lift amid the run lead on along it: heel and front overlap of a
-    /// corner, mm, where it is straight enough.
+    /// Heel and front overlap of the stretches before and behind a lift amid the run, mm: those of a corner where the run is
+    /// straight enough, else 0.
     pub(super) fn lead(&self, station: f64, knife: &Knife) -> [f64; 2] {
         let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
         if self.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] }
     }
 
-    /// How much the run turns between two stations, to either side, rad.
+    /// Total absolute turn of the run between two stations, rad.
     pub(super) fn turned(&self, [from, to]: [f64; 2]) -> f64 {
         let vertices = (self.chord_at(from)..=self.chord_at(to)).skip(1);
         vertices.map(|vertex| self.turn(vertex).abs()).sum()
     }
 
-    /// Turn of the run at a vertex, rad; none at the ends of an open one.
+    /// Turn of the run at a vertex, rad; 0 at the ends of an open run.
     fn turn(&self, vertex: isize) -> f64 {
         let chords = self.chords().cast_signed();
         if !self.is_ring() && (vertex <= 0 || vertex >= chords) {
@@ -126,19 +126,19 @@ impl<'a> Way<'a> {
         polyline::turn_at(at(vertex - 1), at(vertex), at(vertex + 1))
     }
 
-    /// The place at a station.
+    /// Point at a station.
     pub(super) fn place(&self, station: f64) -> Point {
         self.on_chord(self.chord_at(station), station)
     }
 
-    /// The place at a station of a chord.
+    /// Point at a station of a chord.
     fn on_chord(&self, chord: isize, station: f64) -> Point {
         let i = chord.rem_euclid(self.chords().cast_signed()) as usize;
         let (a, b) = (self.run.points[i], self.run.points[i + 1]);
         a + (b - a) * ((station - self.station(chord)) / (self.stations[i + 1] - self.stations[i]))
     }
 
-    /// A ring as it begins at a station.
+    /// Ring with its start moved to a station.
     pub(super) fn ring_from(&self, station: f64) -> Run {
         let open = self.part(station, station + self.length(), self.run.ends);
         let mut ring = Run { shape: Shape::Ring, ..open };
@@ -147,7 +147,7 @@ impl<'a> Way<'a> {
         ring
     }
 
-    /// The stretch from one station to another; what an open run has not is not in it.
+    /// Stretch from one station to another, clipped to the ends of an open run.
     pub(super) fn part(&self, from: f64, to: f64, ends: [End; 2]) -> Run {
         let (run, chords) = (self.run, self.chords());
         let from = if self.is_ring() { from } else { from.max(0.0) };
@@ -170,7 +170,7 @@ impl<'a> Way<'a> {
             } else {
                 (run.points[i + 1], run.joints[i + 1])
             };
-            // A station that was counted over laps may lie just before the vertex that it is at.
+            // A station counted over laps may lie just before the vertex at which it is.
             if part.points.last().is_none_or(|last| (point - last).norm() > SAME_EPSILON) {
                 part.points.push(point);
                 part.spans.push(run.spans[i]);

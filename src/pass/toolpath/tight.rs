@@ -1,22 +1,20 @@
-//! Pass `tight`: what is done about curves that are tighter than the blade.
+//! Pass `tight`: treats curves that are tighter than the blade.
 //!
-//! Needs runs split at corners. A curve is too tight where the blade, tip and heel on it, would stand across it: on an arc
-//! of less than 0.55 blade widths, in a right angle that is rounded with less than 0.4. By `knife.tight_curves` it is
+//! Needs runs split at corners. A curve is too tight where the blade, tip and heel on it, would stand across it: on an arc of
+//! radius below 0.55 blade widths, or in a right angle rounded with less than 0.4. `knife.tight_curves` selects the treatment:
 //!
-//! - `follow`: cut without a lift. A run with such a curve has the tangent mode: the blade cannot be its
-//!   chord. One on which the blade has no way to go, a rounded notch, is nibbled: a single plunge would cut straight
-//!   over it.
-//! - `nibble`: cut by plunges without motion, each along as many chords as stay within the tolerance of it; on an arc of
-//!   radius R that is a step of sqrt(8 R e), e being 0.9 of the tolerance. The blade is longer than that, so that they
-//!   overlap, and beyond the step lies outside the curve, along its tangent.
+//! - `follow`: cut without a lift. A run with such a curve gets the tangent mode, since the blade cannot be its chord. A run
+//!   without room for the blade to move, such as a rounded notch, is nibbled: a single plunge would cut straight over it.
+//! - `nibble`: cut by plunges without motion, each along as many chords as stay within the tolerance of it. On an arc of radius
+//!   R the step is sqrt(8 R e), where e is 0.9 of the tolerance. The blade is longer than the step, so that the plunges
+//!   overlap; beyond the step it lies outside the curve, along its tangent.
 //! - `refuse`: an error.
 //!
-//! A cut that begins on a curve is too tight there, too, when the blade that plunges as a chord of it would lie farther
-//! beside it than `knife.max_bow_mm`: `follow` says so, and nibbles only what that blade cannot enter at all. Of a
-//! short curve that it covers one plunge is made where nibbling would cut farther into the part than that leaves beside
-//! the line.
+//! The start of a cut on a curve is too tight as well if the blade, plunged as a chord, would lie farther beside it than
+//! `knife.max_bow_mm`. `follow` reports that, and nibbles only what the blade cannot enter at all. A short curve that the blade
+//! covers is cut by one plunge if nibbling would cut farther into the part than the plunge leaves beside the line.
 //!
-//! Leaves no run with the chord mode that the blade cannot be a chord of.
+//! Leaves no run in chord mode of which the blade cannot be a chord.
 
 use super::bend;
 use super::entry::split;
@@ -42,10 +40,10 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees): of a quarter circle, rounded.
+/// Greatest turn of a curve that one straight plunge may replace, rad (110 degrees): a quarter circle, rounded.
 const COVERED_TURN: f64 = 1.92;
 
-/// Least cosine of a line with the blade that cuts along it (57 degrees).
+/// Least cosine of the angle between a line and the blade that cuts along it (57 degrees).
 const ALONG: f64 = 0.55;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
@@ -58,7 +56,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     report.say(diagnostics);
 }
 
-/// The runs that a run with its tight curves is cut as.
+/// Splits and treats a run with its tight curves.
 fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
     let start = curved_start(&run, around);
     if let Some(start) = start.as_ref().filter(|start| is_best_covered(&run, start, around)) {
@@ -73,7 +71,7 @@ fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
     }
     let treatment = treatment(&run, &curves, around);
     if treatment == Treatment::Followed(OrientationMode::Chord) && !curves.is_empty() {
-        // Along the tangent its heel swings farther than as a chord; the blade may be a chord of a part of it.
+        // Along the tangent its heel swings out farther than as a chord; the blade may be a chord of a part of the run.
         let followed = Run { orientation: OrientationMode::Tangent, ..run.clone() };
         let parts = bend::split(followed, around.knife);
         if parts.len() > 1 {
@@ -83,7 +81,7 @@ fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
         }
     }
     let nibbled_start = start.as_ref().filter(|start| is_start_nibbled(start, treatment, around));
-    // Behind a start that alone is nibbled the rest is treated, and seen, by itself.
+    // If only the start is nibbled, the rest is treated and reported by itself.
     let alone = nibbled_start.filter(|_| treatment != Treatment::Nibbled).map(|start| *start.curve.vertices.end());
     for curve in curves.iter().filter(|curve| alone.is_none_or(|end| *curve.vertices.start() <= end)) {
         report.see_curve(curve, &run, treatment);
@@ -117,19 +115,19 @@ fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
     runs
 }
 
-/// What is done about the tight curves of a run.
+/// Treatment of the tight curves of a run.
 fn treatment(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Treatment {
     match around.knife.tight_curves {
         TightCurves::Refuse => Treatment::Refused,
-        // Plunges around a hole that is narrower than the blade would all lead far into the part.
+        // Plunges around a hole narrower than the blade would all reach far into the part.
         TightCurves::Nibble if !is_narrow_hole(run, curves, around) => Treatment::Nibbled,
         TightCurves::Nibble | TightCurves::Follow if is_one_plunge(run, around) => Treatment::Nibbled,
         TightCurves::Nibble | TightCurves::Follow => Treatment::Followed(run.orientation),
     }
 }
 
-/// Whether the curve on which a run begins is nibbled: what the blade cannot enter, or covers, even where curves are
-/// followed, and where they are refused what it lies slightly beside.
+/// True if the curve at the start of a run is nibbled. Where curves are followed, that is one which the blade cannot enter or
+/// which it covers; where they are refused, one from which it deviates only slightly.
 fn is_start_nibbled(start: &CurvedStart, treatment: Treatment, around: &Surroundings) -> bool {
     match treatment {
         Treatment::Nibbled => true,
@@ -139,11 +137,11 @@ fn is_start_nibbled(start: &CurvedStart, treatment: Treatment, around: &Surround
     }
 }
 
-/// Whether one plunge over all of a short curve cuts less into the part than nibbling it: it leaves what lies between the
-/// blade and the curve, where shorter cuts with the same blade would reach farther than that into the part.
+/// True if one plunge over all of a short curve cuts less into the part than nibbling. The plunge leaves the strip between
+/// blade and curve uncut, where shorter cuts with the same blade would reach farther than that into the part.
 fn is_best_covered(run: &Run, CurvedStart { deviation, curve }: &CurvedStart, around: &Surroundings) -> bool {
     let is_refused = around.knife.tight_curves == TightCurves::Refuse && !deviation.is_slight(around);
-    // What is lifted amid a contour is a part of one that goes on.
+    // A run lifted amid a contour is only a part of it.
     let is_part = run.ends.iter().any(|end| end.side == Side::Contour);
     deviation.covers_all
         && deviation.fits
@@ -154,8 +152,7 @@ fn is_best_covered(run: &Run, CurvedStart { deviation, curve }: &CurvedStart, ar
         && deviation.distance < worst_overcut(run, curve, around)
 }
 
-/// Whether a run leads along its chord from its first piece to its last, and nowhere across it: there a blade would cut through
-/// the line, not along it.
+/// True if both the first and the last chord of a run lead along its blade; across it, the blade would cut through the line.
 fn leads_along(run: &Run) -> bool {
     let points = &run.points;
     let blade = Plunge::over(points).blade();
@@ -166,7 +163,7 @@ fn leads_along(run: &Run) -> bool {
     ![(points[0], points[1]), (points[last - 1], points[last])].into_iter().any(across)
 }
 
-/// Whether all of an open run is so near to its start that the blade has no way to go on it, and would cut across.
+/// True if an open run ends so near to its start that the blade has no room to move on it.
 fn is_one_plunge(run: &Run, around: &Surroundings) -> bool {
     if run.shape == Shape::Ring {
         return false;
@@ -175,12 +172,12 @@ fn is_one_plunge(run: &Run, around: &Surroundings) -> bool {
     Plunge::at_start(&path, around.knife.width_mm).covers_all
 }
 
-/// Whether a ring is too tight for the blade all around, and the part lies outside of it.
+/// True if a ring is too tight for the blade all around, and the part lies outside of it.
 fn is_narrow_hole(run: &Run, curves: &[TightCurve], around: &Surroundings) -> bool {
     let chords = run.points.len() - 1;
     let is_narrow = curves.iter().any(|curve| curve.vertices.end() - curve.vertices.start() >= chords);
     let is_in_part = || {
-        // Left of a ring that runs counter-clockwise is its inside.
+        // The inside of a counter-clockwise ring is on its left.
         let [from, to] = [run.points[0], run.points[1]];
         let outward = -left(to - from).normalize() * ring::area(&run.points).signum();
         around.leads_inside(&Ray { from: from + (to - from) * 0.5, along: outward, reach: around.knife.width_mm })

@@ -1,5 +1,4 @@
-//! What pass `tight` says: the tightest curve of a toolpath, the worst of its starts on a curve, and what is done about
-//! them.
+//! Messages of pass `tight`: the tightest curve of a toolpath, its worst start on a curve, and their treatment.
 
 use super::start::CurvedStart;
 use super::worst::Worst;
@@ -10,31 +9,31 @@ use crate::machine::{Knife, TightCurves};
 use crate::source::Span;
 use crate::units::number::{fixed, up};
 
-/// What is done about a curve that is tighter than the blade, or about a start beside which the plunged blade lies.
+/// Treatment of a curve that is tighter than the blade, or of a start from which the plunged blade deviates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Treatment {
-    /// It is cut without a lift; its run was to have this orientation mode.
+    /// x
     Followed(OrientationMode),
-    /// It is cut by several plunges.
+    /// Cut by several plunges.
     Nibbled,
-    /// One plunge cuts all of its run.
+    /// The whole run is cut by one plunge.
     Covered,
-    /// It is an error.
+    /// Reported as an error.
     Refused,
 }
 
-/// What there is to say about a toolpath.
+/// Findings in a toolpath.
 pub(super) struct Report<'a> {
     knife: &'a Knife,
-    /// By their radius, mm.
+    /// Tight curves, by their radius, mm.
     curves: Worst<Seen>,
-    /// By how far the curve lies beside the blade, mm.
+    /// Starts on curves, by the distance of the curve from the blade, mm.
     starts: Worst<Seen>,
-    /// With how many plunges curves are nibbled.
+    /// Number of plunges by which curves are nibbled.
     pub(super) plunges: usize,
 }
 
-/// A curve, and what is done about it.
+/// Curve and its treatment.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     size: f64,
@@ -42,7 +41,7 @@ struct Seen {
     treatment: Treatment,
 }
 
-/// What is said about a treatment.
+/// Words about a treatment.
 struct Words {
     code: &'static Code,
     done: String,
@@ -54,18 +53,18 @@ impl<'a> Report<'a> {
         Self { knife, curves: Worst::default(), starts: Worst::default(), plunges: 0 }
     }
 
-    /// Sees a tight curve of a run.
+    /// Records a tight curve of a run.
     pub(super) fn see_curve(&mut self, curve: &TightCurve, run: &Run, treatment: Treatment) {
         let span = run.spans[curve.at % run.spans.len()];
         self.curves.see(Seen { size: curve.radius, span, treatment }, |seen| -seen.size);
     }
 
-    /// Sees a run that begins on a curve.
+    /// Records a run that begins on a curve.
     pub(super) fn see_start(&mut self, start: &CurvedStart, run: &Run, treatment: Treatment) {
         self.starts.see(Seen { size: start.deviation.distance, span: run.spans[0], treatment }, |seen| seen.size);
     }
 
-    /// Says the worst of both.
+    /// Reports the worst of both.
     pub(super) fn say(&self, diagnostics: &mut Diagnostics) {
         let width = fixed(self.knife.width_mm, 2);
         if let Some(&Seen { size, span, treatment }) = self.curves.place() {
@@ -140,7 +139,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What is said of what `knife.tight_curves` refuses.
+/// Words about a curve that `knife.tight_curves` refuses.
 fn refused() -> Words {
     Words {
         code: &code::PATH_TIGHT_CURVE_REFUSED,

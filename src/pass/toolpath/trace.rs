@@ -1,6 +1,6 @@
-//! From the marker to raw toolpaths: events, then drills, then cuts of each piece, in cut order.
+//! Conversion of the marker into raw toolpaths: for each piece events, then drills, then cuts, in cut order.
 //!
-//! The file's speeds become the caps of a run, chord by chord.
+//! The speeds in the file become the caps of a run, chord by chord.
 
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
@@ -8,8 +8,8 @@ use crate::ir::marker::{Cut, Event, Piece};
 use crate::ir::toolpath::{Drill, Edge, End, OrientationMode, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job};
 
-/// The raw toolpath of each drill and cut, in cut order: a cut is one run, not yet split, without overlaps and without
-/// poses. An event stands alone, between the pieces or behind the last.
+/// Raw toolpath of each drill and cut, in cut order. A cut is one run, not yet split, without overlaps and poses. An event is a
+/// toolpath of its own, between pieces or after the last.
 pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolpath> + 'a {
     let tolerance = job.profile.tolerance(marker.unit);
     let last = marker.pieces.iter().zip(0..).last().map_or([0; 2], |(piece, part)| [piece.number, part]);
@@ -26,12 +26,12 @@ fn event(event: &Event) -> Step {
     Step::Event(event.kind)
 }
 
-/// The toolpath of a piece, by its number and its place in the marker.
+/// Toolpath with one step, of the piece with this number and index in the marker.
 fn toolpath([piece, part]: [u32; 2], tolerance: f64, step: Step) -> Toolpath {
     Toolpath { piece, part, tolerance, entry: Pose::default(), steps: vec![step] }
 }
 
-/// The cap of a cut, mm/s. A slowed cut needs something to be slower than: without any feed that is the slower of the two
+/// Speed cap of a cut, mm/s. A percentage needs a speed to refer to: without a feed that is the speed of the slower of the two
 /// axes, which the tip can always reach.
 fn feed(piece: &Piece, percent: u8, job: &Job) -> f64 {
     let profile = &job.profile;
@@ -43,14 +43,14 @@ fn feed(piece: &Piece, percent: u8, job: &Job) -> f64 {
     feed.min(x.speed).min(y.speed) * f64::from(percent) / f64::from(FULL_SPEED)
 }
 
-/// The run of a cut, each segment with its greatest speed.
+/// Run of a cut, with the greatest speed of each segment.
 fn run(marker: &Marker, piece: &Piece, cut: &Cut, job: &Job) -> Run {
     let segments: Vec<Segment> = marker.list.walk(cut.range).map(|(_, segment)| segment).collect();
     let mut points = vec![segments[0].from];
     points.extend(segments.iter().map(|segment| segment.to));
     let mut joints: Vec<Joint> = segments.iter().map(|segment| segment.joint).collect();
     let closed = cut.kind.is_closed();
-    // The end of a cut, closed or not, shares the joint of its first segment: there is no segment behind it.
+    // The end of a cut, closed or not, shares the joint of its first segment: no segment follows it.
     joints.push(Joint { no_overcut: joints[0].no_overcut, ..if closed { joints[0] } else { Joint::default() } });
     Run {
         points,
@@ -68,7 +68,7 @@ fn raw(shape: Shape, job: &Job) -> Run {
         joints: Vec::new(),
         shape,
         orientation: match job.profile.knife.follow {
-            // A point is no chord of anything.
+            // A blade of zero width cannot be a chord.
             Follow::Chord if job.profile.knife.width_mm > 0.0 => OrientationMode::Chord,
             Follow::Chord | Follow::Tangent => OrientationMode::Tangent,
         },

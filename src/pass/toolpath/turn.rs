@@ -1,9 +1,9 @@
-//! Pass `turn`: short cuts that lead out of the part are cut the other way round, from the edge inwards.
+//! Pass `turn`: reverses short cuts that lead out of the part, so that they are cut from the edge inwards.
 //!
-//! Needs runs split at corners. Leaves every straight run that is no longer than a notch is deep, begins inside the
-//! part and ends at its edge turned round: the legs of V notches, of castles and of darts in a seam are cut from the
-//! edge to the innermost point, where the tip stands exactly, and what the blade is longer by lies in the waste. Both
-//! legs of a V then point nearly the same way, so that the blade turns less between them.
+//! Needs runs split at corners. Reverses every straight run that is at most as long as a notch is deep, begins inside the part
+//! and ends at its edge. The legs of V notches, of castles and of darts in a seam are then cut from the edge to the innermost
+//! point, where the tip stands exactly, and the surplus of the blade lies in the waste. Both legs of a V then have nearly the
+//! same heading, so that the blade turns less between them.
 
 use super::pass::ToolpathPass;
 use super::runs;
@@ -18,7 +18,7 @@ use crate::ir::toolpath::{Run, Shape, Toolpath};
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "turn", about: "turns short cuts round that lead out of the part", run, chained: false };
 
-/// How far beyond an end the side is looked at, mm: farther than rounding, nearer than any notch is wide.
+/// Distance beyond an end at which the side is tested, mm: more than rounding, less than the width of a notch.
 const LOOK: f64 = 0.5;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
@@ -26,7 +26,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::each(toolpath).filter(|run| leads_out(run, &around)).for_each(turn);
 }
 
-/// Whether a run is short and straight, and begins inside the part and ends at its edge.
+/// True if a run is short and straight, begins inside the part and ends at its edge.
 fn leads_out(run: &Run, around: &Surroundings) -> bool {
     let (first, last) = (run.points[0], run.points[run.points.len() - 1]);
     let Some(along) = polyline::direction(first, last) else { return false };

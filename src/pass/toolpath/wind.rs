@@ -1,9 +1,8 @@
-//! Pass `wind`: a run that winds C past `c.range_deg` is lifted where it would, and goes on with C unwound in the air.
+//! Pass `wind`: lifts a run where it would wind C past `c.range_deg`, and continues it with C unwound in the air.
 //!
-//! Needs runs split at corners. Leaves runs that can be cut at one equivalent of C inside the range; as few of them as that
-//! takes. A smooth contour that can be cut in one from another place on begins there. Of any other run each part is led on
-//! along the contour by the overlaps of a corner. A hole that is too narrow to be parted is left as it is, for `place` to
-//! refuse.
+//! Needs runs split at corners. Leaves the fewest runs each of which can be cut at one equivalent of C inside the range. A
+//! smooth contour that can be cut without a lift from another place begins there. The parts of any other run continue along the
+//! contour by the overlaps of a corner. A hole too narrow to be split is left as it is, for `place` to refuse.
 
 use super::lap::{Lap, SLIM_MARGIN, Winding};
 use super::pass::ToolpathPass;
@@ -21,12 +20,12 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// How far C stays away from the ends of its range where a run is parted, rad (5 degrees): smoothing turns the blade a
-/// little beyond the direction of its last chord. A range that is too narrow for that is used up to its ends.
+/// Margin of C from the ends of its range where a run is split, rad (5 degrees): smoothing turns the blade a little beyond the
+/// direction of its last chord. A range too narrow for that is used up to its ends.
 pub(super) const MARGIN: f64 = 0.087_266_462_599_716_47;
-/// In widths of the blade, what is too short for a part of its own.
+/// Length below which a stretch is too short for a part of its own, in blade widths.
 const SHORT: f64 = 3.0;
-/// In widths of the blade, what is too narrow a contour to be parted.
+/// Size below which a contour is too narrow to be split, in blade widths.
 const NARROW: f64 = 1.9;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-9;
@@ -46,7 +45,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     }
 }
 
-/// The parts of a run that winds; `None` when it need not be parted, or cannot.
+/// Parts of a run that winds; `None` if it need not or cannot be split.
 fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let way = Way::new(run);
     let winding = Winding::new(run, &way, knife);
@@ -62,13 +61,13 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
         if let Some(ring) = in_one(&lap, range) {
             return Some(vec![ring]);
         }
-        // Parts of what is hardly wider than the blade could only be plunges, across the part around it.
+        // Parts of a contour hardly wider than the blade could only be plunges, across the part around it.
         let (width, height) = Extent::of(&run.points).size();
         if width.max(height) < NARROW * knife.width_mm {
             return None;
         }
     }
-    // A ring begins where C is amid its range, so that no part of it is short.
+    // A ring begins where C is in the middle of its range, so that no part is short.
     let (from, last, ends) = if way.is_ring() {
         let from = way.station(winding.amid(range));
         let last = from + knife.corner_heel_overlap_mm + way.length() + knife.corner_front_overlap_mm;
@@ -80,27 +79,27 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     Parting { way: &way, winding: &winding, knife, ranges: [inner, range], last, end }.parts(from, ends)
 }
 
-/// A ring that begins where it can be cut in one; `None` when there is no such place.
+/// Ring with its start where it can be cut without a lift; `None` if there is no such place.
 fn in_one(lap: &Lap, [least, greatest]: [f64; 2]) -> Option<Run> {
     let start = |margin: f64| lap.start([least + margin, greatest - margin]);
     let from = start(MARGIN).or_else(|| start(SLIM_MARGIN))?;
     Some(lap.way.ring_from(from))
 }
 
-/// A run that is being parted.
+/// Run that is being split.
 struct Parting<'a> {
     way: &'a Way<'a>,
     winding: &'a Winding,
     knife: &'a Knife,
-    /// The range of C less its margins, and all of it.
+    /// Range of C less its margins, and the whole range, rad.
     ranges: [[f64; 2]; 2],
-    /// Station at which the run is lifted for good, mm, and the chord behind the one that this lies on.
+    /// Station of the final lift, mm, and the chord behind the one on which it lies.
     last: f64,
     end: isize,
 }
 
 impl Parting<'_> {
-    /// The parts from a station on; `None` when there is a place from which C cannot go on.
+    /// Parts from a station on; `None` if C cannot continue from some place.
     fn parts(&self, from: f64, ends: [End; 2]) -> Option<Vec<Run>> {
         let (mut parts, mut from, mut start) = (Vec::new(), from, ends[0]);
         loop {
@@ -118,14 +117,14 @@ impl Parting<'_> {
         }
     }
 
-    /// The chord before which C leaves its range, from a station on.
+    /// Chord before which C leaves its range, from a station on.
     fn reach(&self, from: f64) -> Option<isize> {
         let first = self.way.chord_at(from);
         self.ranges.into_iter().find_map(|range| self.winding.reach(first, self.end, range))
     }
 
-    /// The station up to which a part from another one goes when C reaches a chord: there, or at half of what is left when
-    /// the blade would hardly fit on the rest behind it.
+    /// Station where a part ends, mm, when C reaches the end of its range at a chord: that chord, or half of the remaining
+    /// length if the blade would hardly fit on the rest behind it.
     fn stop(&self, from: f64, reached: isize) -> f64 {
         let way = self.way;
         let half = way.station(way.chord_at(f64::midpoint(from, self.last)));
@@ -136,23 +135,22 @@ impl Parting<'_> {
         if halves { half } else { way.station(reached) }
     }
 
-    /// By how much a part leads on with its tip and begins before its start with its heel, mm.
+    /// Front and heel overlap of a part, mm.
     fn overlaps(&self) -> [f64; 2] {
         [self.knife.corner_front_overlap_mm, self.knife.corner_heel_overlap_mm]
     }
 
-    /// Where the knife is lifted on a part that goes on to a stop at the farthest, and from where on the next one goes.
+    /// Station of the lift on a part that extends at most to `stop`, and start station of the next part, mm.
     fn lift(&self, from: f64, stop: f64) -> [f64; 2] {
         let Self { way, knife, .. } = *self;
         let [front, heel] = self.overlaps();
-        // Amid a curve the blade would plunge beside it: better somewhere on the second half of the part that is straight.
+        // On a curve the blade would plunge beside the line: a straight place in the second half of the part is better.
         let places = [f64::midpoint(from, stop), stop];
         let gentle = way.gentlest(places, [heel + front, knife.width_mm], |_| true).unwrap_or(stop);
-        // Over a bend no overlap can lead on along the contour.
+        // Over a bend no overlap can continue along the contour.
         let is_gentle = way.leads_on(gentle, [heel + front, knife.width_mm]);
         let overlapped = if is_gentle { (gentle - front - heel).max(from) } else { gentle };
-        // From where C must unwind on it goes farther, with another equivalent; from before that it may be no farther
-        // than here.
+        // From the place where C must unwind it goes farther with another equivalent; from before that place it may not.
         let goes_on =
             |next: f64| self.reach(next).is_some_and(|to| to >= self.end || way.station(to) > stop + knife.width_mm);
         let lifts = [[gentle, overlapped], [gentle; 2]];

@@ -1,6 +1,6 @@
-//! What a pass says of many places alike: the worst of them, and how many there are.
+//! The worst of many similar places that a pass reports, and their number.
 
-/// The worst of the places that were seen in a toolpath.
+/// Worst of the places recorded in a toolpath.
 #[derive(Debug)]
 pub(super) struct Worst<T> {
     count: usize,
@@ -14,7 +14,7 @@ impl<T> Default for Worst<T> {
 }
 
 impl<T> Worst<T> {
-    /// Sees a place. Of two that are as bad as each other the first is the worst.
+    /// Records a place. The first of several equally bad ones is the worst.
     pub(super) fn see<B: PartialOrd>(&mut self, place: T, badness: impl Fn(&T) -> B) {
         self.count += 1;
         if self.worst.as_ref().is_none_or(|worst| badness(&place) > badness(worst)) {
@@ -22,12 +22,12 @@ impl<T> Worst<T> {
         }
     }
 
-    /// The worst place; `None` when none was seen.
+    /// Worst place; `None` if none was recorded.
     pub(super) fn place(&self) -> Option<&T> {
         self.worst.as_ref()
     }
 
-    /// How many there are beside the worst, in words.
+    /// Number of places besides the worst, in words.
     pub(super) fn and_more(&self) -> String {
         match self.count.saturating_sub(1) {
             0 => String::new(),
