@@ -1,4 +1,4 @@
-//! Moves with the knife up: how long they take, and about how short those of a marker could be at the least.
+//! Moves with the knife up: their duration, and a lower bound of it for a marker.
 
 use rayon::prelude::*;
 
@@ -9,42 +9,42 @@ use crate::ir::marker::{Cut, CutKind};
 use crate::machine::kinematics::Move;
 use crate::machine::{Job, Limits};
 
-/// Starts of a closed line that are looked at, at the most.
+/// Greatest number of starts tried on a closed line.
 const MOST_STARTS: usize = 64;
-/// How far about the start of a cut the ends of others are looked for first, mm.
+/// First search radius around the start of a cut for ends of others, mm.
 const FIRST_REACH: f64 = 10.0;
-/// The farthest that they are looked for, mm: longer than any table.
+/// Greatest search radius, mm: longer than any table.
 const LAST_REACH: f64 = 1.0e6;
 
-/// Where the axes stand when the knife comes down or up.
+/// Position of the axes when the knife comes down or up.
 #[derive(Debug, Clone, Copy)]
 pub struct Stop {
-    /// The C axis.
+    /// C axis.
     pub at: Point,
-    /// Where the blade points, a unit vector; `None` = anywhere: a drill.
+    /// Direction of the blade, a unit vector; `None` = any, for a drill.
     pub along: Option<Vector>,
 }
 
 impl Stop {
-    /// With the blade pointing anywhere.
+    /// Stop with any direction of the blade.
     pub fn anyhow(at: Point) -> Self {
         Self { at, along: None }
     }
 }
 
-/// How long moves with the knife up take.
+/// Durations of moves with the knife up.
 #[derive(Debug, Clone, Copy)]
 pub struct Air {
     limits: [Limits; 3],
-    /// From the C axis to the tip and to the heel, mm.
+    /// Distance from the C axis to the tip and to the heel, mm.
     ends: [f64; 2],
     is_double_edged: bool,
-    /// Where the drill stands, seen from the C axis, mm.
+    /// Position of the drill relative to the C axis, mm.
     drill: Vector,
 }
 
 impl Air {
-    /// On the machine of a job.
+    /// Durations on the machine of a job.
     pub fn new(job: &Job) -> Self {
         let knife = &job.profile.knife;
         let [x, y] = job.profile.drill.offset_mm;
@@ -52,26 +52,25 @@ impl Air {
         Self { limits, ends: knife.ends(), is_double_edged, drill: Vector::new(x, y) }
     }
 
-    /// Where the axes stand when a hole is drilled.
+    /// Position of the axes when a hole is drilled.
     pub fn drill(&self, at: Point) -> Stop {
         Stop::anyhow(at - self.drill)
     }
 
-    /// Where the axes stand when the blade comes down at the start of a cut that goes from one place on to another: its heel is
-    /// there.
+    /// Position of the axes when the blade comes down at the start `from` of a cut that goes on to `to`: its heel is at `from`.
     pub fn down(&self, from: Point, to: Point) -> Stop {
         let along = polyline::direction(from, to);
         Stop { at: from + along.unwrap_or_default() * self.ends[1], along }
     }
 
-    /// Where they stand when it comes up at the end of a cut that comes from one place to another: its tip is there.
+    /// Position of the axes when the blade comes up at the end `to` of a cut that comes from `from`: its tip is at `to`.
     pub fn up(&self, from: Point, to: Point) -> Stop {
         let along = polyline::direction(from, to);
         Stop { at: to - along.unwrap_or_default() * self.ends[0], along }
     }
 
-    /// From rest to rest, s: X and Y along a line, C beside them the shorter way round. With two edges the one that turns less
-    /// leads, so that a cut has no states beside its starts and directions.
+    /// Duration from rest to rest, s: X and Y move along a line, while C turns the shorter way round. With two edges the one
+    /// that turns less leads, so that a cut needs no state besides its start and direction.
     pub fn time(&self, from: &Stop, to: &Stop) -> f64 {
         let [x, y, c] = self.limits;
         let way = to.at - from.at;
@@ -92,7 +91,7 @@ impl Air {
         line.max(turn)
     }
 
-    /// The least time over such a distance, whichever way, s.
+    /// Least duration over a distance in any direction, s.
     fn least_over(&self, distance: f64) -> f64 {
         let [x, y, _] = self.limits;
         let most = |x: f64, y: f64| x.hypot(y);
@@ -105,8 +104,8 @@ impl Air {
     }
 }
 
-/// The time of the moves between the cuts and holes of a marker in their order, s, the way from home included; lifts amid a cut
-/// are not.
+/// Duration of the moves between the cuts and holes of a marker in their order, s, including the move from home, without lifts
+/// amid a cut.
 pub fn spent(marker: &Marker, job: &Job) -> f64 {
     let air = Air::new(job);
     let [x, y, _] = job.profile.home;
@@ -123,15 +122,15 @@ pub fn spent(marker: &Marker, job: &Job) -> f64 {
     time
 }
 
-/// What may come anywhere in the order: where the knife may come down for it, and where up.
+/// Cut or hole that may come anywhere in the order, with all positions where the knife may come down for it and up.
 struct Item {
     downs: Vec<Stop>,
     ups: Vec<Stop>,
 }
 
-/// The time of the moves between the cuts and holes of a marker at the least, s: for each of them that of the shortest way from
-/// the end of any other to any of its starts. As a rule no order has one as short; overlaps, which are left out, may shorten
-/// a way by their lengths.
+/// Lower bound of the duration of the moves between the cuts and holes of a marker, s: the sum of the shortest move to each of
+/// them from the end of any other. In general no order reaches it. Overlaps are left out; they may shorten a move by their
+/// lengths.
 pub fn least(marker: &Marker, job: &Job) -> f64 {
     let air = Air::new(job);
     let cuts = marker.cuts.par_iter().map(|cut| Item::of_cut(cut, marker, job, &air));
@@ -161,7 +160,7 @@ pub fn least(marker: &Marker, job: &Job) -> f64 {
         least
     };
     let mut all: Vec<f64> = items.par_iter().enumerate().map(shortest).filter(|least| least.is_finite()).collect();
-    // To one of them the knife comes from home.
+    // One of them is reached from home; the longest move is left out for it.
     all.sort_by(f64::total_cmp);
     all.pop();
     all.iter().sum()
@@ -173,7 +172,7 @@ impl Item {
         let last = points.len() - 1;
         let is_closed = matches!(cut.kind, CutKind::Outline | CutKind::Inner) && points[0] == points[last];
         if !is_closed {
-            // From either end.
+            // It can be cut from either end.
             return Self {
                 downs: vec![air.down(points[0], points[1]), air.down(points[last], points[last - 1])],
                 ups: vec![air.up(points[last - 1], points[last]), air.up(points[1], points[0])],
@@ -187,7 +186,7 @@ impl Item {
             corner::is_corner(at(i), &before, &behind, limit, marker.unit)
         };
         let mut starts: Vec<usize> = (0..last).filter(is_corner).collect();
-        // One without corners counts as if it could start anywhere.
+        // A line without corners is treated as if it could start anywhere.
         if starts.is_empty() {
             starts.extend(0..last);
         }
@@ -209,8 +208,8 @@ impl Item {
 mod tests {
     use super::*;
 
-    /// The least time of the moves between cuts, each from where it starts to where it ends, when either edge of the blade may
-    /// lead in each of them: every choice of edges is looked at.
+    /// Least duration of the moves between cuts, each from its start to its end, when either edge of the blade may lead in
+    /// each: tries every choice of edges.
     fn least_by_edges(cuts: &[[Stop; 2]], air: &Air) -> f64 {
         let turned = |stop: Stop| Stop { along: stop.along.map(|along| -along), ..stop };
         let chosen = |choice: usize| {
@@ -224,7 +223,7 @@ mod tests {
     #[test]
     fn with_two_edges_each_cut_is_made_with_the_one_that_turns_less() {
         let mut job = Job::default();
-        // The axis in the middle: either edge stands as far from it.
+        // The axis is in the middle: both edges are at the same distance from it.
         (job.profile.knife.width_mm, job.profile.knife.back_mm) = (6.0, Some(3.0));
         let single = Air::new(&job);
         job.profile.knife.edges = 2;

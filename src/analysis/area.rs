@@ -1,4 +1,4 @@
-//! How much of the cloth the parts take.
+//! Area of the cloth that the parts take up.
 
 use std::collections::BTreeSet;
 
@@ -8,18 +8,18 @@ use crate::ir::Marker;
 use crate::ir::marker::Contour;
 use crate::machine::MachineProfile;
 
-/// Steps of a millimetre at which two outlines are told apart: finer than any file's unit.
+/// Resolution at which outlines are compared, steps per mm: finer than any file's unit.
 const STEPS_PER_MM: f64 = 1000.0;
 
-/// The same for a line that stands twice in the file.
+/// Key that is equal for two copies of a line in the file.
 fn key(line: &Line, area: f64) -> [i64; 5] {
     let Extent { min, max } = line.extent;
     [min.x, min.y, max.x, max.y, area].map(|value| (value * STEPS_PER_MM).round() as i64)
 }
 
-/// Area of the parts of a marker, mm2: their outlines, notches in these included, less their cut-outs. What lies in a
-/// cut-out is a part again; a line that does not close bounds nothing. `None` when so many outlines lie in one another that
-/// the search for which lies in which was ended.
+/// Area of the parts of a marker, mm2: their outlines, including the notches in these, less their cut-outs. A line inside a
+/// cut-out is a part again; an open line bounds nothing. `None` if the nesting of outlines is so deep that the search for it
+/// was stopped.
 pub fn area(marker: &Marker, profile: &MachineProfile) -> Option<f64> {
     let nesting = Nesting::of(marker, profile.band(marker.unit));
     if nesting.ended().is_some() {
@@ -63,7 +63,7 @@ mod tests {
         check(&[square(40, 60), square(20, 80), square(0, 100)], 10_000.0 - 3600.0 + 400.0);
         check(&[square(0, 100), square(200, 300)], 20_000.0);
         check(&[square(0, 100), square(0, 100)], 10_000.0);
-        // A line bounds nothing.
+        // An open line bounds nothing.
         check(&[square(0, 100), "piece 2\ncontour open\n  from 10 10 to 20 10\n  to 20 20\n".to_owned()], 10_000.0);
         assert_eq!(area(&Marker::default(), &MachineProfile::default()), Some(0.0));
     }

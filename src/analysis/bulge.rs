@@ -1,18 +1,18 @@
-//! Bulge of a chord: how far the curve that it was flattened from lies beside it.
+//! Bulge of a chord: distance from the chord to the curve that was flattened to it.
 //!
-//! CAD flattens curves to chords with their ends on the curve. An arc of chord L that turns by t from end to end stands L t / 8
-//! above the middle of it; the mean of the turns at the two ends of a chord is what its arc turns.
+//! CAD flattens curves to chords with their ends on the curve. An arc of chord L that turns by t from end to end rises L t / 8
+//! above the middle of the chord. The turn of the arc is taken as the mean of the turns at both ends of the chord.
 
 use crate::geom::polyline;
 use crate::machine::Fit;
 use crate::machine::MachineProfile;
 
-/// Smaller turns are none, rad: an overlap runs straight on, but for rounding.
+/// Turn that counts as none, rad: an overlap is straight except for rounding.
 const TURN_EPSILON: f64 = 1e-6;
 
-/// Height of the curve above the middle of a chord of `length` mm whose ends turn so much, rad (left positive), mm: positive to
-/// the left of the chord, at most `path.chord_sag_max_mm`. None where the path turns back, at corners, on chords that are too
-/// long for a curve, and where the profile believes in no curves.
+/// Height of the curve above the middle of a chord of `length` mm with these turns at its ends (rad, left positive), mm:
+/// positive to the left of the chord, at most `path.chord_sag_max_mm` in size. Zero where the path turns back, at corners, on
+/// chords too long for a curve, and if the profile fits no curves.
 pub fn bulge(length: f64, [before, after]: [f64; 2], profile: &MachineProfile) -> f64 {
     let corner = profile.corner_angle();
     let is_turn = |turn: f64| turn.abs() > TURN_EPSILON && turn.abs() < corner;

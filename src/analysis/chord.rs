@@ -1,35 +1,35 @@
-//! A blade that follows a path as a chord of it, and where it can no longer.
+//! Blade that follows a path as a chord of it, and the places where it no longer can.
 //!
-//! A blade of width w with its tip and its heel on a path goes on as long as neither end comes to stand: the heel moves
-//! by cos(a) / cos(b) of the tip's way, a and b the angles of the blade with the path at tip and heel. While tip and heel
-//! stay on a chord each, the blade turns one way only, so that the least cosines are found where one of them passes a
-//! vertex: the blade is led from vertex to vertex in closed form.
+//! A blade of width w with its tip and its heel on a path goes on as long as neither end comes to rest: the heel moves by
+//! cos(a) / cos(b) of the tip's motion, where a and b are the angles of the blade with the path at tip and heel. While tip and
+//! heel stay on one chord each, the blade turns one way only, so that the cosines are least where one of them passes a vertex.
+//! The blade is therefore moved from vertex to vertex in closed form.
 
 use std::ops::{Range, RangeInclusive};
 
 use super::plunge::{Plunge, stands_across};
 use crate::geom::{Point, Vector, polyline};
 
-/// Least cosine with the path at the tip: below it the heel comes to rest.
+/// Least cosine of the blade with the path at the tip: below it the heel comes to rest.
 const TIP_COSINE_MIN: f64 = 0.05;
-/// Part of a blade's width that is rounding.
+/// Share of a blade's width that is rounding.
 const WIDTH_EPSILON: f64 = 1e-9;
 
-/// A place on a path.
+/// Place on a path.
 #[derive(Debug, Clone, Copy)]
 struct Foot {
     point: Point,
-    /// The chord of the path on which it is.
+    /// Chord of the path on which the place is.
     chord: usize,
 }
 
-/// The vertices under a blade of `width` mm where it first cannot be a chord of a path, its heel being between two of its
-/// points; `None` when it can all along.
+/// Vertices under a blade of `width` mm where it first cannot be a chord of a path, with its heel on the chords `heels`; `None`
+/// if it can be one throughout.
 pub(super) fn first_stop(path: &[Point], heels: Range<usize>, width: f64) -> Option<RangeInclusive<usize>> {
     let direction = |chord: usize| -> Vector {
         polyline::direction(path[chord], path[chord + 1]).expect("no chord of a run has length zero")
     };
-    // Where all of the path is nearer than the blade is long, one plunge cuts it.
+    // Where the rest of the path is within one blade width, one plunge cuts it.
     let plunge = Plunge::at_start(&path[heels.start..], width);
     let mut heel = Foot { point: plunge.heel, chord: heels.start };
     let mut tip = Foot { point: plunge.tip, chord: plunge.chord + heels.start };
@@ -43,7 +43,7 @@ pub(super) fn first_stop(path: &[Point], heels: Range<usize>, width: f64) -> Opt
         if !reaches || heel.chord >= heels.end {
             return None;
         }
-        // The heel comes to its next vertex, or the tip does.
+        // Either the heel or the tip comes to its next vertex.
         let next = heel.chord + 1;
         let ahead = Circle { centre: path[next], radius: width }.exit([tip.point, path[tip.chord + 1]]);
         if let Some(point) = ahead.filter(|_| next <= tip.chord) {
@@ -65,7 +65,7 @@ pub(super) fn first_stop(path: &[Point], heels: Range<usize>, width: f64) -> Opt
     }
 }
 
-/// A circle around a point, of a radius in mm.
+/// Circle with a radius in mm.
 #[derive(Debug, Clone, Copy)]
 struct Circle {
     centre: Point,
@@ -73,18 +73,18 @@ struct Circle {
 }
 
 impl Circle {
-    /// Where a segment leaves it; `None` when it ends inside.
+    /// Point where a segment leaves the circle; `None` if it ends inside.
     fn exit(&self, segment: [Point; 2]) -> Option<Point> {
         if (segment[1] - self.centre).norm() < self.radius { None } else { self.crossing(segment, 1.0) }
     }
 
-    /// Where a segment enters it; `None` when it stays outside.
+    /// Point where a segment enters the circle; `None` if it stays outside.
     fn entry(&self, segment: [Point; 2]) -> Option<Point> {
         self.crossing(segment, -1.0)
     }
 
-    /// The earlier (`sign` -1) or later (+1) of the places in which the line of a segment crosses it, brought onto the
-    /// segment; `None` when the line passes by.
+    /// Earlier (`sign` -1) or later (+1) intersection of the line of a segment with the circle, clamped to the segment; `None`
+    /// if the line misses the circle.
     fn crossing(&self, [from, to]: [Point; 2], sign: f64) -> Option<Point> {
         let (a, d) = (from - self.centre, to - from);
         let square = d.norm_squared();

@@ -1,4 +1,4 @@
-//! What a finished toolpath does beside the drawing because it cannot do otherwise: its declarations.
+//! Declarations of a finished toolpath: its unavoidable deviations from the drawing.
 
 use std::collections::BTreeSet;
 
@@ -11,13 +11,13 @@ use crate::ir::toolpath::{End, Overcut, PlungeCut, Run, Shape, Side, Step};
 use crate::ir::{Marker, Toolpath};
 use crate::machine::Knife;
 
-/// Lengths that differ by less are alike, mm: rounding.
+/// Difference of lengths that count as equal, mm: rounding.
 const SAME_EPSILON: f64 = 1e-6;
-/// What is declared is rounded to thousandths, how much it is upwards: people read it.
+/// Precision of declared values, steps per mm; magnitudes are rounded upwards. People read them.
 const PER_MM: f64 = 1000.0;
 
-/// What the toolpath of the cut with this place in the marker does beside the line that is `drawn`, on this cloth; a closed
-/// one ends with its first point.
+/// Declarations of the toolpath of a cut on this cloth. `cut` is the index of the cut in the marker, `drawn` its line, which
+/// ends with its first point if it is closed.
 pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knife, cloth: &Cloth) -> Vec<Declaration> {
     let drawn = Drawn { points: drawn, stations: polyline::stations(drawn) };
     let mut of_cut = OfCut { toolpath, cut, drawn, knife, cloth, last: 0, found: Vec::new() };
@@ -31,13 +31,13 @@ pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knif
     of_cut.found
 }
 
-/// The sums of what the program of a marker declares, those of a kind after those of the one before it.
+/// Totals of the declarations of a marker's program, ordered by kind.
 pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
     let of_kind = |kind: Kind| {
         let of_kind = || declared.iter().filter(|entry| entry.kind == kind);
         let (count, pieces) = (of_kind().count(), of_kind().map(|entry| marker.cuts[entry.cut as usize].piece));
         let pieces = pieces.collect::<BTreeSet<_>>().len();
-        // Of two that are alike the first.
+        // The first of several equal ones.
         let worst =
             of_kind().reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
         let cut = &marker.cuts[worst.cut as usize];
@@ -51,10 +51,10 @@ pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
     Kind::ALL.into_iter().filter_map(of_kind).collect()
 }
 
-/// A cut as it is drawn.
+/// Cut as it is drawn.
 struct Drawn<'a> {
     points: &'a [Point],
-    /// Length from its start to each point, mm.
+    /// Distance along the line from its start to each point, mm.
     stations: Vec<f64>,
 }
 
@@ -63,7 +63,7 @@ impl Drawn<'_> {
         self.stations[self.stations.len() - 1]
     }
 
-    /// The chord, looked for from one on, that two points lie on, one before the other, and the station of the first.
+    /// First chord, searched from `from` on, on which two points lie in its direction, and the station of the first point.
     fn find(&self, [a, b]: [Point; 2], from: usize) -> Option<(usize, f64)> {
         let chords = self.points.len() - 1;
         (0..chords).map(|i| (from + i) % chords).find_map(|chord| {
@@ -75,14 +75,14 @@ impl Drawn<'_> {
     }
 }
 
-/// Gathers what is declared of one cut.
+/// Collects the declarations of one cut.
 struct OfCut<'a> {
     toolpath: &'a Toolpath,
     cut: u32,
     drawn: Drawn<'a>,
     knife: &'a Knife,
     cloth: &'a Cloth<'a>,
-    /// The chord of the cut that was found last: the next stretch is on it or behind it.
+    /// Chord of the cut that was found last: the next stretch is on it or behind it.
     last: usize,
     found: Vec<Declaration>,
 }
@@ -138,8 +138,8 @@ impl OfCut<'_> {
         self.ends([cut.heel, cut.front], cut.ends, cut.turned, ends, Shape::Open);
     }
 
-    /// Whether the tip of the blade stays at its plunge on a run, within the reach of smoothing: a leg of a nibbled curve that is
-    /// hardly longer than the blade.
+    /// True if the tip of the blade stays within the reach of smoothing around its plunge on a run: a leg of a nibbled curve
+    /// that is hardly longer than the blade.
     fn stands_still(&self, run: &Run) -> bool {
         let width = self.knife.width_mm;
         if width == 0.0 || run.shape != Shape::Open {
@@ -149,14 +149,15 @@ impl OfCut<'_> {
         Plunge::at_start(&path, width).stands_still(&path, self.toolpath.tolerance)
     }
 
-    /// Declares a blade that stands still over some points as a nibble where the contour goes on from one of its ends.
+    /// Declares the cut of a blade that stands still over some points as nibbled where the contour goes on from one of its
+    /// ends.
     fn nibble(&mut self, points: &[Point], ends: [End; 2], stretch: [f64; 2]) {
         if ends.iter().any(|end| end.side == Side::Contour) {
             self.declare(Kind::Nibbled, stretch, None, polyline::length(points));
         }
     }
 
-    /// Declares how far the path lies beside the blade that is plunged at its start.
+    /// Declares the distance of the path from the blade that is plunged at its start.
     fn plunge(&mut self, run: &Run, [from, to]: [f64; 2]) {
         if self.knife.width_mm == 0.0 {
             return;
@@ -168,13 +169,13 @@ impl OfCut<'_> {
         if farthest > self.worth() {
             let way = polyline::length(&path[..=plunge.chord]) + (plunge.tip - path[plunge.chord]).norm();
             let stretch = if run.turned { [to - way, to] } else { [from, from + way] };
-            // Smoothing moves both the path and where the tip stands on it.
+            // Smoothing moves both the path and the place of the tip on it.
             let most = farthest + self.toolpath.tolerance;
             self.declare(Kind::Plunge, stretch.map(|station| self.on_cut(station)), None, most);
         }
     }
 
-    /// Declares the overlaps that are shorter than the profile asks for.
+    /// Declares the overlaps that are shorter than in the profile.
     fn ends(&mut self, given: [f64; 2], ends: [End; 2], turned: bool, stretch: [f64; 2], shape: Shape) {
         let knife = self.knife;
         let asked = [
@@ -201,7 +202,7 @@ impl OfCut<'_> {
         WORTH_SHARE * self.toolpath.tolerance
     }
 
-    /// Between which stations a stretch of the cut lies, in the direction in which that is drawn.
+    /// Stations at the ends of a stretch of the cut, in the direction in which that is drawn.
     fn stations(&mut self, points: &[Point], turned: bool) -> Option<[f64; 2]> {
         let last = points.len() - 1;
         let (first, end) = if turned { ([last, last - 1], [1, 0]) } else { ([0, 1], [last - 1, last]) };
@@ -211,7 +212,7 @@ impl OfCut<'_> {
         Some([from, before + (points[end[1]] - points[end[0]]).norm()])
     }
 
-    /// A station brought back to the cut: on a closed one it may lie on another lap.
+    /// Station brought back onto the cut: on a closed one it may lie on another lap.
     fn on_cut(&self, station: f64) -> f64 {
         let length = self.drawn.length();
         let is_closed = self.drawn.points.first() == self.drawn.points.last();
@@ -222,7 +223,7 @@ impl OfCut<'_> {
         }
     }
 
-    /// Says in which part the deviation that was declared last is.
+    /// Sets the part in which the last declared deviation is.
     fn in_part(&mut self, part: Option<u32>) {
         self.found.last_mut().expect("one was declared").part = part;
     }
@@ -235,7 +236,7 @@ impl OfCut<'_> {
     }
 }
 
-/// The station of the end of a stretch at which it is plunged or lifted.
+/// Station of the end of a stretch at which it is plunged or lifted.
 fn end_of([from, to]: [f64; 2], which: Which, turned: bool) -> f64 {
     if (which == Which::Start) == turned { to } else { from }
 }

@@ -1,26 +1,26 @@
-//! How far two parts overlap: the distance from the deepest place of one in the other to the edge of that.
+//! Depth of the overlap of two parts: distance from the deepest place of one in the other to the edge of that.
 //!
-//! An estimate: the vertices are tried, and some places of each segment within the box that the two share. The depth of an
-//! overlap by edges that lie along each other, as in a nest, is exact.
+//! An estimate from the vertices and some places of each segment within the common box of both. It is exact for an overlap by
+//! edges along each other, as in a nest.
 
 use super::outlines::Outlines;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point};
 
-/// Places of a segment that are tried, the ends among them: one every so many mm, and so many at the least and at the most.
+/// Spacing of the places tried on a segment, mm, and the range of their number, ends included.
 const STEP: f64 = 2.0;
 const PLACES: std::ops::RangeInclusive<usize> = 5..=500;
 
-/// The deepest place.
+/// Deepest place.
 #[derive(Debug, Clone, Copy)]
 pub struct Depth {
-    /// How deep it is, mm.
+    /// Depth, mm.
     pub by: f64,
-    /// Where it is.
+    /// Position.
     pub at: Point,
 }
 
-/// How far two parts overlap; `None` when the work was spent before that was known.
+/// Depth of the overlap of two parts; `None` if the budget was spent first.
 pub fn depth([a, b]: [&Outlines; 2], work: &mut Budget) -> Option<Depth> {
     let common = common(&a.extent, &b.extent);
     let mut deepest = Depth { by: 0.0, at: common.min };
@@ -28,7 +28,7 @@ pub fn depth([a, b]: [&Outlines; 2], work: &mut Budget) -> Option<Depth> {
         for k in 0..part.contours.len() {
             for ends in part.contour(k).windows(2) {
                 let Some([from, to]) = clipped([ends[0], ends[1]], &common) else { continue };
-                // An odd number, so that the middle is among them.
+                // An odd number puts the middle among them.
                 let places = (((to - from).norm() / STEP) as usize).clamp(*PLACES.start(), *PLACES.end()) | 1;
                 for i in 0..places {
                     if !work.spend(2 * other.points.len()) {
@@ -49,13 +49,13 @@ pub fn depth([a, b]: [&Outlines; 2], work: &mut Budget) -> Option<Depth> {
     Some(deepest)
 }
 
-/// The box that two boxes share.
+/// Intersection of two boxes.
 fn common(a: &Extent, b: &Extent) -> Extent {
     let min = Point::new(a.min.x.max(b.min.x), a.min.y.max(b.min.y));
     Extent { min, max: Point::new(a.max.x.min(b.max.x), a.max.y.min(b.max.y)) }
 }
 
-/// What of a segment lies in a box (Liang and Barsky, *A new concept and method for line clipping*, 1984).
+/// Part of a segment inside a box (Liang and Barsky, *A new concept and method for line clipping*, 1984).
 fn clipped([from, to]: [Point; 2], within: &Extent) -> Option<[Point; 2]> {
     let way = to - from;
     let (mut start, mut end) = (0.0_f64, 1.0_f64);

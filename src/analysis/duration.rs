@@ -1,5 +1,4 @@
-//! About how long the cuts of a marker take, without planning them: enough to tell which of two ways of cutting the same parts
-//! is the shorter one.
+//! Estimated duration of the cuts of a marker, without a plan: enough to compare two ways of cutting the same parts.
 
 use std::borrow::Cow;
 
@@ -10,26 +9,26 @@ use crate::ir::marker::Cut;
 use crate::machine::kinematics::Move;
 use crate::machine::{Job, Limits};
 
-/// The time from where the knife first comes down in each cut to where it comes up, s, plunges and lifts included. A stretch
-/// between two corners counts as a move from rest to rest, of X and Y over its length, but for what the blade covers where it
-/// stands, and of C by all its turns.
+/// Total time from the first plunge to the last lift of each cut, s, including plunges and lifts. A stretch between two corners
+/// counts as a move from rest to rest: of X and Y over its length, less the length that the standing blade covers, and of C
+/// through all its turns.
 pub fn of_cuts(marker: &Marker, job: &Job) -> f64 {
     let runs = Runs::new(marker, job);
     marker.cuts.iter().map(|cut| runs.of_cut(cut)).sum()
 }
 
-/// What the runs of cuts take.
+/// Durations of the runs of cuts.
 struct Runs<'a> {
     marker: &'a Marker,
     air: Air,
-    /// Greatest turn that is no corner, rad.
+    /// Greatest turn that is not a corner, rad.
     corner: f64,
-    /// Along a run.
+    /// Limits along a run.
     line: Limits,
     c: Limits,
-    /// What the blade covers where it stands, mm.
+    /// Length that the standing blade covers, mm.
     width: f64,
-    /// A plunge and a lift, s.
+    /// Duration of a plunge and a lift, s.
     through: f64,
 }
 
@@ -64,7 +63,7 @@ impl<'a> Runs<'a> {
         corner::is_corner(at, &before.copied(), &behind.copied(), self.corner, self.marker.unit)
     }
 
-    /// A closed cut that starts amid a line is begun at its next corner: a start there would cost a lift.
+    /// Moves the start of a closed cut that begins amid a line to its next corner: a start amid the line would cost a lift.
     fn begun_at_corner<'p>(&self, points: Cow<'p, [Point]>) -> Cow<'p, [Point]> {
         let last = points.len() - 1;
         let ring = &points[..last];
@@ -93,7 +92,7 @@ mod tests {
     use crate::ir::marker::CutKind;
     use crate::ir::text;
 
-    /// About what a line takes as one cut, s.
+    /// Estimated duration of a line as one cut, s.
     fn time(line: &str) -> f64 {
         let text = format!("marker unit-mm 0.1\npiece 1\ncontour open\n  from {line}\n");
         let mut marker = text::read_marker(&text).expect("sound");
@@ -110,7 +109,7 @@ mod tests {
         assert!(bent > straight + knife.clear() + knife.plunge(), "{bent} {straight}");
         let [half, whole] = [time("0 0 to 50 0"), time("0 0 to 100 0")];
         assert!(half > whole / 2.0 + 0.1, "{half} {whole}");
-        // What the blade covers where it stands takes no time but that of a plunge and a lift.
+        // The length that the standing blade covers takes only the time of a plunge and a lift.
         assert!((time("0 0 to 5 0") - knife.clear() - knife.plunge()).abs() < 1e-9);
     }
 }

@@ -1,9 +1,9 @@
-//! Questions about the drawing and the blade, asked by several stages and answered once.
+//! Analyses of the drawing and the blade that several stages share.
 //!
-//! Receives forms of [`ir`](crate::ir) and a machine, answers questions: which line lies in which, how deep two parts
-//! overlap, how far a blade may go before it enters a part, where it lies when it is plunged, how far a curve lies beside its
-//! chords, how long moves with the knife up take and about how long cuts do, what a piece waits for. Never edits, and is never
-//! asked by `verify`, which measures for itself.
+//! Receives forms of [`ir`](crate::ir) and a machine. Answers questions: nesting of lines, depth of overlaps of parts, free way
+//! of a blade before it enters a part, position of the plunged blade, deviation of a curve from its chords, duration of moves
+//! with the knife up, estimated duration of cuts, dependencies of a piece. Never edits, and is never asked by `verify`, which
+//! measures for itself.
 
 pub mod air;
 mod area;

@@ -1,12 +1,12 @@
-//! Where the notches stand that an outline makes.
+//! Places of the notches in an outline.
 
 use std::collections::BTreeMap;
 
 use crate::geom::{Point, bits};
 use crate::ir::marker::OutlineNotch;
 
-/// The notches of an outline of these edges, each with the edge that its way begins with, in their order. Of notches within
-/// one another the first.
+/// Notches of an outline with these edges, each with the index of its first edge, in the order of the edges. Of nested notches
+/// only the first is included.
 pub fn mouths<'a>(edges: &[[Point; 2]], notches: &'a [OutlineNotch]) -> Vec<(usize, &'a OutlineNotch)> {
     let mut at: BTreeMap<[u64; 2], Vec<&OutlineNotch>> = BTreeMap::new();
     for notch in notches {
@@ -23,12 +23,12 @@ pub fn mouths<'a>(edges: &[[Point; 2]], notches: &'a [OutlineNotch]) -> Vec<(usi
         (1..notch.segments as usize).for_each(|k| is_gone[(i + k) % count] = true);
         found.push((i, notch));
     }
-    // One that another begins within, over the end of the list, is none.
+    // A notch that begins inside another one across the end of the list does not count.
     found.retain(|(i, _)| !is_gone[*i]);
     found
 }
 
-/// The points of a ring, which ends with its first, without those of its notches: it runs straight over their mouths.
+/// Points of a ring, which ends with its first, without those of its notches: the ring runs straight over their mouths.
 pub fn bridged(points: &[Point], notches: &[OutlineNotch]) -> Vec<Point> {
     let edges: Vec<[Point; 2]> = points.windows(2).map(|ends| [ends[0], ends[1]]).collect();
     let count = edges.len();

@@ -1,4 +1,4 @@
-//! The outlines of one piece, to be asked for crossings, for what they hold and how near they are.
+//! Outlines of one piece: queries for crossings, containment and distance.
 
 use std::borrow::Cow;
 
@@ -8,28 +8,28 @@ use crate::geom::{Extent, Point, cross, polyline, ring};
 use crate::ir::Chains;
 use crate::ir::marker::{Drill, Marker};
 
-/// How far a line is followed from a crossing to see whether it really leads to the other side, vertices.
+/// Greatest number of vertices along which a line is followed from a crossing to check that it leads to the other side.
 const MOST_STEPS: usize = 64;
 
-/// The outlines of a piece.
+/// Outlines of a piece.
 #[derive(Debug)]
 pub struct Outlines<'a> {
-    /// Its points, one contour behind the other; a closed one ends with its first point.
+    /// Points of all contours, one after the other; a closed contour ends with its first point.
     pub points: Cow<'a, [Point]>,
-    /// Its contours, in order.
+    /// Contours, in order.
     pub contours: Vec<Start>,
     /// Monotone chains of the points.
     pub chains: Chains<'a>,
-    /// The box around all.
+    /// Bounding box.
     pub extent: Extent,
 }
 
-/// A contour among those of a piece.
+/// Contour among those of a piece.
 #[derive(Debug, Clone, Copy)]
 pub struct Start {
-    /// Its first point among those of all.
+    /// Index of its first point among all points.
     pub first: usize,
-    /// Whether it is closed.
+    /// True if it is closed.
     pub is_closed: bool,
 }
 
@@ -41,14 +41,14 @@ impl Default for Outlines<'_> {
 }
 
 impl<'a> Outlines<'a> {
-    /// Those of a piece, by its place in the marker.
+    /// Outlines of a piece, by its index in the marker.
     pub fn of(marker: &'a Marker, piece: usize) -> Self {
         let mut part = Self::default();
         part.gather(marker, piece);
         part
     }
 
-    /// Takes the outlines of a piece in place of those that are here: one of these serves all pieces of a marker in turn.
+    /// Replaces the outlines by those of another piece, so that one value can be reused for all pieces of a marker.
     pub fn gather(&mut self, marker: &'a Marker, piece: usize) {
         let Self { points, contours, chains, extent } = self;
         contours.clear();
@@ -58,7 +58,7 @@ impl<'a> Outlines<'a> {
             contours.push(Start { first: start, is_closed: contour.closed });
             extent.join(&marker.list.extent(contour.range));
             let of_contour = (marker.list.points(contour.range), marker.list.chains(contour.range));
-            // A piece of one contour, as most are, is looked at where it stands.
+            // A piece of one contour, like most, is borrowed and not copied.
             if start == 0 {
                 (*points, *chains) = of_contour;
             } else {
@@ -69,23 +69,23 @@ impl<'a> Outlines<'a> {
         }
     }
 
-    /// The points of a contour.
+    /// Points of a contour.
     pub fn contour(&self, k: usize) -> &[Point] {
         let end = self.contours.get(k + 1).map_or(self.points.len(), |next| next.first);
         &self.points[self.contours[k].first..end]
     }
 
-    /// The points of each closed contour.
+    /// Points of each closed contour.
     pub fn closed(&self) -> impl Iterator<Item = &[Point]> {
         (0..self.contours.len()).filter(|&k| self.contours[k].is_closed).map(|k| self.contour(k))
     }
 
-    /// Whether a point lies in the part: within its outline and in no cut-out.
+    /// True if a point lies in the part: inside its outline and outside its cut-outs.
     pub fn holds(&self, point: Point) -> bool {
         self.extent.holds(point) && self.closed().filter(|points| ring::contains(points, point)).count() % 2 == 1
     }
 
-    /// Whether a hole is in the part, or could not be looked for.
+    /// True if a hole is in the part, or if the budget does not suffice to tell.
     pub fn may_hold(&self, drill: &Drill, work: &mut Budget) -> bool {
         let near = self.extent.holds(drill.at);
         !work.spend(if near { self.points.len() } else { 1 }) || (near && self.holds(drill.at))
@@ -98,12 +98,12 @@ impl<'a> Outlines<'a> {
         ends.map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
     }
 
-    /// Edges that may come into a box, those of open lines among them.
+    /// Edges that may enter a box, including those of open lines.
     pub fn edges_near(&self, around: Extent) -> impl Iterator<Item = [Point; 2]> {
         let near = self.chains.each().filter(move |(_, extent)| extent.meets(&around));
         near.flat_map(move |(chain, _)| {
             let points = &self.points[chain.first as usize..=chain.last as usize];
-            // Along a chain X does not turn back.
+            // Along a chain X is monotone.
             let is_rising = points[points.len() - 1].x >= points[0].x;
             let [enters, leaves] = if is_rising { [around.min.x, around.max.x] } else { [around.max.x, around.min.x] };
             let is_before = |x: f64, limit: f64| if is_rising { x < limit } else { x > limit };
@@ -113,13 +113,13 @@ impl<'a> Outlines<'a> {
         })
     }
 
-    /// The contour of a point.
+    /// Index of the contour of a point.
     pub fn contour_of(&self, point: usize) -> usize {
         self.contours.partition_point(|contour| contour.first <= point) - 1
     }
 
-    /// Whether the line, followed from its segment `segment` both ways, comes farther than `slack` from the line through
-    /// `ends` on either side before it comes back.
+    /// True if the line, followed both ways from `segment`, departs by more than `slack` mm from the line through `ends` before
+    /// it comes back to that, at either side.
     pub fn leads_across(&self, segment: usize, ends: [Point; 2], slack: f64) -> bool {
         let points = self.contour(self.contour_of(segment));
         let Start { first, is_closed } = self.contours[self.contour_of(segment)];
@@ -129,7 +129,7 @@ impl<'a> Outlines<'a> {
         // A closed contour repeats its first point.
         let count = points.len() - usize::from(points.first() == points.last());
         let departs = |step: &dyn Fn(usize) -> Option<usize>| {
-            // An open line ends where it ends.
+            // An open line does not continue past its end.
             let place =
                 |k: usize| step(k).filter(|&place| is_closed || place < count).map(|place| points[place % count]);
             let Some(first) = place(0) else { return false };
@@ -141,7 +141,7 @@ impl<'a> Outlines<'a> {
         departs(&|k| Some(start + 1 + k)) && departs(&back)
     }
 
-    /// Where its outlines cross themselves or each other.
+    /// First crossing of its outlines with themselves or each other; `None` if there is none.
     pub fn self_crossing(&self, marker: &Marker, work: &mut Budget) -> Option<Crossing> {
         let ends = |segment: usize| [self.points[segment], self.points[segment + 1]];
         let mut wanted = |crossing: &Crossing| {
@@ -158,19 +158,19 @@ impl<'a> Outlines<'a> {
     }
 }
 
-/// What rounding to the grid of the file may have done to two points, mm: its diagonal.
+/// Greatest displacement of two points by rounding to the grid of the file, mm: its diagonal.
 pub fn slack(marker: &Marker) -> f64 {
     marker.unit * std::f64::consts::SQRT_2
 }
 
-/// Calls `met` for each pair of boxes that overlap, until it says no: a sweep along the longer side of the box around all.
+/// Calls `met` for each pair of overlapping boxes until it returns false: a sweep along the longer side of the common box.
 fn pairs(boxes: &[Extent], around: &Extent, work: &mut Budget, mut met: impl FnMut(usize, usize, &mut Budget) -> bool) {
     let (width, height) = around.size();
     let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
     let mut order: Vec<(i64, u32)> =
         boxes.iter().zip(0..).map(|(extent, i)| (in_total_order(side(extent)[0]), i)).collect();
     order.sort_by_key(|&(start, _)| start); // stable: those that start alike in their order
-    // Boxes that are not left behind yet: where they end, and which they are.
+    // Boxes not yet passed by the sweep: their ends and indices.
     let mut active: Vec<(f64, usize)> = Vec::with_capacity(boxes.len());
     for i in order.into_iter().map(|(_, i)| i as usize) {
         let [start, end] = side(&boxes[i]);
@@ -194,7 +194,7 @@ fn pairs(boxes: &[Extent], around: &Extent, work: &mut Budget, mut met: impl FnM
     }
 }
 
-/// A whole number for each number, in the order of [`f64::total_cmp`]: they are compared with fewer steps.
+/// Integer for a number, with the order of [`f64::total_cmp`]: faster to compare.
 fn in_total_order(number: f64) -> i64 {
     let bits = number.to_bits().cast_signed();
     bits ^ (bits >> 63 & i64::MAX)

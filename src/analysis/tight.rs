@@ -1,4 +1,4 @@
-//! Curves that are tighter than the blade: where it cannot be a chord of a run.
+//! Curves that are tighter than the blade: stretches where the blade cannot be a chord of a run.
 
 use std::ops::RangeInclusive;
 
@@ -8,24 +8,24 @@ use super::plunge::overlaps;
 use crate::geom::{Point, polyline};
 use crate::ir::toolpath::{Run, Shape};
 
-/// Turn of a run without which the blade never stands across it, rad: a little less than the angle whose cosine is 0.4.
+/// Turn of a run up to which the blade never stands across it, rad: a little less than the angle whose cosine is 0.4.
 const TURN_MIN: f64 = 1.15;
-/// Radius of the tightest arc that a blade can follow, in widths of it: there it lies at the heel as far across as it may.
+/// Radius of the tightest arc that a blade can follow, in blade widths: the blade reaches its greatest angle at the heel there.
 const ARC_SHARE: f64 = 0.55;
 
-/// A stretch of a run that is too tight for a blade.
+/// Stretch of a run that is too tight for a blade.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TightCurve {
-    /// Its vertices: where a run turns so sharply that the blade cannot follow. On a ring they go on past its end.
+    /// Vertices where the run turns too sharply for the blade. On a ring their numbers continue past its end.
     pub vertices: RangeInclusive<usize>,
-    /// Its least radius, mm.
+    /// Least radius, mm.
     pub radius: f64,
-    /// The vertex that is the tightest by itself.
+    /// Vertex with the least radius of its own.
     pub at: usize,
 }
 
-/// The stretches of a run, with the overlaps that there is room for, of which the blade cannot be a chord, those that meet
-/// joined. A smooth contour that is narrower than the blade is one of them as a whole.
+/// Stretches of a run, with the overlaps that there is room for, of which the blade cannot be a chord; adjoining ones are
+/// joined. A smooth contour narrower than the blade is one such stretch as a whole.
 pub fn tight_curves(run: &Run, around: &Surroundings) -> Vec<TightCurve> {
     if run.shape == Shape::Open && polyline::turns_by_less(&run.points, TURN_MIN) {
         return Vec::new();
@@ -34,7 +34,7 @@ pub fn tight_curves(run: &Run, around: &Surroundings) -> Vec<TightCurve> {
     joined(found(run, [heel, front], around.knife.width_mm))
 }
 
-/// Curves in order, those that meet joined.
+/// Joins adjoining curves in a sorted list.
 pub fn joined(curves: Vec<TightCurve>) -> Vec<TightCurve> {
     let mut joined: Vec<TightCurve> = Vec::new();
     for next in curves {
@@ -50,12 +50,12 @@ pub fn joined(curves: Vec<TightCurve>) -> Vec<TightCurve> {
     joined
 }
 
-/// The stretches of a run with overlaps of these lengths at its start and its end, mm, of which a blade of `width` mm
-/// cannot be a chord; some may meet.
+/// Stretches of a run with overlaps of these lengths at its start and its end, mm, of which a blade of `width` mm cannot be a
+/// chord; some may adjoin.
 fn found(run: &Run, overlaps: [f64; 2], width: f64) -> Vec<TightCurve> {
     let chords = run.points.len() - 1;
     let is_ring = run.shape == Shape::Ring;
-    // The heel follows an open run with its overlaps, a ring twice round. The run begins behind the heel overlap.
+    // The heel follows an open run with its overlaps, or a ring twice round. The run begins behind the heel overlap.
     let path = match run.shape {
         Shape::Open => run.extended_by(overlaps),
         Shape::Ring => run.points.iter().chain(&run.points[1..]).copied().collect(),
@@ -88,16 +88,17 @@ pub fn radius(path: &[Point], vertex: usize) -> f64 {
     (b - a).norm().min((c - b).norm()) / (2.0 * (polyline::turn_at(a, b, c).abs() / 2.0).sin())
 }
 
-/// Length of a curve, in widths of the blade, over which its radius is taken: over less it would be that of its rounding.
+/// Length of a curve over which its radius is taken, in blade widths: over a shorter one the radius would be that of the
+/// rounding.
 const RADIUS_SHARE: f64 = 0.3;
-/// The same in lengths of the curve, which is gentler at its ends.
+/// Share of the length of the curve over which its radius is taken: a curve is gentler at its ends.
 const LENGTH_SHARE: f64 = 0.33;
 
-/// Radius far beyond any curve that a blade minds, mm.
+/// Radius far beyond any curve that matters to a blade, mm.
 const STRAIGHT: f64 = 1e4;
 
-/// Least radius of a curve from one inner vertex of a path to another, for a blade of `width`, mm: that of the arc
-/// whose chords are as long and turn as much, c = 2 R sin(a/2), at either end by one half.
+/// Least radius of a curve between two inner vertices of a path, for a blade of `width`, mm: that of the arc with the same
+/// length and turn of its chords, c = 2 R sin(a/2), where the turns at both ends count by half.
 pub fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> f64 {
     let (first, last) = vertices.into_inner();
     if first == last {
@@ -119,18 +120,18 @@ pub fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64)
         })
     };
     let least = (0..count - 1).filter_map(of).fold(f64::INFINITY, f64::min);
-    // Bends to either side cancel each other; the tightest vertex then gives the radius.
+    // Bends to opposite sides cancel; the tightest vertex then gives the radius.
     if least < STRAIGHT { least } else { (first..=last).map(|vertex| radius(path, vertex)).fold(least, f64::min) }
 }
 
-/// From the first to the last of some vertices that belong to curves tighter than the blade is wide, or of all when none
-/// does; `None` when there are none at all.
+/// Curve from the first to the last of some vertices with a radius below the width of the blade, or over all of them if none
+/// has; `None` if there are no vertices.
 fn curve_at(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> Option<TightCurve> {
     let radius = |vertex: usize| radius(path, vertex);
     let at = vertices.clone().min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
     let (first, last) = (*vertices.start(), *vertices.end());
-    // What goes on as tight as that belongs to the same curve, whether or not the blade could be a chord of its end. A
-    // chord on which the blade has a way to go parts two curves.
+    // Adjacent vertices that are as tight belong to the same curve, whether or not the blade could be a chord of its end. A
+    // chord as long as the blade separates two curves.
     let is_tight = |vertex: usize, chord: usize| {
         radius(vertex) < ARC_SHARE * width && (path[chord + 1] - path[chord]).norm() < width
     };
@@ -178,7 +179,7 @@ mod tests {
         found(run, [0.0; 2], width)
     }
 
-    /// Two straights of 30 mm joined by an arc of a radius through an angle.
+    /// Two straights of 30 mm joined by an arc with this radius and angle.
     fn bend(radius: f64, angle: f64) -> Vec<Point> {
         let steps = 24;
         let arc = (0..=steps).map(|i| angle * f64::from(i) / f64::from(steps));

@@ -1,20 +1,20 @@
-//! What each piece of a marker waits for, whatever else decides on the order of the cuts.
+//! Constraints on the order of the pieces of a marker that hold under every policy.
 
 use super::nesting::Nesting;
 use crate::ir::Marker;
 use crate::ir::marker::Event;
 use crate::machine::MachineProfile;
 
-/// What a piece waits for.
+/// Prerequisites of a piece.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Waits {
-    /// The pieces that lie in it, by their places in the marker: once it is free they would shift with it.
+    /// Pieces that lie in it, by their indices in the marker: once it is free they would shift with it.
     pub inner: Vec<usize>,
-    /// What is asked of the operator or the conveyor before it: no piece is brought past that.
+    /// Events that ask something of the operator or the conveyor before it; the order never moves a piece past them.
     pub events: Vec<Event>,
 }
 
-/// What each piece waits for, in the order of the pieces.
+/// Prerequisites of each piece, in the order of the pieces.
 pub fn waits(marker: &Marker, profile: &MachineProfile) -> Vec<Waits> {
     let nesting = Nesting::of(marker, profile.band(marker.unit));
     let events = marker.pieces.iter().map(|piece| piece.events.clone());

@@ -1,38 +1,38 @@
-//! A blade plunged at the start of a path: where its tip stands, and on which chord of the path.
+//! Blade plunged at the start of a path: position of its tip, and the chord of the path on which it is.
 
 use crate::geom::{Point, Vector, angle, polyline};
 
-/// Part of the tolerance by which a plunged blade may pass a point of what it cuts; rounding takes a little of the rest.
+/// Share of the tolerance by which a plunged blade may miss a point of its cut; rounding takes a little of the rest.
 pub const PASSING_SHARE: f64 = 0.9;
 
-/// Least cosine of the blade with the path at its heel: below it the heel darts along the path, and the blade swings.
-/// An arc of 0.55 blade widths has this.
+/// Least cosine of the blade with the path at its heel, reached on an arc of 0.55 blade widths. Below it the heel darts along
+/// the path, and the blade swings.
 const HEEL_COSINE_MIN: f64 = 0.4;
 
-/// Longest way of a tip that stands still, in tolerances: smoothing moves a tip as far.
+/// Longest motion of a tip that counts as standing still, in tolerances: smoothing moves a tip as far.
 pub(super) const STILL_TOLERANCES: f64 = 2.0;
 
-/// Whether a blade, from its heel to its tip, stands across a path that has a direction at its heel.
+/// True if a blade, given from heel to tip, stands across a path with this direction at its heel.
 pub fn stands_across(blade: Vector, direction: Vector) -> bool {
     blade.dot(&direction) < HEEL_COSINE_MIN * blade.norm()
 }
 
-/// A blade plunged with its heel at the first point of a path, as a chord of it.
+/// Blade plunged with its heel at the first point of a path, as a chord of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plunge {
-    /// Where its heel stands.
+    /// Position of the heel.
     pub heel: Point,
-    /// Where its tip stands: where the path first is as far from its start as the blade is long, or at its end.
+    /// Position of the tip: the first place of the path at one blade width from its start, else the end of the path.
     pub tip: Point,
-    /// The chord of the path on which the tip stands.
+    /// Chord of the path on which the tip is.
     pub chord: usize,
-    /// Whether all of the path is nearer to its start than the blade is long: its tip stands at the end, or would
-    /// beyond it.
+    /// True if the whole path is within one blade width of its start. The tip is then set to the end of the path; the real one
+    /// may be beyond it.
     pub covers_all: bool,
 }
 
 impl Plunge {
-    /// A blade of `width` mm at the start of a path of two points at least.
+    /// Blade of `width` mm at the start of a path of at least two points.
     pub fn at_start(path: &[Point], width: f64) -> Self {
         match polyline::first_at_distance(path, width) {
             Some((tip, chord)) => Self { heel: path[0], tip, chord, covers_all: false },
@@ -40,13 +40,13 @@ impl Plunge {
         }
     }
 
-    /// A blade over all of a path, from its start to its end.
+    /// Blade over all of a path, from its start to its end.
     pub fn over(path: &[Point]) -> Self {
         let last = path.len() - 1;
         Self { heel: path[0], tip: path[last], chord: last - 1, covers_all: true }
     }
 
-    /// Whether the blade has a way to go on the path between plunge and lift that is longer than `least` mm.
+    /// True if the blade can move along the path by more than `least` mm between plunge and lift.
     pub fn has_way(&self, path: &[Point], least: f64) -> bool {
         let last = path.len() - 1;
         !self.covers_all && (self.chord + 1 < last || (path[last] - self.tip).norm() > least)
@@ -58,23 +58,23 @@ impl Plunge {
         (path[next] - self.tip).norm() + polyline::length(&path[next..])
     }
 
-    /// Whether the tip stays at its plunge until the lift, within the reach of smoothing.
+    /// True if the tip stays within the reach of smoothing from plunge to lift.
     pub fn stands_still(&self, path: &[Point], tolerance: f64) -> bool {
         self.covers_all || self.way(path) <= STILL_TOLERANCES * tolerance
     }
 
-    /// From its heel to its tip, mm.
+    /// Vector from heel to tip, mm.
     pub fn blade(&self) -> Vector {
         self.tip - self.heel
     }
 
-    /// How far a point lies beside the blade, mm.
+    /// Distance of a point from the blade, mm.
     pub fn distance(&self, point: Point) -> f64 {
         polyline::distance_to_segment(point, self.heel, self.tip)
     }
 
-    /// How far the blade is turned from the first chord of the path, rad, counted on along the path without jumps; zero
-    /// when it covers all of it.
+    /// Angle of the blade against the first chord of the path, rad, unwrapped along the path; zero if the blade covers all of
+    /// it.
     pub fn lag(&self, path: &[Point]) -> f64 {
         let Some(first) = polyline::direction(path[0], path[1]).filter(|_| !self.covers_all) else { return 0.0 };
         let under = path[1..=self.chord].iter().chain([&self.tip]);
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_lag_is_counted_along_the_path() {
-        // Three quarters round to the left: the blade is turned by more than half a turn from its first chord.
+        // Three quarters of a turn to the left: the blade is turned by more than half a turn from its first chord.
         let around = [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (-1.0, 1.0), (-1.0, -9.0)];
         let path = around.map(|(x, y)| Point::new(x, y));
         let lag = Plunge::at_start(&path, 8.0).lag(&path);

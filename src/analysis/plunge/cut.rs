@@ -1,4 +1,4 @@
-//! A plunge cut: a run that the blade covers where it is plunged, and where it leaves what it is longer by.
+//! Plunge cut: a run that the plunged blade covers, and the place of the blade's surplus length.
 
 use super::blade::Plunge;
 use crate::analysis::cloth::Surroundings;
@@ -7,42 +7,41 @@ use crate::geom::{Point, Vector, polyline};
 use crate::ir::toolpath::{Overcut, Run};
 use crate::machine::Spare;
 
-/// A shorter overcut is none, mm: rounding.
+/// Overcut that counts as none, mm: rounding.
 const OVERCUT_EPSILON: f64 = 1e-6;
-/// Distance of two places for the blade that are weighed, mm.
+/// Spacing of the tried places of the blade, mm.
 const STEP: f64 = 0.1;
-/// Accuracy of the depth of the deepest place, mm: a part of the least tolerance of a file.
+/// Accuracy of the depth of the deepest place, mm: a fraction of the least tolerance of a file.
 const DEPTH_ACCURACY: f64 = 0.004;
-/// How much deeper than the least deep of them places for a blade may lie in the parts that `knife.spare` names, and be as good
-/// for these, mm.
+/// Tolerance within which places for a blade count as equally deep in the parts that `knife.spare` names, mm.
 const ALIKE: f64 = 0.1;
 
-/// Where the blade stands when one plunge without motion cuts all of a run.
+/// Placement of the blade when one plunge without motion cuts all of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BladePlacement {
-    /// Direction of the blade, unit vector from heel to tip: a chord of the run, which its overlaps lead on.
+    /// Direction of the blade, unit vector from heel to tip: a chord of the run, which its overlaps extend.
     pub along: Vector,
-    /// Where the tip stands.
+    /// Position of the tip.
     pub tip: Point,
-    /// How far the blade goes beyond the start and the end of the run, mm: the overlaps, and what it is longer by.
+    /// Lengths of the blade beyond the start and the end of the run, mm: overlap plus surplus.
     pub beyond: [f64; 2],
-    /// How deep what it is longer by lies in parts, before the start and past the end.
+    /// Depth of the surplus in parts, before the start and past the end.
     pub overcut: [Overcut; 2],
 }
 
 impl BladePlacement {
-    /// That of an open run with overlaps of these lengths at its start and its end, mm; `None` when the blade has a way
-    /// to go between plunge and lift.
+    /// Placement on an open run with overlaps of these lengths at its start and its end, mm; `None` if the blade has room to
+    /// move between plunge and lift.
     ///
-    /// What the blade is longer by, the surplus, goes into the waste: behind the start as far as there is room, then
-    /// past the end, and first past the end where the start alone may have no overlap. What finds no room there lies
-    /// where the deepest of its places is least deep in any part.
+    /// The surplus length of the blade goes into the waste: behind the start as far as there is room, then past the end; first
+    /// past the end if only the start may have no overlap. Surplus that finds no room there is placed where its deepest place
+    /// is least deep in any part.
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
         Self::along_line(run, overlaps, [0.0; 2], around)
     }
 
-    /// Placement where the line goes on straight, by `continued` mm before its start and behind its end: the surplus lies there
-    /// first, since that is cut anyway.
+    /// Placement where the line continues straight by `continued` mm before its start and behind its end: the surplus lies
+    /// there first, since that is cut anyway.
     pub fn along_line(run: &Run, overlaps: [f64; 2], continued: [f64; 2], around: &Surroundings) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
@@ -53,7 +52,7 @@ impl BladePlacement {
         let along = polyline::direction(start, end)?;
         let line = [start - along * overlaps[0], end + along * overlaps[1]];
         let length = (line[1] - line[0]).norm();
-        // What it is shorter by is left at both ends alike.
+        // A deficit of length is split evenly between both ends.
         let missing = (length - width).max(0.0) / 2.0;
         let line = [line[0] + along * missing, line[1] - along * missing];
         let surplus = (width - length).max(0.0);
@@ -68,7 +67,7 @@ impl BladePlacement {
         let (shared, left) = shared(rest, order.map(|end| rooms[end]), around.knife.clearance_mm);
         let (mut shares, mut overcut) = ([0, 1].map(|end| on_line[end] + shared[order[end]]), [Overcut::default(); 2]);
         let surplus = Surplus { length: surplus, overlaps, rays, around };
-        // A line that ends in another part is drawn there: nothing bars a way on into that, but deep it is.
+        // A line that ends in another part is drawn there: nothing blocks a way further into that part, but it is deep.
         if left > 0.0 || surplus.is_deep(shares) {
             (shares, overcut) = surplus.placed(shares);
         }
@@ -76,14 +75,14 @@ impl BladePlacement {
         Some(Self { along, tip: line[1] + along * shares[1], beyond, overcut })
     }
 
-    /// How deep it cuts into parts, mm.
+    /// Greatest depth of the placement in parts, mm.
     pub fn deepest(&self) -> f64 {
         self.overcut[0].max(self.overcut[1]).deepest()
     }
 }
 
-/// Shares a surplus out to the waste beyond the two ends of a line, of which the first is preferred, by how much room there
-/// is; what finds none goes beyond both alike. Says how much that is, too. All in mm.
+/// Distributes a surplus over the waste beyond both ends of a line, the first end preferred, as far as there is room; the rest
+/// is split evenly between both. Returns the shares and that rest. All in mm.
 fn shared(surplus: f64, rooms: [Room; 2], clearance: f64) -> ([f64; 2], f64) {
     let clear = |gap: f64| (gap - clearance).max(0.0);
     let first = surplus.min(clear(rooms[0].least()));
@@ -96,31 +95,31 @@ fn shared(surplus: f64, rooms: [Room; 2], clearance: f64) -> ([f64; 2], f64) {
     }
 }
 
-/// A surplus that finds no room in the waste.
+/// Surplus that finds no room in the waste.
 struct Surplus<'a> {
-    /// How long it is, mm.
+    /// Length, mm.
     length: f64,
-    /// The overlaps before it, mm.
+    /// Overlaps before it at either end, mm.
     overlaps: [f64; 2],
-    /// The two ways that lead on beyond the line.
+    /// Rays beyond the two ends of the line.
     rays: [Ray; 2],
     around: &'a Surroundings<'a>,
 }
 
 impl Surplus<'_> {
-    /// Whether either end of the blade lies in a part when it goes so far beyond the line.
+    /// True if either end of the blade lies in a part with these shares beyond the line.
     fn is_deep(&self, shares: [f64; 2]) -> bool {
         (0..2).any(|end| self.depths(end, shares[end]).deepest() > 0.0)
     }
 
-    /// How deep the blade lies so far beyond an overlap.
+    /// Depth of the blade at a distance beyond an overlap.
     fn depths(&self, end: usize, way: f64) -> Overcut {
         let Ray { from, along, .. } = self.rays[end];
         self.around.depths(from + along * way, self.overlaps[end] + way)
     }
 
-    /// Greatest depth of the blade from an overlap to `way` mm beyond it: a place is deeper than another by no more than the two
-    /// are apart. Depths up to the band count as none, so that a place of none may lie as deep as that.
+    /// Greatest depth of the blade from an overlap to `way` mm beyond it. Depth is Lipschitz: it changes between two places by
+    /// at most their distance. Depths up to the band count as zero, so a place of zero depth may really be as deep as that.
     fn deepest(&self, end: usize, way: f64) -> Overcut {
         let count = (way / STEP).ceil().max(1.0) as usize;
         let places: Vec<(f64, Overcut)> =
@@ -143,9 +142,9 @@ impl Surplus<'_> {
         deepest
     }
 
-    /// How it is shared out to the two ends so that the deepest of its places lies least deep in any part, or in those that
-    /// `knife.spare` names, and how deep that is beyond either end; of shares that are alike in this the one that goes least
-    /// deep into the others, then the one that is nearest to `preferred`.
+    /// Best distribution of the surplus over the two ends, and the depth at either end. It minimises the depth of its deepest
+    /// place in any part, or in the parts that `knife.spare` names. Among equals it minimises the depth in the others, then the
+    /// distance to `preferred`.
     fn placed(&self, preferred: [f64; 2]) -> ([f64; 2], [Overcut; 2]) {
         let count = (self.length / STEP).ceil().max(1.0) as usize;
         let way = |i: usize| self.length * i as f64 / count as f64;

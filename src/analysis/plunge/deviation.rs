@@ -1,4 +1,4 @@
-//! How far a path lies beside the blade that is plunged at its start: its chordal deviation.
+//! Chordal deviation: distance of a path from the blade that is plunged at its start.
 
 use std::ops::RangeInclusive;
 
@@ -9,51 +9,50 @@ use crate::geom::{Point, polyline};
 use crate::ir::toolpath::{Run, Side};
 use crate::machine::Knife;
 
-/// Part of the tolerance from which on a path that lies beside the plunged blade is declared: smoothing may add to it.
+/// Share of the tolerance above which a deviation from the plunged blade is declared: smoothing may add to it.
 pub const WORTH_SHARE: f64 = 0.25;
-/// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
+/// Share of the tolerance that the polyline may use here; smoothing moves the tip by up to the rest.
 const SHARE: f64 = 0.45;
-/// The same at a bend, which smoothing takes on the side of the blade: more would be a lift for the rounding of the file.
+/// Share of the tolerance at a bend, which smoothing moves towards the blade: a smaller share would cause lifts for the
+/// rounding of the file.
 const BEND_TOLERANCE_SHARE: f64 = 0.8;
-/// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
+/// Greatest share of the total turn under a blade at one vertex of a curve; a vertex with more is a bend.
 const BEND_SHARE: f64 = 0.7;
 
-/// Length of a run, in widths of the blade, that is looked at from where it plunges: on any curve that it lies on it spans
-/// less.
+/// Length of a run examined from its plunge, in blade widths: the blade spans less on any curve that it fits.
 pub const REACH: f64 = 4.0;
 
-/// How the start of an open run lies beside the blade that is plunged there.
+/// Deviation of the start of an open run from the blade that is plunged there.
 #[derive(Debug, Clone, Copy)]
 pub struct Deviation {
-    /// The vertex of the run under the blade that lies farthest beside it.
+    /// Vertex of the run under the blade with the greatest deviation.
     pub vertex: usize,
-    /// How far that is, mm.
+    /// Deviation at that vertex, mm.
     pub distance: f64,
-    /// How far it may be on the smoothed path, mm: as it is here, if that is declared, and as on an arc that turns as much,
-    /// and the tolerance.
+    /// Greatest deviation on the smoothed path, mm: the lesser of this deviation, if it is declared, and that of an arc with
+    /// the same turn, plus the tolerance.
     pub most: f64,
-    /// Whether that is no more than on an arc that turns as much, and the blade does not stand across it; at a bend no more
-    /// than the tolerance.
+    /// True if the deviation is at most that of an arc with the same turn, at a bend at most the tolerance, and the blade does
+    /// not stand across the path.
     pub fits: bool,
-    /// Whether the blade covers all of the run, but for as little as it may be off anyway.
+    /// True if the blade covers the whole run, within the deviation that is allowed anyway.
     pub covers_all: bool,
-    /// Whether what lies under it turns little by little, and not at one bend.
+    /// True if the path under the blade turns gradually, and not at a single bend.
     pub is_curve: bool,
-    /// How much that turns in all, rad: what it turns to the one side less what it turns to the other, which may be
-    /// rounding.
+    /// Net turn of the path under the blade, rad: left less right turns, absolute, so that rounding cancels.
     pub turned: f64,
 }
 
 impl Deviation {
-    /// That of an open run with the overlaps that there is room for; `None` when there is no vertex under the blade, or the
-    /// run hardly turns there.
+    /// Deviation of an open run with the overlaps that there is room for; `None` if no vertex is under the blade, or if the run
+    /// hardly turns there.
     pub fn of(run: &Run, around: &Surroundings) -> Option<Self> {
         let (knife, tolerance) = (around.knife, around.tolerance);
         let asked = || overlaps(run, around).map(|overlap| overlap.length);
         may_deviate(run, knife, tolerance).then(|| Self::with(run, asked(), knife, tolerance))?
     }
 
-    /// That of an open run with the overlaps that it has.
+    /// Deviation of an open run with its present overlaps; `None` as for [`Deviation::of`].
     pub fn placed(run: &Run, knife: &Knife, tolerance: f64) -> Option<Self> {
         may_deviate(run, knife, tolerance).then(|| Self::with(run, [run.heel, run.front], knife, tolerance))?
     }
@@ -84,46 +83,46 @@ impl Deviation {
         })
     }
 
-    /// Whether the path lies no farther beside the blade than is worth a word.
+    /// True if the deviation is too small to report.
     pub fn is_slight(&self, around: &Surroundings) -> bool {
         self.distance <= around.knife.max_bow_mm
     }
 
-    /// Whether the blade may plunge like that: it enters its path and lies slightly beside it, or cuts all of it as it
-    /// should.
+    /// True if the blade may plunge like that: it fits the path and deviates only slightly, within its passing tolerance if it
+    /// covers the whole run.
     pub fn is_good(&self, around: &Surroundings) -> bool {
         self.fits && self.is_slight(around) && (!self.covers_all || self.distance <= PASSING_SHARE * around.tolerance)
     }
 }
 
-/// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a
-/// blade of the width w lies beside it by at most w/2 tan(a/2), an arc that turns as much by about half of that, and
-/// the difference may be a part of the tolerance.
+/// True if a run turns enough near its start to deviate noticeably from the blade. A path that turns by a under a blade of
+/// width w deviates by at most w/2 tan(a/2), an arc with the same turn by about half of that; the difference may be a share of
+/// the tolerance.
 fn may_deviate(run: &Run, knife: &Knife, tolerance: f64) -> bool {
     let turned = polyline::turn_within(&run.points, knife.width_mm).min(std::f64::consts::PI);
     knife.width_mm / 2.0 * (turned / 2.0).tan() > knife.max_bow_mm.min(2.0 * SHARE * tolerance)
 }
 
-/// What lies under a blade plunged at the start of a run.
+/// Path under a blade that is plunged at the start of a run.
 struct Under {
     plunge: Plunge,
-    /// What the blade is a chord of.
+    /// Path of which the blade is a chord.
     path: Vec<Point>,
-    /// The vertex of the path at which the run begins: behind the heel overlap, if there is one.
+    /// Index in the path of the first vertex of the run: 1 behind a heel overlap, else 0.
     skipped: usize,
-    /// The vertex of the path at which the run ends.
+    /// Index in the path of the last vertex of the run.
     last: usize,
-    /// Whether the run begins and ends where its line does.
+    /// True for each end of the run that is an end of its line.
     of_line: [bool; 2],
 }
 
-/// How much the path under a blade turns, rad.
+/// Turn of the path under a blade, rad.
 struct Turns {
-    /// Between its headings that are farthest apart, up to and at the vertex that the tip goes to next.
+    /// Angle between the extreme headings, up to and including the next vertex ahead of the tip.
     all: f64,
-    /// What it turns to the one side less what it turns to the other.
+    /// Net turn, absolute: left less right turns.
     signed: f64,
-    /// Whether no vertex makes most of it.
+    /// True if no vertex makes most of the turn.
     is_curve: bool,
 }
 
@@ -135,19 +134,19 @@ impl Under {
         let last = run.points.len() - 1;
         let of_line = run.ends.map(|end| end.side != Side::Contour);
         if plunge.covers_all {
-            // What covers all of a run is a chord of that alone.
+            // A blade that covers a whole run is a chord of that alone.
             return Self { plunge: Plunge::over(&run.points), path: run.points.clone(), skipped: 0, last, of_line };
         }
         Self { plunge, path, skipped, last: last + skipped, of_line }
     }
 
-    /// The inner vertices of the run under the blade.
+    /// Inner vertices of the run under the blade.
     fn vertices(&self) -> RangeInclusive<usize> {
         self.skipped + 1..=self.plunge.chord.min(self.last - 1)
     }
 
-    /// Whether the tip would stand on the same part of the path were that moved by `tolerance` mm: no bend of it comes as near
-    /// to the distance at which the tip stands and turns back.
+    /// True if the tip would be on the same part of the path if that were moved by `tolerance` mm: no local maximum of the
+    /// distance from the start is that near to the blade width.
     fn is_sure(&self, tolerance: f64) -> bool {
         let width = self.plunge.blade().norm();
         let away = |point: Point| (point - self.path[0]).norm();
@@ -156,7 +155,7 @@ impl Under {
             (b >= a && b > c).then_some((before + 1, b))
         });
         let is_near = |(_, farthest): &(usize, f64)| (farthest - width).abs() <= tolerance;
-        // Of the bends behind the tip the first one alone matters.
+        // Behind the tip only the first bend matters.
         let behind = far.clone().find(|(vertex, _)| *vertex > self.plunge.chord);
         self.plunge.covers_all
             || !far
@@ -174,20 +173,21 @@ impl Under {
         let chord = self.plunge.chord;
         let corners = self.path.windows(3).take(chord + 1);
         let mut turns: Vec<f64> = corners.map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
-        // A bend ahead of the tip says nothing of the curve under the blade.
+        // A bend ahead of the tip is no evidence of a curve under the blade.
         if let [under @ .., next] = &mut turns[..]
             && under.len() == chord
         {
             let sharpest = under.iter().map(|turn| turn.abs()).fold(0.0, f64::max);
-            // Nor does that where the tip, moved a little by smoothing, may stand before the vertex behind it.
+            // It is no evidence either where the tip, moved a little by smoothing, may stand before the vertex behind it.
             let is_told = (self.plunge.tip - self.path[chord]).norm() > STILL_TOLERANCES * tolerance;
-            // A curve goes on soon; a bend that is followed by a long straight edge is none.
+            // A curve continues soon; a bend followed by a long straight edge is not a curve.
             let goes_on = (self.path[chord + 1] - self.path[0]).norm() <= REACH * self.plunge.blade().norm();
             *next = if is_told && goes_on { next.clamp(-sharpest, sharpest) } else { 0.0 };
         }
         let total: f64 = turns.iter().map(|turn| turn.abs()).sum();
         let is_curve = turns.iter().all(|turn| turn.abs() <= BEND_SHARE * total);
-        // A curve turns along its chords, not at its vertices: to the ends of its line by half as much again.
+        // A curve turns along its chords, not at its vertices: at each end of its line it turns further by half of the turn at
+        // the vertex.
         let half = |end: usize, turn: Option<&f64>| {
             turn.filter(|_| is_curve && self.plunge.covers_all && self.of_line[end]).map_or(0.0, |turn| turn / 2.0)
         };
@@ -197,7 +197,7 @@ impl Under {
     }
 }
 
-/// Between the headings that are farthest apart on a way that turns so and, before and behind that, by so much more, rad.
+/// Angle between the extreme headings of a path with these turns and the additional turns `before` and `behind` them, rad.
 fn range(turns: &[f64], [before, behind]: [f64; 2]) -> f64 {
     let (mut heading, mut reach) = (0.0_f64, [0.0_f64; 2]);
     for turn in std::iter::once(&before).chain(turns).chain([&behind]) {

@@ -1,10 +1,9 @@
-//! Where the blade lies in the cloth when it is plunged.
+//! Position of the plunged blade in the cloth.
 //!
-//! One model, in the order of its questions: how far the blade should and may go past the ends of a run (`overlaps`); where
-//! it stands when it is plunged at the start of a path, as a chord of it (`blade`); how far the path lies beside it there
-//! (`deviation`); and, when it covers all of the run, where it leaves what it is longer by, and how deep that lies in
-//! parts (`cut`). Passes ask and choose. What the model is told is the run as drawn and its overlaps, so that it can be
-//! asked before any pass has acted, and of a run the other way round as well.
+//! One model in four steps: the wanted and possible overlaps of a run (`overlaps`); the position of the blade plunged at the
+//! start of a path, as a chord of it (`blade`); the deviation of the path from it (`deviation`); and, if it covers all of the
+//! run, the place of its surplus length and the depth of that in parts (`cut`). Passes ask and choose. The input is the run as
+//! drawn and its overlaps, so that the model can be asked before any pass has acted, and for a reversed run as well.
 
 mod blade;
 mod cut;

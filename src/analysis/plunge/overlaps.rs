@@ -1,4 +1,4 @@
-//! How far the blade goes past the ends of a run: as far as the profile wants, and as there is room.
+//! Overlaps of the blade past the ends of a run: the length in the profile, as far as there is room.
 
 use crate::analysis::cloth::{Surroundings, begins_inside};
 use crate::geom::region::Ray;
@@ -7,30 +7,30 @@ use crate::ir::toolpath::{End, Run, Shape, Side};
 
 use super::blade::{PASSING_SHARE, Plunge};
 
-/// A shorter overlap is none, mm: rounding, which must not become a chord of the path.
+/// Overlap that counts as none, mm: rounding must not become a chord of the path.
 const OVERLAP_EPSILON: f64 = 1e-6;
 
-/// How far the blade goes past one end of a run.
+/// Overlap of the blade past one end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// How far, mm.
+    /// Length, mm.
     pub length: f64,
-    /// Where it goes.
+    /// Where it lies.
     pub side: Side,
 }
 
-/// The overlaps of a run: how far the heel stands before its start, and how far the tip goes past its end.
+/// Overlaps of a run: length of the heel before its start, and of the tip past its end.
 ///
-/// Each goes straight on: as far as the profile wants where that is waste, as far as it wants inside the part where it
-/// is the part itself, and shortened to the gap less `knife.clearance_mm` where a part lies ahead. On a curve the heel
-/// overlap is only as long as keeps the plunged blade near the start. A ring has a front overlap along itself.
+/// Each continues straight: in waste with the length in the profile, in the part itself with the length for parts, and
+/// shortened to the gap less `knife.clearance_mm` where a part lies ahead. On a curve the heel overlap is limited so that the
+/// plunged blade stays near the start. A ring has a front overlap along itself.
 pub fn overlaps(run: &Run, around: &Surroundings) -> [Overlap; 2] {
     let knife = around.knife;
     let [start, end] = run.ends;
     let heel = if start.corner { knife.corner_heel_overlap_mm } else { knife.heel_overlap_mm };
     let front = if end.corner { knife.corner_front_overlap_mm } else { knife.front_overlap_mm };
     if run.shape == Shape::Ring {
-        // Once more round would cut nothing new.
+        // A second lap would cut nothing new.
         let length = if end.bare { 0.0 } else { front.min(polyline::length(&run.points)) };
         return [Overlap::none(start), Overlap { length, ..Overlap::none(end) }];
     }
@@ -48,21 +48,21 @@ pub fn overlaps(run: &Run, around: &Surroundings) -> [Overlap; 2] {
     [Overlap { length: heel.length * share, ..heel }, front]
 }
 
-/// An overlap as the profile wants it.
+/// Overlap as the profile wants it.
 struct Wanted {
-    /// The end of the run that it goes past.
+    /// End of the run past which it goes.
     end: End,
-    /// How long it should be in the waste, mm.
+    /// Wanted length in the waste, mm.
     waste: f64,
-    /// How long it should be in the part, mm.
+    /// Wanted length in the part, mm.
     part: f64,
-    /// Where it begins, and the unit vector along which it goes.
+    /// Start point, and unit vector of its direction.
     from: Point,
     along: Vector,
 }
 
 impl Wanted {
-    /// As much of it as there is room for.
+    /// Overlap as far as there is room for it.
     fn given(&self, around: &Surroundings) -> Overlap {
         if self.end.bare {
             return Overlap::none(self.end);
@@ -92,11 +92,11 @@ impl Overlap {
     }
 }
 
-/// The part of a heel overlap with which the plunged blade of a width passes the start of its run within `allowed` mm. A
-/// curve turns the blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the
+/// Share of a heel overlap with which a plunged blade of `width` mm passes the start of its run within `allowed` mm. A curve
+/// turns the blade away from its first chord, along which the overlap lies: with the whole overlap the blade would cut into the
 /// corner.
 pub fn heel_share(run: &Run, heel: f64, allowed: f64, width: f64) -> f64 {
-    // It turns the blade by no more than the run turns under it.
+    // The curve turns the blade by at most the turn of the run under it.
     if heel == 0.0 || heel >= width || heel * polyline::turn_within(&run.points, width) <= allowed {
         return 1.0;
     }
