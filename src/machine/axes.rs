@@ -1,4 +1,4 @@
-//! What the axes can do: the keys `axes.*` and `c.*`.
+//! Limits of the axes: the keys `axes.*` and `c.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ use crate::units::{deg, rad};
 const ACCELERATION: Within = from(1.0, 1.0e9);
 /// Greatest jerks, per s3.
 const JERK: Within = from(1.0, 1.0e12);
-/// Angles that may be anywhere within a turn, degrees.
+/// Angles within one turn either way, degrees.
 const TURN: Within = from(-360.0, 360.0);
 
 /// The keys `axes.*` and `c.*`.
@@ -54,7 +54,7 @@ pub struct LinearAxis {
     pub travel: LinearTravel,
 }
 
-/// Limits of a linear axis while the knife is up, where they differ from those of cutting.
+/// Limits of a linear axis while the knife is up; `None` = the limit for cutting.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LinearTravel {
@@ -89,7 +89,7 @@ pub struct RotaryAxis {
     pub travel: RotaryTravel,
 }
 
-/// Limits of a rotary axis while the knife is up, where they differ from those of cutting.
+/// Limits of a rotary axis while the knife is up; `None` = the limit for cutting.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RotaryTravel {
@@ -114,11 +114,11 @@ impl Default for RotaryAxis {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Axes {
-    /// Along the table.
+    /// Axis along the table.
     pub x: LinearAxis,
-    /// Across the table.
+    /// Axis across the table.
     pub y: LinearAxis,
-    /// The blade's turn.
+    /// Axis that turns the blade.
     pub c: RotaryAxis,
 }
 
@@ -155,26 +155,26 @@ impl Axes {
     }
 }
 
-/// The rotary axis as the controller counts it, for targets that address one.
+/// Rotary axis as the controller counts it, for targets that address one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CAxis {
-    /// Its ends.
+    /// Least and greatest position; `None` = unbounded.
     #[serde(with = "OrWord::<Unbounded>")]
     pub range_deg: Option<[f64; 2]>,
-    /// Machine zero from +X.
+    /// Machine zero, counter-clockwise from +X.
     pub offset_deg: f64,
-    /// Counted clockwise.
+    /// True if the machine counts clockwise.
     pub reverse: bool,
 }
 
 impl CAxis {
-    /// Least and greatest position, rad.
+    /// Least and greatest position, rad; `None` = unbounded.
     pub fn range(&self) -> Option<[f64; 2]> {
         self.range_deg.map(|range| range.map(rad))
     }
 
-    /// What the controller shows at a position (rad), degrees.
+    /// Value that the controller shows at a position (rad), degrees.
     pub fn shown_deg(&self, position: f64) -> f64 {
         let away = deg(position) - self.offset_deg;
         if self.reverse { -away } else { away }

@@ -1,37 +1,36 @@
-//! Where the centre of the cloth is by where the conveyor is.
+//! Position of the centre of the cloth as a function of the position of the conveyor.
 
 use std::sync::Arc;
 
 use crate::source::Source;
 
-/// The line that the centre of a moving cloth takes across its conveyor.
+/// Line that the centre of a moving cloth takes across its conveyor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CentreLine {
-    /// Place of the conveyor and of the centre, mm.
+    /// Positions of the conveyor and of the centre, mm.
     rows: Vec<[f64; 2]>,
 }
 
 impl CentreLine {
-    /// A line through rows: places of the conveyor and of the centre, mm. `None` unless there are two at the least, all
-    /// finite, and the conveyor goes forward.
+    /// Line through rows of positions of the conveyor and of the centre, mm. `None` unless there are at least two rows, all
+    /// finite, with increasing positions of the conveyor.
     pub fn new(rows: Vec<[f64; 2]>) -> Option<Self> {
         let is_sound = rows.len() > 1 && rows.iter().flatten().all(|value| value.is_finite());
         let goes_forward = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
         (is_sound && goes_forward).then_some(Self { rows })
     }
 
-    /// The rows.
+    /// Rows: positions of the conveyor and of the centre, mm.
     pub fn rows(&self) -> &[[f64; 2]] {
         &self.rows
     }
 
-    /// Where the conveyor is at the first row and at the last, mm.
+    /// Positions of the conveyor at the first and the last row, mm.
     pub fn range(&self) -> [f64; 2] {
         [self.rows[0][0], self.rows[self.rows.len() - 1][0]]
     }
 
-    /// Where the centre is, mm, when the conveyor is at `conveyor`, mm: between two rows on the straight line, beyond the ends
-    /// as at the nearer one.
+    /// Position of the centre, mm, when the conveyor is at `conveyor`, mm: linear between two rows, constant beyond the ends.
     pub fn at(&self, conveyor: f64) -> f64 {
         let behind = self.rows.partition_point(|[place, _]| *place <= conveyor);
         match (behind.checked_sub(1).map(|before| self.rows[before]), self.rows.get(behind)) {
@@ -41,22 +40,22 @@ impl CentreLine {
         }
     }
 
-    /// The same by places of a cloth that runs towards +X, mm, where rulers at `rulers` mm have found it: those see the front
+    /// Centre line by positions on a cloth that runs towards +X, mm, measured by rulers at `rulers` mm: these see its front
     /// first.
     #[must_use]
     pub fn on_cloth(&self, rulers: f64) -> Self {
         Self { rows: self.rows.iter().rev().map(|[conveyor, centre]| [rulers - conveyor, *centre]).collect() }
     }
 
-    /// The line through some of its rows that is never farther from it than `within`, mm: from each row on it goes to the last
-    /// one that it can.
+    /// Line through some of its rows that stays within `within` mm of it. From each row it goes to the last row that this
+    /// allows.
     #[must_use]
     pub fn simplified(&self, within: f64) -> Self {
         let mut rows = vec![self.rows[0]];
         let mut from = 0;
         while from + 1 < self.rows.len() {
             let [x, y] = self.rows[from];
-            // Slopes that pass all rows so far near enough.
+            // Range of slopes that pass all rows so far near enough.
             let [mut least, mut most] = [f64::NEG_INFINITY, f64::INFINITY];
             let mut last = from + 1;
             for (i, [next, centre]) in self.rows.iter().enumerate().skip(from + 1) {
@@ -76,15 +75,15 @@ impl CentreLine {
     }
 }
 
-/// A centre line as a file tells it.
+/// Centre line read from a file.
 #[derive(Debug)]
 pub struct Centre {
-    /// The line.
+    /// Line.
     pub line: CentreLine,
-    /// The file.
+    /// File.
     pub source: Arc<Source>,
-    /// The place of the rulers, mm, where the cloth runs to +X under them, as over the conveyor of `cutc flow`; `None` where
-    /// the conveyor counts the X that it brings.
+    /// Position of the rulers, mm, if the cloth runs to +X under them, as over the conveyor of `cutc flow`; `None` if the
+    /// conveyor counts the X that it brings.
     pub rulers: Option<f64>,
 }
 

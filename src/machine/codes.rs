@@ -1,11 +1,11 @@
-//! The codes of cutter files that a profile may switch off: the keys `codes.*`.
+//! Codes of cutter files that a profile may switch off: the keys `codes.*`.
 
 use serde::{Deserialize, Serialize};
 
 use super::key::{Family, Key, Takes};
 use super::word::words;
 
-/// The start of the names of these keys.
+/// Prefix of the names of these keys.
 pub const CODES: &str = "codes";
 
 /// The keys `codes.*`.
@@ -14,10 +14,10 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "codes.<code>", takes: Takes::Word(words::<CodeUse>), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },
 ];
 
-/// A key a code.
+/// Family with one key per code.
 pub(super) const FAMILY: Family = Family { start: CODES, has: is_code, pattern, example: "M19 = \"ignore\"" };
 
-/// Whether a code of the cutter file is obeyed.
+/// Use of a code of the cutter file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CodeUse {
@@ -27,7 +27,7 @@ pub enum CodeUse {
     Ignore,
 }
 
-/// Every code of cutter files that may be switched, without leading zeros, and without the number where that is a value.
+/// All codes of cutter files that may be switched, without leading zeros, and without the number where that is a value.
 #[rustfmt::skip] // a table: one row a letter
 pub const CODE_NAMES: &[&str] = &[
     "A", "B", "E", "F", "H", "L", "N", "O", "Q", "R", "Z",
@@ -38,11 +38,11 @@ pub const CODE_NAMES: &[&str] = &[
     "M72", "M73",
 ];
 
-/// Every code, with the leading zeros that files write.
+/// Regular expression for all codes, with the leading zeros that files write.
 fn pattern() -> String {
     let spelled = |code: &&str| match code.split_at(1) {
         (letter, "") => letter.to_owned(),
-        // Of 0 itself one must be left.
+        // The zero of a code such as `G0` itself must stay.
         (letter, number) => format!("{letter}0*{number}"),
     };
     format!("(?:{})", CODE_NAMES.iter().map(spelled).collect::<Vec<_>>().join("|"))
@@ -52,7 +52,7 @@ fn is_code(word: &str) -> bool {
     CODE_NAMES.contains(&word)
 }
 
-/// The name of a key as the table has it: a code is spelled without the leading zeros that files write (`M01` is `M1`).
+/// Name of a key as in the table of keys: without the leading zeros that files write in codes (`M01` is `M1`).
 pub(super) fn canonical(name: &str) -> String {
     let plain = || {
         let code = name.strip_prefix(CODES)?.strip_prefix('.')?;
@@ -65,16 +65,15 @@ pub(super) fn canonical(name: &str) -> String {
     plain().unwrap_or_else(|| name.to_owned())
 }
 
-/// Codes that are named when somebody writes one that does not exist.
+/// Number of codes suggested for one that does not exist.
 const NEAR_CODES: usize = 3;
 
-/// The keys of the codes that may be meant by one that does not exist, the likeliest first; `None` when the name is no
-/// code's.
+/// Keys of the codes suggested for one that does not exist, the likeliest first; `None` if the name is not a code's.
 pub fn near_codes(name: &str) -> Option<Vec<String>> {
     let typed = name.strip_prefix(CODES)?.strip_prefix('.')?.to_uppercase();
     let digits = typed.find(|c: char| c.is_ascii_digit()).unwrap_or(typed.len());
     let (letter, number) = typed.split_at(digits);
-    // Spelled as files spell them: M01 is M1, F300 is F.
+    // Normalises the spelling of files: M01 is M1, F300 is F.
     let significant = match number.trim_start_matches('0') {
         "" if !number.is_empty() => "0",
         significant => significant,

@@ -13,15 +13,15 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "common.near_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Edges that run this near to another part's, and are not cut as one, count as near lines: a\nthin strip stands between two cuts. 0 = none; see knife.near_percent." },
 ];
 
-/// How edges are cut that two parts have in common.
+/// Cutting of edges that two parts have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Common {
-    /// How near to each other they run.
+    /// Greatest distance of two edges that are cut once.
     pub lines: Lines,
-    /// The shortest that is cut once, mm; where one goes on from the end of another they count together.
+    /// Least length of an edge that is cut once, mm; consecutive edges count together.
     pub min_mm: f64,
-    /// How near to another part's edge a near line runs, mm; 0 = there are none.
+    /// Greatest distance of a near line from another part's edge, mm; 0 = no near lines.
     pub near_mm: f64,
 }
 
@@ -31,21 +31,21 @@ impl Default for Common {
     }
 }
 
-/// How near to each other two edges run that are cut once.
+/// Greatest distance of two edges that are cut once.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Lines {
-    /// So near, mm.
+    /// Distance, mm.
     Within(f64),
-    /// As the word says.
+    /// Word in place of a distance.
     Word(CommonLines),
 }
 
-/// What else [`Lines`] may be.
+/// Word in place of a distance in [`Lines`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CommonLines {
-    /// As near as the band.
+    /// The band.
     Auto,
     /// Every edge is cut for each part.
     Off,

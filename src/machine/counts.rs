@@ -1,12 +1,12 @@
-//! The encoders of the drives, which the target `counts` addresses: the keys `counts.*`.
+//! Encoders of the drives, which the target `counts` addresses: the keys `counts.*`.
 
 use serde::{Deserialize, Serialize};
 
 use super::key::{Key, Takes, Within, from};
 
-/// Encoder counts of a mm or a degree.
+/// Encoder counts per mm or degree.
 const COUNTS: Within = from(1.0, 1.0e7);
-/// What a register of 32 bits holds, counts.
+/// Range of a 32-bit register, counts.
 const REGISTER: Within = from(i32::MIN as f64, i32::MAX as f64);
 
 /// The keys `counts.*`.
@@ -20,35 +20,35 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "counts.c.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at C 0 of the controller." },
 ];
 
-/// The encoders of the drives, for the target `counts`.
+/// Encoders of the drives, for the target `counts`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Counts {
-    /// Along the table.
+    /// Axis along the table.
     pub x: LinearCounts,
-    /// Across the table.
+    /// Axis across the table.
     pub y: LinearCounts,
-    /// The blade's turn.
+    /// Axis that turns the blade.
     pub c: RotaryCounts,
 }
 
-/// The encoder of a linear axis.
+/// Encoder of a linear axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LinearCounts {
-    /// Counts of a mm.
+    /// Counts per mm.
     pub per_mm: f64,
-    /// Counts at 0.
+    /// Counts at position 0.
     pub offset: f64,
 }
 
-/// The encoder of the rotary axis.
+/// Encoder of the rotary axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RotaryCounts {
-    /// Counts of a degree.
+    /// Counts per degree.
     pub per_deg: f64,
-    /// Counts at 0 of the controller.
+    /// Counts at position 0 of the controller.
     pub offset: f64,
 }
 

@@ -7,15 +7,15 @@ use sha2::{Digest, Sha256};
 
 use super::MachineProfile;
 
-/// Bytes that are read at a time.
+/// Block size for reading, bytes.
 const BLOCK_BYTES: usize = 1 << 16;
 
-/// The SHA-256 of some bytes, 64 lower-case hexadecimal digits.
+/// SHA-256 of some bytes, as 64 lower-case hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
 
-/// The same of all that a reader gives.
+/// SHA-256 of the whole content of a reader, as 64 lower-case hexadecimal digits.
 pub fn sha256_of(mut bytes: impl Read) -> io::Result<String> {
     let mut digest = Sha256::new();
     let mut block = vec![0; BLOCK_BYTES];
@@ -27,8 +27,8 @@ pub fn sha256_of(mut bytes: impl Read) -> io::Result<String> {
     }
 }
 
-/// The BLAKE3 of all that a reader gives, as `b3sum` prints it: a program is as large as a thousand of its sources, and this
-/// is ten times as fast on processors without instructions for the other.
+/// BLAKE3 of the whole content of a reader, as `b3sum` prints it. A program is as large as a thousand of its sources, and
+/// BLAKE3 is ten times as fast as SHA-256 on processors without instructions for that.
 pub fn blake3_of(bytes: impl Read) -> io::Result<String> {
     let mut digest = blake3::Hasher::new();
     digest.update_reader(bytes)?;
@@ -45,7 +45,7 @@ fn hex(digest: &[u8]) -> String {
 }
 
 impl MachineProfile {
-    /// The SHA-256 of everything that the profile says: equal for two files that differ in comments, order or spelling.
+    /// SHA-256 of all values of the profile: equal for two files that differ only in comments, order or spelling.
     pub fn digest(&self) -> String {
         let canonical = serde_json::to_vec(&self.effective()).expect("a profile holds numbers, words and named tables");
         sha256_hex(&canonical)

@@ -2,11 +2,11 @@
 
 use encoding_rs::{BIG5, EUC_KR, Encoding, GBK, SHIFT_JIS};
 
-/// Encodings that a code of two bytes names by their numbers (DXF reference: Japanese, traditional Chinese, Korean, simplified
+/// Encodings selected by the digit of a two-byte code (DXF reference: Japanese, traditional Chinese, Korean, simplified
 /// Chinese).
 const PAGES: [(char, &Encoding); 4] = [('1', SHIFT_JIS), ('2', BIG5), ('3', EUC_KR), ('5', GBK)];
 
-/// A text with the letters that its codes stand for. `encoding` is that of letters by their numbers.
+/// Replaces the codes in a text by their letters. `encoding` applies to letters given by number.
 pub(super) fn replaced(text: &str, encoding: &'static Encoding) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
@@ -20,7 +20,7 @@ pub(super) fn replaced(text: &str, encoding: &'static Encoding) -> String {
     out
 }
 
-/// The letters that the code at the beginning of a text stands for, and its length.
+/// Letters of the code at the beginning of a text, and its length in bytes.
 fn code(text: &str, encoding: &'static Encoding) -> Option<(String, usize)> {
     if let Some(hex) = text.strip_prefix("\\U+").or(text.strip_prefix("\\u+")) {
         return Some((char::from_u32(number(hex, 4, 16)?)?.to_string(), 7));
@@ -37,7 +37,7 @@ fn code(text: &str, encoding: &'static Encoding) -> Option<(String, usize)> {
         'p' | 'P' => "\u{b1}",
         'c' | 'C' => "\u{d8}",
         '%' => "%",
-        // Lines under, over and through the letters.
+        // Lines under, over and through the letters have no letters of their own.
         'u' | 'U' | 'o' | 'O' | 'k' | 'K' => "",
         _ => {
             let byte = u8::try_from(number(rest, 3, 10)?).ok()?;
@@ -47,7 +47,7 @@ fn code(text: &str, encoding: &'static Encoding) -> Option<(String, usize)> {
     Some((letters.to_owned(), 3))
 }
 
-/// Number written by the first `digits` digits of a text; `None` where one of them is no digit.
+/// Number written by the first `digits` digits of a text; `None` if one of them is not a digit.
 fn number(text: &str, digits: usize, radix: u32) -> Option<u32> {
     let digits = text.get(..digits).filter(|digits| digits.chars().all(|digit| digit.is_digit(radix)))?;
     u32::from_str_radix(digits, radix).ok()

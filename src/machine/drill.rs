@@ -1,4 +1,4 @@
-//! The drill beside the knife: the keys `drill.*`.
+//! Drill beside the knife: the keys `drill.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,18 +12,18 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
 ];
 
-/// The drill beside the knife.
+/// Drill beside the knife.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Drill {
-    /// Time of a hole.
+    /// Time per hole.
     pub dwell_ms: f64,
-    /// The drill from the C axis.
+    /// Position relative to the C axis.
     pub offset_mm: [f64; 2],
 }
 
 impl Drill {
-    /// Time of one hole, s.
+    /// Time per hole, s.
     pub fn dwell(&self) -> f64 {
         self.dwell_ms / MS_PER_S
     }

@@ -1,9 +1,9 @@
-//! Encodings of texts by their names.
+//! Text encodings by name.
 
 use encoding_rs::Encoding;
 
-/// Names that are offered for one that is not known: the encodings of CAD systems as the WHATWG standard calls them, and
-/// what else people call the common ones. More names are understood, all those of the standard.
+/// Names suggested for an unknown one: the encodings of CAD systems by their WHATWG names, and common aliases. All names of the
+/// standard are understood.
 pub(super) const NAMES: [&str; 46] = [
     "utf-8",
     "ascii",
@@ -53,21 +53,21 @@ pub(super) const NAMES: [&str; 46] = [
     "euc-kr",
 ];
 
-/// How many near names a message offers.
+/// Number of similar names in a message.
 const OFFERED: usize = 3;
 
-/// The encoding of that name. Those in which the bytes of letters, digits and asterisks may mean something else, UTF-16
-/// above all, are none for a cut file, whose codes are ASCII.
+/// Encoding of that name. Returns `None` for encodings in which the bytes of letters, digits and asterisks may mean something
+/// else, above all UTF-16: the codes of cut files are ASCII.
 pub(super) fn find(name: &str) -> Option<&'static Encoding> {
     Encoding::for_label_no_replacement(name.as_bytes()).filter(|encoding| encoding.is_ascii_compatible())
 }
 
-/// The known names that are most like one that is not known, the nearest first.
+/// Names of the table most similar to an unknown one, the nearest first.
 pub(super) fn nearest(name: &str) -> Vec<&'static str> {
     let name = name.to_lowercase();
     let mut names = NAMES;
     let likeness = |other: &str| strsim::jaro_winkler(&name, other);
-    // A stable sort: names that are equally like it stay in the order of the table.
+    // The stable sort keeps equally similar names in the order of the table.
     names.sort_by(|a, b| likeness(b).total_cmp(&likeness(a)));
     names[..OFFERED].to_vec()
 }

@@ -1,22 +1,22 @@
-//! Something that a profile may not say.
+//! Fault of a profile.
 
 use crate::diagnostic::{Code, code};
 
-/// Something that a profile may not say.
+/// Fault of a profile.
 #[derive(Debug, PartialEq)]
 pub(super) struct Fault {
-    /// What it is a fault of.
+    /// Code of the diagnostic.
     pub(super) code: &'static Code,
-    /// The keys that it concerns; a message stands at the one that the user gave.
+    /// Keys concerned; the message is placed at the one that the user gave.
     pub(super) keys: Vec<String>,
-    /// What is wrong.
+    /// Description of the fault.
     pub(super) message: String,
-    /// What to do.
+    /// Suggestion for its correction.
     pub(super) hint: Option<String>,
 }
 
 impl Fault {
-    /// A value, or several together, out of their range.
+    /// Fault of one or several values out of range.
     pub(super) fn of_range(keys: &[&str], message: String, hint: &str) -> Self {
         let keys = keys.iter().map(|&key| key.to_owned()).collect();
         Self { code: &code::PROFILE_RANGE, keys, message, hint: Some(hint.to_owned()) }

@@ -24,25 +24,25 @@ pub(super) const KEYS: &[Key] = &[
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Flow {
-    /// Of the conveyor.
+    /// Speed of the conveyor.
     pub speed_mm_s: f64,
-    /// Of the conveyor, at the most.
+    /// Greatest speed of the conveyor.
     pub max_speed_mm_s: f64,
-    /// Of a head along the feed.
+    /// Travel of a head along the feed, from its station.
     pub travel_mm: f64,
-    /// In all rows.
+    /// Number of heads in all rows.
     pub heads: u32,
-    /// Along the feed.
+    /// Number of rows along the feed.
     pub rows: u32,
-    /// From the front of the marker.
+    /// Distance from the front of the marker, at conveyor count 0, to the station of the first row.
     pub first_row_mm: f64,
-    /// From row to row.
+    /// Distance between the stations of adjacent rows.
     pub row_pitch_mm: f64,
-    /// Across the feed.
+    /// Width of a head across the feed.
     pub head_width_mm: f64,
-    /// From the front of the marker.
+    /// Distance from the front of the marker, at conveyor count 0, to the rulers.
     pub rulers_mm: f64,
-    /// Of each of two heads.
+    /// Length by which each of two heads cuts on where one takes over from the other.
     pub overlap_mm: f64,
 }
 
@@ -63,7 +63,7 @@ impl Default for Flow {
     }
 }
 
-/// One value against another.
+/// Checks values against each other.
 pub(super) fn faults(flow: &Flow) -> Vec<Fault> {
     let mut faults = Vec::new();
     if flow.rows > 1 && flow.row_pitch_mm < flow.travel_mm {

@@ -1,6 +1,6 @@
-//! What a key of the profile is: its name, which says its unit, what it takes and what it means.
+//! Key of the profile: its name with the unit, its legal values and its meaning.
 //!
-//! The rows stand with the options that they describe; [`KEYS`](super::keys::KEYS) is all of them.
+//! The rows are next to the options that they describe; [`KEYS`](super::keys::KEYS) collects them.
 
 use std::fmt;
 use std::ops::{Bound, RangeBounds as _};
@@ -10,29 +10,29 @@ use super::gcode::Step;
 use super::plot::unit::PlotUnit;
 use crate::units::number::exact;
 
-/// A key of the profile.
+/// Key of the profile.
 #[derive(Debug, Clone, Copy)]
 pub struct Key {
-    /// Its dotted name; `codes.<code>` stands for a key a code.
+    /// Dotted name; `codes.<code>` stands for one key per code.
     pub name: &'static str,
-    /// What may stand there.
+    /// Legal values.
     pub takes: Takes,
-    /// What it means, in a line or two.
+    /// Meaning, in a line or two.
     pub about: &'static str,
 }
 
-/// The legal values of a key.
+/// Legal values of a key.
 #[derive(Debug, Clone, Copy)]
 pub enum Takes {
     /// A number in a range.
     Number(Within),
     /// A number in a range, or a word.
     NumberOr(Within, &'static str),
-    /// A number in a range, or one of the words of a type.
+    /// A number in a range, or a word of a type.
     NumberOrWord(Within, fn() -> &'static [&'static str]),
-    /// One of some whole numbers.
+    /// One of several whole numbers.
     Whole(&'static [i64]),
-    /// A whole number from 1 on.
+    /// A whole number from 1 to this one.
     Count(u32),
     /// A whole number of percent.
     Percent,
@@ -48,9 +48,9 @@ pub enum Takes {
     RangeOr(&'static str),
     /// A number in a range, or a text that stands for one, such as "1/40 mm".
     Length(Within),
-    /// One of the words of a type.
+    /// A word of a type.
     Word(fn() -> &'static [&'static str]),
-    /// The name of an encoding of texts.
+    /// The name of a text encoding.
     Encoding,
     /// Lines of text.
     Text,
@@ -62,43 +62,43 @@ pub enum Takes {
     Flag,
 }
 
-/// A range of numbers.
+/// Range of numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Within {
-    /// The least, and whether it is one of them.
+    /// Lower end.
     pub least: Bound<f64>,
-    /// The greatest, likewise.
+    /// Upper end.
     pub greatest: Bound<f64>,
 }
 
-/// Both ends and what lies between.
+/// Closed range.
 pub(super) const fn from(least: f64, greatest: f64) -> Within {
     Within { least: Bound::Included(least), greatest: Bound::Included(greatest) }
 }
 
-/// What lies between two numbers.
+/// Open range.
 pub(super) const fn between(least: f64, greatest: f64) -> Within {
     Within { least: Bound::Excluded(least), greatest: Bound::Excluded(greatest) }
 }
 
-/// Rests of the axes, ms: longer ones are a slip of the unit.
+/// Rests of the axes, ms: longer ones are a wrong unit.
 pub(super) const REST: Within = from(0.0, 10_000.0);
 /// Greatest speeds, per s: slower axes would make programs of astronomic length.
 pub(super) const SPEED: Within = from(1.0, 1.0e6);
-/// Speeds as parts of others: those of single segments are kept in whole percent.
+/// Speeds as a percentage of others: those of single segments are stored in whole percent.
 pub(super) const PERCENT: Within = from(1.0, 100.0);
-/// Places on a table and positions of C: farther ones would make programs of astronomic length, mm and degrees.
+/// Positions on a table and of C, mm and degrees: farther ones would make programs of astronomic length.
 pub(super) const PLACE: Within = from(-1.0e6, 1.0e6);
 
 impl Within {
-    /// Whether the number lies in the range; never for NaN.
+    /// True if the number is in the range; false for NaN.
     fn holds(self, value: f64) -> bool {
         (self.least, self.greatest).contains(&value)
     }
 }
 
 impl Takes {
-    /// Whether a value is legal; texts with units have become numbers.
+    /// True if a value is legal. Texts with units must already be numbers.
     pub fn allows(self, value: &toml::Value) -> bool {
         let is = |word: &str| value.as_str() == Some(word);
         let list = |n: usize| match value.as_array() {
@@ -151,31 +151,31 @@ fn number(value: &toml::Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
-/// The words of a type, as a message lists them.
+/// Words of a type, as listed in a message.
 fn quoted(words: fn() -> &'static [&'static str]) -> String {
     let quoted: Vec<_> = words().iter().map(|word| format!("\"{word}\"")).collect();
     let (last, others) = quoted.split_last().expect("a type has words");
     if others.is_empty() { last.clone() } else { format!("{} or {last}", others.join(", ")) }
 }
 
-/// The table of a dotted name.
+/// Table with a dotted name.
 fn table_of<'t>(name: &str, profile: &'t toml::Table) -> Option<&'t toml::Table> {
     let mut names = name.split('.').filter(|name| !name.is_empty());
     names.try_fold(profile, |table, name| table.get(name)?.as_table())
 }
 
-/// From this magnitude on a number is shown with an exponent: nobody counts more zeros.
+/// Least magnitude shown with an exponent.
 const EXPONENT_FROM: f64 = 1.0e7;
 
-/// Units of the numbers of a pose.
+/// Units of the three numbers of a pose.
 const POSE_UNITS: [&str; 3] = ["mm", "mm", "degrees"];
 
-/// A number as people write it.
+/// Readable text of a number.
 fn shown(value: f64) -> String {
     if value.abs() >= EXPONENT_FROM { format!("{value:e}") } else { exact(value) }
 }
 
-/// A value as people write it: `6.6`, `1e12`, `[0, 90]`, `"off"`.
+/// Readable text of a value: `6.6`, `1e12`, `[0, 90]`, `"off"`.
 pub fn shown_value(value: &toml::Value) -> String {
     match (value.as_array(), value.as_float()) {
         (Some(items), _) => format!("[{}]", items.iter().map(shown_value).collect::<Vec<_>>().join(", ")),
@@ -202,7 +202,7 @@ impl fmt::Display for Within {
 }
 
 impl Key {
-    /// The unit of its numbers, from the end of its name; empty when they have none.
+    /// Unit of its numbers, from the end of its name; empty if they have none.
     pub fn unit(&self) -> &'static str {
         const UNITS: [(&str, &str); 17] = [
             ("per_mm", "counts/mm"),
@@ -227,7 +227,7 @@ impl Key {
         UNITS.iter().find(|(end, _)| self.name.ends_with(end)).map(|&(_, unit)| unit).or(percent).unwrap_or("")
     }
 
-    /// The unit of its n-th number, which may be given in others; empty where it has none.
+    /// Unit of its n-th number if that may be given in other units; else empty.
     pub fn unit_of(&self, n: usize) -> &'static str {
         match self.takes {
             Takes::Number(_)
@@ -238,7 +238,7 @@ impl Key {
             | Takes::PointOr(_)
             | Takes::RangeOr(_) => self.unit(),
             Takes::Pose | Takes::PoseOr(_) => POSE_UNITS.get(n).copied().unwrap_or(""),
-            // A length of a plot's unit is a text of its own kind.
+            // A length of a plot's unit is a special text.
             Takes::Length(_)
             | Takes::Whole(_)
             | Takes::Count(_)
@@ -251,7 +251,7 @@ impl Key {
         }
     }
 
-    /// What it takes, as a message says it: `a number from 0 to 1000 mm, or "off"`.
+    /// Description of its legal values for a message: `a number from 0 to 1000 mm, or "off"`.
     pub fn expects(&self) -> String {
         let unit = if self.unit().is_empty() { String::new() } else { format!(" {}", self.unit()) };
         match self.takes {
@@ -280,31 +280,31 @@ impl Key {
         }
     }
 
-    /// What stands there in a profile; `None` for a family of keys.
+    /// Value of the key in a profile; `None` for a family of keys.
     pub(super) fn value_in<'t>(&self, profile: &'t toml::Table) -> Option<&'t toml::Value> {
         table_of(self.section(), profile)?.get(self.name.rsplit('.').next()?)
     }
 
-    /// What stands there in a profile for each key of a family.
+    /// Values of all keys of a family in a profile.
     pub(super) fn values_in<'t>(&self, profile: &'t toml::Table) -> Option<&'t toml::Table> {
         table_of(self.section(), profile)
     }
 
-    /// The part of its name before the last dot; empty for the keys at the top.
+    /// Part of its name before the last dot; empty for top-level keys.
     pub fn section(&self) -> &'static str {
         self.name.rsplit_once('.').map_or("", |(section, _)| section)
     }
 }
 
-/// Keys that a profile has as many of as it likes: a key a code, a key a pen.
+/// Family of keys, as many as the profile likes: one per code or pen.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Family {
-    /// What the names of them all begin with, without the dot; so does that of the one row that describes them.
+    /// Common prefix of their names, without the dot; also that of the one row that describes them.
     pub(super) start: &'static str,
-    /// Whether a word may stand behind the dot.
+    /// Test of the word after the dot.
     pub(super) has: fn(&str) -> bool,
-    /// The same as a regular expression for the whole of the word; it also takes what is spelled otherwise.
+    /// Regular expression for the word after the dot; it also accepts other spellings.
     pub(super) pattern: fn() -> String,
-    /// A line as an example.
+    /// Example line.
     pub(super) example: &'static str,
 }

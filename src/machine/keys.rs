@@ -1,7 +1,7 @@
-//! Every key of the profile: what it takes and what it means in a cutting room.
+//! All keys of the profile, with their values and their meanings in a cutting room.
 //!
-//! The commented profile, the messages about wrong values, the schema, the help and the manual come from this one
-//! table. Its rows stand with the options that they describe.
+//! The commented profile, the messages about wrong values, the schema, the help and the manual derive from this one table. Its
+//! rows are next to the options that they describe.
 
 use super::codes;
 pub use super::codes::{CODE_NAMES, CODES, near_codes};
@@ -14,7 +14,7 @@ use super::{
     patterns, sewing, sheet, table, time, tool, tracking, verify,
 };
 
-/// The rows of each section, in the order in which a profile is written.
+/// Rows of each section, in the order of a written profile.
 const SECTIONS: &[&[Key]] = &[
     profile::KEYS,
     knife::KEYS,
@@ -44,7 +44,7 @@ const SECTIONS: &[&[Key]] = &[
     codes::KEYS,
 ];
 
-/// How many keys there are.
+/// Number of keys.
 const COUNT: usize = {
     let (mut count, mut section) = (0, 0);
     while section < SECTIONS.len() {
@@ -54,7 +54,7 @@ const COUNT: usize = {
     count
 };
 
-/// Every key, in the order in which a profile is written.
+/// All keys, in the order of a written profile.
 pub const KEYS: &[Key] = &{
     let mut keys = [SECTIONS[0][0]; COUNT];
     let (mut at, mut section) = (0, 0);
@@ -70,15 +70,15 @@ pub const KEYS: &[Key] = &{
     keys
 };
 
-/// Keys of which a profile has as many as it likes.
+/// Families of keys.
 const FAMILIES: [Family; 3] = [codes::FAMILY, plot::PENS, layers::LAYERS];
 
-/// The family whose names begin with that.
+/// Family with a prefix.
 pub(super) fn family(start: &str) -> Option<&'static Family> {
     FAMILIES.iter().find(|family| family.start == start)
 }
 
-/// The key of that dotted name.
+/// Key with a dotted name.
 pub fn find(name: &str) -> Option<&'static Key> {
     let is_of = |family: &&Family| {
         let word = name.strip_prefix(family.start).and_then(|rest| rest.strip_prefix('.'));
@@ -89,12 +89,12 @@ pub fn find(name: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| is_meant(key))
 }
 
-/// Whether the name is that of a table of keys, such as `axes.x`.
+/// True if the name is that of a table of keys, such as `axes.x`.
 pub fn is_section(name: &str) -> bool {
     KEYS.iter().any(|key| key.name.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')))
 }
 
-/// What a key is when nothing is said; `None` for the keys of a family.
+/// Default value of a key; `None` for the keys of a family.
 pub fn default_of(key: &Key) -> Option<toml::Value> {
     key.value_in(&MachineProfile::default().to_table()).cloned()
 }

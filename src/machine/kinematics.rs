@@ -16,7 +16,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The tighter of two, limit by limit.
+    /// Lesser of two, limit by limit.
     #[must_use]
     pub fn min(self, other: Self) -> Self {
         Self {
@@ -26,7 +26,7 @@ impl Limits {
         }
     }
 
-    /// The limits of a motion along a line on which the axis moves `share` units a unit of path.
+    /// Limits of a motion along a line on which the axis moves `share` units per unit of path.
     #[must_use]
     pub fn along(self, share: f64) -> Self {
         let share = share.abs().max(f64::MIN_POSITIVE);
@@ -34,27 +34,27 @@ impl Limits {
     }
 }
 
-/// The fastest move over a distance, from rest to rest, within limits.
+/// Fastest move over a distance, from rest to rest, within limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Move {
-    /// Length of the move, in the unit of the limits; not negative.
+    /// Length, in the unit of the limits; not negative.
     distance: f64,
-    /// Jerk in use.
+    /// Applied jerk.
     jerk: f64,
-    /// Length of a phase of constant jerk, s.
+    /// Duration of a phase of constant jerk, s.
     ramp: f64,
-    /// Length of a phase of constant acceleration, s.
+    /// Duration of a phase of constant acceleration, s.
     hold: f64,
-    /// Length of the phase of constant speed, s.
+    /// Duration of the phase of constant speed, s.
     cruise: f64,
 }
 
 impl Move {
-    /// The fastest move over `distance` (not negative) within `limits`.
+    /// Fastest move over `distance` (not negative) within `limits`.
     pub fn new(distance: f64, limits: Limits) -> Self {
         let Limits { speed, acceleration, jerk } = limits;
         debug_assert!(distance >= 0.0 && speed > 0.0 && acceleration > 0.0 && jerk > 0.0);
-        // Phases that reach the speed: without a hold when the speed is reached before the acceleration.
+        // Phases up to the greatest speed; there is no hold if the speed is reached before the acceleration.
         let (ramp, hold) = if speed * jerk < acceleration * acceleration {
             ((speed / jerk).sqrt(), 0.0)
         } else {
@@ -66,19 +66,19 @@ impl Move {
         }
         let ramp = acceleration / jerk;
         if distance >= 2.0 * acceleration * ramp * ramp {
-            // The acceleration is reached, the speed is not: a (hold + ramp)(hold + 2 ramp) = distance.
+            // The acceleration is reached, but not the speed: a (hold + ramp)(hold + 2 ramp) = distance.
             let hold = f64::midpoint(-3.0 * ramp, (ramp * ramp + 4.0 * distance / acceleration).sqrt());
             return Self { distance, jerk, ramp, hold: hold.max(0.0), cruise: 0.0 };
         }
         Self { distance, jerk, ramp: (distance / (2.0 * jerk)).cbrt(), hold: 0.0, cruise: 0.0 }
     }
 
-    /// Time from rest to rest, s.
+    /// Duration from rest to rest, s.
     pub fn duration(&self) -> f64 {
         4.0 * self.ramp + 2.0 * self.hold + self.cruise
     }
 
-    /// Greatest speed, acceleration and jerk of this move stretched to last `duration`, s.
+    /// Greatest speed, acceleration and jerk of this move stretched to `duration`, s.
     pub fn derivatives(&self, duration: f64) -> [f64; 3] {
         let Self { distance, jerk, ramp, hold, .. } = *self;
         if distance == 0.0 {
@@ -89,13 +89,12 @@ impl Move {
         [acceleration * (ramp + hold) * slower, acceleration * slower.powi(2), jerk * slower.powi(3)]
     }
 
-    /// The part of the move, in time, in which it speeds up, and as much in which it slows down.
+    /// Share of the duration in which it speeds up, equal to that in which it slows down.
     pub fn rise(&self) -> f64 {
         (2.0 * self.ramp + self.hold) / self.duration()
     }
 
-    /// The distance covered at `time` after the start, of this move stretched to last `duration` (not shorter than its
-    /// own).
+    /// Distance covered at `time` after the start, of this move stretched to `duration` (not shorter than its own).
     pub fn at(&self, time: f64, duration: f64) -> f64 {
         let own = self.duration();
         if own == 0.0 || time >= duration {

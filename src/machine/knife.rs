@@ -1,4 +1,4 @@
-//! The blade and what it does at the ends of a cut: the keys `knife.*`.
+//! Blade and its actions at the ends of a cut: the keys `knife.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use super::key::{Key, REST, SPEED, Takes, Within, from};
 use super::word::{Auto, Off, OrWord, Word as _, words};
 use crate::units::{MS_PER_S, rad};
 
-/// Blades and what belongs to them, mm: longer ones are a slip of the unit.
+/// Lengths of blades and overlaps, mm: greater ones are a wrong unit.
 const BLADE: Within = from(0.0, 1000.0);
 
 /// The keys `knife.*`.
@@ -38,38 +38,38 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
 ];
 
-/// The blade: a segment from heel to tip in the plane; the C axis passes through its centre, `radius` behind the tip.
+/// Blade: a segment from heel to tip in the plane; the C axis passes through its centre, `radius` behind the tip.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Knife {
-    /// Heel to tip.
+    /// Length from heel to tip.
     pub width_mm: f64,
-    /// Heel to centre; [`Knife::back`] is what the blade really has.
+    /// Distance from heel to C axis, as given; [`Knife::back`] is the effective one.
     #[serde(with = "OrWord::<Auto>")]
     pub back_mm: Option<f64>,
-    /// Centre to tip, likewise; where both are given it decides.
+    /// Distance from C axis to tip, as given; it takes precedence over `back_mm`.
     #[serde(with = "OrWord::<Auto>")]
     pub radius_mm: Option<f64>,
-    /// Of the tip, past the end of a run.
+    /// Overlap of the tip past the end of a run.
     pub front_overlap_mm: f64,
-    /// The same at a corner.
+    /// Overlap of the tip past the end of a run at a corner.
     pub corner_front_overlap_mm: f64,
-    /// Of the heel, before the start of a run.
+    /// Overlap of the heel before the start of a run.
     pub heel_overlap_mm: f64,
-    /// The same at a corner.
+    /// Overlap of the heel before the start of a run at a corner.
     pub corner_heel_overlap_mm: f64,
-    /// Of the tip, where the part lies ahead.
+    /// Overlap of the tip where the part itself lies ahead.
     pub reflex_front_overlap_mm: f64,
-    /// Of the heel, likewise.
+    /// Overlap of the heel where the part itself lies behind.
     pub reflex_heel_overlap_mm: f64,
-    /// Overlaps to the next part.
+    /// Distance of overlaps from the next part.
     pub clearance_mm: f64,
     /// Greatest speed of the tip.
     #[serde(with = "OrWord::<Off>")]
     pub feed_mm_s: Option<f64>,
-    /// Of slowed cuts, whole.
+    /// Speed of slowed cuts, a whole number.
     pub slow_percent: f64,
-    /// Along near lines, whole.
+    /// Speed along near lines, relative to the speed that holds there.
     pub near_percent: f64,
     /// From the command until the blade is through.
     pub plunge_ms: f64,
@@ -98,7 +98,7 @@ pub struct Knife {
     pub yaw_deg: f64,
 }
 
-/// How the blade lies on a curve.
+/// Orientation of the blade on a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Follow {
@@ -108,20 +108,20 @@ pub enum Follow {
     Chord,
 }
 
-/// Which part is spared by what a blade is longer than its cut, where it finds no waste.
+/// Part that is spared by the surplus length of a blade that finds no waste.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Spare {
-    /// All alike.
+    /// All parts alike.
     Both,
-    /// The one that is cut.
+    /// The part that is cut.
     Own,
-    /// The ones beside it.
+    /// Other parts.
     Other,
 }
 
 impl Spare {
-    /// How deep a blade lies in the part that it cuts and in others, mm, the one that matters first.
+    /// Depths of a blade in the part that it cuts and in others, mm, ordered by weight: the first matters most.
     pub fn weigh(self, [own, other]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Both => [own.max(other), other],
@@ -131,41 +131,41 @@ impl Spare {
     }
 }
 
-/// What is done about a curve on which the blade, as a chord of it, would stand across.
+/// Treatment of a curve on which the blade, as a chord of it, would stand across.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TightCurves {
-    /// It is cut without a lift, the blade along the tangent.
+    /// Cut without a lift, with the blade along the tangent.
     Follow,
-    /// It is cut by plunges without motion that overlap.
+    /// Cut by overlapping plunges without motion.
     Nibble,
-    /// It is an error.
+    /// Reported as an error.
     Refuse,
 }
 
-/// Width of the default blade, mm, and its back: a 6.6 mm knife, worn from 8.89 mm.
+/// Width and back of the default blade, mm: a 6.6 mm knife, worn from 8.89 mm.
 const DEFAULT_WIDTH_MM: f64 = 6.6;
 const DEFAULT_BACK_MM: f64 = 6.35;
 
 impl Knife {
-    /// How far the blade may go before the start and past the end of a cut, in waste or in the part, mm.
+    /// Greatest overlaps before the start and past the end of a cut, in waste or in the part, mm.
     pub fn most_overlaps(&self) -> [f64; 2] {
         let heel = self.heel_overlap_mm.max(self.corner_heel_overlap_mm).max(self.reflex_heel_overlap_mm);
         let front = self.front_overlap_mm.max(self.corner_front_overlap_mm).max(self.reflex_front_overlap_mm);
         [heel, front]
     }
 
-    /// How far the blade may go beyond both ends of a cut together, mm.
+    /// Sum of the greatest overlaps at both ends of a cut, mm.
     pub fn overlaps(&self) -> f64 {
         self.most_overlaps().iter().sum()
     }
 
-    /// How far the blade may reach beyond a line that it cuts, whichever way it stands at its end, mm.
+    /// Greatest reach of the blade beyond a line that it cuts, in any direction at its end, mm.
     pub fn reach(&self) -> f64 {
         self.width_mm + self.front_overlap_mm.max(self.corner_front_overlap_mm)
     }
 
-    /// Longest cut that need not be lifted amid it, mm: with its overlaps it is no longer than the knife may stay down;
+    /// Greatest length of a cut that is not lifted, so that the knife stays down within its limit, overlaps included, mm;
     /// `None` = any.
     pub fn longest_cut(&self) -> Option<f64> {
         self.max_down_mm.map(|longest| longest - self.overlaps())
@@ -176,28 +176,28 @@ impl Knife {
         self.slow_percent.clamp(1.0, 100.0) as u8
     }
 
-    /// Speed along near lines, as a share of the speed that holds there; `None` when that is all of it.
+    /// Speed along near lines, as a share of the speed that holds there; `None` if they are not slowed.
     pub fn near_share(&self) -> Option<f64> {
         (self.near_percent < 100.0).then_some(self.near_percent / 100.0)
     }
 
-    /// Centre to tip, mm. A blade narrower than its back (the back is often left at its default) has the C axis at
-    /// its tip; that covers the point, of width 0.
+    /// Distance from the C axis to the tip, mm. It is 0 for a blade narrower than its back (the back is often left at its
+    /// default), including a point of width 0.
     pub fn radius(&self) -> f64 {
         self.radius_mm.unwrap_or_else(|| (self.width_mm - self.back_mm.unwrap_or(DEFAULT_BACK_MM)).max(0.0))
     }
 
-    /// Heel to centre, mm.
+    /// Distance from the heel to the C axis, mm.
     pub fn back(&self) -> f64 {
         self.width_mm - self.radius()
     }
 
-    /// Centre to tip and heel to centre, mm.
+    /// Distances from the C axis to the tip and to the heel, mm.
     pub fn ends(&self) -> [f64; 2] {
         [self.radius(), self.back()]
     }
 
-    /// The turn after which the blade cuts the same again, rad: half of one with two edges.
+    /// Rotation after which the blade cuts the same line again, rad: half a turn with two edges.
     pub fn period(&self) -> f64 {
         std::f64::consts::TAU / f64::from(self.edges.clamp(1, 2))
     }
@@ -207,17 +207,17 @@ impl Knife {
         rad(self.yaw_deg)
     }
 
-    /// Length of the rest between the plunge command and the first motion, s.
+    /// Duration of the rest between the plunge command and the first motion, s.
     pub fn plunge(&self) -> f64 {
         self.plunge_ms / MS_PER_S
     }
 
-    /// From the lift command until the blade is all the way up, s.
+    /// Time from the lift command until the blade is all the way up, s.
     pub fn lift(&self) -> f64 {
         self.lift_ms / MS_PER_S
     }
 
-    /// Length of the rest after the lift command, s: until the blade is clear of the cloth.
+    /// Duration of the rest after the lift command, s: until the blade is clear of the cloth.
     pub fn clear(&self) -> f64 {
         self.clear_ms.unwrap_or(self.lift_ms) / MS_PER_S
     }

@@ -1,6 +1,6 @@
-//! The texts of labels: bytes in the encoding of some CAD system, shown to people. The keys `labels.*`.
+//! Texts of labels: bytes in the encoding of some CAD system, shown to people. The keys `labels.*`.
 //!
-//! [`Letters`] alone decodes them, so that reports and pictures show the same text.
+//! Only [`Letters`] decodes them, so that reports and pictures show the same text.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,11 +13,11 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "labels.encoding", takes: Takes::Encoding, about: "Encoding of label texts that are no UTF-8: \"windows-1251\" (Cyrillic), \"latin1\", \"gbk\" (Chinese),\n\"big5\", \"shift_jis\", \"euc-kr\" and more. What is no text in it is shown as \u{fffd}." },
 ];
 
-/// The texts of labels.
+/// Texts of labels.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Labels {
-    /// Name of an encoding; [`Letters::text`] decodes what is in it.
+    /// Name of the encoding that [`Letters::text`] decodes.
     pub encoding: String,
 }
 
@@ -28,18 +28,18 @@ impl Default for Labels {
 }
 
 impl Labels {
-    /// The text that some bytes of a label stand for: UTF-8 when they are that, else what the profile's encoding makes of
-    /// them, with U+FFFD for what is no text in it. One line, in which everything can be seen.
+    /// Text of the bytes of a label: UTF-8 if valid, else in the profile's encoding, with U+FFFD for bytes invalid in it. One
+    /// line of visible characters.
     pub fn text(&self, bytes: &[u8]) -> String {
         self.letters().text(bytes)
     }
 
-    /// Their encoding.
+    /// Encoding of the texts.
     pub fn letters(&self) -> Letters {
         Letters::named(&self.encoding).unwrap_or(Letters::utf_8())
     }
 
-    /// Their encoding where somebody has set one: UTF-8 is read whether it is set or not.
+    /// Encoding if one has been set; `None` for UTF-8, which is read in any case.
     pub fn set(&self) -> Option<Letters> {
         Some(self.letters()).filter(|letters| *letters != Letters::utf_8())
     }

@@ -1,4 +1,4 @@
-//! Layers of drawings: what a user, a profile or the name of a layer says that its lines are.
+//! Layers of drawings: uses of their lines as given by a user, a profile or the name of a layer.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,8 +9,8 @@ use thiserror::Error;
 use super::key::Family;
 use super::pen::PenUse;
 
-/// Words of names of layers in English, German, Dutch, French, Italian and Spanish, in capitals, and what they say. Of two words
-/// in a name that of the earlier row holds.
+/// Words in names of layers in English, German, Dutch, French, Italian and Spanish, in capitals, with the uses that they imply.
+/// The earlier row takes precedence.
 #[rustfmt::skip] // a table: a row a use
 const WORDS: [(PenUse, &[&str]); 3] = [
     (PenUse::Ignore, &["TEXT", "TEXTS", "TEXTE", "TEKST", "TESTO", "TEXTO", "LABEL", "LABELS", "NOTE", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "BEMASSUNG", "MAATVOERING", "COTE", "COTES", "COTATION", "QUOTE", "COTAS", "ANNOTATION", "ANNOTATIONS", "DEFPOINTS", "VIEWPORT", "FRAME", "RAHMEN", "KADER", "CADRE", "CORNICE", "MARCO", "TITLE", "SHEET", "HATCH"]),
@@ -18,37 +18,36 @@ const WORDS: [(PenUse, &[&str]); 3] = [
     (PenUse::Knife, &["CUT", "CUTS", "CUTTING", "CUTLINE", "CUTLINES", "CUTOUT", "CUTOUTS", "BLADE", "OUTLINE", "OUTLINES", "CONTOUR", "CONTOURS", "KNIFE", "SCHNITT", "SCHNITTE", "SCHNITTLINIE", "SCHNITTLINIEN", "AUSSCHNITT", "AUSSCHNITTE", "SCHNEIDEN", "MESSER", "KONTUR", "KONTUREN", "AUSSENKONTUR", "INNENKONTUR", "UMRISS", "SNIJ", "SNIJDEN", "SNIJLIJN", "MES", "COUPE", "COUPES", "DECOUPE", "DECOUPES", "DÉCOUPE", "DÉCOUPES", "CONTORNO", "CONTORNI", "OMTREK", "TAGLIO", "LAMA", "CORTE", "CUCHILLA", "THROUGHCUT"]),
 ];
 
-/// Words among those for a knife that name holes in parts: where no other layer is a knife, the parts are on layers of which
-/// nobody says anything.
+/// Words for a knife that name holes in parts. If no other layer is a knife, the parts are on layers without a known use.
 const HOLES: [&str; 5] = ["CUTOUT", "CUTOUTS", "AUSSCHNITT", "AUSSCHNITTE", "INNENKONTUR"];
 
-/// Words beside which one for a knife is none: what is not cut, or not through, or tells of cuts.
+/// Words that void a word for a knife in the same name: the line is not cut, not cut through, or a note about cuts.
 #[rustfmt::skip] // a table
 const VOIDING: [&str; 19] = [
     "NO", "NOT", "NON", "NICHT", "KEIN", "KEINE", "NIET", "GEEN", "PAS", "SANS", "SIN", "SENZA", "KISS", "HALF", "GUIDE",
     "NUMBER", "NUMBERS", "LIST", "AREA",
 ];
 
-/// A key a layer.
+/// Family with one key per layer.
 pub(super) const LAYERS: Family =
     Family { start: "drawing.layers", has: is_layer, pattern: || "[^.]+".to_owned(), example: "\"CUT*\" = \"knife\"" };
 
-/// Whether a word may be the name of a layer, or a pattern of such: anything without a dot.
+/// True if a word may be the name of a layer or a pattern of names: anything without a dot.
 fn is_layer(word: &str) -> bool {
     !word.is_empty() && !word.contains('.')
 }
 
-/// Uses of layers as they are typed: `CUT,NOTCH=pen,TEXT*=ignore`.
+/// Uses of layers as typed: `CUT,NOTCH=pen,TEXT*=ignore`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LayerUses(Vec<(String, PenUse)>);
 
-/// A list that names no layers.
+/// Error of a text that does not name layers.
 #[derive(Debug, Error, PartialEq, Eq)]
 #[error("expected layers, as in `CUT,FOLD=pen`; `{0}` must be NAME, NAME=knife, NAME=pen or NAME=ignore")]
 pub struct NotLayers(String);
 
 impl LayerUses {
-    /// Reads names or patterns with commas between them, each with a use behind `=`; without one it is a knife.
+    /// Reads comma-separated names or patterns, each with an optional use after `=`; the default is a knife.
     pub fn parse(text: &str) -> Result<Self, NotLayers> {
         let one = |part: &str| {
             let (name, said) = part.split_once('=').unwrap_or((part, "knife"));
@@ -64,19 +63,19 @@ impl LayerUses {
         text.split(',').map(one).collect::<Result<Vec<_>, _>>().map(Self)
     }
 
-    /// Use of a layer by the first that names it.
+    /// Use of a layer in the first entry that matches it.
     fn of(&self, name: &str) -> Option<PenUse> {
         self.0.iter().find(|(pattern, _)| names(pattern, name)).map(|(_, used)| *used)
     }
 
-    /// The names and patterns among them that name none of some layers.
+    /// Names and patterns that match none of some layers.
     pub fn unused<'a>(&'a self, layers: &[&str]) -> Vec<&'a str> {
         let is_unused = |pattern: &&str| !layers.iter().any(|layer| names(pattern, layer));
         self.0.iter().map(|(pattern, _)| pattern.as_str()).filter(is_unused).collect()
     }
 }
 
-/// As it is typed.
+/// Text as typed.
 impl fmt::Display for LayerUses {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let word = |used: PenUse| match used {
@@ -89,9 +88,9 @@ impl fmt::Display for LayerUses {
     }
 }
 
-/// Whether a name or a pattern names a layer, in whatever letters.
+/// True if a name or a pattern matches a layer, regardless of case.
 fn names(pattern: &str, layer: &str) -> bool {
-    // A slash parts folders in patterns of files, and is a sign like others here.
+    // A slash separates folders in patterns of files; here it is an ordinary character.
     let [pattern, layer] = [pattern, layer].map(|text| text.trim().to_lowercase().replace('/', "\u{1}"));
     pattern == layer || glob_match(&pattern, &layer)
 }
@@ -99,28 +98,28 @@ fn names(pattern: &str, layer: &str) -> bool {
 /// Source of the use of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Known {
-    /// Somebody said so, in the profile or for this job.
+    /// The user, in the profile or for this job.
     Said,
-    /// A word of its name says so.
+    /// A word of its name.
     Named,
-    /// Other layers are knives, and nobody says anything of this one: it is a pen.
+    /// Other layers are knives, and this one has no known use: it is a pen.
     Beside,
 }
 
-/// Uses of the layers of a drawing, in their order; `None` of those of which nobody says anything: their shapes do.
+/// Uses of the layers of a drawing, in their order; `None` if unknown, so that their shapes decide.
 pub fn uses(
     layers: &[&str],
     typed: Option<&LayerUses>,
     of_profile: &BTreeMap<String, PenUse>,
 ) -> Vec<Option<(PenUse, Known)>> {
     let said = |name: &str| {
-        // An exact name holds before a pattern, and a longer pattern before a shorter one.
+        // An exact name precedes a pattern, and a longer pattern a shorter one.
         let rank = |(pattern, _): &(&String, &PenUse)| (!pattern.contains(['*', '?', '[', '{']), pattern.len());
         let naming = || of_profile.iter().filter(|(pattern, _)| names(pattern, name));
         let of_profile = || naming().max_by_key(rank).map(|(_, used)| *used);
         typed.and_then(|typed| typed.of(name)).or_else(of_profile)
     };
-    // Where somebody names a knife, words of names make no others.
+    // If the user names a knife, words of names add no others.
     let has_knife = layers.iter().any(|name| said(name) == Some(PenUse::Knife));
     let found = |name: &&str| {
         let said = said(name).map(|used| (used, Known::Said));
@@ -140,25 +139,25 @@ pub fn uses(
     uses
 }
 
-/// Use by the words of a name.
+/// Use implied by the words of a name.
 fn by_name(name: &str) -> Option<PenUse> {
     let used = WORDS.iter().find(|(_, known)| has_word(name, known)).map(|(used, _)| *used);
     let is_void = has_word(name, &VOIDING);
     used.map(|used| if is_void && used == PenUse::Knife { PenUse::Pen } else { used })
 }
 
-/// Whether all words for a knife in a name are words for holes.
+/// True if all words for a knife in a name are words for holes.
 fn names_holes_alone(name: &str) -> bool {
     let is_knife = |word: &str| WORDS.iter().any(|(used, known)| *used == PenUse::Knife && known.contains(&word));
     words(name).iter().filter(|word| is_knife(word)).all(|word| HOLES.contains(&&**word))
 }
 
-/// Whether one of some words, in capitals, is a word of a name.
+/// True if a name contains one of some words, in capitals.
 fn has_word(name: &str, known: &[&str]) -> bool {
     words(name).iter().any(|word| known.contains(&&**word))
 }
 
-/// The words of a name in capitals; `CUT OUT` is one.
+/// Words of a name, in capitals; `CUT OUT` is one word.
 fn words(name: &str) -> Vec<String> {
     let name = name.to_uppercase();
     let mut words: Vec<String> = Vec::new();

@@ -1,4 +1,4 @@
-//! Reading a profile: TOML text, then `--set` arguments over it. Every fault is reported, at its place.
+//! Loading of a profile: TOML text, overridden by `--set` arguments. Every fault is reported at its place.
 
 use std::ops::Range;
 
@@ -18,24 +18,24 @@ use super::validate::validate;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::{Source, Span};
 
-/// What is wrong with a profile; at least one of the two has errors.
+/// Faults of a profile; at least one of the two has errors.
 #[derive(Debug, Default)]
 pub struct Faults {
-    /// In the file.
+    /// Faults in the file.
     pub file: Diagnostics,
-    /// In the `--set` arguments: each names its argument.
+    /// Faults in the `--set` arguments; each names its argument.
     pub arguments: Diagnostics,
 }
 
-/// Reads a profile: the defaults, overridden by the file, overridden by `key=value` arguments in their order.
+/// Reads a profile: the defaults, overridden by the file, then by `key=value` arguments in their order.
 pub fn load(file: Option<&Source>, sets: &[String]) -> Result<MachineProfile, Faults> {
     load_given(file, sets).map(|(profile, _)| profile)
 }
 
-/// The same, with where it came from.
+/// Reads a profile like [`load`], and tells its origin.
 pub fn load_given(file: Option<&Source>, sets: &[String]) -> Result<(MachineProfile, origin::Origin), Faults> {
     if file.is_none() && sets.is_empty() {
-        // Nothing can be wrong with what nobody typed.
+        // The defaults have no faults.
         return Ok((MachineProfile::default(), origin::Origin::default()));
     }
     let mut draft = Draft::default();
@@ -53,26 +53,26 @@ pub fn load_given(file: Option<&Source>, sets: &[String]) -> Result<(MachineProf
     Ok((draft.finish()?, origin))
 }
 
-/// Where a value came from.
+/// Origin of a value.
 #[derive(Debug, Clone)]
 enum Origin {
     File(Span),
     Argument(String),
 }
 
-/// A profile in the making.
+/// Profile under construction.
 #[derive(Debug, Default)]
 struct Draft {
-    /// Values that are typed as their keys want them.
+    /// Values with the types of their keys.
     values: toml::Table,
-    /// Their keys, the last one that was given last.
+    /// Their keys, the one given last at the end.
     given: Vec<(String, Origin)>,
-    /// Keys whose values say nothing, so that no rule holds their defaults against others.
+    /// Keys with unusable values, whose defaults must not be checked against others.
     broken: Vec<String>,
     faults: Vec<(Origin, Diagnostic)>,
 }
 
-/// A value with the place of its key and its own text.
+/// Value with the place of its key and its own text.
 struct Entry<'a> {
     name: String,
     origin: Origin,
@@ -95,13 +95,13 @@ impl Draft {
             let at = error.span().unwrap_or(0..0);
             self.fault(span(at), Diagnostic::new(&code::PROFILE_SYNTAX, error.message().replace('\n', ", ")));
         }
-        // What is left of broken TOML is guesswork: its keys would only add faults that are none.
+        // Parts of broken TOML are unreliable: their keys would only cause spurious faults.
         if errors.is_empty() {
             self.walk("", root.get_ref(), text);
         }
     }
 
-    /// Takes every key of a table in.
+    /// Adds every key of a table.
     fn walk(&mut self, prefix: &str, table: &DeTable<'_>, text: &str) {
         for (key, value) in table {
             let name =
@@ -124,7 +124,7 @@ impl Draft {
         }
     }
 
-    /// Takes a `key=value` argument in; a value that is no TOML is a bare word.
+    /// Adds a `key=value` argument; a value that is not TOML is a bare word.
     fn set(&mut self, argument: &str) {
         let origin = Origin::Argument(argument.to_owned());
         let Some((name, text)) = argument.split_once('=') else {
@@ -136,7 +136,7 @@ impl Draft {
             return self.take(Entry { name, origin, text });
         }
         let text = match text.strip_prefix('[').and_then(|list| list.strip_suffix(']')) {
-            // The items of a list need no quotes either.
+            // Items of a list need no quotes either.
             Some(list) => {
                 format!("[{}]", list.split(',').map(|item| quoted(item.trim())).collect::<Vec<_>>().join(", "))
             }
@@ -145,7 +145,7 @@ impl Draft {
         self.take(Entry { name, origin, text: &text });
     }
 
-    /// Takes one value in, if its key exists and wants such a value.
+    /// Adds a value if its key exists and allows it.
     fn take(&mut self, entry: Entry<'_>) {
         let Entry { name, origin, text } = entry;
         let name = codes::canonical(&name);
@@ -177,7 +177,7 @@ impl Draft {
         }
     }
 
-    /// What stands there is of another type.
+    /// Reports a value of the wrong type.
     fn mistyped(&mut self, name: &str, origin: Origin, found: &str) {
         let expected = keys::find(name).map(Key::expects).unwrap_or_default();
         let message = format!("`{name}` must be {expected}, but is {found}");
@@ -185,7 +185,7 @@ impl Draft {
         self.fault(origin, Diagnostic::new(&code::PROFILE_TYPE, message));
     }
 
-    /// A number with a unit that is none of the key's.
+    /// Reports a number with a unit of another kind than the key's.
     fn mismeasured(&mut self, name: &str, origin: Origin, text: &str, key: &Key, wrong: &Mismeasured) {
         let measures =
             wrong.measures.map_or_else(|| ", whose unit is not known".to_owned(), |what| format!(", {what}"));
@@ -223,7 +223,7 @@ impl Draft {
         self.faults.push((origin, diagnostic));
     }
 
-    /// The profile, or everything that is wrong with it.
+    /// Profile, or all its faults.
     fn finish(mut self) -> Result<MachineProfile, Faults> {
         let mut profile = MachineProfile::deserialize(std::mem::take(&mut self.values))
             .expect("values that fit the profile one by one fit it together");
@@ -231,7 +231,7 @@ impl Draft {
         let faults = validate(&profile, &|key| given.iter().any(|(name, _)| name == key));
         let broken = std::mem::take(&mut self.broken);
         for fault in faults.into_iter().filter(|fault| !fault.keys.iter().any(|key| broken.contains(key))) {
-            // The key that was given last is the one that broke the rule.
+            // The key given last is the one that broke the rule.
             let origin =
                 given.iter().rev().find(|(name, _)| fault.keys.contains(name)).map(|(_, origin)| origin.clone());
             let origin = origin.unwrap_or(Origin::File(Span::default()));
@@ -242,7 +242,7 @@ impl Draft {
             profile.tool.kind.fit(&mut profile.knife);
             return Ok(profile);
         }
-        // In the order of the file, then in that of the arguments.
+        // First in the order of the file, then in that of the arguments.
         self.faults.sort_by_key(|(origin, _)| if let Origin::File(span) = origin { span.start } else { u32::MAX });
         let mut faults = Faults::default();
         for (origin, diagnostic) in self.faults {
@@ -255,13 +255,13 @@ impl Draft {
     }
 }
 
-/// What is wrong with the first step of a list that is none.
+/// Flaw of the first invalid step in a list.
 fn flaw_of_steps(key: &Key, value: &toml::Value) -> Option<Flaw> {
     let texts = value.as_array().filter(|_| matches!(key.takes, Takes::Steps))?.iter().filter_map(toml::Value::as_str);
     texts.map(Step::read).find_map(Result::err)
 }
 
-/// A value as TOML has it: as it is, or as a text.
+/// Value in TOML: unchanged if valid, else as a string.
 fn quoted(text: &str) -> String {
     if DeValue::parse(text).is_ok() { text.to_owned() } else { toml::Value::String(text.to_owned()).to_string() }
 }
@@ -271,7 +271,7 @@ fn span(bytes: Range<usize>) -> Origin {
     Origin::File(Span { start: bytes.start as u32, end: bytes.end as u32, block: 0 })
 }
 
-/// Longest value that a message quotes, characters.
+/// Greatest length of a quoted value in a message, characters.
 const QUOTED_CHARS: usize = 40;
 
 fn shortened(text: &str) -> String {
@@ -282,11 +282,11 @@ fn shortened(text: &str) -> String {
     format!("{}...", start.replace('\n', " "))
 }
 
-/// The tables that hold one value under a dotted name.
+/// Nested tables with one value under a dotted name.
 fn nested(name: &str, value: toml::Value) -> toml::Table {
     let (head, rest) = name.split_once('.').map_or((name, None), |(head, rest)| (head, Some(rest)));
     let value = match rest {
-        // A code of the cutter file is one word, whatever it holds.
+        // A code of the cutter file is one word, even with dots.
         Some(rest) if head != CODES => toml::Value::Table(nested(rest, value)),
         Some(rest) => toml::Value::Table(toml::Table::from_iter([(rest.to_owned(), value)])),
         None => value,
@@ -294,7 +294,7 @@ fn nested(name: &str, value: toml::Value) -> toml::Table {
     toml::Table::from_iter([(head.to_owned(), value)])
 }
 
-/// Puts the values of one table over those of another.
+/// Overrides the values of one table by those of another.
 fn merge(base: &mut toml::Table, over: toml::Table) {
     for (key, value) in over {
         match (base.get_mut(&key), value) {
@@ -485,7 +485,7 @@ mod tests {
             "profile/range: --set gcode.heading_tolerance_deg=1: `gcode.heading_tolerance_deg` is 1 degrees, more than \
              `verify.max_heading_deg`, 0.5 degrees",
         );
-        // Nobody asked for its default.
+        // Its default was not asked for.
         let strict = profile("", &["verify.max_heading_deg=0.05"]);
         assert!((strict.blade_tolerance() - 0.05_f64.to_radians()).abs() < 1e-12);
     }

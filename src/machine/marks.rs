@@ -1,4 +1,4 @@
-//! Registration marks: places of the drawing that were found on the table, and the map that they give; the keys `map.*`.
+//! Registration marks: places of the drawing that were found on the table, and the map that fits them; the keys `map.*`.
 
 use std::fmt;
 use std::sync::Arc;
@@ -15,20 +15,20 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "map.max_mm", takes: Takes::Number(from(0.01, 100.0)), about: "Greatest distance of a mark of `--map` from where the map of the others has it. Beyond it nothing\nis cut: a mark was read wrongly, or the cloth is not stretched evenly." },
 ];
 
-/// Least width of the marks, as a share of their length: of those nearly on a line the map across it is a guess.
+/// Least width of the marks, as a share of their length: if they are nearly on a line, the map across it is a guess.
 const LEAST_WIDTH: f64 = 0.01;
 
 /// Decimals of distances, mm.
 const DECIMALS: u32 = 2;
 
-/// Least share of a wrong reading of a mark that shows in its distance from the map: below it the others lie on a line.
+/// Least share of a misreading of a mark that shows in its distance from the map: below it the others lie on a line.
 const LEAST_CHECKED: f64 = 1e-4;
 
 /// Limits of maps by marks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Map {
-    /// Greatest distance of a mark from where the map of the others has it.
+    /// Greatest distance of a mark from its place by the map of the others.
     pub max_mm: f64,
 }
 
@@ -38,7 +38,7 @@ impl Default for Map {
     }
 }
 
-/// A registration mark: its place in the drawing, and where it was found on the table, mm.
+/// Registration mark: its place in the drawing and its measured place on the table, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
     /// X and Y in the drawing.
@@ -47,7 +47,7 @@ pub struct Mark {
     pub found: [f64; 2],
 }
 
-/// The marks of a file, with the map that fits them best.
+/// Marks of a file, with the map that fits them best.
 #[derive(Debug)]
 pub struct Marks {
     all: Vec<Mark>,
@@ -56,18 +56,18 @@ pub struct Marks {
     source: Arc<Source>,
 }
 
-/// The spread of marks in the drawing.
+/// Spread of marks in the drawing.
 #[derive(Debug, Clone, Copy)]
 struct Spread {
     count: f64,
-    /// Their mean place, mm.
+    /// Mean place, mm.
     middle: [f64; 2],
-    /// Inverse of the sum of d d^T, where d is the way of a mark from the middle, 1/mm^2.
+    /// Inverse of the sum of d d^T, where d is the vector from the mean place to a mark, 1/mm^2.
     inverse: [[f64; 2]; 2],
 }
 
 impl Spread {
-    /// `None` when the marks lie about on a line.
+    /// Spread of marks; `None` if they are nearly on a line.
     fn of(marks: &[Mark]) -> Option<Self> {
         let count = marks.len() as f64;
         let middle = mean(marks, |mark| mark.drawn);
@@ -88,8 +88,8 @@ impl Spread {
         Some(Self { count, middle, inverse })
     }
 
-    /// Leverage of a place: 1/n + d^T S^-1 d (linear regression). Its root is the standard error of the map there, in those of
-    /// finding a mark.
+    /// Leverage of a place: 1/n + d^T S^-1 d (linear regression). Its root is the standard error of the map there, in units of
+    /// the standard error of a mark.
     fn leverage(&self, place: [f64; 2]) -> f64 {
         let d = less(place, self.middle);
         let [a, b] = self.inverse.map(|row| row[0] * d[0] + row[1] * d[1]);
@@ -102,25 +102,25 @@ fn mean(marks: &[Mark], of: fn(&Mark) -> [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| marks.iter().map(|mark| of(mark)[k]).sum::<f64>() / marks.len() as f64)
 }
 
-/// The way from a place to another.
+/// Vector from a place to another.
 fn less(to: [f64; 2], from: [f64; 2]) -> [f64; 2] {
     [to[0] - from[0], to[1] - from[1]]
 }
 
-/// A map of the plane that keeps lines straight: A p + b.
+/// Affine map of the plane: A p + b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AffineMap {
-    /// Where a step of 1 mm along X goes, and one along Y: the columns of A.
+    /// Images of the unit vectors along X and Y: the columns of A.
     pub axes: [[f64; 2]; 2],
-    /// Where the origin goes, mm: b.
+    /// Image of the origin, mm: b.
     pub by: [f64; 2],
 }
 
 impl AffineMap {
-    /// The map with the least sum of squared distances of marks from where it has them; `None` when the marks lie about on a
+    /// Map with the least sum of squared distances between marks and their mapped places; `None` if the marks are nearly on a
     /// line.
     ///
-    /// With both places counted from their means, A = T S^-1, where S is the sum of d d^T and T that of f d^T over all marks
+    /// With both places relative to their means, A = T S^-1, where S is the sum of d d^T and T that of f d^T over all marks
     /// (normal equations of linear regression).
     pub fn fit(marks: &[Mark]) -> Option<Self> {
         let Spread { middle: drawn, inverse, .. } = Spread::of(marks)?;
@@ -138,13 +138,13 @@ impl AffineMap {
         Some(Self { axes, by })
     }
 
-    /// Where a place comes to lie, mm.
+    /// Image of a place, mm.
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let Self { axes: [along, across], by } = self;
         [0, 1].map(|k| along[k] * x + across[k] * y + by[k])
     }
 
-    /// How far a mark is from where the map has it, mm.
+    /// Distance of a mark from its mapped place, mm.
     pub fn off(&self, mark: &Mark) -> f64 {
         let [x, y] = self.place(mark.drawn);
         (x - mark.found[0]).hypot(y - mark.found[1])
@@ -155,23 +155,23 @@ impl AffineMap {
         a * d - b * c
     }
 
-    /// Whether the map mirrors.
+    /// True if the map mirrors.
     pub fn is_mirrored(&self) -> bool {
         self.determinant() < 0.0
     }
 
-    /// Factors by which lengths along X and along Y of the drawing grow.
+    /// Scale factors along X and along Y of the drawing.
     pub fn stretch(&self) -> [f64; 2] {
         self.axes.map(|[x, y]| x.hypot(y))
     }
 
-    /// The greater of these.
+    /// Greater scale factor.
     pub fn growth(&self) -> f64 {
         let [along, across] = self.stretch();
         along.max(across)
     }
 
-    /// Angle by which X of the drawing is turned, deg, counter-clockwise.
+    /// Rotation of X of the drawing, deg, counter-clockwise.
     pub fn turned_deg(&self) -> f64 {
         self.axes[0][1].atan2(self.axes[0][0]).to_degrees()
     }
@@ -184,32 +184,32 @@ impl AffineMap {
 }
 
 impl Marks {
-    /// Marks of a file; `None` when they lie about on a line.
+    /// Marks of a file; `None` if they are nearly on a line.
     pub fn new(all: Vec<Mark>, source: Arc<Source>) -> Option<Self> {
         let (map, spread) = (AffineMap::fit(&all)?, Spread::of(&all)?);
         Some(Self { all, map, spread, source })
     }
 
-    /// How many there are.
+    /// Number of marks.
     pub fn count(&self) -> usize {
         self.all.len()
     }
 
-    /// Their map.
+    /// Map that fits the marks.
     pub fn map(&self) -> &AffineMap {
         &self.map
     }
 
-    /// Their file.
+    /// File of the marks.
     pub fn source(&self) -> &Arc<Source> {
         &self.source
     }
 
-    /// The mark farthest from where the map of the others has it, by its place, and how far that is, mm; infinite where the
-    /// others give no map.
+    /// Index of the mark farthest from its place by the map of the others, and that distance, mm; infinite if the others give
+    /// no map.
     ///
-    /// That distance is e / (1 - h), where e is the one from the map of all marks and h the leverage (deleted residual of linear
-    /// regression): of four marks at corners it is four times the other.
+    /// The distance is e / (1 - h), where e is the distance from the map of all marks and h the leverage (deleted residual of
+    /// linear regression). For four marks at corners it is 4 e.
     pub fn farthest(&self) -> (usize, f64) {
         let off = self.all.iter().map(|mark| {
             let rest = 1.0 - self.spread.leverage(mark.drawn);
@@ -218,7 +218,7 @@ impl Marks {
         off.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
     }
 
-    /// Error of the map at a place of the drawing, in the greatest one at a mark.
+    /// Error of the map at a place of the drawing, relative to the greatest one at a mark.
     pub fn error(&self, place: [f64; 2]) -> f64 {
         let at_marks = self.all.iter().map(|mark| self.spread.leverage(mark.drawn));
         (self.spread.leverage(place) / at_marks.fold(0.0, f64::max)).sqrt()
@@ -243,7 +243,7 @@ impl fmt::Display for Marks {
 mod tests {
     use super::*;
 
-    /// Marks at corners of a cloth, and where a map has them.
+    /// Marks at corners of a cloth, with their places by a map.
     fn marks(map: &AffineMap, drawn: &[[f64; 2]]) -> Vec<Mark> {
         drawn.iter().map(|&drawn| Mark { drawn, found: map.place(drawn) }).collect()
     }

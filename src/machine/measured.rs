@@ -1,26 +1,26 @@
-//! Values with units, as in `feed_mm_s = "45 m/min"`: they become plain numbers in the unit of their key.
+//! Values with units, as in `feed_mm_s = "45 m/min"`, converted to plain numbers in the unit of their key.
 
 use super::key::Key;
 use crate::units::quantity::{self, NotQuantity};
 
-/// Why a text cannot be a number of a key: the text, and what it measures if it is a quantity of another kind.
+/// Error of a text that is not a number in a unit of its key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Mismeasured {
-    /// The unit of the key that it should have.
+    /// Unit of the key.
     unit: &'static str,
-    /// What stands there is this instead, such as `a speed`; `None` when it has no unit that is known.
+    /// Kind of quantity given instead, such as `a speed`; `None` without a known unit.
     pub(super) measures: Option<&'static str>,
 }
 
 impl Mismeasured {
-    /// What to write instead; `None` when the key has no other units.
+    /// Suggested replacement; `None` if the key has no other units.
     pub(super) fn hint(&self) -> Option<String> {
         let (kind, examples) = quantity::kind(self.unit)?;
         Some(format!("it is {kind}: a plain number of {}, or a text such as {examples}", self.unit))
     }
 }
 
-/// The value with every text that is a number with a unit made a number in the unit of the key. Other texts stay: they may
+/// Value with every text that is a number with a unit converted to a number in the unit of the key. Other texts stay: they may
 /// be words of the key.
 pub(super) fn plain(key: &Key, value: toml::Value) -> Result<toml::Value, Mismeasured> {
     match value {

@@ -1,8 +1,8 @@
-//! The key that may be meant by one that does not exist: people say the same in other words, or mistype them.
+//! Suggestion of a key for one that does not exist: users choose synonyms or mistype.
 
 use super::keys::{KEYS, near_codes};
 
-/// Words that people write, and the words of keys that they may mean. A cutter's length is its X, its width its Y.
+/// Synonyms of the words in keys. A cutter's length is its X, its width its Y.
 const WORDS: &[(&str, &[&str])] = &[
     ("acc", &["acceleration"]),
     ("accel", &["acceleration"]),
@@ -56,21 +56,21 @@ const WORDS: &[(&str, &[&str])] = &[
     ("width", &["y"]),
 ];
 
-/// Words that only say a unit: they tell keys apart where nothing else does.
+/// Words that are only units: they distinguish keys only when nothing else does.
 const OF_UNITS: &[&str] = &["mm", "ms", "s", "s2", "s3", "deg", "percent"];
 
-/// What a word of the last part of a name counts, one of a table before it, and one that is a unit.
+/// Weights of a word in the last part of a name, in a table before it, and of a unit.
 const WEIGHT_OF_LAST: f64 = 1.0;
 const WEIGHT_OF_TABLE: f64 = 0.6;
 const WEIGHT_OF_UNIT: f64 = 0.1;
-/// How much two words are one that mean the same.
+/// Likeness of two synonyms.
 const SAME_MEANING: f64 = 0.9;
-/// Words that are less alike than this are two words.
+/// Least likeness of two words that count as similar.
 const LEAST_ALIKE: f64 = 0.7;
-/// Names that share less than this part of their words have nothing in common but letters.
+/// Least share of common words of two names that are compared by words.
 const LEAST_SHARED: f64 = 0.3;
 
-/// The key or table whose name is nearest to one that does not exist: by its words, else by its letters.
+/// Key or table whose name is nearest to one that does not exist: by words, else by letters.
 pub(super) fn nearest(name: &str) -> String {
     if let Some(code) = near_codes(name).and_then(|codes| codes.into_iter().next()) {
         return code;
@@ -83,14 +83,14 @@ pub(super) fn nearest(name: &str) -> String {
     }
 }
 
-/// The key or table that is most like a name, by letters where several are, and how much it is.
+/// Key or table most like a name, and its likeness; letters decide between equals.
 fn best(likeness: impl Fn(&str) -> f64, name: &str) -> (&'static str, f64) {
     let sections = KEYS.iter().flat_map(|key| key.name.match_indices('.').map(|(dot, _)| &key.name[..dot]));
-    // What is named below a table is no table itself.
+    // A key inside a table is not itself a table.
     let depth = |name: &str| name.split('.').count();
     let sections = sections.filter(|section| depth(section) == depth(name));
     let names = KEYS.iter().map(|key| key.name).chain(sections).map(|other| (other, likeness(other)));
-    // The last of equals is taken: the first one of the table.
+    // `max_by` returns the last of equals, so reversing selects the first one of the table.
     let names = names.collect::<Vec<_>>().into_iter().rev();
     let best = names.max_by(|a, b| a.1.total_cmp(&b.1).then(alike(name, a.0).total_cmp(&alike(name, b.0))));
     best.unwrap_or_default()
@@ -104,7 +104,7 @@ fn last(name: &str) -> &str {
     name.rsplit('.').next().unwrap_or_default()
 }
 
-/// The words of a dotted name in small letters, each with its weight.
+/// Words of a dotted name in lower case, each with its weight.
 fn words(name: &str) -> Vec<(String, f64)> {
     let parts = name.split('.').count();
     let of_part = |(i, part): (usize, &str)| {
@@ -119,7 +119,7 @@ fn words(name: &str) -> Vec<(String, f64)> {
     name.split('.').enumerate().flat_map(of_part).map(weighed).collect()
 }
 
-/// How much of the words of two names is the same: 1 = all, 0 = nothing.
+/// Share of the words common to two names, 0 to 1.
 fn shared(typed: &[(String, f64)], other: &[(String, f64)]) -> f64 {
     let best = |(word, weight): &(String, f64)| {
         let likeness = |(known, other): &(String, f64)| same(word, known) * weight.min(*other);
@@ -129,7 +129,7 @@ fn shared(typed: &[(String, f64)], other: &[(String, f64)]) -> f64 {
     2.0 * typed.iter().map(best).sum::<f64>() / (total(typed) + total(other)).max(WEIGHT_OF_UNIT)
 }
 
-/// How much a typed word is a word of a key.
+/// Likeness of a typed word and a word of a key, 0 to 1.
 fn same(typed: &str, known: &str) -> f64 {
     let means = |(word, others): &(&str, &[&str])| *word == typed && others.contains(&known);
     match alike(typed, known) {

@@ -11,11 +11,11 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "nest.band_mm", takes: Takes::NumberOr(from(0.01, 1.0), Auto::WORD), about: "Edges of two parts that are nearer to each other than this are one edge: a way along it\nenters neither. \"auto\" = 0.2 mm, or a diagonal of the unit of the file if that is more.\nIn a strip it is a quarter of its width at the most." },
 ];
 
-/// How parts lie beside each other.
+/// Distances between parts in a nest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(default, deny_unknown_fields)]
 pub struct Nest {
-    /// As it was given; [`MachineProfile::band`](super::MachineProfile::band) is what holds.
+    /// Band as given; [`MachineProfile::band`](super::MachineProfile::band) is the effective one.
     #[serde(with = "OrWord::<Auto>")]
     pub band_mm: Option<f64>,
 }

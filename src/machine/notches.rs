@@ -1,4 +1,4 @@
-//! How notches are cut: the keys `notch.*`.
+//! Cutting of notches: the keys `notch.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,18 +17,18 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "notch.box_max_mm", takes: Takes::Number(from(0.0, 2.0)), about: "A notch that the outline draws as a box or needle up to so wide is a slit along its middle." },
 ];
 
-/// How notches are cut, whatever the file draws.
+/// Cutting of notches, whatever the file draws.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Notches {
-    /// Their shape.
+    /// Shape.
     pub style: NotchStyle,
-    /// Crossbars of T notches.
+    /// Treatment of the crossbars of T notches.
     pub t: TNotch,
-    /// Depth of slits.
+    /// Depth of slits; `None` = as drawn.
     #[serde(with = "OrWord::<AsDrawn>")]
     pub depth_mm: Option<f64>,
-    /// Widest box that is a slit.
+    /// Greatest width of a box that is cut as a slit.
     pub box_max_mm: f64,
 }
 
@@ -39,24 +39,24 @@ impl Default for Notches {
 }
 
 impl Notches {
-    /// Whether the crossbars of T notches are cut.
+    /// True if the crossbars of T notches are cut.
     pub fn cuts_crossbars(&self) -> bool {
         self.style == NotchStyle::AsDrawn && self.t == TNotch::AsDrawn
     }
 }
 
-/// The shape of T notches.
+/// Shape of T notches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TNotch {
     /// Stem and crossbar.
     #[default]
     AsDrawn,
-    /// The stem alone.
+    /// Stem only.
     Slit,
 }
 
-/// The shape of notches.
+/// Shape of notches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NotchStyle {

@@ -1,4 +1,4 @@
-//! In which order pieces are cut: the keys `order.*`.
+//! Order in which pieces are cut: the keys `order.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,13 +13,13 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "order.small_mm2", takes: Takes::Number(from(0.0, 1.0e7)), about: "Pieces of less area are small: \"steady\" cuts them before the larger ones next to them, which hold\nthe cloth around them still; 0 = none are." },
 ];
 
-/// In which order pieces are cut.
+/// Order in which pieces are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Order {
-    /// By what it is chosen.
+    /// Criterion.
     pub policy: OrderPolicy,
-    /// How far the work goes back in X at the most when it is to be steady.
+    /// Greatest distance that a steady order goes back in X.
     pub window_mm: f64,
     /// Area below which a piece is small.
     pub small_mm2: f64,
@@ -32,7 +32,7 @@ impl Default for Order {
 }
 
 impl Order {
-    /// By what the order of pieces is chosen that were read from a drawing, which has none of its own, or from a cut file.
+    /// Effective criterion for pieces from a drawing, which has no order of its own, or from a cut file.
     pub fn policy(&self, is_drawing: bool) -> OrderPolicy {
         match self.policy {
             OrderPolicy::Auto if is_drawing => OrderPolicy::Steady,
@@ -42,16 +42,16 @@ impl Order {
     }
 }
 
-/// By what the order of pieces is chosen.
+/// Criterion for the order of pieces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OrderPolicy {
-    /// As suits what is read.
+    /// Depends on the input: drawing or cut file.
     Auto,
-    /// The file.
+    /// Order of the file.
     File,
-    /// The least time with the knife up.
+    /// Least time with the knife up.
     Fastest,
-    /// The same, with the work moving along X.
+    /// Least time with the knife up while the work moves along X.
     Steady,
 }

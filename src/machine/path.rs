@@ -1,4 +1,4 @@
-//! How the line is followed, and where it is parted: the keys `corner.*`, `slow.*` and `path.*`.
+//! Tracking of the line, and its splitting at corners: the keys `corner.*`, `slow.*` and `path.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,11 +17,11 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "path.chord_sag_max_mm", takes: Takes::Number(from(0.0, 10.0)), about: "With fit = \"curve\": how far the curve may bulge beyond a straight piece." },
 ];
 
-/// What counts as a corner.
+/// Criterion for a corner.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Corner {
-    /// Its least turn.
+    /// Least turn of a corner.
     pub angle_deg: f64,
 }
 
@@ -38,14 +38,14 @@ impl Default for Corner {
     }
 }
 
-/// Where the knife slows down.
+/// Slowdown before corners.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Slow {
-    /// On so much of the line.
+    /// Length of line before a corner; `None` = no slowdown.
     #[serde(with = "OrWord::<Off>")]
     pub before_corner_mm: Option<f64>,
-    /// To so much of its speed.
+    /// Reduced speed.
     pub before_corner_percent: f64,
 }
 
@@ -55,26 +55,26 @@ impl Default for Slow {
     }
 }
 
-/// How closely the line is followed.
+/// Accuracy with which the line is followed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Path {
-    /// As it was given; [`MachineProfile::tolerance`](super::MachineProfile::tolerance) is what holds.
+    /// Tolerance as given; [`MachineProfile::tolerance`](super::MachineProfile::tolerance) is the effective one.
     #[serde(with = "OrWord::<Auto>")]
     pub tolerance_mm: Option<f64>,
-    /// What a polyline stands for.
+    /// Meaning of a polyline.
     pub fit: Fit,
-    /// Greatest bulge beyond a chord.
+    /// Greatest bulge of the curve beyond a chord.
     pub chord_sag_max_mm: f64,
 }
 
-/// What a polyline of the file stands for.
+/// Meaning of a polyline in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fit {
-    /// A curve that was flattened: chords cut its corners, so the tolerance band is wider on the outside.
+    /// Flattened curve: chords cut its corners, so the tolerance band is wider on the outside.
     Curve,
-    /// Exactly the polygon.
+    /// The polygon itself.
     Polygon,
 }
 

@@ -1,4 +1,4 @@
-//! Pattern DXF: what the file leaves open, and which of its pieces are cut. The keys `dxf.*`.
+//! Pattern DXF: settings that the file leaves open, and the choice of its pieces. The keys `dxf.*`.
 
 use std::fmt;
 
@@ -18,40 +18,40 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "dxf.notch_mm", takes: Takes::Number(from(1.0, 15.0)), about: "Depth of the notches for which a pattern DXF gives none." },
 ];
 
-/// How pattern DXF is read.
+/// Reading of pattern DXF.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Dxf {
     /// Unit of its numbers.
     pub unit: PatternUnit,
-    /// How often its pieces are cut.
+    /// Number of times that a piece is cut.
     pub quantity: Quantity,
-    /// Which way its outlines go between their points.
+    /// Course of its outlines between their points.
     pub curves: Curves,
-    /// Room between pieces.
+    /// Space between pieces.
     pub gap_mm: f64,
-    /// Depth of notches without one.
+    /// Depth of notches for which the file gives none.
     pub notch_mm: f64,
 }
 
-/// How exactly pattern DXF is read: what is promised of every file, and judged by.
+/// Accuracy of reading pattern DXF: guaranteed for every file, and checked.
 impl Dxf {
-    /// Farthest that the chords of a curve lie off it, as a part of the tolerance.
+    /// Greatest distance of the chords of a curve from it, as a share of the tolerance.
     pub const CHORDS_OFF: f64 = 0.25;
-    /// Farthest that ends of lines lie apart that are joined, mm: what rounding to a hundredth of an inch parts. Files of
-    /// garment CAD have no gap at all.
+    /// Greatest distance between ends of lines that are joined, mm: covers rounding to a hundredth of an inch. Files of garment
+    /// CAD have no gap at all.
     pub const ENDS_MEET: f64 = 0.2;
-    /// Farthest that a curve through points leaves the chord between two of them, as a part of the chord: half a circle over it.
-    /// Curves that go on from chord to chord at even speed stay well within that.
+    /// Greatest distance of a curve through points from the chord between two of them, as a share of the chord: a half circle.
+    /// Curves that pass from chord to chord at even speed stay well within that.
     pub const CURVE_OFF: f64 = 0.5;
-    /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
+    /// Greatest distance of the point of a notch from the outline into which it is cut, mm: others mark seam lines.
     pub const NOTCH_OFF: f64 = 1.0;
-    /// Farthest that a turn point or a curve point lies from the vertex that it marks, mm: what rounding to a hundredth of a
-    /// millimetre or a thousandth of an inch parts. A twentieth, and room for the rounding of that.
+    /// Greatest distance of a turn point or a curve point from the vertex that it marks, mm: covers rounding to a hundredth of
+    /// a millimetre or a thousandth of an inch. A twentieth, plus its own rounding.
     pub const POINT_OFF: f64 = 0.051;
-    /// Longest stretch that goes straight on where an outline turns at its start, mm: the overcut of another cutter.
+    /// Greatest length of a stretch that goes straight on at a turn of an outline, mm: the overcut of another cutter.
     pub const PAST_CORNER: f64 = 10.0;
-    /// Farthest that such a stretch, one along the outline, or another round lies from the first round, mm.
+    /// Greatest distance of such a stretch, of one along the outline, or of another round from the first round, mm.
     pub const RETRACE_OFF: f64 = 0.2;
 }
 
@@ -65,7 +65,7 @@ impl Default for Dxf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PatternUnit {
-    /// As the file says.
+    /// Unit stated in the file.
     #[default]
     Auto,
     /// Millimetres.
@@ -77,7 +77,7 @@ pub enum PatternUnit {
 }
 
 impl PatternUnit {
-    /// Length of the unit, mm; `None` when the file decides.
+    /// Length of the unit, mm; `None` if the file decides.
     pub fn mm(self) -> Option<f64> {
         match self {
             Self::Auto => None,
@@ -88,42 +88,42 @@ impl PatternUnit {
     }
 }
 
-/// How often a piece is cut.
+/// Number of times that a piece is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quantity {
     /// As often as the file says, right and left.
     #[default]
     File,
-    /// Once, as it is drawn.
+    /// Once, as drawn.
     One,
 }
 
-/// Which way outlines go that have a few points of their curves.
+/// Course of outlines that contain only a few points of their curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Curves {
-    /// Along the curves that the file draws, or that its CAD system lays.
+    /// Along the curves in the file, or those of its CAD system.
     #[default]
     Auto,
     /// Straight from point to point.
     Points,
 }
 
-/// Which sizes of a set of patterns are cut.
+/// Sizes of a set of patterns to cut.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Sizes {
-    /// All of them.
+    /// All sizes.
     All,
-    /// Those of these names.
+    /// Sizes with these names.
     Named(Vec<String>),
 }
 
 impl Sizes {
-    /// The word for all of them.
+    /// Word for all sizes.
     const ALL: &'static str = "all";
 
-    /// Reads `M`, `S,M,L` or `all`; `None` when a name is missing.
+    /// Reads `M`, `S,M,L` or `all`; `None` if a name is missing.
     pub fn parse(text: &str) -> Option<Self> {
         if text.trim().eq_ignore_ascii_case(Self::ALL) {
             return Some(Self::All);
@@ -133,7 +133,7 @@ impl Sizes {
     }
 }
 
-/// As it is typed: what a shell would take apart stands in quotes.
+/// Text as typed, in quotes if a shell would split it.
 impl fmt::Display for Sizes {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = match self {
@@ -149,12 +149,12 @@ impl fmt::Display for Sizes {
     }
 }
 
-/// Which patterns one compile cuts, where its user says something of them.
+/// Choice of patterns for one compile, where its user makes one.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Patterns {
-    /// Their sizes; `None` = the sample size.
+    /// Sizes; `None` = the sample size.
     pub sizes: Option<Sizes>,
-    /// How often; `None` = as the profile says.
+    /// Number of times; `None` = as in the profile.
     pub quantity: Option<Quantity>,
 }
 

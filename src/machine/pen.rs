@@ -1,4 +1,4 @@
-//! Pens of plotters and layers of drawings: what their lines stand for.
+//! Pens of plotters and layers of drawings: uses of their lines.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PenUse {
-    /// The knife: its lines are cut.
+    /// Knife: its lines are cut.
     Knife,
-    /// A pen: its lines are drawn, not cut.
+    /// Pen: its lines are drawn, not cut.
     Pen,
-    /// Its lines do not matter.
+    /// Ignored lines.
     Ignore,
 }

@@ -1,8 +1,8 @@
-//! The machine profile as typed: the TOML keys, their defaults, and what they mean in base units.
+//! Machine profile as typed: the TOML keys, their defaults, and their values in base units.
 //!
-//! Fields carry the names of their keys, so also their units; a method of the plain name gives mm, s and rad. What a key
-//! means and takes stands in its row of `KEYS`, in the file of its section. The defaults follow a real cutter's parameter
-//! table with a worn 6.6 mm knife.
+//! Fields carry the names of their keys, including the units; a method of the plain name returns mm, s and rad. The meaning and
+//! the legal values of a key are in its row of `KEYS`, in the file of its section. The defaults follow a real cutter's
+//! parameter table with a worn 6.6 mm knife.
 
 use std::collections::BTreeMap;
 
@@ -38,10 +38,10 @@ use super::verify::Verify;
 use super::word::{OrWord, Stay, Word as _, words};
 use crate::units::{MM_PER_INCH, rad};
 
-/// Version of the profile's format that this program reads and writes.
+/// Version of the profile format that this program reads and writes.
 pub const PROFILE_VERSION: u32 = 1;
 
-/// The keys at the top.
+/// Top-level keys.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "version", takes: Takes::Whole(&[PROFILE_VERSION as i64]), about: "Version of this format." },
@@ -50,83 +50,83 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "park", takes: Takes::PoseOr(Stay::WORD), about: "Where the axes go when a program ends; \"stay\" = they stay over the last cut." },
 ];
 
-/// Everything about the machine and the cutting room that a program depends on.
+/// All properties of the machine and the cutting room on which a program depends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MachineProfile {
-    /// [`PROFILE_VERSION`].
+    /// Format version, [`PROFILE_VERSION`].
     pub version: u32,
     /// Unit of cut files.
     pub units: FileUnit,
-    /// Where a program starts: x mm, y mm, c degrees.
+    /// Pose at the start of a program: x mm, y mm, c degrees.
     pub home: [f64; 3],
-    /// Where it ends, likewise.
+    /// Pose at its end; `None` = the axes stay.
     #[serde(with = "OrWord::<Stay>")]
     pub park: Option<[f64; 3]>,
-    /// The blade and how it is used.
+    /// Blade and its use.
     pub knife: Knife,
     /// Notches.
     pub notch: Notches,
-    /// How parts lie beside each other.
+    /// Distances between parts in a nest.
     pub nest: Nest,
     /// Edges that two parts have in common.
     pub common: Common,
-    /// In which order pieces are cut.
+    /// Order in which pieces are cut.
     pub order: Order,
-    /// How the marker lies on the table.
+    /// Placement of the marker on the table.
     pub sheet: Sheet,
-    /// How closely registration marks must fit.
+    /// Required fit of registration marks.
     pub map: Map,
-    /// The drill.
+    /// Drill.
     pub drill: Drill,
-    /// Corners.
+    /// Criterion for a corner.
     pub corner: Corner,
-    /// Where the knife slows down.
+    /// Slowdown before corners.
     pub slow: Slow,
-    /// How closely the path is followed.
+    /// Accuracy with which the path is followed.
     pub path: Path,
     /// Limits of the axes.
     pub axes: Axes,
-    /// The rotary axis.
+    /// Rotary axis.
     pub c: CAxis,
-    /// The table.
+    /// Table.
     pub table: Table,
-    /// The conveyor under the table.
+    /// Conveyor under the table.
     pub bite: Bite,
-    /// The clock of the controller.
+    /// Clock of the controller.
     pub time: Time,
-    /// The encoders of the drives.
+    /// Encoders of the drives.
     pub counts: Counts,
-    /// The controller that reads G-code.
+    /// Controller that reads G-code.
     pub gcode: Gcode,
-    /// What the verifier allows.
+    /// Limits of the verifier.
     pub verify: Verify,
-    /// How drawings are read.
+    /// Reading of drawings.
     pub drawing: Drawings,
-    /// How plots are read.
+    /// Reading of plots.
     pub hpgl: Hpgl,
-    /// How pattern DXF is read.
+    /// Reading of pattern DXF.
     pub dxf: Dxf,
-    /// The texts of labels.
+    /// Texts of labels.
     pub labels: Labels,
-    /// The pattern-sewing machine.
+    /// Pattern-sewing machine.
     pub sewing: Sewing,
-    /// The carriage that follows a moving cloth.
+    /// Carriage that follows a moving cloth.
     pub track: Tracking,
     /// Heads over a conveyor.
     pub flow: Flow,
-    /// What follows the lines.
+    /// Tool that follows the lines.
     pub tool: Tool,
-    /// Its polynomials.
+    /// Polynomials of the spray head.
     pub quintic: Quintic,
-    /// Codes of the cutter file by name, `M19`.
+    /// Uses of codes of the cutter file by name, such as `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
 
 /// Unit of the integers in a cut file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum FileUnit {
-    /// As the file says.
+    /// Unit stated in the file.
     #[default]
     #[serde(rename = "auto")]
     Auto,
@@ -142,7 +142,7 @@ pub enum FileUnit {
 }
 
 impl FileUnit {
-    /// Length of the unit, mm; `None` when the file decides.
+    /// Length of the unit, mm; `None` if the file decides.
     pub fn mm(self) -> Option<f64> {
         match self {
             Self::Auto => None,
@@ -195,41 +195,41 @@ impl Default for MachineProfile {
 
 /// Least tolerance of the automatic rule, mm.
 const AUTO_TOLERANCE: f64 = 0.05;
-/// Least band of the automatic rule, mm: what no worker sees.
+/// Least band of the automatic rule, mm: too small to be noticed.
 const AUTO_BAND: f64 = 0.2;
-/// How much farther from each other than the band edges are one all the same, mm: the gap of many nests is the band, and
-/// rounding of a turned one must not tear its edges to pieces.
+/// Extra distance within which two edges still merge, mm: the gap of many nests equals the band, and the rounding of a turned
+/// one must not split its edges.
 const BAND_EPSILON: f64 = 1e-9;
-/// Largest distance of a point from its rounded place, in units of the grid: half the diagonal of a cell.
+/// Greatest distance of a point from its rounded place, in units of the grid: half the diagonal of a cell.
 const ROUNDING_REACH: f64 = 0.71;
 
 impl MachineProfile {
-    /// Least and greatest angle of the blade at which C is inside its range, rad.
+    /// Least and greatest angle of the blade at which C is inside its range, rad; `None` = unbounded.
     pub fn blade_range(&self) -> Option<[f64; 2]> {
         self.c.range().map(|range| range.map(|end| end - self.knife.yaw()))
     }
 
-    /// Least turn at which the knife is lifted, rad: of `corner.angle_deg`, and less where the heel would stand farther than
-    /// `knife.max_swing_mm` beside the line behind it, w sin(a).
+    /// Least turn at which the knife is lifted, rad: that of `corner.angle_deg`, or less where the heel would swing out by more
+    /// than `knife.max_swing_mm` behind the corner, w sin(a).
     pub fn corner_angle(&self) -> f64 {
         let swing = self.knife.max_swing_mm.filter(|&swing| swing < self.knife.width_mm);
         swing.map_or(f64::INFINITY, |swing| (swing / self.knife.width_mm).asin()).min(self.corner.angle())
     }
 
-    /// Permitted deviation of the tip from the path, mm, for a file whose numbers are multiples of `unit` mm:
-    /// not smaller than what the file resolves, because its vertices carry that much noise.
+    /// Permitted deviation of the tip from the path, mm, for a file whose numbers are multiples of `unit` mm: at least the
+    /// resolution of the file, because its vertices carry that much noise.
     pub fn tolerance(&self, unit: f64) -> f64 {
         self.path.tolerance_mm.unwrap_or_else(|| AUTO_TOLERANCE.max(ROUNDING_REACH * unit))
     }
 
-    /// How near to each other edges of two parts are one edge, mm, for a file whose numbers are multiples of `unit` mm: each
-    /// outline was rounded by itself, so that they may be a diagonal of that apart.
+    /// Distance within which edges of two parts are one edge, mm, for a file whose numbers are multiples of `unit` mm: each
+    /// outline was rounded by itself, so that they may be a diagonal of the grid apart.
     pub fn band(&self, unit: f64) -> f64 {
         self.nest.band_mm.unwrap_or_else(|| AUTO_BAND.max(std::f64::consts::SQRT_2 * unit)) + BAND_EPSILON
     }
 
-    /// How near to each other edges of two parts are cut once, mm, for a file whose numbers are multiples of `unit` mm; `None` =
-    /// each is cut.
+    /// Distance within which edges of two parts are cut once, mm, for a file whose numbers are multiples of `unit` mm; `None`
+    /// if each edge is cut.
     pub fn common(&self, unit: f64) -> Option<f64> {
         match self.common.lines {
             Lines::Within(distance) => Some(distance + BAND_EPSILON),
@@ -238,18 +238,18 @@ impl MachineProfile {
         }
     }
 
-    /// How far the blade may be turned from where its orientation mode has it in a program of G-code, rad: no farther
-    /// than it is judged by.
+    /// Greatest angle between the blade and its orientation mode in a program of G-code, rad: at most the limit of the
+    /// verifier.
     pub fn blade_tolerance(&self) -> f64 {
         rad(self.gcode.heading_tolerance_deg.min(self.verify.max_heading_deg))
     }
 
-    /// Its tables, as in TOML.
+    /// Tables as in TOML.
     pub(super) fn to_table(&self) -> toml::Table {
         toml::Table::try_from(self).expect("a profile holds numbers, words and named tables")
     }
 
-    /// Whether a code of the cutter file, such as `M19`, is obeyed.
+    /// True if a code of the cutter file, such as `M19`, is obeyed.
     pub fn obeys(&self, code: &str) -> bool {
         self.codes.get(code) != Some(&CodeUse::Ignore)
     }

@@ -1,9 +1,9 @@
-//! The profile as a JSON Schema (draft 2020-12), from the table of keys alone: by it editors complete and check a profile
-//! while it is written.
+//! JSON Schema (draft 2020-12) of the profile, derived from the table of keys alone: editors complete and check a profile with
+//! it while it is written.
 //!
-//! Nothing that loads breaks it. What it cannot say is left to loading: rules between keys, the order of two numbers,
-//! ranges of values that are texts with a unit or words of a step, which names of encodings there are, what lines of
-//! text do. To JSON 1.0 is a whole number, to TOML none.
+//! Every profile that loads conforms to it. Some checks are left to loading: rules between keys, the order of two numbers,
+//! ranges of values that are texts with a unit or words of a step, names of encodings, lines of text. In JSON 1.0 is a whole
+//! number, in TOML it is not.
 
 use std::ops::Bound;
 
@@ -16,14 +16,14 @@ use super::keys::{self, KEYS};
 use super::plot::PlotUnit;
 use crate::units::quantity;
 
-/// Where the schema has what several keys take.
+/// References to definitions that several keys share.
 const STEP: &str = "#/$defs/step";
 const QUANTITY: &str = "#/$defs/quantity";
 
-/// A number as texts have it, without its sign.
+/// Number in a text, without its sign.
 const NUMBER: &str = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?";
 
-/// The schema of profiles.
+/// Schema of profiles.
 pub fn schema() -> Value {
     let mut root = section();
     for key in KEYS {
@@ -36,13 +36,13 @@ pub fn schema() -> Value {
     Value::Object(root)
 }
 
-/// A table without keys.
+/// Schema of a table without keys.
 fn section() -> Map<String, Value> {
     let parts = [("type", "object".into()), ("additionalProperties", false.into())];
     parts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-/// Puts a key where it stands, within the tables that lead to it.
+/// Inserts a key into the nested tables of its name.
 fn put(root: &mut Map<String, Value>, key: &Key) {
     let mut at = root;
     for name in key.section().split('.').filter(|name| !name.is_empty()) {
@@ -55,7 +55,7 @@ fn put(root: &mut Map<String, Value>, key: &Key) {
     };
 }
 
-/// What stands under a name in a group of a table's schema, made where nothing does.
+/// Schema under a name in a group of a table's schema, created if missing.
 fn member<'s>(
     table: &'s mut Map<String, Value>,
     group: &str,
@@ -66,7 +66,7 @@ fn member<'s>(
     group.entry(name).or_insert_with(value).as_object_mut().expect("a schema is an object")
 }
 
-/// What a key takes, with its meaning and its default.
+/// Schema of a key, with its meaning and its default.
 fn described(key: &Key) -> Value {
     let expects = key.expects();
     let (first, rest) = expects.split_at(1);
@@ -84,7 +84,7 @@ fn described(key: &Key) -> Value {
     value
 }
 
-/// What a key takes.
+/// Schema of the values of a key.
 fn values(key: &Key) -> Value {
     let mut ways = match key.takes {
         Takes::Number(within) | Takes::NumberOr(within, _) | Takes::NumberOrWord(within, _) => {
@@ -101,7 +101,7 @@ fn values(key: &Key) -> Value {
         Takes::Pose | Takes::PoseOr(_) => vec![places(key, 3)],
         Takes::Length(within) => vec![numbers(within), json!({ "type": "string", "pattern": PlotUnit::pattern() })],
         Takes::Word(words) => vec![json!({ "enum": words() })],
-        // These are offered; the standard knows more.
+        // Only these are suggested; the standard has more.
         Takes::Encoding => vec![json!({ "enum": &encoding::NAMES[..] }), json!({ "type": "string" })],
         Takes::Text => vec![json!({ "type": "string", "pattern": r"^[\n -~]*$" })],
         Takes::Steps => vec![json!({ "type": "array", "items": { "$ref": STEP } })],
@@ -122,7 +122,7 @@ fn values(key: &Key) -> Value {
     one_of(ways)
 }
 
-/// One way or several.
+/// Single schema, or a choice of several.
 fn one_of(mut ways: Vec<Value>) -> Value {
     if ways.len() == 1 { ways.remove(0) } else { json!({ "anyOf": ways }) }
 }
@@ -142,14 +142,14 @@ fn numbers(within: Within) -> Value {
     schema
 }
 
-/// So many places in a list.
+/// List of `count` positions.
 fn places(key: &Key, count: usize) -> Value {
     let units: Vec<&str> = (0..count).map(|n| key.unit_of(n)).collect();
     let items = one_of(quantities(numbers(PLACE), &units));
     json!({ "type": "array", "minItems": count, "maxItems": count, "items": items })
 }
 
-/// Numbers, and where one of their units has others beside it, texts of a number and a unit.
+/// Numbers, and texts of a number and a unit if one of the units has alternatives.
 fn quantities(numbers: Value, units: &[&str]) -> Vec<Value> {
     let mut ways = vec![numbers];
     if units.iter().any(|unit| quantity::kind(unit).is_some()) {
@@ -158,13 +158,13 @@ fn quantities(numbers: Value, units: &[&str]) -> Vec<Value> {
     ways
 }
 
-/// A text of a number and a unit; which there are is left to loading.
+/// Text of a number and a unit; the units themselves are checked on loading.
 fn quantity_text() -> Value {
     let pattern = format!(r"^\s*[+-]?{NUMBER}(?:\s*/\s*\+?{NUMBER})?\s*[^\s0-9,.+/-].*$");
     json!({ "description": "A number with a unit of the key's kind.", "type": "string", "pattern": pattern })
 }
 
-/// A step of a controller.
+/// Step of a controller.
 fn step() -> Value {
     let kinds = spellings().map(|kind| {
         json!({ "description": kind.about, "examples": [kind.example], "type": "string", "pattern": kind.pattern })
@@ -173,7 +173,7 @@ fn step() -> Value {
     json!({ "description": "A step of the controller: a line of its program.", "anyOf": kinds })
 }
 
-/// A value of a profile in JSON.
+/// Value of a profile in JSON.
 fn plain(value: &toml::Value) -> Value {
     match value {
         toml::Value::Float(value) => number(*value),
@@ -186,10 +186,10 @@ fn plain(value: &toml::Value) -> Value {
     }
 }
 
-/// Up to here every whole number is one of floating point.
+/// Limit below which every whole number is exact in floating point.
 const WHOLE_MAX: f64 = 9.0e15;
 
-/// A number, whole ones without a point.
+/// Number, without a point if it is whole.
 fn number(value: f64) -> Value {
     if value.fract() == 0.0 && value.abs() <= WHOLE_MAX { (value as i64).into() } else { value.into() }
 }

@@ -1,51 +1,51 @@
-//! Which pieces of a marker one compile cuts, and whether the knife goes down at all.
+//! Choice of the pieces of a marker for one compile, and the mode of the knife.
 
 use std::fmt;
 
 use thiserror::Error;
 
-/// Which pieces are cut: all, unless one of these says otherwise.
+/// Choice of pieces; all by default.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// Only these; `None` = every piece.
+    /// Pieces to cut exclusively; `None` = every piece.
     pub pieces: Option<Numbers>,
-    /// Not these.
+    /// Pieces to leave out.
     pub skip: Option<Numbers>,
-    /// Only what is cut from there on.
+    /// Place in the cut order where cutting begins.
     pub resume_from: Option<Start>,
-    /// Only what is cut in these windows of a conveyor, from 1.
+    /// Windows of a conveyor to cut, from 1; `None` = every window.
     pub bites: Option<Numbers>,
 }
 
 impl Selection {
-    /// Whether every piece is cut.
+    /// True if every piece is cut.
     pub fn is_all(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Whether a run may begin amid the marker.
+    /// True if a run may begin amid the marker.
     pub fn begins_amid(&self) -> bool {
         self.resume_from.is_some() || self.bites.is_some()
     }
 
-    /// Whether a piece of this number is cut, its place in the cut order aside.
+    /// True if a piece of this number is cut, regardless of its place in the cut order.
     pub fn has(&self, number: u32) -> bool {
         self.pieces.as_ref().is_none_or(|only| only.has(number))
             && !self.skip.as_ref().is_some_and(|skipped| skipped.has(number))
     }
 }
 
-/// The place that a run begins with.
+/// Place where a run begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
-    /// A piece, as in `3`, or `3/2` for that of the second copy.
+    /// Piece, as in `3`, or `3/2` for that of the second copy.
     Piece {
-        /// Its number; the first piece that has it.
+        /// Number; it means the first piece with it.
         number: u32,
-        /// The copy of the marker that it is of, from 1.
+        /// Copy of the marker, from 1.
         copy: u32,
     },
-    /// A window of a conveyor, from 1, as in `bite:3`.
+    /// Window of a conveyor, from 1, as in `bite:3`.
     Bite(u32),
 }
 
@@ -66,7 +66,7 @@ impl Start {
     }
 }
 
-/// As it is typed.
+/// Text as typed.
 impl fmt::Display for Start {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -77,7 +77,7 @@ impl fmt::Display for Start {
     }
 }
 
-/// What names no piece to begin with.
+/// Error of a text that is not a place to begin.
 #[derive(Debug, Error, PartialEq, Eq)]
 #[error(
     "`{0}` names no piece; give its number, and its copy behind a stroke if there are several, as in 3 or 3/2, or bite:3"
@@ -87,23 +87,23 @@ pub struct NotStart(String);
 /// Numbers of pieces, as in `3,7-12`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Numbers {
-    /// First and last of each range, as they were given.
+    /// First and last of each range, as given.
     ranges: Vec<[u32; 2]>,
 }
 
-/// What is wrong with a list of numbers.
+/// Error in a list of numbers.
 #[derive(Debug, Error, PartialEq, Eq)]
 pub enum NotNumbers {
-    /// Something else than a whole number stands there.
+    /// A word that is not a whole number.
     #[error("`{0}` is no number; give numbers and ranges, as in 3,7-12")]
     Word(String),
-    /// A range that runs down.
+    /// A descending range.
     #[error("the range {0}-{1} runs backward; did you mean {1}-{0}?")]
     Backward(u32, u32),
 }
 
 impl Numbers {
-    /// Reads numbers and ranges with commas between them.
+    /// Reads comma-separated numbers and ranges.
     pub fn parse(text: &str) -> Result<Self, NotNumbers> {
         let number = |word: &str| {
             let digits = word.trim();
@@ -120,7 +120,7 @@ impl Numbers {
         Ok(Self { ranges: text.split(',').map(range).collect::<Result<_, _>>()? })
     }
 
-    /// The one number that was written, if it is one.
+    /// Single number, if only one was given.
     fn only(&self) -> Option<u32> {
         match self.ranges[..] {
             [[first, last]] if first == last => Some(first),
@@ -128,18 +128,18 @@ impl Numbers {
         }
     }
 
-    /// Whether a number is among them.
+    /// True if a number is among them.
     pub fn has(&self, number: u32) -> bool {
         self.ranges.iter().any(|&[first, last]| (first..=last).contains(&number))
     }
 
-    /// The numbers that were written: the two ends of each range.
+    /// Numbers as written: both ends of each range.
     pub fn written(&self) -> impl Iterator<Item = u32> + '_ {
         self.ranges.iter().flat_map(|&[first, last]| std::iter::once(first).chain((last != first).then_some(last)))
     }
 }
 
-/// As it is typed.
+/// Text as typed.
 impl fmt::Display for Numbers {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, &[first, last]) in self.ranges.iter().enumerate() {
@@ -150,20 +150,20 @@ impl fmt::Display for Numbers {
     }
 }
 
-/// What a program does with the knife.
+/// Mode of the knife in a program.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// It cuts.
+    /// Normal cutting.
     #[default]
     Cut,
-    /// The same motion with knife and drills up.
+    /// Same motion with knife and drills up.
     Dry,
-    /// Once around the box of the marker with the knife up, from home and back.
+    /// One round along the bounding box of the marker with the knife up, from home and back.
     Frame,
 }
 
 impl Mode {
-    /// Whether knife and drills work.
+    /// True if knife and drills work.
     pub fn cuts(self) -> bool {
         match self {
             Self::Cut => true,

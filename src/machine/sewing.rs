@@ -1,6 +1,7 @@
-//! The pattern-sewing machine: the keys `sewing.*`.
+//! Pattern-sewing machine: the keys `sewing.*`.
 //!
-//! The defaults reproduce the two figures that such a machine is sold by: 3200 stitches a minute at 2.5 mm, 2800 at 3 mm.
+//! The defaults reproduce the two figures by which such machines are advertised: 3200 stitches a minute at 2.5 mm, 2800 at 3
+//! mm.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +10,7 @@ use super::key::{Key, Takes, between, from};
 use super::word::{Off, OrWord, Word as _, words};
 use crate::units::MS_PER_S;
 
-/// A whole turn of the spindle, degrees.
+/// Full turn of the spindle, degrees.
 const TURN_DEG: f64 = 360.0;
 
 /// The keys `sewing.*`.
@@ -48,117 +49,117 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "sewing.producer_hz", takes: Takes::Number(from(0.1, 1.0e7)), about: "How many entries a second the host puts into it." },
 ];
 
-/// A machine that sews patterns.
+/// Pattern-sewing machine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sewing {
-    /// X and Y may start.
+    /// Angle of the spindle at which X and Y may start.
     pub feed_start_deg: f64,
-    /// They must have arrived.
+    /// Angle of the spindle at which X and Y must have arrived.
     pub feed_end_deg: f64,
-    /// A pulse.
+    /// Distance of X or Y per pulse.
     pub step_mm: f64,
-    /// The rate without a ramp.
+    /// Pulse rate at which the motors start and stop without a ramp.
     pub start_hz: f64,
-    /// Of X and of Y.
+    /// Greatest acceleration of X and of Y beyond that rate.
     pub feed_acceleration_mm_s2: f64,
-    /// The greatest rate.
+    /// Greatest pulse rate.
     #[serde(with = "OrWord::<Off>")]
     pub max_hz: Option<f64>,
-    /// How the window is used.
+    /// Use of the window.
     pub ramp: Ramp,
-    /// Of the spindle.
+    /// Greatest speed of the spindle.
     pub max_rpm: f64,
-    /// Speeds are multiples of it.
+    /// Grid of speeds.
     pub grid_rpm: u32,
-    /// Limits by pitch: mm, rpm.
+    /// Speed limits by pitch: mm, rpm.
     pub speeds: Vec<[f64; 2]>,
-    /// The first stitches of a run.
+    /// Speed of a soft start.
     #[serde(with = "OrWord::<Off>")]
     pub soft_start_rpm: Option<f64>,
-    /// How many these are.
+    /// Number of stitches of a soft start.
     pub soft_start_stitches: u32,
-    /// Of seams that are laid.
+    /// Stitch length of seams that are laid out.
     pub pitch_mm: f64,
-    /// The shortest stitch.
+    /// Least stitch length.
     pub min_pitch_mm: f64,
-    /// The longest stitch.
+    /// Greatest stitch length.
     pub max_pitch_mm: f64,
-    /// From which turn on a vertex is a corner.
+    /// Least turn of a corner.
     pub corner_deg: f64,
-    /// Stitches too long for the speed.
+    /// Treatment of stitches too long for the speed.
     pub on_long: OnLong,
-    /// Of seams.
+    /// Locking of the ends of seams.
     pub ends: Ends,
-    /// A stitch of a tie.
+    /// Stitch length of a tie.
     pub tie_mm: f64,
-    /// Stitches of a tie.
+    /// Number of stitches of a tie.
     pub tie_stitches: u32,
-    /// Stitches that are sewn again.
+    /// Number of stitches that a back-tack repeats.
     pub back_tack_stitches: u32,
-    /// From side to side.
+    /// Width of a zigzag seam.
     pub zigzag_width_mm: f64,
-    /// Along the seam.
+    /// Advance of a zigzag seam per stitch.
     pub zigzag_pitch_mm: f64,
-    /// From side to side.
+    /// Width of a bar tack.
     pub tack_width_mm: f64,
-    /// Along the tack.
+    /// Advance of a bar tack per stitch.
     pub tack_pitch_mm: f64,
-    /// Of seams.
+    /// Order of seams.
     pub order: SeamOrder,
-    /// Between seams.
+    /// True if the thread is cut between seams.
     pub trim: bool,
-    /// Of a trim.
+    /// Duration of a trim.
     pub trim_ms: f64,
-    /// Of a start and a stop.
+    /// Duration of a start and a stop of the spindle.
     pub start_ms: f64,
-    /// Entries of the queue.
+    /// Capacity of the queue of the motion part, entries.
     pub queue_depth: u32,
-    /// Entries a second.
+    /// Rate at which the host fills the queue, entries per second.
     pub producer_hz: f64,
 }
 
-/// How X and Y use the window in which they may move.
+/// Use of the window in which X and Y may move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ramp {
-    /// All of it, as gently as that allows.
+    /// All of it, as gently as possible.
     Fill,
-    /// As little of it as they can.
+    /// As little of it as possible.
     Fastest,
 }
 
-/// What is done about stitches that are too long for the speed of their run.
+/// Treatment of stitches that are too long for the speed of their run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OnLong {
     /// The run is sewn more slowly.
     Slow,
-    /// They become several.
+    /// Each is split into several.
     Split,
     /// The pattern is refused.
     Reject,
 }
 
-/// How the ends of seams are locked.
+/// Locking of the ends of seams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ends {
     /// Short stitches back and forth.
     Tie,
-    /// The first and last stitches once more, back and forth.
+    /// The first and last stitches are repeated back and forth.
     BackTack,
-    /// Not at all.
+    /// No locking.
     Open,
 }
 
-/// In which order seams are sewn.
+/// Order in which seams are sewn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SeamOrder {
-    /// The file's.
+    /// Order of the file.
     File,
-    /// That of a short way between them.
+    /// Short travel between seams.
     Travel,
 }
 
@@ -201,12 +202,12 @@ impl Default for Sewing {
 }
 
 impl Sewing {
-    /// The window, degrees, 0 to 360.
+    /// Window, degrees, 0 to 360.
     pub fn window_deg(&self) -> f64 {
         (self.feed_end_deg - self.feed_start_deg).rem_euclid(TURN_DEG)
     }
 
-    /// The window as a part of a turn, 0 to 1.
+    /// Window as a share of a turn, 0 to 1.
     pub fn window(&self) -> f64 {
         self.window_deg() / TURN_DEG
     }
@@ -216,23 +217,23 @@ impl Sewing {
         self.start_hz * self.step_mm
     }
 
-    /// Highest speed of X and Y, mm/s.
+    /// Greatest speed of X and Y, mm/s.
     pub fn cap(&self) -> f64 {
         self.max_hz.map_or(f64::INFINITY, |rate| rate * self.step_mm)
     }
 
-    /// How long cutting the thread takes, s.
+    /// Duration of cutting the thread, s.
     pub fn trim_time(&self) -> f64 {
         self.trim_ms / MS_PER_S
     }
 
-    /// How long the spindle takes to start and to stop, s.
+    /// Duration of a start and a stop of the spindle, s.
     pub fn start_time(&self) -> f64 {
         self.start_ms / MS_PER_S
     }
 }
 
-/// One value against another.
+/// Checks values against each other.
 pub(super) fn faults(sewing: &Sewing) -> Vec<Fault> {
     let mut faults = Vec::new();
     if sewing.window() == 0.0 {

@@ -1,7 +1,7 @@
-//! How the marker lies on the table: the keys `sheet.*`.
+//! Placement of the marker on the table: the keys `sheet.*`.
 //!
-//! The marker is turned first; all other keys speak of X and Y of the table, along the cloth and across it. Whatever is
-//! done, the lower left corner of its box stays where the file has it, and only `origin` moves that.
+//! The marker is turned first; all other keys refer to X and Y of the table, along the cloth and across it. The lower left
+//! corner of its box stays where the file has it, unless `origin` moves it.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use super::key::{Key, Takes, from};
 use super::word::{Corner, OrWord, Word as _, words};
 use crate::units::number::exact;
 
-/// Most copies of one marker: longer tables there are none.
+/// Greatest number of copies of a marker: no table is longer.
 pub const COPIES_MAX: u32 = 1000;
 
 /// The keys `sheet.*`.
@@ -27,49 +27,49 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "sheet.copies_gap_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "From the end of one copy to the beginning of the next." },
 ];
 
-/// How the marker lies on the table.
+/// Placement of the marker on the table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sheet {
-    /// Where the origin of the file comes to lie; `None` = the corner of the marker lies in that of the table, with room for
-    /// what the blade does beyond its lines.
+    /// Position of the origin of the file; `None` = the corner of the marker is in that of the table, with room for the reach
+    /// of the blade beyond its lines.
     #[serde(with = "OrWord::<Corner>")]
     pub origin: Option<[f64; 2]>,
-    /// Whether its ends change places.
+    /// Exchange of its ends.
     pub mirror: Mirror,
-    /// Whether its sides change places.
+    /// Exchange of its sides.
     pub flip: Flip,
-    /// By how much it is turned.
+    /// Rotation, counter-clockwise.
     pub rotate_deg: f64,
-    /// By what it is longer along the cloth.
+    /// Scale factor along the cloth.
     pub scale_x: f64,
-    /// By what it is wider across the cloth.
+    /// Scale factor across the cloth.
     pub scale_y: f64,
-    /// How many times it is cut.
+    /// Number of copies.
     pub copies: u32,
-    /// How far a copy is from the next.
+    /// Distance from one copy to the next.
     pub copies_gap_mm: f64,
 }
 
-/// Whether the ends of the marker change places.
+/// Exchange of the ends of the marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mirror {
-    /// They stay.
+    /// Ends unchanged.
     #[default]
     Off,
-    /// They do.
+    /// Ends exchanged.
     Ends,
 }
 
-/// Whether the sides of the marker change places.
+/// Exchange of the sides of the marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Flip {
-    /// They stay.
+    /// Sides unchanged.
     #[default]
     Off,
-    /// They do.
+    /// Sides exchanged.
     Sides,
 }
 
@@ -89,30 +89,30 @@ impl Default for Sheet {
 }
 
 impl Sheet {
-    /// Whether the marker lies as the file has it, once.
+    /// True if the marker is placed once, as it is in the file.
     pub fn is_plain(&self) -> bool {
         Self { copies_gap_mm: 0.0, ..self.clone() } == Self::default()
     }
 
-    /// Whether X of the cloth is that of the file but for where it begins, and there is one copy: so conveyors of the file
-    /// find the cloth where they expect it.
+    /// True if X of the cloth equals that of the file except for an offset, and there is one copy, so that conveyor commands of
+    /// the file find the cloth where they expect it.
     pub fn keeps_length(&self) -> bool {
         let Self { origin: _, mirror, flip: _, rotate_deg, scale_x, scale_y: _, copies, copies_gap_mm: _ } = *self;
         mirror == Mirror::Off && rotate_deg.rem_euclid(360.0) == 0.0 && scale_x == 1.0 && copies == 1
     }
 
-    /// Whether it shows the other side of the parts.
+    /// True if it shows the other side of the parts.
     pub fn is_mirrored(&self) -> bool {
         (self.mirror == Mirror::Ends) != (self.flip == Flip::Sides)
     }
 
-    /// By how much it makes what is small larger at the most: the rounding of the file grows with the marker.
+    /// Greatest scale factor: the rounding of the file grows with the marker.
     pub fn growth(&self) -> f64 {
         self.scale_x.max(self.scale_y)
     }
 }
 
-/// As a report tells it.
+/// Text for a report.
 impl fmt::Display for Sheet {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let mut told = Vec::new();

@@ -1,4 +1,4 @@
-//! A profile as TOML text: with every key explained, or only the values.
+//! Profile as TOML text, with or without an explanation of every key.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use super::codes::CodeUse;
 use super::keys::{self, KEYS};
 use super::profile::MachineProfile;
 
-/// Whether the keys are explained.
+/// Comments in the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comments {
     /// A comment above every key.
@@ -15,11 +15,11 @@ pub enum Comments {
     Plain,
 }
 
-/// Decimals of the back that the width leaves, mm: what the subtraction adds is smaller.
+/// Rounding of the back derived from the width, steps per mm: the subtraction adds less.
 const BACK_DECIMALS: f64 = 1e9;
 
 impl MachineProfile {
-    /// The same profile with what the blade really has in place of what follows from it.
+    /// Profile with the effective blade in place of derived values.
     #[must_use]
     pub fn effective(&self) -> Self {
         let mut profile = self.clone();
@@ -29,7 +29,7 @@ impl MachineProfile {
         profile
     }
 
-    /// The profile as TOML, every key in the order of [`KEYS`]; it loads back as the same profile.
+    /// Profile as TOML, with every key in the order of [`KEYS`]; it loads back as the same profile.
     pub fn to_toml(&self, comments: Comments) -> String {
         let table = self.to_table();
         let mut out = String::new();

@@ -1,4 +1,4 @@
-//! The table: the keys `table.*`.
+//! Table of the cutter: the keys `table.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,23 +12,23 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "table.y_mm", takes: Takes::RangeOr(Unlimited::WORD), about: "Where the table begins and ends along Y." },
 ];
 
-/// The table.
+/// Table of the cutter.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Table {
-    /// Its ends along X.
+    /// Ends along X; `None` = unlimited.
     #[serde(with = "OrWord::<Unlimited>")]
     pub x_mm: Option<[f64; 2]>,
-    /// Its ends along Y.
+    /// Ends along Y; `None` = unlimited.
     #[serde(with = "OrWord::<Unlimited>")]
     pub y_mm: Option<[f64; 2]>,
 }
 
 impl Table {
-    /// A program that leaves the table by more is refused, mm: a hand puts a marker down no better than that.
+    /// Distance by which a program may leave the table, mm: a marker is placed by hand with no better accuracy.
     pub const EDGE_MM: f64 = 1.0;
 
-    /// How far a place lies off the table, mm; not above 0 on it.
+    /// Distance of a place from the table, mm; zero or negative on it.
     pub fn off(&self, place: [f64; 2]) -> f64 {
         let beyond = |value: f64, range: Option<[f64; 2]>| {
             range.map_or(f64::NEG_INFINITY, |[least, most]| (least - value).max(value - most))

@@ -1,4 +1,4 @@
-//! The clock of the controller: the keys `time.*`.
+//! Clock of the controller: the keys `time.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,11 +11,11 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "time.period_ms", takes: Takes::Number(from(0.1, 100.0)), about: "Time between two setpoints: the cycle of the controller." },
 ];
 
-/// The clock of the controller.
+/// Clock of the controller.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Time {
-    /// From one setpoint to the next.
+    /// Time between two setpoints.
     pub period_ms: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The tool that follows the lines: the keys `tool.*` and `quintic.*`.
+//! Tool that follows the lines: the keys `tool.*` and `quintic.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,61 +20,61 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "quintic.split", takes: Takes::Flag, about: "Edges are split until their polynomials keep path.tolerance_mm; false = one for each edge,\nfor study." },
 ];
 
-/// The tool.
+/// Tool that follows the lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tool {
-    /// What it is.
+    /// Kind.
     pub kind: ToolKind,
-    /// Head to edge.
+    /// Distance from head to edge.
     pub distance_mm: f64,
-    /// Of the jet along the edge.
+    /// Speed of the jet along the edge.
     pub edge_speed_mm_s: f64,
-    /// How much faster the jet may be.
+    /// Permitted excess of the jet's speed.
     pub edge_speed_percent: f64,
-    /// Of the head round a corner.
+    /// Speed of the head round a corner.
     pub corner_speed_mm_s: f64,
-    /// How its motion is planned.
+    /// Planner of its motion.
     pub planner: Planner,
 }
 
-/// What the tool is.
+/// Kind of the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ToolKind {
-    /// A tangential knife.
+    /// Tangential knife.
     Knife,
-    /// A head that follows edges at a distance, turned towards them.
+    /// Spray head that follows edges at a distance, turned towards them.
     Spray,
-    /// A creasing wheel.
+    /// Creasing wheel.
     Wheel,
-    /// A pen.
+    /// Pen.
     Pen,
-    /// A router.
+    /// Router.
     Router,
 }
 
-/// How the motion of a spray head is planned.
+/// Planner of the motion of a spray head.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Planner {
-    /// Jerk-limited, as fast as the limits allow.
+    /// Jerk-limited motion, as fast as the limits allow.
     Optimal,
     /// Least-squares polynomials of order 5.
     Quintic,
 }
 
-/// The polynomials of [`Planner::Quintic`].
+/// Polynomials of [`Planner::Quintic`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Quintic {
-    /// What they are sums of.
+    /// Basis functions.
     pub basis: Basis,
-    /// Whether edges are split until they are close enough.
+    /// True if edges are split until the polynomials are close enough.
     pub split: bool,
 }
 
-/// What a polynomial is a sum of.
+/// Basis functions of a polynomial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Basis {
@@ -103,10 +103,10 @@ impl Default for Quintic {
     }
 }
 
-/// A key of the knife, and whether what it says of a knife asks for something.
+/// Key of the knife, and a test of whether its value asks for something.
 type Asks = (&'static str, fn(&Knife) -> bool);
 
-/// What a tool without a blade does not have.
+/// Keys that require a blade.
 const OF_BLADES: &[Asks] = &[
     ("knife.width_mm", |knife| knife.width_mm > 0.0),
     ("knife.back_mm", |knife| knife.back_mm.is_some_and(|back| back > 0.0)),
@@ -125,7 +125,7 @@ const OF_BLADES: &[Asks] = &[
     ("knife.max_bow_mm", |_| true),
 ];
 
-/// What a head that never touches the material does not do besides: plunge, lift, or go at the speed of a cut.
+/// Keys that a head which never touches the material ignores as well: plunges, lifts and cutting speeds.
 const OF_CUTS: &[Asks] = &[
     ("knife.feed_mm_s", |knife| knife.feed_mm_s.is_some()),
     ("knife.slow_percent", |_| true),
@@ -138,7 +138,7 @@ const OF_CUTS: &[Asks] = &[
 ];
 
 impl ToolKind {
-    /// Its word, as profiles have it.
+    /// Name in profiles.
     pub fn name(self) -> &'static str {
         match self {
             Self::Knife => "knife",
@@ -149,7 +149,7 @@ impl ToolKind {
         }
     }
 
-    /// Whether it has a blade, with a heel, a tip and overlaps.
+    /// True if it has a blade, with a heel, a tip and overlaps.
     pub fn has_blade(self) -> bool {
         match self {
             Self::Knife => true,
@@ -157,7 +157,7 @@ impl ToolKind {
         }
     }
 
-    /// The knife as it is with this tool: one without a blade is a point on the line, along its tangent, without overlaps.
+    /// Adapts the knife to the tool: a tool without a blade is a point on the line, along its tangent, without overlaps.
     pub(super) fn fit(self, knife: &mut Knife) {
         if !self.has_blade() {
             *knife = Knife {
@@ -176,7 +176,7 @@ impl ToolKind {
     }
 }
 
-/// Keys that contradict the tool.
+/// Faults of keys that contradict the tool.
 pub(super) fn faults(tool: &Tool, knife: &Knife, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let lacks = match tool.kind {
         ToolKind::Knife => &[][..],

@@ -1,4 +1,4 @@
-//! The carriage that follows the centre of a moving cloth: the keys `track.*`.
+//! Carriage that follows the centre of a moving cloth: the keys `track.*`.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,10 +7,9 @@ use super::key::{Key, Takes, between, from};
 use super::word::{Off, OrWord, Word as _};
 use crate::units::MS_PER_S;
 
-/// The most samples of a debounce time, and between an upstream reading and what is done about it: the controller is of fixed
-/// size.
+/// Greatest number of samples in a debounce time: the controller has a fixed size.
 pub const MOST_DEBOUNCE: u16 = 63;
-/// Likewise, behind an upstream reading.
+/// Greatest number of samples between an upstream reading and the reaction to it.
 pub const MOST_DELAY: u16 = 2000;
 
 /// The keys `track.*`.
@@ -34,43 +33,43 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "track.centre_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "Length of cloth over which the centre line that is written is evened: readings have steps of half\na pitch." },
 ];
 
-/// A carriage that follows the cloth.
+/// Carriage that follows the cloth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tracking {
-    /// m: of a ruler.
+    /// m: number of sensors of a ruler.
     pub sensors: u32,
-    /// q: between sensors.
+    /// q: distance between sensors.
     pub pitch_mm: f64,
     /// W0: nominal width of the cloth.
     pub width_mm: f64,
-    /// Least and greatest width.
+    /// Least and greatest width of the cloth; `None` = any.
     #[serde(with = "OrWord::<Off>")]
     pub width_range_mm: Option<[f64; 2]>,
-    /// Ts: of the samples.
+    /// Ts: sampling period.
     pub period_ms: f64,
-    /// f.
+    /// f: speed to which that by the deviation is added.
     pub least_speed_mm_s: f64,
-    /// k, a count.
+    /// k: speed per count.
     pub gain_mm_s: f64,
-    /// vmax.
+    /// vmax: greatest speed.
     pub max_speed_mm_s: f64,
-    /// a.
+    /// a: acceleration.
     pub carriage_acceleration_mm_s2: f64,
-    /// From reading to command.
+    /// Time from a reading to the command at the drive.
     pub latency_ms: f64,
-    /// Of the drive.
+    /// Time constant of the drive.
     pub lag_ms: f64,
-    /// Whether speed is kept to what can be stopped.
+    /// True if the speed is limited to one from which the carriage can stop.
     pub brake: bool,
-    /// How long a side is told before it counts.
+    /// Time for which the cloth must lie to one side before that counts.
     pub debounce_ms: f64,
-    /// Of the conveyor.
+    /// Speed of the conveyor.
     pub cloth_mm_s: f64,
-    /// l: to the second pair of rulers.
+    /// l: distance to the second pair of rulers; `None` = there is none.
     #[serde(with = "OrWord::<Off>")]
     pub upstream_mm: Option<f64>,
-    /// Evening of the centre line.
+    /// Length over which the centre line is smoothed.
     pub centre_mm: f64,
 }
 
@@ -98,12 +97,12 @@ impl Default for Tracking {
 }
 
 impl Tracking {
-    /// Ts: from one sample to the next, s.
+    /// Ts: sampling period, s.
     pub fn period(&self) -> f64 {
         self.period_ms / MS_PER_S
     }
 
-    /// From a reading to when the drive has the command, s.
+    /// Time from a reading to the command at the drive, s.
     pub fn latency(&self) -> f64 {
         self.latency_ms / MS_PER_S
     }
@@ -113,13 +112,13 @@ impl Tracking {
         self.lag_ms / MS_PER_S
     }
 
-    /// The samples of a debounce time: not fewer than fill it.
+    /// Number of samples in a debounce time, rounded up.
     pub fn debounce(&self) -> u16 {
-        // A period that is a part of the time, but for rounding, fills it.
+        // A period that divides the time, except for rounding, fills it exactly.
         (self.debounce_ms / self.period_ms - COUNT_EPSILON).ceil().max(0.0) as u16
     }
 
-    /// Samples from an upstream reading to where the cloth comes to the carriage; `None` without such rulers.
+    /// Number of samples from an upstream reading until that cloth is at the carriage; `None` without upstream rulers.
     pub fn ahead(&self) -> Option<f64> {
         Some(self.upstream_mm? / self.cloth_mm_s / self.period())
     }
@@ -128,7 +127,7 @@ impl Tracking {
 /// Rounding of a number of samples.
 const COUNT_EPSILON: f64 = 1e-9;
 
-/// One value against another.
+/// Checks values against each other.
 pub(super) fn faults(track: &Tracking) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut fault = |keys: &[&str], message: String, hint: &str| faults.push(Fault::of_range(keys, message, hint));
@@ -181,11 +180,11 @@ pub(super) fn faults(track: &Tracking) -> Vec<Fault> {
 }
 
 impl Tracking {
-    /// Samples between the two upstream readings whose difference is a velocity: their steps are half a pitch.
+    /// Number of samples between the two upstream readings whose difference gives a velocity: their resolution is half a pitch.
     pub const WINDOW: u16 = 8;
 
-    /// Samples that it takes to make a velocity of upstream readings and to have the drive do it: half of the window, the
-    /// median over a debounce time, latency, lag, and half a period for which a command holds on average.
+    /// Number of samples from upstream readings to the reaction of the drive to their velocity: half of the window, the median
+    /// over a debounce time, latency, lag, and half a period for which a command holds on average.
     pub fn foresight(&self) -> f64 {
         let drive = (self.latency() + self.lag()) / self.period() + 0.5;
         drive + f64::from(Self::WINDOW) / 2.0 + f64::from(self.debounce())

@@ -1,4 +1,4 @@
-//! The rules between the values of a profile, and each value's own range.
+//! Rules between the values of a profile, and the range of each value.
 
 use super::encoding;
 use super::fault::Fault;
@@ -12,14 +12,15 @@ use super::tool::ToolKind;
 use super::{sewing, tool, tracking};
 use crate::diagnostic::code;
 
-/// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
+/// Permitted difference between the width and the sum of `back_mm` and `radius_mm`, mm: they are read off a gauge in
+/// hundredths.
 const BLADE_EPSILON: f64 = 0.005;
-/// A whole turn, degrees.
+/// Full turn, degrees.
 const TURN_DEG: f64 = 360.0;
-/// How much more than all headings C must reach, degrees: on curves it stays clear of the ends of its range.
+/// Excess of the range of C over all headings, degrees: on curves C stays clear of the ends of its range.
 const REACH_DEG: f64 = 10.0;
 
-/// All faults of a profile. `is_given` tells the keys that the user gave: only those can contradict each other.
+/// All faults of a profile. `is_given` selects the keys that the user gave: only those can contradict each other.
 pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let mut faults = ranges(profile, is_given);
     let broken: Vec<String> = faults.iter().flat_map(|fault| fault.keys.clone()).collect();
@@ -29,7 +30,7 @@ pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool
     faults
 }
 
-/// Each value by itself; defaults are in their ranges.
+/// Faults of single values; defaults are in their ranges.
 fn ranges(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let table = profile.to_table();
     let fault = |key: &Key| {
@@ -41,18 +42,18 @@ fn ranges(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Faul
             hint: hint(key, value),
         })
     };
-    // A family of keys holds words, which reading has checked.
+    // Families of keys hold words, which loading has checked.
     KEYS.iter().filter(|key| is_given(key.name)).filter_map(fault).collect()
 }
 
-/// What to do about a value that is out of its range, where more can be said than what the key takes.
+/// Hint for a value out of range, where there is more to say than the legal values.
 fn hint(key: &Key, value: &toml::Value) -> Option<String> {
     let name = value.as_str().filter(|_| matches!(key.takes, Takes::Encoding))?;
     let near: Vec<String> = encoding::nearest(name).iter().map(|name| format!("\"{name}\"")).collect();
     Some(format!("the nearest are {}", near.join(", ")))
 }
 
-/// One value against another.
+/// Faults of values against each other.
 fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let mut faults = blade(&profile.knife, is_given);
     faults.extend(times(&profile.knife));
@@ -66,7 +67,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults
 }
 
-/// The window of a conveyor beside the tool and the table.
+/// Fault of the window of a conveyor against the tool and the table.
 fn bites(profile: &MachineProfile) -> Option<Fault> {
     let length = profile.bite.length_mm?;
     if profile.tool.kind == ToolKind::Spray {
@@ -81,7 +82,7 @@ fn bites(profile: &MachineProfile) -> Option<Fault> {
     })
 }
 
-/// The lengths of the blade.
+/// Faults of the lengths of the blade.
 fn blade(knife: &Knife, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let mut faults = Vec::new();
     let width = knife.width_mm;
@@ -109,7 +110,7 @@ fn blade(knife: &Knife, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     faults
 }
 
-/// How long the knife is up, and how long it may be down.
+/// Faults of the times with the knife up, and of the length with the knife down.
 fn times(knife: &Knife) -> Vec<Fault> {
     let mut faults = Vec::new();
     if let Some(clear) = knife.clear_ms.filter(|&clear| clear > knife.lift_ms) {
@@ -129,7 +130,7 @@ fn times(knife: &Knife) -> Vec<Fault> {
     faults
 }
 
-/// Where the C axis goes, and how closely.
+/// Faults of the range of the C axis and of its accuracy.
 fn headings(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let mut faults = Vec::new();
     let reach = TURN_DEG / f64::from(profile.knife.edges.clamp(1, 2)) + REACH_DEG;

@@ -1,11 +1,11 @@
-//! What a program is judged by beyond the tolerance of the path: the keys `verify.*`.
+//! Limits for the verifier besides the tolerance of the path: the keys `verify.*`.
 
 use serde::{Deserialize, Serialize};
 
 use super::key::{Key, Takes, Within, from};
 use super::word::{Off, OrWord, Word as _};
 
-/// How far the blade may go astray, mm: farther than that is a slip of the unit.
+/// Deviations of the blade, mm: greater ones are a wrong unit.
 const ASTRAY: Within = from(0.0, 1000.0);
 
 /// The keys `verify.*`.
@@ -19,24 +19,24 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "verify.max_overcut_waste_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest overcut into waste." },
 ];
 
-/// What the verifier allows.
+/// Limits of the verifier.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Verify {
-    /// Left uncut.
+    /// Greatest length left uncut.
     pub max_uncut_mm: f64,
-    /// Blade against where its orientation mode has it.
+    /// Greatest angle between the blade and its orientation mode.
     pub max_heading_deg: f64,
-    /// Body beside a curve.
+    /// Greatest distance of the blade's body from a curve.
     #[serde(with = "OrWord::<Off>")]
     pub max_body_mm: Option<f64>,
-    /// Overcut into the part.
+    /// Greatest overcut into the part itself.
     #[serde(with = "OrWord::<Off>")]
     pub max_overcut_part_mm: Option<f64>,
-    /// Overcut into another part.
+    /// Greatest overcut into another part.
     #[serde(with = "OrWord::<Off>")]
     pub max_overcut_neighbour_mm: Option<f64>,
-    /// Overcut into waste.
+    /// Greatest overcut into waste.
     #[serde(with = "OrWord::<Off>")]
     pub max_overcut_waste_mm: Option<f64>,
 }

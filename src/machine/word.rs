@@ -1,20 +1,20 @@
-//! Words of the profile: those that stand for "no value", `"off"`, `"auto"`, `"unlimited"`, and those of a type.
+//! Words of the profile: those in place of a value, such as `"off"`, `"auto"`, `"unlimited"`, and the variants of an enum.
 
 use std::fmt;
 use std::marker::PhantomData;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, forward_to_deserialize_any};
 
-/// A word that stands for "no value".
+/// Word in place of a value.
 pub(super) trait Word {
     /// The word as it is typed.
     const WORD: &'static str;
 }
 
-/// For `#[serde(with = "OrWord::<Off>")]` on an `Option`: the value, or the word.
+/// Value or word, for `#[serde(with = "OrWord::<Off>")]` on an `Option`.
 pub(super) struct OrWord<W>(PhantomData<W>);
 
-/// What TOML may hold where a word is allowed.
+/// Value or text in TOML where a word is allowed.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Typed<T> {
@@ -23,7 +23,7 @@ enum Typed<T> {
 }
 
 impl<W: Word> OrWord<W> {
-    /// `None` for the word; any other word is an error.
+    /// Reads a value, or `None` for the word; any other word is an error.
     pub(super) fn deserialize<'de, D: Deserializer<'de>, T: Deserialize<'de>>(input: D) -> Result<Option<T>, D::Error> {
         let expected = || serde::de::Error::custom(format!("expected a value or \"{}\"", W::WORD));
         match Typed::<T>::deserialize(input).map_err(|_| expected())? {
@@ -33,7 +33,7 @@ impl<W: Word> OrWord<W> {
         }
     }
 
-    /// The word for `None`.
+    /// Writes a value, or the word for `None`.
     #[allow(clippy::ref_option, reason = "serde hands the field over by reference")]
     pub(super) fn serialize<S: Serializer, T: Serialize>(value: &Option<T>, output: S) -> Result<S::Ok, S::Error> {
         match value {
@@ -45,17 +45,17 @@ impl<W: Word> OrWord<W> {
 
 /// `"off"`: the feature is not used.
 pub(super) struct Off;
-/// `"as-drawn"`: what the file says.
+/// `"as-drawn"`: the value of the file.
 pub(super) struct AsDrawn;
-/// `"auto"`: found from other values.
+/// `"auto"`: derived from other values.
 pub(super) struct Auto;
-/// `"corner"`: where a corner of the table is.
+/// `"corner"`: the corner of the table.
 pub(super) struct Corner;
 /// `"stay"`: no move.
 pub(super) struct Stay;
 /// `"unbounded"`: an axis without ends.
 pub(super) struct Unbounded;
-/// `"same"`: what holds otherwise.
+/// `"same"`: the value that holds otherwise.
 pub(super) struct Same;
 /// `"unlimited"`: a table without edges.
 pub(super) struct Unlimited;
@@ -92,15 +92,15 @@ impl Word for Unlimited {
     const WORD: &'static str = "unlimited";
 }
 
-/// The words of a type that is one of several, as they are typed.
+/// Words of the variants of an enum, as typed.
 pub(super) fn words<T: Deserialize<'static>>() -> &'static [&'static str] {
     T::deserialize(Probe).err().map_or(&[], |Told(words)| words)
 }
 
-/// Holds nothing: it is told which words a type knows, and says that as its error.
+/// Deserializer without content: returns the words that a type knows as its error.
 struct Probe;
 
-/// The words that a type knows; none when it is asked for anything else.
+/// Words that a type knows; empty if it is not an enum.
 #[derive(Debug)]
 struct Told(&'static [&'static str]);
 

@@ -1,4 +1,4 @@
-//! What the keys `gcode.*` take and mean.
+//! Table of the keys `gcode.*`: their values and meanings.
 
 use super::{FeedMode, Letter};
 use crate::machine::key::{Key, Takes, from};

@@ -1,7 +1,7 @@
-//! The controller that reads the programs of the target `gcode`: the keys `gcode.*`.
+//! Controller that reads the programs of the target `gcode`: the keys `gcode.*`.
 //!
-//! What it does with knife, drills, operator and cloth are lists of [`Step`]s; only the head and the end of a program are
-//! free text, which may choose and switch but not move (`text`). `rules` holds them against each other.
+//! Its actions on knife, drills, operator and cloth are lists of [`Step`]s. Only the head and the end of a program are free
+//! text, which may choose and switch but not move (`text`). `rules` checks them against each other.
 
 mod keys;
 mod rules;
@@ -19,52 +19,52 @@ pub use self::step::{Number, Parameter, Step};
 pub(super) use self::words::Flaw;
 use super::word::{Off, OrWord};
 
-/// A controller that reads G-code, for the target `gcode`.
+/// Controller that reads G-code, for the target `gcode`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gcode {
-    /// The axis that turns the blade.
+    /// Letter of the axis that turns the blade.
     pub letter: Letter,
-    /// That axis counts within a turn.
+    /// True if that axis counts within one turn.
     pub wrapped: bool,
-    /// It turns on arcs, too.
+    /// True if the axis may turn on arcs.
     pub arcs: bool,
-    /// What F says.
+    /// Meaning of F.
     pub feed_mode: FeedMode,
-    /// P of G64.
+    /// Tolerance in P of G64; `None` = no G64.
     #[serde(with = "OrWord::<Off>")]
     pub blend_mm: Option<f64>,
-    /// Most moves a second that it plans; `None` = as many as are written.
+    /// Maximum number of moves a second that the controller plans; `None` = as many as are written.
     #[serde(with = "OrWord::<Off>")]
     pub max_blocks_s: Option<f64>,
-    /// Of positions.
+    /// Decimals of positions.
     pub decimals: u32,
-    /// Lines have N.
+    /// True if lines are numbered (N).
     pub line_numbers: bool,
-    /// The blade from where its orientation mode has it.
+    /// Greatest angle of the blade from its orientation mode, where the axis turns evenly along a piece.
     pub heading_tolerance_deg: f64,
-    /// A straight piece from its arc.
+    /// Greatest deviation of a straight piece from its arc, without arcs.
     pub chord_mm: f64,
-    /// Lines at the start.
+    /// Lines at the start of a program.
     pub header: String,
-    /// Lines at the end.
+    /// Lines at the end of a program.
     pub footer: String,
-    /// The knife goes down.
+    /// Steps that put the knife down.
     pub knife_down: Vec<Step>,
-    /// It is lifted.
+    /// Steps that lift the knife.
     pub knife_up: Vec<Step>,
-    /// A drill goes down.
+    /// Steps that put a drill down.
     pub drill_down: Vec<Step>,
-    /// It is lifted.
+    /// Steps that lift a drill.
     pub drill_up: Vec<Step>,
-    /// The operator is waited for.
+    /// Steps that wait for the operator.
     pub stop: Vec<Step>,
-    /// The cloth advances.
+    /// Steps that advance the cloth.
     pub advance: Vec<Step>,
 }
 
 impl Gcode {
-    /// The step of the last decimal, mm and degrees.
+    /// Resolution of positions, mm and degrees.
     pub fn step(&self) -> f64 {
         10_f64.powi(-self.decimals.cast_signed())
     }
@@ -82,7 +82,7 @@ pub enum Letter {
 }
 
 impl Letter {
-    /// As it stands in words.
+    /// Letter as it stands in words.
     pub fn byte(self) -> u8 {
         match self {
             Self::A => b'A',
@@ -92,17 +92,17 @@ impl Letter {
     }
 }
 
-/// What F says.
+/// Meaning of F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FeedMode {
-    /// Inverse time: one over the minutes that a move takes.
+    /// Inverse time: reciprocal of the duration of a move in minutes.
     G93,
-    /// Speed, mm a minute.
+    /// Speed, mm/min.
     G94,
 }
 
 impl FeedMode {
-    /// The code that chooses it.
+    /// Code that selects the mode.
     pub fn code(self) -> &'static str {
         match self {
             Self::G93 => "G93",

@@ -1,5 +1,5 @@
-//! What the steps of a profile may be, list by list and against each other: whoever reads a program must know what is
-//! down by the first step of each list, and what is put down must be lifted again.
+//! Rules for the steps of a profile, for each list and between lists. A reader of a program must know which tool is down from
+//! the first step of each list, and a tool that is put down must be lifted again.
 
 use super::step::{Parameter, Step, WHAT_ACTS};
 use super::text::{self, Line, ProgramEnd};
@@ -7,28 +7,28 @@ use super::words::{Flaw, Number};
 use crate::machine::MachineProfile;
 use crate::machine::fault::Fault;
 
-/// Drills of a machine.
+/// Numbers of drills.
 const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
-/// Codes that wait for the operator.
+/// M codes that wait for the operator.
 const WAITS: [u8; 3] = [0, 1, 60];
 
-/// The steps of a key.
+/// Steps of a key.
 struct List<'a> {
     key: &'static str,
     steps: &'a [Step],
     of: Of,
 }
 
-/// What a list is for.
+/// Purpose of a list.
 #[derive(Debug, Clone, Copy)]
 enum Of {
-    /// A tool is put down or lifted.
+    /// Puts a tool down or lifts it.
     Tool { is_drill: bool, longest_rest: f64, rest_key: &'static str },
-    /// The operator or the cloth is waited for; no tool is down.
+    /// Waits for the operator or the cloth; no tool is down.
     Pause,
 }
 
-/// The lists of a profile.
+/// All lists of a profile.
 fn lists(profile: &MachineProfile) -> [List<'_>; 6] {
     let (keys, knife) = (&profile.gcode, &profile.knife);
     let tool = |is_drill, longest_rest, rest_key| Of::Tool { is_drill, longest_rest, rest_key };
@@ -43,8 +43,7 @@ fn lists(profile: &MachineProfile) -> [List<'_>; 6] {
     ]
 }
 
-/// Everything that is wrong with the steps and texts of a profile: of each key the first; where there is none, what keys
-/// contradict.
+/// Faults in the steps and texts of a profile: the first one of each key; contradictions between keys only if there is none.
 pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     let keys = &profile.gcode;
     let lists = lists(profile);
@@ -64,7 +63,7 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
         faults.extend(lasting(&lists));
         faults.extend(shared_output(&lists));
         faults.extend(unasked(&lists, [("gcode.header", header), ("gcode.footer", footer)]));
-        // Of what one key does wrong the first is enough.
+        // The first fault of a key is enough.
         let mut told: Vec<String> = Vec::new();
         faults.retain(|fault| {
             let is_new = !fault.keys.iter().any(|key| told.contains(key));
@@ -75,7 +74,7 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     faults
 }
 
-/// What is wrong with a list by itself.
+/// Fault of a list by itself.
 fn flaw_of(list: &List) -> Option<Flaw> {
     let is_wait = |step: &&Step| matches!(step, Step::Code { m, .. } if WAITS.contains(m));
     let is_needed = matches!(list.key, "gcode.knife_down" | "gcode.knife_up");
@@ -91,7 +90,7 @@ fn flaw_of(list: &List) -> Option<Flaw> {
             is_needed.then(|| Flaw::new("no step", hint))
         }
         Of::Tool { longest_rest, rest_key, .. } => {
-            // A rest that is out of its own range is told of there.
+            // A rest out of its own range is reported at its own key.
             let longest_rest = longest_rest.max(0.0);
             if let Some(wait) = list.steps.iter().find(is_wait) {
                 let has = format!("{wait}, which waits for the operator amid a cut");
@@ -110,11 +109,11 @@ fn flaw_of(list: &List) -> Option<Flaw> {
     }
 }
 
-/// The list that may tell the way of the cloth.
+/// Key of the list that may tell the distance that the cloth advances.
 const ADVANCE: &str = "gcode.advance";
 
-/// A way of the cloth that is told otherwise than as the value of an analog output, by the first step: those behind it start
-/// the conveyor and wait for it.
+/// Fault if the advance of the cloth is told in another way than as the value of an analog output by the first step: the later
+/// steps start the conveyor and wait for it.
 fn way_of_cloth(steps: &[Step]) -> Option<Flaw> {
     let hint = "the first one tells the mm of an advance, as in [\"M68 E0 Q#\", \"M64 P1\"]";
     let (first, others) = steps.split_first()?;
@@ -126,7 +125,7 @@ fn way_of_cloth(steps: &[Step]) -> Option<Flaw> {
     (first.has_blank() && !is_output).then(|| Flaw::new(format!("{first}, where # is no value of an output"), hint))
 }
 
-/// Lists that set the analog output by which the way of the cloth is told.
+/// Faults of lists that set the analog output by which the advance of the cloth is told.
 fn shared_output(lists: &[List]) -> Vec<Fault> {
     let [others @ .., advance] = lists else { return Vec::new() };
     let Some(told) = advance.steps.first().filter(|step| step.has_blank()).and_then(what) else { return Vec::new() };
@@ -138,7 +137,7 @@ fn shared_output(lists: &[List]) -> Vec<Fault> {
     others.iter().filter(sets).map(fault).collect()
 }
 
-/// What a step acts upon.
+/// Actuator on which a step acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Actuator {
     Output(f64),
@@ -148,7 +147,7 @@ enum Actuator {
     Z,
 }
 
-/// What a step moves or switches, `#` being no drill; `None` when it rests or waits.
+/// Actuator that a step moves or switches, with 0 for `#`; `None` if it rests or waits.
 fn what(step: &Step) -> Option<Actuator> {
     match step {
         Step::Output { pin, .. } => Some(Actuator::Output(pin.of(0.0))),
@@ -162,7 +161,7 @@ fn what(step: &Step) -> Option<Actuator> {
     }
 }
 
-/// Steps as they stand in a program: with the number of a drill, when they name one.
+/// Steps as they are in a program, with the number of a drill where they name one.
 struct Order {
     key: &'static str,
     drill: Option<u8>,
@@ -170,7 +169,7 @@ struct Order {
 }
 
 impl Order {
-    /// The steps of a list, once for every drill that they name.
+    /// Steps of a list, once for every drill that they name.
     fn all(list: &List) -> Vec<Self> {
         let order = |drill: Option<u8>| {
             let steps =
@@ -184,15 +183,15 @@ impl Order {
         matches!(self.key, "gcode.knife_up" | "gcode.drill_up")
     }
 
-    /// Whether who reads the first step of one would take it for the other.
+    /// True if a reader of the first step of one could take it for the other.
     fn begins_as(&self, other: &Self) -> bool {
-        // What lifts several tools alike lifts the one that is down.
+        // A lift shared by several tools lifts the one that is down.
         let are_one = self.lifts() && other.lifts() && self.steps == other.steps;
         !are_one && self.steps.first().is_some_and(|first| other.steps.first() == Some(first))
     }
 }
 
-/// Lists that begin alike.
+/// Faults of lists with the same first step.
 fn mixed_up(lists: &[List], footer: &[Line]) -> Vec<Fault> {
     let mut orders: Vec<Order> = lists.iter().flat_map(Order::all).collect();
     if let Some(Line::Step(step)) = footer.first() {
@@ -201,7 +200,7 @@ fn mixed_up(lists: &[List], footer: &[Line]) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (i, order) in orders.iter().enumerate() {
         for before in &orders[..i] {
-            // What lifts is told by the drill that is down; what puts one down by its first step alone.
+            // A lift is recognised by the drill that is down, a plunge only by its first step.
             let are_read = before.key != order.key || order.key == "gcode.drill_down";
             if are_read && before.begins_as(order) {
                 faults.push(said_alike(before, order));
@@ -231,12 +230,12 @@ fn said_alike(a: &Order, b: &Order) -> Fault {
     Fault::of_range(&keys, message, hint)
 }
 
-/// Lists that leave on what no other switches back: the knife's undo each other, and a drill is lifted by its own.
+/// Faults of lists that leave something on: the lists of the knife must undo each other, and the lift of a drill its plunge.
 fn lasting(lists: &[List]) -> Vec<Fault> {
     let [knife_down, knife_up, drill_down, drill_up, ..] = lists else { return Vec::new() };
     let mut faults = Vec::new();
     for (list, other) in [(knife_down, knife_up), (knife_up, knife_down), (drill_down, drill_up)] {
-        // What is drilled without steps is refused where it stands.
+        // A drill without steps is refused where it is used.
         let has_both = !list.steps.is_empty() && !other.steps.is_empty();
         let drills = if list.key == drill_down.key { DRILLS } else { 1..=1 };
         let kept = drills.filter(|_| has_both).find_map(|drill| {
@@ -254,8 +253,8 @@ fn lasting(lists: &[List]) -> Vec<Fault> {
     faults
 }
 
-/// The first step of a list whose effect lasts behind the other list. What a list switches on and off again is a pulse, as
-/// valves with two coils want it: its effect is the valve's own.
+/// First step of a list whose effect outlasts the other list. A step that is switched on and off again within a list is a
+/// pulse, as for valves with two coils, and its effect is the valve's own.
 fn left_on(steps: &[Step], other: &[Step]) -> Option<Step> {
     let last = |steps: &[Step], acts_on: Actuator| steps.iter().rev().find(|step| what(step) == Some(acts_on)).cloned();
     let is_pulse = |acts_on: Actuator, last: &Step| {
@@ -269,7 +268,7 @@ fn left_on(steps: &[Step], other: &[Step]) -> Option<Step> {
     })
 }
 
-/// Steps of other keys that put the knife down where the program believes it up.
+/// Faults of steps in other keys that put the knife down where the program believes it up.
 fn unasked(lists: &[List], texts: [(&'static str, Vec<Line>); 2]) -> Vec<Fault> {
     let of = |key: &str| lists.iter().find(|list| list.key == key).map_or(&[][..], |list| list.steps);
     let (down, up) = (of("gcode.knife_down"), of("gcode.knife_up"));
@@ -293,7 +292,7 @@ fn unasked(lists: &[List], texts: [(&'static str, Vec<Line>); 2]) -> Vec<Fault> 
 mod tests {
     use super::*;
 
-    /// Checks what is said about the default profile with other steps (separated by commas) or texts.
+    /// Checks the faults of the default profile with other steps (separated by commas) or texts.
     fn check(changes: &[(&str, &str)], expected: &[&str]) {
         let mut profile = MachineProfile::default();
         for (key, value) in changes {

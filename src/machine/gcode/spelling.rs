@@ -1,15 +1,15 @@
-//! How a step may be spelled, as regular expressions: for programs that check a profile while it is written.
+//! Spellings of a step as regular expressions, for programs that check a profile while it is written.
 
 use super::step::{FORMS, Form};
 
-/// A kind of step.
+/// Kind of step.
 pub(in crate::machine) struct Spelling {
-    /// What it does.
+    /// Effect.
     pub(in crate::machine) about: &'static str,
-    /// A complete one.
+    /// Complete example.
     pub(in crate::machine) example: &'static str,
-    /// A regular expression for the whole of one. Of its words it says the letters; the ranges of their numbers are left
-    /// to [`Step::read`](super::Step).
+    /// Regular expression for a whole step. It covers the letters of the words; the ranges of their numbers are left to
+    /// [`Step::read`](super::Step).
     pub(in crate::machine) pattern: String,
 }
 
@@ -18,18 +18,18 @@ pub(in crate::machine) fn spellings() -> impl Iterator<Item = Spelling> {
     FORMS.iter().map(|form| Spelling { about: form.about, example: form.example, pattern: pattern(form) })
 }
 
-/// A number as words have it.
+/// Number in a word.
 const NUMBER: &str = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)";
 
 fn pattern(form: &Form) -> String {
     let (letter, number) = form.code.split_at(1);
-    // What acts on drills may name theirs.
+    // Codes that act on drills may contain their number.
     let number_of_word = if letter == "M" { format!("(?:#|{NUMBER})") } else { NUMBER.to_owned() };
     let number = if number == "0" { r"[+-]?(?:0+\.?0*|\.0+)" } else { &format!(r"\+?0*{number}(?:\.0*)?") };
     let code = format!("{}{number}", either_case(letter));
     let letters = either_case(&format!("{}{}", form.needs, form.takes));
     let word = format!(r"\s*{letters}{number_of_word}");
-    // As many words as letters, and each letter somewhere among them: each has one word, in any order.
+    // The number of words equals the number of letters, and each letter occurs among them: one word each, in any order.
     let each: Vec<String> = form.needs.chars().map(|c| format!("(?=.*{})", either_case(&c.to_string()))).collect();
     let words = match (form.needs.len(), form.takes.len()) {
         (0, 0) => String::new(),
@@ -39,7 +39,7 @@ fn pattern(form: &Form) -> String {
     format!(r"^\s*{code}{words}\s*$")
 }
 
-/// One of some letters, as capital or not.
+/// Class of some letters in upper and lower case.
 fn either_case(letters: &str) -> String {
     format!("[{letters}{}]", letters.to_lowercase())
 }

@@ -1,8 +1,8 @@
-//! What a controller is told to do with one of its outputs: a step, written as the line of G-code that asks for it.
+//! Step: an instruction to a controller about one of its outputs, written as its line of G-code.
 //!
-//! A profile has steps as texts, since those are what the manual of a controller shows and what stands in the program:
-//! `knife_down = ["M64 P0"]`. Each is one code that every interpreter of RS274/NGC takes and that acts at once, with the
-//! words that it needs: nothing in a step changes what the lines around it mean.
+//! Steps in a profile are texts as in the manual of a controller and in the program: `knife_down = ["M64 P0"]`. Each is one
+//! code that every interpreter of RS274/NGC accepts and that acts at once, with its words. A step changes nothing about the
+//! meaning of the lines around it.
 
 use std::fmt;
 use std::str::FromStr;
@@ -12,55 +12,55 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 pub use super::words::Number;
 use super::words::{Flaw, Word, words};
 
-/// One thing that a controller does where it stands in a program.
+/// Single action of a controller in a program.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
-    /// A digital output is switched: `M64 P0` on, `M65 P0` off.
+    /// Switches a digital output: `M64 P0` on, `M65 P0` off.
     Output {
-        /// Its number, from 0 on.
+        /// Number of the output, from 0 on.
         pin: Number,
-        /// What it is switched to.
+        /// New state.
         on: bool,
     },
-    /// Z moves: `G0 Z-2` as fast as it can, `G1 Z-2 F600` at a speed.
+    /// Moves Z: `G0 Z-2` at full speed, `G1 Z-2 F600` at a given one.
     Z {
-        /// Where it goes, mm.
+        /// Target, mm.
         to_mm: f64,
-        /// Its speed, mm/min; `None` = the greatest.
+        /// Speed, mm/min; `None` = full speed.
         feed_mm_min: Option<f64>,
     },
-    /// The axes rest: `G4 P0.5`.
+    /// Rests the axes: `G4 P0.5`.
     Dwell {
-        /// How long, s.
+        /// Duration, s.
         time: f64,
     },
-    /// An M code that switches or waits: `M3 S1000`.
+    /// M code that switches or waits: `M3 S1000`.
     Code {
-        /// Its number.
+        /// Number of the code.
         m: u8,
-        /// The words behind it.
+        /// Words after it.
         parameters: Vec<Parameter>,
     },
 }
 
-/// A word behind a code.
+/// Word after a code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
-    /// Its letter, none of an axis.
+    /// Letter, not that of an axis.
     pub letter: char,
-    /// Its number.
+    /// Number.
     pub number: Number,
 }
 
-/// A code that steps may have, and the letters of its words.
+/// Code that steps may have, and the letters of its words.
 pub(super) struct Form {
     pub(super) code: &'static str,
-    /// Those that it must have, and those that it may have.
+    /// Letters of required words, and of optional ones.
     pub(super) needs: &'static str,
     pub(super) takes: &'static str,
-    /// A complete step.
+    /// Complete example.
     pub(super) example: &'static str,
-    /// What it does.
+    /// Effect.
     pub(super) about: &'static str,
 }
 
@@ -68,8 +68,7 @@ const fn form(code: &'static str, needs: &'static str, example: &'static str, ab
     Form { code, needs, takes: "", example, about }
 }
 
-/// Every code that steps may have. Modes, outputs that wait for the next move and codes of one controller are not among
-/// them.
+/// All codes that steps may have. Modes, outputs that wait for the next move and codes specific to one controller are excluded.
 pub(super) const FORMS: &[Form] = &[
     form("G0", "Z", "G0 Z-2", "Z moves as fast as it can, mm"),
     form("G1", "ZF", "G1 Z-2 F600", "Z moves at a speed, mm and mm/min"),
@@ -89,21 +88,21 @@ pub(super) const FORMS: &[Form] = &[
     form("M68", "EQ", "M68 E0 Q5", "an analog output is set, E = its number, Q = its value"),
 ];
 
-/// What a list of steps for a tool must have one of.
+/// Hint for a list of steps for a tool without any that acts.
 pub(super) const WHAT_ACTS: &str = "what acts is M64 P, M65 P, M68 E Q, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F";
-/// Codes that switch outputs, but only where the next move begins: the knife would come down as it is led on.
+/// Codes that switch outputs only at the start of the next move: the knife would come down while it moves on.
 const LATE: &[&str] = &["M62", "M63", "M67"];
-/// The first and last code that run programs of the controller's own.
+/// Codes that run programs of the controller's own.
 const OWN: std::ops::RangeInclusive<f64> = 100.0..=199.0;
-/// Greatest number of an output or input: controllers have 64 at the most (`LinuxCNC`, motion module, `num_dio`).
+/// Greatest number of an output or input: controllers have at most 64 (`LinuxCNC`, motion module, `num_dio`).
 const PIN_MAX: f64 = 63.0;
-/// Greatest mode of waiting for an input.
+/// Greatest mode of a wait for an input.
 const WAIT_MAX: f64 = 4.0;
-/// Greatest number of other words; no axis, speed or time of a machine is beyond it.
+/// Greatest number in other words; it exceeds every position, speed and time of a machine.
 const NUMBER_MAX: f64 = 1e6;
 
 impl Step {
-    /// The step with a number in place of `#`: that of a drill, or the way of the cloth in mm.
+    /// Step with a number in place of `#`: that of a drill, or the advance of the cloth in mm.
     #[must_use]
     pub fn filled(&self, blank: f64) -> Self {
         let number = |number: Number| Number::Plain(number.of(blank));
@@ -117,7 +116,7 @@ impl Step {
         }
     }
 
-    /// Whether a number is left open in it.
+    /// True if it contains `#`.
     pub fn has_blank(&self) -> bool {
         self.filled(1.0) != self.filled(2.0)
     }
@@ -144,10 +143,10 @@ impl Step {
         Ok(Self::of(*code, others))
     }
 
-    /// The step of a code with words that were checked.
+    /// Step of a code with checked words.
     fn of(code: Word, others: &[Word]) -> Self {
         let find = |letter: char| others.iter().find(|word| word.letter == letter).map(|word| word.number);
-        // Only P, S, E, L and Q may stand for the drill, and those of G codes may not.
+        // Only P, S, E, L and Q may contain `#`, and not in G codes.
         let plain = |letter: char| find(letter).map(|number| number.of(0.0));
         let needed = "a form says what a code needs";
         match (code.letter, code.number.of(0.0) as u8) {
@@ -162,7 +161,7 @@ impl Step {
     }
 }
 
-/// Whether a word may stand behind a code, with that number.
+/// Checks that a word with its number may follow a code.
 fn checked(word: Word, form: &Form) -> Result<(), Flaw> {
     let flaw = |why: &str, hint: &str| Err(Flaw::new(format!("{word}{why}"), hint));
     let is = |code: &str| form.code == code;
@@ -205,7 +204,7 @@ fn is_whole(number: f64, most: f64) -> bool {
     (0.0..=most).contains(&number) && number.fract() == 0.0
 }
 
-/// What to say of a code that no step has.
+/// Flaw for a code that no step has.
 fn unknown(code: Word) -> Flaw {
     if LATE.iter().any(|late| code.is(late)) {
         let hint = "M64, M65 and M68 act at once, before the rest that the knife is given";
@@ -219,7 +218,7 @@ fn unknown(code: Word) -> Flaw {
     Flaw::new(format!("{code}, which is no code of a step"), format!("{WHAT_ACTS}; what rests is G4 P, M66 P L Q"))
 }
 
-/// As it stands in a profile; in a program without `#`.
+/// Text as in a profile; as in a program if there is no `#`.
 impl fmt::Display for Step {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -241,7 +240,7 @@ impl fmt::Display for Step {
 impl FromStr for Step {
     type Err = String;
 
-    /// Reads a step; otherwise says what the text has that no step has.
+    /// Reads a step; the error tells what in the text no step may have.
     fn from_str(text: &str) -> Result<Self, String> {
         Self::read(text).map_err(|flaw| flaw.has)
     }

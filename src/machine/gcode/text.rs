@@ -1,21 +1,20 @@
-//! The free text of a profile: the lines behind the head of a program and at its end, which move nothing.
+//! Free text of a profile: lines after the head of a program and at its end, which move nothing.
 //!
-//! A line is a step that moves no axis, codes that choose a coordinate system or state a mode that holds anyway, a tool,
-//! the end of the program, or a comment. An interpreter then refuses no line of a program, and nothing in them changes
-//! what the lines around them mean. One thing a profile cannot know: the tool that T chooses must stand in the
-//! controller's own tool table.
+//! A line is a step that moves no axis, codes that choose a coordinate system or state a mode that holds anyway, a tool, the
+//! end of the program, or a comment. An interpreter then accepts every line, and none changes the meaning of the lines around
+//! it. One thing cannot be checked: the tool that T chooses must be in the controller's own tool table.
 
 use super::step::Step;
 use super::words::{Flaw, Number, Word, words};
 
-/// Where a text stands in a program.
+/// Position of a text in a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ProgramEnd {
     Start,
     End,
 }
 
-/// A line of a text.
+/// Line of a text.
 #[derive(Debug, PartialEq)]
 pub(super) enum Line {
     Step(Step),
@@ -25,10 +24,10 @@ pub(super) enum Line {
     EndOfProgram,
 }
 
-/// Longest line, characters: `LinuxCNC` reads 252, and the number of the line comes before it.
+/// Greatest length of a line, characters: `LinuxCNC` reads 252, and the line number precedes it.
 const LINE_MAX: usize = 200;
-/// Codes that choose, each with its modal group: of each a line has one at the most (`LinuxCNC` manual, G-code overview,
-/// "Modal groups").
+/// Codes that choose, by modal group: a line has at most one of each group (`LinuxCNC` manual, G-code overview, "Modal
+/// groups").
 #[rustfmt::skip] // a table: one row a group
 const CHOICES: &[(&str, &[&str])] = &[
     ("plane", &["G17"]),
@@ -48,16 +47,16 @@ const ENDS: [&str; 2] = ["M2", "M30"];
 const MOVES: &[&str] = &["G0", "G1", "G2", "G3", "G28", "G30", "G53"];
 /// Greatest number of a tool.
 const TOOL_MAX: f64 = 1e6;
-/// What comments begin with that controllers obey.
+/// Beginnings of comments that controllers obey.
 const ACTIVE: &[&str] =
     &["ABORT", "DEBUG", "LOG", "LOGAPPEND", "LOGCLOSE", "LOGOPEN", "PRINT", "PROBECLOSE", "PROBEOPEN", "PY"];
 
-/// The lines of a text that say something, as they stand in a program.
+/// Lines of a text, trimmed, without blank ones.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim).filter(|line| !line.is_empty())
 }
 
-/// What the lines of a text do; otherwise what is wrong with them first.
+/// Meanings of the lines of a text, or its first flaw.
 pub(super) fn read(text: &str, place: ProgramEnd) -> Result<Vec<Line>, Flaw> {
     let lines: Vec<Line> = lines(text).map(|text| line(text, place)).collect::<Result<_, _>>()?;
     let end = lines.iter().position(|line| *line == Line::EndOfProgram);
@@ -96,7 +95,7 @@ fn line(text: &str, place: ProgramEnd) -> Result<Line, Flaw> {
     }
 }
 
-/// A line that chooses a tool.
+/// Line that chooses a tool.
 fn chosen(tool: Word, place: ProgramEnd) -> Result<Line, Flaw> {
     let is_tool = |number: f64| (0.0..=TOOL_MAX).contains(&number) && number.fract() == 0.0;
     match tool.number {
@@ -110,12 +109,12 @@ fn chosen(tool: Word, place: ProgramEnd) -> Result<Line, Flaw> {
     }
 }
 
-/// The group of a code that chooses.
+/// Modal group of a code that chooses.
 fn group(word: Word) -> Option<&'static str> {
     CHOICES.iter().find(|(_, codes)| codes.iter().any(|code| word.is(code))).map(|&(group, _)| group)
 }
 
-/// A line of codes that choose, each something else.
+/// Line of codes that choose, each of another group.
 fn told_apart(words: &[Word]) -> Result<Line, Flaw> {
     for (i, word) in words.iter().enumerate() {
         if let Some(other) = words[..i].iter().find(|other| group(**other) == group(*word)) {
@@ -126,7 +125,7 @@ fn told_apart(words: &[Word]) -> Result<Line, Flaw> {
     Ok(Line::Choice)
 }
 
-/// A line that is none but a step, which moves no axis.
+/// Line that is a single step that moves no axis.
 fn switched(words: &[Word], bare: &str) -> Result<Line, Flaw> {
     let is_move = |word: &&Word| matches!(word.letter, 'A'..='C' | 'U'..='Z') || MOVES.iter().any(|code| word.is(code));
     if let Some(word) = words.iter().find(is_move) {
@@ -143,7 +142,7 @@ fn switched(words: &[Word], bare: &str) -> Result<Line, Flaw> {
     }
 }
 
-/// What to say of a word that the program says itself, or that no text has.
+/// Flaw for a word that the program writes itself, or that no text may have.
 fn foreign(word: Word) -> Option<Flaw> {
     let hint = match (word.letter, word.to_string().as_str()) {
         ('N', _) => "the program numbers its lines where `gcode.line_numbers` says so",
@@ -161,13 +160,13 @@ fn foreign(word: Word) -> Option<Flaw> {
     Some(Flaw::new(format!("{word}, which has no business there"), hint))
 }
 
-/// A line without its comments; otherwise what is wrong with one of them.
+/// Line without its comments, or the flaw of one of them.
 fn uncommented(line: &str) -> Result<String, Flaw> {
     let mut bare = String::new();
     let mut left = line;
     while let Some(at) = left.find(['(', ';']) {
         bare.push_str(&left[..at]);
-        // What stands on both sides of a comment are two words.
+        // A comment separates words.
         bare.push(' ');
         let behind = &left[at + 1..];
         let (text, rest) = match &left[at..=at] {
@@ -182,7 +181,7 @@ fn uncommented(line: &str) -> Result<String, Flaw> {
     Ok(bare + left)
 }
 
-/// Whether the text of a comment says nothing that an interpreter would stop at, or obey.
+/// Checks that an interpreter neither stops at a comment nor obeys it.
 fn check_comment(text: &str) -> Result<(), Flaw> {
     if text.contains('(') {
         return Err(Flaw::new("a comment in a comment", "controllers stop there: brackets do not nest"));

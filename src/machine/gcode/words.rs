@@ -1,23 +1,23 @@
-//! The words of a line of G-code: letters with plain numbers.
+//! Words of a line of G-code: letters with plain numbers.
 //!
-//! Rules of RS274/NGC, sections 3.3 and 3.4, as `LinuxCNC` obeys them, without what computes: no variables, no
-//! expressions, no subroutines. Blanks stand between words only.
+//! Follows RS274/NGC, sections 3.3 and 3.4, as in `LinuxCNC`, without anything that computes: no variables, expressions or
+//! subroutines. Blanks are allowed between words only.
 
 use std::fmt;
 
 use crate::units::number::exact;
 
-/// Longest number that is read, characters: more digits say nothing.
+/// Greatest length of a number, characters: further digits carry no information.
 const NUMBER_CHARS: usize = 16;
-/// Sign in the place of a number that is not known yet: that of a drill, or the way of the cloth.
+/// Placeholder of a number that is not known yet: that of a drill, or the advance of the cloth.
 const BLANK: &str = "#";
 
-/// What is wrong with a line or a step.
+/// Flaw of a line or a step.
 #[derive(Debug, PartialEq)]
 pub(in crate::machine) struct Flaw {
-    /// What it has, as it goes on behind "the key has".
+    /// Flawed content, continuing "the key has".
     pub(in crate::machine) has: String,
-    /// What to write instead.
+    /// Suggested replacement.
     pub(in crate::machine) hint: String,
 }
 
@@ -27,17 +27,17 @@ impl Flaw {
     }
 }
 
-/// The number of a word.
+/// Number of a word.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Number {
-    /// As it is written.
+    /// Given number.
     Plain(f64),
-    /// That of the drill which is used, or of mm that the cloth is moved on, written `#`.
+    /// Number of the current drill, or the advance of the cloth in mm; written `#`.
     Blank,
 }
 
 impl Number {
-    /// The number, where `blank` stands for what is left open.
+    /// Number, with `blank` in place of `#`.
     pub fn of(self, blank: f64) -> f64 {
         match self {
             Self::Plain(number) => number,
@@ -55,21 +55,21 @@ impl fmt::Display for Number {
     }
 }
 
-/// A letter with its number, printed as G-code has it.
+/// Letter with its number, printed as in G-code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Word {
-    /// In capitals.
+    /// Upper-case letter.
     pub(super) letter: char,
     pub(super) number: Number,
 }
 
 impl Word {
-    /// Whether it is that code of G or M.
+    /// True if it is this G or M code.
     pub(super) fn is(self, code: &str) -> bool {
         self.to_string() == code
     }
 
-    /// Whether it is a code: of the other words each goes with one.
+    /// True if it is a code; every other word belongs to one.
     pub(super) fn is_code(self) -> bool {
         matches!(self.letter, 'G' | 'M')
     }
@@ -81,7 +81,7 @@ impl fmt::Display for Word {
     }
 }
 
-/// The words of a line without comments; otherwise what is wrong with it first.
+/// Words of a line without comments, or its first flaw.
 pub(super) fn words(line: &str) -> Result<Vec<Word>, Flaw> {
     let mut words: Vec<Word> = Vec::new();
     let mut left = line.trim();
@@ -104,7 +104,7 @@ pub(super) fn words(line: &str) -> Result<Vec<Word>, Flaw> {
     Ok(words)
 }
 
-/// A number as words have it: digits, perhaps a point, perhaps a sign before them; or the drill's.
+/// Number in a word: digits with an optional point and sign, or `#`.
 fn number(text: &str) -> Option<Number> {
     if text == BLANK {
         return Some(Number::Blank);
@@ -122,7 +122,7 @@ fn no_number(text: &str) -> Flaw {
     Flaw::new(format!("{text} {what}"), "a word is a letter and a plain number, such as P0 or Z-2.5")
 }
 
-/// What to say of a character that begins no word.
+/// Flaw for a character that begins no word.
 fn no_word(c: char) -> Flaw {
     let (why, hint) = match c {
         '%' => (", which frames a file", "leave it out: the program ends by M2 or M30"),

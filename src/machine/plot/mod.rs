@@ -1,4 +1,4 @@
-//! Plots (HPGL): the unit of their numbers, and which of their lines are cut. The keys `hpgl.*`.
+//! Plots (HPGL): the unit of their numbers, and the choice of lines to cut. The keys `hpgl.*`.
 
 pub(super) mod unit;
 
@@ -24,78 +24,78 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "hpgl.pens.<pen>", takes: Takes::Word(words::<PenUse>), about: "What a pen of a plot stands for: its outermost and inner lines are cut (\"knife\"), its lines are\ndrawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Of pens without a\nkey shapes decide." },
 ];
 
-/// What some take for the key of a pen: with pen 0 plotters draw nothing.
+/// Name mistaken for a key of a pen: with pen 0 plotters draw nothing.
 pub(super) const NO_PEN: &str = "hpgl.pens.0";
 
-/// A key a pen.
+/// Family with one key per pen.
 pub(super) const PENS: Family =
     Family { start: "hpgl.pens", has: is_pen, pattern: || "[1-9][0-9]{0,2}".to_owned(), example: "1 = \"knife\"" };
 
-/// Whether a word is the number of a pen: up to three digits, written in one way only. Pen 0 is none.
+/// True if a word is the number of a pen: up to three digits without leading zeros. Pen 0 does not exist.
 fn is_pen(word: &str) -> bool {
     let is_number = !word.is_empty() && word.len() <= 3 && word.bytes().all(|byte| byte.is_ascii_digit());
     is_number && !word.starts_with('0')
 }
 
-/// How plots are read.
+/// Reading of plots.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hpgl {
     /// Length of a unit.
     pub unit: PlotUnit,
-    /// Largest hole to drill.
+    /// Greatest size of a hole to drill.
     #[serde(with = "OrWord::<Off>")]
     pub drill_max_mm: Option<f64>,
-    /// Closed lines inside parts.
+    /// Closed lines inside parts that are cut.
     pub inner: Inner,
-    /// The frame around the parts.
+    /// Frame around the parts.
     pub frame: Frame,
-    /// Pens by their numbers.
+    /// Uses of pens, by their numbers.
     pub pens: BTreeMap<String, PenUse>,
 }
 
 impl Hpgl {
-    /// What the pen of that name stands for; `None` when the profile does not say.
+    /// Use of a pen; `None` if the profile does not give it.
     pub fn pen(&self, name: &str) -> Option<PenUse> {
         self.pens.get(name).copied()
     }
 }
 
-/// Which closed lines inside the parts of a plot are cut.
+/// Closed lines inside the parts of a plot that are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Inner {
-    /// None, but those of a pen that is a knife.
+    /// None, except those of a pen that is a knife.
     #[default]
     Ignore,
-    /// Those that are no seam lines, and take no more than half of their part.
+    /// All that are not seam lines and take up at most half of their part.
     Cut,
-    /// All of them, seam lines too.
+    /// All, including seam lines.
     All,
 }
 
-/// Whether a plot draws a frame around its parts.
+/// Frame of a plot around its parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Frame {
-    /// A rectangle around several parts is one.
+    /// A rectangle around several parts.
     #[default]
     Auto,
-    /// There is none.
+    /// No frame.
     None,
-    /// The largest closed line is one, whatever its shape, and so is each rectangle beside it around two lines or more.
+    /// The largest closed line of any shape, and each rectangle beside it around at least two lines.
     Outermost,
 }
 
-/// Which lines of a plot one compile cuts, where its user says something of them.
+/// Choice of lines of a plot for one compile, where its user makes one.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Lines {
-    /// Only those of these pens; `None` = as the profile and the shapes say.
+    /// Pens to cut exclusively; `None` = by the profile and the shapes.
     pub pens: Option<Numbers>,
-    /// Layers; `None` = as the profile and their names say.
+    /// Uses of layers; `None` = by the profile and their names.
     pub layers: Option<LayerUses>,
-    /// Which closed lines inside parts; `None` = as the profile says.
+    /// Closed lines inside parts; `None` = by the profile.
     pub inner: Option<Inner>,
-    /// Every line, whatever it is taken for.
+    /// True if every line is cut, whatever it is taken for.
     pub all: bool,
 }

@@ -1,33 +1,33 @@
-//! The unit of a plot's numbers, as people write it.
+//! Unit of a plot's numbers, as people write it.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::units::MM_PER_INCH;
 
-/// The length of one unit of a plot: a number of mm, or a text such as `1/40 mm`, `1/1000 in`, `600 dpi`.
+/// Length of one unit of a plot: a number of mm, or a text such as `1/40 mm`, `1/1000 in`, `600 dpi`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotUnit {
-    /// As it was written; `None` for a number.
+    /// Text as written; `None` for a number.
     text: Option<String>,
     mm: f64,
 }
 
-/// Least and greatest unit, mm: from the finest printers to a slip of the comma.
+/// Least and greatest unit, mm: from the finest printers to a misplaced decimal point.
 pub(in crate::machine) const LEAST_UNIT_MM: f64 = 0.001;
 pub(in crate::machine) const GREATEST_UNIT_MM: f64 = 10.0;
 
 impl PlotUnit {
-    /// A unit of so many mm.
+    /// Unit of a length in mm.
     pub const fn of_mm(mm: f64) -> Self {
         Self { text: None, mm }
     }
 
-    /// Its length, mm.
+    /// Length, mm.
     pub fn mm(&self) -> f64 {
         self.mm
     }
 
-    /// What [`parse`](Self::parse) reads, as a regular expression for the whole of it.
+    /// Regular expression for the whole of a text that [`parse`](Self::parse) accepts.
     pub(in crate::machine) fn pattern() -> String {
         const NUMBER: &str = r"\+?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?";
         format!(r"^\s*{NUMBER}(?:\s*/\s*{NUMBER})?\s*(?:mm|in|dpi)?\s*$")
@@ -47,7 +47,7 @@ impl PlotUnit {
     }
 }
 
-/// A number, or a quotient of two.
+/// Number, or quotient of two.
 fn quotient(text: &str) -> Option<f64> {
     let number = |part: &str| part.trim().parse::<f64>().ok().filter(|value| *value > 0.0);
     match text.split_once('/') {
