@@ -1,28 +1,28 @@
-//! The form for programs: code, severity, place, message, hints.
+//! JSON form of diagnostics: code, severity, place, message, hints.
 
 use serde::Serialize;
 
 use super::{Diagnostic, Severity};
 use crate::source::Lines;
 
-/// A diagnostic as JSON. Where it lies on the cloth is null when that is not known; block, line and bytes are not there
-/// when it concerns the file as a whole.
+/// Diagnostic as JSON. The place on the cloth is null if unknown; block, line and bytes are absent if it concerns the file as a
+/// whole.
 #[derive(Debug, Serialize)]
 pub struct Json {
     code: &'static str,
     severity: Severity,
     file: String,
-    /// The pieces that it is about, where it is about several.
+    /// Pieces concerned, if there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pieces: Vec<u32>,
     piece: Option<u32>,
-    /// Not there where there is but one.
+    /// Absent if there is only one copy.
     #[serde(skip_serializing_if = "Option::is_none")]
     copy: Option<u32>,
     label: Option<String>,
     x_mm: Option<f64>,
     y_mm: Option<f64>,
-    /// How bad it is, where that can be measured.
+    /// Magnitude, if it can be measured.
     by_mm: Option<f64>,
     #[serde(flatten)]
     place: Option<Place>,
@@ -38,7 +38,7 @@ struct Place {
     end_byte: u32,
 }
 
-/// A place in JSON has so many steps a millimetre: nothing is cut finer.
+/// Resolution of a place, steps per mm: no cut is finer.
 const STEPS_A_MM: f64 = 1e4;
 
 fn rounded(value: f64) -> f64 {
@@ -46,7 +46,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 impl Diagnostic {
-    /// The form for programs.
+    /// Converts it to its JSON form.
     pub fn to_json(&self, file: &str, lines: &mut Lines) -> Json {
         let [x_mm, y_mm] = [0, 1].map(|axis| self.at.as_ref().map(|at| rounded(at[axis])));
         Json {

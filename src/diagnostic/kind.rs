@@ -1,26 +1,26 @@
-//! One kind of finding.
+//! Kind of finding.
 
 use super::telling::{Fault, Harm, Severity, Telling};
 
-/// One kind of finding.
+/// Kind of finding.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Code {
     /// Stable name, `stage/kebab-case`.
     pub name: &'static str,
-    /// Its severity, the same wherever it is found.
+    /// Severity, always the same.
     pub severity: Severity,
-    /// Whether it may spoil parts. Of an error nothing is cut.
+    /// Possible harm to parts. After an error nothing is cut.
     pub harm: Harm,
-    /// The thing at fault.
+    /// Cause.
     pub fault: Fault,
     /// Meaning, in a sentence or two.
     pub about: &'static str,
-    /// Why it matters in a cutting room, and what to do: a line a paragraph, an indented line an example.
+    /// Relevance in a cutting room, and remedy: each line is a paragraph, each indented line an example.
     pub more: &'static str,
 }
 
 impl Code {
-    /// How findings of it are told.
+    /// Selection of its findings to report.
     pub fn telling(&self) -> Telling {
         match (self.severity, self.fault) {
             (Severity::Error, Fault::Text | Fault::Shape) => Telling::Each,
@@ -30,12 +30,12 @@ impl Code {
     }
 }
 
-/// An error.
+/// Kind of error.
 pub(super) const fn error(fault: Fault, name: &'static str, about: &'static str, more: &'static str) -> Code {
     Code { name, severity: Severity::Error, harm: Harm::Spares, fault, about, more }
 }
 
-/// A warning.
+/// Kind of warning.
 pub(super) const fn warning(
     harm: Harm,
     fault: Fault,
@@ -46,7 +46,7 @@ pub(super) const fn warning(
     Code { name, severity: Severity::Warning, harm, fault, about, more }
 }
 
-/// Declares each code, and the table of all of them in the order of the manual.
+/// Declares each code, and the table of all codes in the order of the manual.
 macro_rules! codes {
     ($($(#[$about:meta])* $name:ident = $code:expr;)*) => {
         $($(#[$about])* pub static $name: Code = $code;)*

@@ -1,6 +1,6 @@
-//! What the program has to say about the user's data: one type, one text rendering, one JSON form.
+//! Diagnostics about the user's data: one type, one text rendering, one JSON form.
 //!
-//! A stage pushes what it finds into a [`Diagnostics`] and goes on, so that one run reports every fault of a file.
+//! A stage pushes its findings into a [`Diagnostics`] and continues, so that one run reports every fault of a file.
 
 pub mod code;
 mod json;
@@ -17,35 +17,35 @@ use std::fmt;
 
 use crate::source::Span;
 
-/// One finding about the user's data.
+/// Finding about the user's data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
-    /// Which kind of finding; gives the severity.
+    /// Kind of finding; determines the severity.
     pub code: &'static Code,
-    /// Where in the source; `None` when it concerns the file as a whole.
+    /// Place in the source; `None` if it concerns the file as a whole.
     pub span: Option<Span>,
-    /// The piece that lies there, if it is in one.
+    /// Piece at that place; `None` outside of pieces.
     pub piece: Option<Box<PieceName>>,
-    /// The numbers of the pieces that it is about, where it is about several.
+    /// Numbers of the pieces concerned, if there are several.
     pub pieces: Box<[u32]>,
-    /// The place on the cloth, X and Y in mm.
+    /// Place on the cloth, X and Y in mm.
     pub at: Option<Box<[f64; 2]>>,
-    /// How bad it is, mm, where that can be measured: of its code the worst is told first, or alone.
+    /// Magnitude, mm, if it can be measured: the worst finding of a code is reported first, or alone.
     pub by: Option<f64>,
-    /// What is wrong and where: lower case, no full stop, values with units.
+    /// Description of the fault and its place: lower case, no full stop, values with units.
     pub message: String,
-    /// What to do about it.
+    /// Remedies.
     pub hints: Vec<String>,
 }
 
-/// A piece as people know it.
+/// Name of a piece for people.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PieceName {
-    /// Its number in the file.
+    /// Number in the file.
     pub number: u32,
-    /// The copy of the marker that it is of, from 1; 0 where there is but one.
+    /// Copy of the marker, from 1; 0 if there is only one.
     pub copy: u32,
-    /// Its first label, when it has one.
+    /// First label; `None` without labels.
     pub label: Option<String>,
 }
 
@@ -60,41 +60,41 @@ impl fmt::Display for PieceName {
 }
 
 impl Diagnostic {
-    /// A finding about the file as a whole.
+    /// Finding about the file as a whole.
     pub fn new(code: &'static Code, message: impl Into<String>) -> Self {
         let (message, pieces, hints) = (message.into(), Box::default(), Vec::new());
         Self { code, span: None, piece: None, pieces, at: None, by: None, message, hints }
     }
 
-    /// The finding, at a place.
+    /// Sets the place in the source.
     #[must_use]
     pub fn at(mut self, span: Span) -> Self {
         self.span = Some(span);
         self
     }
 
-    /// The finding, at a place on the cloth, X and Y in mm.
+    /// Sets the place on the cloth, X and Y in mm.
     #[must_use]
     pub fn on_cloth(mut self, at: impl Into<[f64; 2]>) -> Self {
         self.at = Some(Box::new(at.into()));
         self
     }
 
-    /// The finding, about the pieces with these numbers.
+    /// Sets the numbers of the pieces concerned.
     #[must_use]
     pub fn about(mut self, pieces: Vec<u32>) -> Self {
         self.pieces = pieces.into();
         self
     }
 
-    /// The finding, so many mm bad.
+    /// Sets the magnitude, mm.
     #[must_use]
     pub fn by(mut self, by: f64) -> Self {
         self.by = Some(by);
         self
     }
 
-    /// The finding, with one more hint.
+    /// Adds a hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());
@@ -102,17 +102,16 @@ impl Diagnostic {
     }
 }
 
-/// All findings of a run about one source, in the order in which they were found.
+/// Findings of a run about one source, in the order in which they were found.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    /// How many of each code were found: those beyond [`Diagnostics::MOST_OF_A_CODE`] are counted, not kept.
+    /// Number of findings of each code: those beyond [`Diagnostics::MOST_OF_A_CODE`] are counted, not kept.
     counts: Vec<(&'static Code, usize)>,
 }
 
 impl Diagnostics {
-    /// How many findings of one code are kept: a megabyte of junk has a fault a byte. No marker has so many of another
-    /// kind.
+    /// Greatest number of findings kept per code: a megabyte of junk has a fault per byte. No marker has as many real ones.
     pub const MOST_OF_A_CODE: usize = 10_000;
 
     /// Adds a finding.
@@ -147,17 +146,17 @@ impl Diagnostics {
         &mut self.counts[row].1
     }
 
-    /// The findings that were kept.
+    /// Findings that were kept.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.list.iter()
     }
 
-    /// Says of each from the `first`th on where it is, or anything else that is better known by now.
+    /// Calls `revise` for each finding from the `first`th on, to add its place or other facts known by now.
     pub fn revise(&mut self, first: usize, revise: impl FnMut(&mut Diagnostic)) {
         self.list.iter_mut().skip(first).for_each(revise);
     }
 
-    /// How many of each code were found, kept or not, the worst code first.
+    /// Number of findings of each code, kept or not, the worst code first.
     pub fn tally(&self) -> Vec<(&'static Code, usize)> {
         let mut tally: Vec<_> = self.counts.iter().copied().filter(|&(_, count)| count > 0).collect();
         tally.sort_by_key(|(code, _)| rank(code));
@@ -169,7 +168,7 @@ impl Diagnostics {
         self.counts.iter().filter(|(code, _)| code.severity == severity).map(|(_, count)| count).sum()
     }
 
-    /// Whether anything found forbids a program.
+    /// True if a finding forbids a program.
     pub fn has_errors(&self) -> bool {
         self.count(Severity::Error) > 0
     }
@@ -184,7 +183,7 @@ impl<'a> IntoIterator for &'a Diagnostics {
     }
 }
 
-/// Place of a code among all, the worst first: errors, then what may spoil parts, then the rest, each by stages.
+/// Rank of a code, the worst first: errors, then harm to parts, then the rest, each by stages.
 fn rank(code: &Code) -> (Severity, Harm, usize) {
     let row = code::ALL.iter().position(|other| other.name == code.name).unwrap_or(code::ALL.len());
     (code.severity, code.harm, row)

@@ -1,9 +1,9 @@
 //! Lists of pieces in messages.
 
-/// Pieces that a message names at the most.
+/// Greatest number of pieces that a message names.
 const SHOWN: usize = 8;
 
-/// Pieces by their numbers, in a few words: `piece 4`, `pieces 1, 3`, and of many the first and how many more there are.
+/// Pieces by their numbers, in a few words: `piece 4`, `pieces 1, 3`, or the first ones and the number of the others.
 pub fn listed(numbers: &[u32]) -> String {
     if numbers.is_empty() {
         return "no piece".to_owned();

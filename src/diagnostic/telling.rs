@@ -1,8 +1,8 @@
-//! Properties of findings: severity, harm to parts, the thing at fault, and the number that is told.
+//! Properties of findings: severity, harm to parts, cause, and selection for a report.
 
 use serde::Serialize;
 
-/// Whether a finding forbids a program.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -12,31 +12,31 @@ pub enum Severity {
     Warning,
 }
 
-/// Harm to parts. Findings that may spoil some are told before others.
+/// Harm to parts. Findings that may spoil parts are reported before others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Harm {
-    /// Cloth may be cut where it must not be, or at another size: that can't be mended.
+    /// Cloth may be cut in a wrong place or at a wrong size, which cannot be mended.
     Spoils,
-    /// Nothing, or something that is seen and mended.
+    /// No harm, or harm that is seen and mended.
     Spares,
 }
 
-/// The thing at fault.
+/// Cause of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     /// The text of the file: its bytes are shown.
     Text,
-    /// The drawing, or something made of it: no byte of the file tells anything.
+    /// The drawing, or something made of it: the bytes of the file explain nothing.
     Shape,
 }
 
-/// Selection of the findings of a code that people are told; programs get each.
+/// Selection of the findings of a code that are reported to people; programs get all of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Telling {
-    /// One by one: each must be mended.
+    /// All: each must be mended.
     Each,
-    /// A few of them: each says something else.
+    /// A few: each differs.
     Few,
-    /// Their number, and the worst: they are alike but for place and measure.
+    /// Their number and the worst one: they differ only in place and magnitude.
     Worst,
 }

@@ -1,11 +1,11 @@
-//! The text rendering: message, place, a window of the source where the text is at fault, hints.
+//! Text rendering: message, place, a window of the source where the text is at fault, hints.
 //!
-//! A marker of hundreds of pieces has hundreds of findings of one kind. So findings stand by their code, the worst code
-//! first, and a tally stands at the end. An error is what somebody mends, and is told each. Warnings on what is drawn
-//! are alike but for place and measure: they are summed up, and the worst is told. Warnings on the text differ in what
-//! they show: of each code a few are told, and what all of them say is said once.
+//! A marker of hundreds of pieces has hundreds of findings of one kind. Therefore findings are grouped by code, the worst code
+//! first, and a tally follows at the end. Errors must be mended, and are reported individually. Warnings about the drawing
+//! differ only in place and magnitude: they are summed up, and the worst is reported. Warnings about the text differ in
+//! content: a few of each code are reported, and hints that they share are written once.
 //!
-//! A cut file is often one line of 59 kB, so never a whole line is shown, only a window around the place.
+//! A cut file is often one line of 59 kB, so only a window around the place is shown, never a whole line.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -15,42 +15,42 @@ use super::{Code, Diagnostic, Diagnostics, Fault, Severity};
 use crate::source::{Lines, Source, Span};
 use crate::units::number::fixed;
 
-/// Bytes of source shown before and after the place.
+/// Number of source bytes shown before and after the place.
 const WINDOW_BEFORE: usize = 28;
 const WINDOW_AFTER: usize = 40;
-/// How many errors of a code are told: who has mended so many runs it again.
+/// Greatest number of errors reported per code: a user who has mended that many runs it again.
 const MOST_ERRORS: usize = 20;
-/// How many warnings of a code are told that are not summed up.
+/// Greatest number of warnings reported per code that is not summed up.
 const MOST_TOLD: usize = 3;
-/// Findings that are told in all before there is only one of each code.
+/// Total number of reported findings above which only one per code is reported.
 const ROOM: usize = 4;
 /// Decimals of a place on the cloth, mm.
 const PLACE_DECIMALS: u32 = 1;
-/// Findings that are no farther apart are alike, mm: they stand as in the file.
+/// Difference of magnitudes that count as equal, mm; such findings keep the order of the file.
 const ALIKE: f64 = 0.01;
-/// Columns of the tally.
+/// Width of the tally, columns.
 const COLUMNS: usize = 100;
 
-/// How much is told.
+/// Extent of a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Detail {
-    /// A few of each code.
+    /// A few findings of each code.
     #[default]
     Short,
-    /// Every finding.
+    /// All findings.
     All,
-    /// Errors only, a few of each code.
+    /// A few errors of each code, no warnings.
     Errors,
-    /// How many of each code: every finding is told elsewhere.
+    /// Only the number for each code: the findings are reported elsewhere.
     Counts,
 }
 
-/// Renders what is told when nothing else is asked for.
+/// Renders a short report.
 pub fn render(diagnostics: &Diagnostics, source: &Source) -> String {
     render_with(diagnostics, source, Detail::Short)
 }
 
-/// Renders findings, the worst code first, then the tally when not all of them are told.
+/// Renders findings, the worst code first, then the tally if some are omitted.
 pub fn render_with(diagnostics: &Diagnostics, source: &Source, detail: Detail) -> String {
     let mut groups: Vec<Group> =
         diagnostics.tally().into_iter().map(|(code, count)| Group { code, count, findings: Vec::new() }).collect();
@@ -84,10 +84,10 @@ pub fn render_with(diagnostics: &Diagnostics, source: &Source, detail: Detail) -
     out
 }
 
-/// The findings of one code.
+/// Findings of one code.
 struct Group<'a> {
     code: &'static Code,
-    /// How many were found, kept or not.
+    /// Number of findings, kept or not.
     count: usize,
     findings: Vec<&'a Diagnostic>,
 }
@@ -95,7 +95,7 @@ struct Group<'a> {
 // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
 impl Group<'_> {
     fn render(&mut self, out: &mut String, source: &Source, lines: &mut Lines, most: usize) {
-        // Those that can be measured by how bad they are, the others as they stand in the file.
+        // Measurable findings are sorted by magnitude, the others by their order in the file.
         self.findings.sort_by(|a, b| {
             let bad = |finding: &Diagnostic| (finding.by.unwrap_or(0.0) / ALIKE).round();
             bad(b).total_cmp(&bad(a)).then_with(|| a.span.cmp(&b.span))
@@ -105,7 +105,7 @@ impl Group<'_> {
         let told = &self.findings[..self.findings.len().min(most)];
         for (i, finding) in told.iter().enumerate() {
             render_one(out, &lead, finding, source, &mut *lines);
-            // What the next one says as well is said behind that.
+            // Hints that the next finding shares are written after that.
             if told.get(i + 1).is_none_or(|next| next.hints != finding.hints) {
                 for hint in &finding.hints {
                     let _ = writeln!(out, "  = hint: {hint}");
@@ -124,7 +124,7 @@ impl Group<'_> {
         }
     }
 
-    /// How many there are and on how many pieces, before the first of them, which is the worst where that can be measured.
+    /// Number of findings and of pieces, as a lead to the first finding, which is the worst one if they can be measured.
     fn sum(&self) -> String {
         let pieces: BTreeSet<_> = self.findings.iter().filter_map(|finding| finding.piece.as_deref()).collect();
         let on = match pieces.len() {
@@ -137,7 +137,7 @@ impl Group<'_> {
     }
 }
 
-/// How many there are of each code, the worst first, and how to be told each where that is told nowhere.
+/// Number of findings of each code, the worst first, with the option that reports each, if that is done nowhere.
 fn tally(out: &mut String, groups: &[Group], is_untold: impl Fn(&Group) -> bool) {
     for severity in [Severity::Error, Severity::Warning] {
         let of_severity = || groups.iter().filter(|group| group.code.severity == severity);
@@ -184,7 +184,7 @@ fn render_one(out: &mut String, lead: &str, diagnostic: &Diagnostic, source: &So
     }
 }
 
-/// The piece and the place on the cloth, as far as they are known: what people find in the picture and on the table.
+/// Piece and place on the cloth, if known: people find these in the picture and on the table.
 fn on_cloth(diagnostic: &Diagnostic) -> String {
     let mut place = String::new();
     if let Some(piece) = &diagnostic.piece {
@@ -197,7 +197,7 @@ fn on_cloth(diagnostic: &Diagnostic) -> String {
     place
 }
 
-/// Block and byte; the line, too, where there is more than one or nothing else is told.
+/// Block and byte; also the line if there are several lines or nothing else is shown.
 fn in_text(span: Span, lines: &mut Lines, alone: bool) -> String {
     let place = lines.place(span);
     let line = if alone || place.line > 1 { format!("line {}, ", place.line) } else { String::new() };
@@ -219,7 +219,7 @@ fn window(out: &mut String, bytes: &[u8], span: Span) {
     let _ = writeln!(out, "   | {}{}", " ".repeat(lead.len() + start - from), "^".repeat(carets));
 }
 
-/// One column a byte, so that the carets stand under what they mean.
+/// Printable character of a byte: one column per byte, so that the carets are aligned.
 fn visible(byte: u8) -> char {
     match byte {
         b' '..=b'~' => byte as char,

@@ -71,30 +71,30 @@ pub struct Knife {
     pub slow_percent: f64,
     /// Speed along near lines, relative to the speed that holds there.
     pub near_percent: f64,
-    /// From the command until the blade is through.
+    /// Time from the plunge command until the blade is through the cloth.
     pub plunge_ms: f64,
-    /// From the command until it is up.
+    /// Time from the lift command until the blade is up.
     pub lift_ms: f64,
-    /// From that command until C may turn.
+    /// Time from the lift command until the blade is clear of the cloth and the axes may move.
     #[serde(with = "OrWord::<Off>")]
     pub clear_ms: Option<f64>,
-    /// Longest run.
+    /// Greatest length of a run.
     #[serde(with = "OrWord::<Off>")]
     pub max_down_mm: Option<f64>,
-    /// On curves.
+    /// Orientation mode on curves.
     pub follow: Follow,
-    /// On curves tighter than the blade.
+    /// Treatment of curves tighter than the blade.
     pub tight_curves: TightCurves,
-    /// Of the heel, beside the line behind a bend.
+    /// Greatest distance of the heel from the line behind a bend.
     #[serde(with = "OrWord::<Off>")]
     pub max_swing_mm: Option<f64>,
-    /// Which part is spared where a plunge cut finds no waste.
+    /// Part that is spared where a plunge cut finds no waste.
     pub spare: Spare,
-    /// Of the body beside a curve that begins there.
+    /// Greatest distance of the blade from a curve on which it plunges.
     pub max_bow_mm: f64,
-    /// Cutting edges.
+    /// Number of cutting edges, 1 or 2.
     pub edges: u32,
-    /// How far the axis stands ahead of the blade.
+    /// Correction added to the angle of the blade.
     pub yaw_deg: f64,
 }
 

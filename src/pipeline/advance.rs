@@ -1,9 +1,9 @@
-//! Advance of a compile, for a line that a person watches.
+//! Progress of a compile, for a status line.
 
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How many cuts a compile has planned. Several threads count.
+/// Number of cuts that a compile has planned. Several threads update it.
 #[derive(Debug, Default)]
 pub struct Advance {
     cuts: AtomicUsize,
@@ -16,7 +16,7 @@ impl Advance {
         self.cuts.store(cuts, Ordering::Relaxed);
     }
 
-    /// Counts cuts that are planned.
+    /// Adds planned cuts.
     pub(super) fn plan(&self, cuts: usize) {
         self.planned.fetch_add(cuts, Ordering::Relaxed);
     }

@@ -1,4 +1,4 @@
-//! Windows of a conveyor that a marker is cut in.
+//! Windows of a conveyor in which a marker is cut.
 
 use serde::Serialize;
 
@@ -7,29 +7,29 @@ use super::spent::Spent;
 use crate::ir::Marker;
 use crate::units::MM_PER_M;
 
-/// A window of a conveyor: what is cut while the cloth lies still.
+/// Window of a conveyor: the cuts made while the cloth lies still.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bite {
-    /// Way of the cloth before it, mm.
+    /// Advance of the cloth before it, in all, mm.
     pub advance_mm: u32,
-    /// Pieces that are cut.
+    /// Number of pieces.
     pub pieces: usize,
-    /// Length of their cuts, m.
+    /// Length of the cuts, m.
     #[serde(serialize_with = "micro")]
     pub cut_m: f64,
-    /// Time, s; unknown where nothing was planned.
+    /// Duration, s; `None` if nothing was planned.
     #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
 }
 
-/// The windows of a marker, in order, with the times of its pieces where they were planned; none where the cloth lies still.
+/// Windows of a marker, in order, with the planned durations of its pieces; empty if the cloth does not move.
 pub(super) fn of(marker: &Marker, by_piece: &[([u32; 2], Spent)]) -> Vec<Bite> {
     let stations = marker.stations();
     if stations.last().is_none_or(|&last| last == 0) {
         return Vec::new();
     }
     let mut bites: Vec<Bite> = Vec::new();
-    // Window of each part.
+    // Index of the window of each part.
     let mut of_part = Vec::with_capacity(stations.len());
     for (part, &advance_mm) in (0..).zip(&stations) {
         if bites.last().is_none_or(|last| last.advance_mm != advance_mm) {

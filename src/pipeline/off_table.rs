@@ -1,24 +1,24 @@
-//! What to do about a blade that leaves the table.
+//! Advice about a blade that leaves the table.
 
 use crate::ir::Marker;
 use crate::machine::Job;
 use crate::units::number::{exact, fixed, up};
 
-/// Steps in which a place is told, a mm.
+/// Resolution of a position in messages, steps per mm.
 const STEPS_PER_MM: f64 = 10.0;
 
-/// An axis along which the marker has too little room beside its lines.
+/// Axis along which the marker has too little room beside its lines.
 struct Tight {
     name: &'static str,
-    /// By how much the marker is to be moved, mm.
+    /// Distance by which to move the marker, mm.
     by: f64,
-    /// What the table leaves beside it, mm, and whether that is less than the blade needs.
+    /// Total room that the table leaves beside the marker, mm, and true if the blade needs more.
     left: f64,
     is_short: bool,
 }
 
-/// How to move the marker away from the edges of the table, as far as the blade may reach beyond its lines there; along both axes
-/// at once, so that nothing is left to be told after that.
+/// Advice on moving the marker away from the edges of the table by the reach of the blade beyond its lines; for both axes at
+/// once, so that it need not be repeated.
 pub(super) fn advice(marker: &Marker, job: &Job) -> String {
     let (reach, table, extent) = (job.profile.knife.reach(), &job.profile.table, marker.extent_on_table());
     let axes = [("X", table.x_mm, [extent.min.x, extent.max.x]), ("Y", table.y_mm, [extent.min.y, extent.max.y])];
@@ -49,19 +49,19 @@ pub(super) fn advice(marker: &Marker, job: &Job) -> String {
     format!("move the marker {way}: {key}; so far the blade may reach beyond its lines there")
 }
 
-/// Where the table has too little room.
+/// Message about too little room on the table.
 fn short(axis: &Tight, reach: f64) -> String {
     let [left, needed] = [axis.left, 2.0 * reach].map(|room| fixed(room, 1));
     format!("along {} the table leaves {left} mm beside the marker, and the blade may need {needed} mm", axis.name)
 }
 
-/// A way along an axis, rounded up.
+/// Displacement along an axis, rounded up.
 fn way(axis: &Tight) -> String {
     let sign = if axis.by < 0.0 { '-' } else { '+' };
     format!("{} {sign}{} mm", axis.name, up(axis.by.abs(), 1))
 }
 
-/// A place of the origin moved by such a way.
+/// Coordinate of the origin after a displacement.
 fn place(from: f64, by: f64) -> String {
     let steps = (by.abs() * STEPS_PER_MM).ceil().copysign(by);
     exact(((from + steps / STEPS_PER_MM) * 1e3).round() / 1e3)

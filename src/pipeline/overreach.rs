@@ -1,7 +1,7 @@
-//! Overlaps that leave the table, told before anything is planned: the lines lie on it, the ends of the blade would not.
+//! Overlaps that leave the table while the lines lie on it, reported before anything is planned.
 //!
-//! The verifier judges every instant of the program. Here only the two ends of each open cut and each plunge are looked at, where overlaps
-//! reach farthest, so that a marker that must be moved is refused at once.
+//! The verifier judges every instant of the program. This check covers only the two ends of each open cut and each plunge,
+//! where overlaps reach farthest, so that a marker that must be moved is refused at once.
 
 use super::toolpaths::Toolpaths;
 use super::{off_table, place};
@@ -20,20 +20,20 @@ const DECIMALS: u32 = 1;
 pub(super) const LAY: &str =
     "have the marker laid as far from the edges as the blade reaches: sheet.origin = \"corner\"";
 
-/// The end of a cut that lies farthest off the table.
+/// End of a cut that lies farthest off the table.
 struct Farthest {
-    /// mm.
+    /// Distance from the table, mm.
     off: f64,
     at: Point,
     span: Span,
 }
 
-/// Whether a marker may be laid elsewhere on the table.
+/// True if a marker may be placed elsewhere on the table.
 pub(super) fn may_lay(job: &Job) -> bool {
     job.profile.sheet.origin.is_some() && job.marks.is_none()
 }
 
-/// Refuses a marker whose overlaps leave the table by more than a blade may.
+/// Refuses a marker whose overlaps leave the table by more than the blade may.
 pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
     let profile = &job.profile;
     if diagnostics.has_errors() || !job.mode.cuts() || !may_leave(marker, job) {
@@ -67,15 +67,15 @@ pub(super) fn check(marker: &Marker, source: &Source, job: &Job, diagnostics: &m
     place::place(diagnostics, known, marker, source, job);
 }
 
-/// Whether an end of the blade could be off the table anywhere: in most jobs the table ends far from the marker.
+/// True if an end of the blade could be off the table anywhere: in most jobs the table ends far from the marker.
 fn may_leave(marker: &Marker, job: &Job) -> bool {
     let (table, extent) = (&job.profile.table, marker.extent_on_table());
     let off = table.off(extent.min.into()).max(table.off(extent.max.into()));
     !extent.is_empty() && off + job.profile.knife.reach() > Table::EDGE_MM
 }
 
-/// Both ends of the blade's reach in each open cut and each plunge, as far as they are off the table; `station` is the way of the
-/// cloth by then, mm.
+/// Both ends of the blade's reach in each open cut and each plunge, with their distances from the table; `station` is the
+/// advance of the cloth by then, mm.
 fn ends<'a>(toolpath: &'a Toolpath, station: u32, table: &'a Table) -> impl Iterator<Item = Farthest> + 'a {
     let moved_on = Vector::new(f64::from(station), 0.0);
     let reached = |step: &Step| -> Option<([Point; 2], [Span; 2])> {

@@ -1,5 +1,5 @@
-//! Planning and writing: toolpaths come a window at a time and go through stages, each at work on a window of its own
-//! on all cores: made one by one, linked to each other, planned, and written in order.
+//! Planning and writing. Toolpaths pass in windows through stages, each of which works on its own window on all cores: they are
+//! made individually, linked to each other, planned, and written in order.
 
 use std::io::{self, BufWriter, Write};
 
@@ -27,13 +27,13 @@ use crate::machine::{Follow, Job};
 use crate::plan::{self, Cut, Planner, arcs};
 use crate::units::MM_PER_M;
 
-/// A program that is written as toolpaths come.
+/// Program that is written as toolpaths arrive.
 pub(super) struct Sink<'a> {
     form: Form<'a>,
     out: BufWriter<&'a mut dyn Medium>,
 }
 
-/// What a program is made from.
+/// Input from which a program is made.
 enum Form<'a> {
     Toolpath(&'static Parts<Toolpath>),
     Motion(&'static Parts<Motion>),
@@ -42,7 +42,7 @@ enum Form<'a> {
 }
 
 impl<'a> Sink<'a> {
-    /// A target's program; `None` when the target needs no toolpaths.
+    /// Program of a target; `None` if the target needs no toolpaths.
     pub(super) fn new(emit: &'static Emit, context: &Context<'a>, out: &'a mut dyn Medium) -> Option<Self> {
         let form = match emit {
             Emit::Marker(_) | Emit::Page(_) => return None,
@@ -53,22 +53,22 @@ impl<'a> Sink<'a> {
         Some(Self { form, out: BufWriter::new(out) })
     }
 
-    /// Timed motion as `parts` write it.
+    /// Program of timed motion written by `parts`.
     pub(super) fn of_motion(parts: &'static Parts<Motion>, out: &'a mut dyn Medium) -> Self {
         Self { form: Form::Motion(parts), out: BufWriter::new(out) }
     }
 
-    /// A page that takes the timed motion and is written when that was judged.
+    /// Page that takes the timed motion and is written after its verification.
     pub(super) fn of_page(page: &'a mut (dyn PageWriter + 'a), out: &'a mut dyn Medium) -> Self {
         Self { form: Form::Page(page), out: BufWriter::new(out) }
     }
 
-    /// Whether it needs timed motion.
+    /// True if it needs timed motion.
     fn needs_motion(&self) -> bool {
         matches!(self.form, Form::Motion(_) | Form::Page(_))
     }
 
-    /// What of a marker or a profile its target cannot express.
+    /// Features of a marker or a profile that its target cannot express.
     fn refusals(&self, context: &Context) -> Vec<Diagnostic> {
         match self.form {
             Form::Toolpath(parts) => (parts.refusals)(context),
@@ -86,38 +86,38 @@ impl<'a> Sink<'a> {
     }
 }
 
-/// What is known of programs when they are written.
+/// Facts about written programs.
 #[derive(Default)]
 pub(super) struct Written {
-    /// What the planned motion does; nothing where none was planned.
+    /// Properties of the planned motion; default if none was planned.
     pub(super) program: Program,
-    /// What a controller that plans for itself makes of its program.
+    /// Estimate for the program of a controller that plans for itself.
     pub(super) estimate: Option<Estimate>,
-    /// What the program does beside the drawing.
+    /// Deviations of the program from the drawing.
     pub(super) declared: Vec<Declaration>,
 }
 
-/// Toolpaths, and what was made of them side by side.
+/// Toolpaths and the results computed for them in parallel.
 struct Made {
     toolpaths: Vec<Toolpath>,
-    /// The planned cuts of each; none where no motion is wanted.
+    /// Planned cuts of each toolpath; empty if no motion is wanted.
     cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
-    /// For each target of arcs: those of each.
+    /// Arcs of each toolpath, for each target of arcs.
     arcs: Vec<Vec<Result<Arcs, Vec<Unfit>>>>,
-    /// What they do beside the drawing.
+    /// Deviations from the drawing.
     declared: Vec<Declaration>,
     findings: Vec<Diagnostics>,
 }
 
-/// What is made of toolpaths beside each other.
+/// Results to compute for toolpaths in parallel.
 struct Wanted<'a> {
     job: &'a Job,
     marker: &'a Marker,
-    /// The cloth on which the parts lie; `None` where nothing is cut.
+    /// Cloth with the parts; `None` if nothing is cut.
     cloth: Option<&'a Cloth<'a>>,
     motion: bool,
     advance: &'a Advance,
-    /// How each target of arcs can be told a path.
+    /// Interpolation that each target of arcs supports.
     interpolations: Vec<Interpolation>,
 }
 
@@ -156,13 +156,14 @@ impl Wanted<'_> {
 /// Extra demands on a program.
 #[derive(Clone, Copy)]
 pub(super) struct Plan<'a> {
-    /// The planned motion, where no sink needs it.
+    /// True if the motion is to be planned even if no sink needs it.
     pub(super) motion: bool,
     /// Progress of the compile.
     pub(super) advance: &'a Advance,
 }
 
-/// Writes toolpaths to every sink, but for the tails of those that wait for a verdict. What cannot be planned or written is a diagnostic; what was written is then worth nothing.
+/// Writes toolpaths to every sink, except the tails of sinks that wait for a verdict. Failures of planning or writing are
+/// diagnostics; the written output is worthless then.
 pub(super) fn write(
     mut toolpaths: Toolpaths,
     sinks: &mut [Sink],
@@ -190,7 +191,7 @@ pub(super) fn write(
     let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();
     let wanted = Wanted { job, marker: context.marker, cloth: linking.cloth(), motion, advance, interpolations };
-    // Each stage has a window of its own: no core waits for the slowest.
+    // Each stage has a window of its own, so that no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
     rayon::in_place_scope(|beside| {
         beside.spawn(|_| savings = wanted.motion.then(|| Savings::of(context.marker, job)));
@@ -208,15 +209,15 @@ pub(super) fn write(
     writer.finish(savings, diagnostics)
 }
 
-/// Writes windows in order.
+/// Writer of windows in order.
 struct Writer<'w, 's, 'c> {
     sinks: &'w mut [Sink<'s>],
     context: &'w Context<'c>,
     planner: Planner<'c>,
     tally: Tally,
-    /// What the program does beside the drawing.
+    /// Deviations of the program from the drawing.
     declared: Vec<Declaration>,
-    /// What a target cannot express, of each kind the first in the file, and how many cuts or holes it is.
+    /// Features that a target cannot express: the first of each kind in the file, and the number of cuts or holes.
     refused: Vec<(Diagnostic, usize)>,
 }
 
@@ -276,7 +277,7 @@ impl Writer<'_, '_, '_> {
         Ok(())
     }
 
-    /// Ends the programs. What they could save is known where they were planned.
+    /// Ends the programs. `savings` is known if they were planned.
     fn finish(mut self, savings: Option<Savings>, diagnostics: &mut Diagnostics) -> io::Result<Written> {
         for (first, cuts) in std::mem::take(&mut self.refused) {
             let Diagnostic { message, span, .. } = &first;
@@ -309,7 +310,7 @@ impl Writer<'_, '_, '_> {
     }
 }
 
-/// Counts a refused cut with those of its kind.
+/// Adds a refused cut to the others of its kind.
 fn count(refused: &mut Vec<(Diagnostic, usize)>, cut: Diagnostic) {
     let is_alike = |(first, _): &&mut (Diagnostic, usize)| first.code == cut.code && first.message == cut.message;
     match refused.iter_mut().find(is_alike) {
@@ -323,22 +324,22 @@ fn count(refused: &mut Vec<(Diagnostic, usize)>, cut: Diagnostic) {
     }
 }
 
-/// Counts what a program does.
+/// Totals of a program.
 #[derive(Default)]
 struct Tally {
     travel: f64,
     plunges: usize,
     plunge_cuts: usize,
-    /// Cuts along the tangent.
+    /// Number of cuts along the tangent.
     tangents: usize,
     lifts: usize,
     ticks: u64,
-    /// Ticks that moves could begin before the knife is all the way up, and those of the lift before.
+    /// Ticks by which moves could begin before the knife is all the way up, and the ticks of the previous lift.
     clear: f64,
     lifted: u32,
     sagitta: f64,
     sides: Sides,
-    /// Where the time goes, in all and piece by piece.
+    /// Use of the time, in total and by piece.
     clock: Clock,
     by_piece: Vec<([u32; 2], Clock)>,
 }
@@ -363,8 +364,8 @@ impl Sides {
 }
 
 impl Tally {
-    /// The clock of a piece, by its number and its place in the marker; what belongs to none has the number 0 and is part of
-    /// the last.
+    /// Clock of a piece, by its number and its index in the marker; work outside of pieces has the number 0 and counts for the
+    /// last piece.
     fn clock_of(&mut self, piece: [u32; 2]) -> &mut Clock {
         if self.by_piece.last().is_none_or(|(last, _)| *last != piece && piece[0] > 0) {
             self.by_piece.push((piece, Clock::default()));
@@ -373,7 +374,7 @@ impl Tally {
         &mut self.by_piece[last].1
     }
 
-    /// Takes what is known of cuts before they are joined to a motion.
+    /// Adds the facts known about cuts before they are joined to a motion.
     fn take(&mut self, piece: [u32; 2], cuts: &[Cut]) {
         for cut in cuts {
             self.sagitta = self.sagitta.max(cut.sagitta);
@@ -417,13 +418,13 @@ impl Tally {
             follow: Some(job.profile.knife.follow),
             tangent_runs: Some(match job.profile.knife.follow {
                 Follow::Tangent => 0,
-                // A point is a chord of nothing.
+                // A point cannot be a chord.
                 Follow::Chord if job.profile.knife.width_mm == 0.0 => 0,
                 Follow::Chord => self.tangents,
             }),
             plunge_cuts: Some(self.plunge_cuts),
             lifts: Some(self.lifts),
-            // The last setpoint stands at the last tick, and rows count from tick 0.
+            // The last setpoint is at the last tick, and rows count from tick 0.
             time_s: Some((self.ticks - 1) as f64 * period),
             sides: Some(self.sides),
             spent: Some(self.clock.spent(period)),

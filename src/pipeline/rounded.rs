@@ -1,13 +1,13 @@
-//! Figures as they are told: rounded far below what a machine resolves, without stray decimals.
+//! Rounding of figures for output: far below the resolution of a machine, without stray decimals.
 
 use serde::{Serialize, Serializer};
 
-/// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
+/// Rounding of lengths and times, steps per unit: micrometres of a metre, microseconds of a second.
 const MILLIONTHS: f64 = 1e6;
-/// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
+/// Greatest number of decimals that [`significant`] keeps: smaller digits are noise of the computation.
 const MOST_DECIMALS: i32 = 12;
 
-/// `value` to some significant digits, for output: the nearest number that prints as short as that.
+/// Value rounded to a number of significant digits, for output: the nearest number that prints that short.
 pub fn significant(value: f64, digits: i32) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
@@ -18,18 +18,18 @@ pub fn significant(value: f64, digits: i32) -> f64 {
     if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
 }
 
-/// Zero has no sign here: the sum of no lengths would have one.
+/// Value rounded to millionths. Zero is positive: the sum of no lengths would be -0.
 pub(super) fn to_millionths(value: f64) -> f64 {
     (value * MILLIONTHS).round() / MILLIONTHS + 0.0
 }
 
-/// Writes a figure so.
+/// Serializes a value rounded to millionths.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
 pub(super) fn micro<S: Serializer>(value: &f64, out: S) -> Result<S::Ok, S::Error> {
     to_millionths(*value).serialize(out)
 }
 
-/// Writes one that may not be known so.
+/// Serializes an optional value rounded to millionths.
 #[allow(clippy::ref_option, reason = "serde hands fields over by reference")]
 pub(super) fn micro_known<S: Serializer>(value: &Option<f64>, out: S) -> Result<S::Ok, S::Error> {
     value.map(to_millionths).serialize(out)

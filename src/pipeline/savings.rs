@@ -1,4 +1,4 @@
-//! What a program could save: the time that settings other than those of its profile would spare.
+//! Possible savings of a program: time that other settings than those of its profile would save.
 
 use serde::Serialize;
 
@@ -8,27 +8,27 @@ use crate::ir::Marker;
 use crate::machine::{Job, OrderPolicy};
 use crate::pass::marker::saved_by;
 
-/// Of a rest after the lift command how much the blade takes until it is clear of the cloth, as a rule: a third.
+/// Usual share of the rest after the lift command until the blade is clear of the cloth: a third.
 pub(super) const CLEAR_SHARE: f64 = 1.0 / 3.0;
 
-/// What a program could save.
+/// Possible savings of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Savings {
-    /// About the time of the moves from cut to cut that no order of them can do without, s.
+    /// Approximate lower bound of the time of the moves from cut to cut in any order, s.
     #[serde(serialize_with = "micro")]
     pub least_travel_s: f64,
-    /// What the order `steady` would save, s, about; none where another than the file's is asked for.
+    /// Approximate saving by the order `steady`, s; `None` unless the order of the file is used.
     #[serde(serialize_with = "micro_known")]
     pub steady_s: Option<f64>,
-    /// What `knife.clear_ms` would save at a third of `knife.lift_ms`, s; none where it is set.
+    /// Saving by `knife.clear_ms` at a third of `knife.lift_ms`, s; `None` if it is set.
     #[serde(serialize_with = "micro_known")]
     pub clear_s: Option<f64>,
 }
 
 impl Savings {
-    /// Those of a marker whose cuts are made, but for what hangs on the planned motion.
+    /// Savings for a marker with its cuts made, without those that depend on the planned motion.
     pub(super) fn of(marker: &Marker, job: &Job) -> Self {
-        // Who goes on with a program must go on in its order.
+        // A program that is resumed must keep its order.
         let is_as_filed =
             !job.selection.begins_amid() && job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::File;
         let (least_travel_s, steady_s) =

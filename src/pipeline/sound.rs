@@ -1,8 +1,8 @@
-//! What passes leave is checked where that costs nobody anything.
+//! Checks of the invariants after passes, where they cost users nothing.
 
 use crate::ir::check;
 
-/// In tests and debug builds a pass that breaks an invariant is found at once.
+/// Asserts in tests and debug builds that a pass has kept the invariants.
 pub(super) fn assert_sound(pass: &str, faults: impl FnOnce() -> check::Faults) {
     if cfg!(debug_assertions) {
         let faults = faults();

@@ -1,4 +1,4 @@
-//! Where the time of a program goes, and what keeps its cuts from being faster.
+//! Use of the time of a program, and the limits that keep its cuts from being faster.
 
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use super::rounded::to_millionths;
 use crate::ir::motion::{BOUNDS, Bound, Motion, Shares};
 
-/// Time by what the machine does, s.
+/// Times by activity of the machine, s.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Spent {
     /// Knife down, along the path.
@@ -15,26 +15,26 @@ pub struct Spent {
     pub travel: f64,
     /// Knife up, at corners.
     pub turn: f64,
-    /// Until the knife is through.
+    /// Until the knife is through the cloth.
     pub plunge: f64,
-    /// Until the knife is clear.
+    /// Until the knife is clear of the cloth.
     pub lift: f64,
     /// Drilling.
     pub drill: f64,
-    /// At rest for another reason: until the knife is all the way up, for an event, at the end.
+    /// At rest for another reason: until the knife is all the way up, for an event, or at the end.
     pub wait: f64,
-    /// What bounds the cuts, each with its time; in the order of [`BOUNDS`], those without any left out. None where
-    /// nothing is cut.
+    /// Limits of the cuts, each with its time, in the order of [`BOUNDS`]; those without any time are omitted. Empty if nothing
+    /// is cut.
     pub bounds: Vec<(Bound, f64)>,
 }
 
 impl Spent {
-    /// All of it, s.
+    /// Total, s.
     pub fn total(&self) -> f64 {
         self.parts().iter().map(|(_, time)| time).sum()
     }
 
-    /// What the machine does, in words, and its time, s.
+    /// Activities in words, with their times, s.
     pub fn parts(&self) -> [(&'static str, f64); 7] {
         [
             ("cut", self.cut),
@@ -48,7 +48,7 @@ impl Spent {
     }
 }
 
-/// A bound as people call it.
+/// Name of a limit in words.
 pub fn word(bound: Bound) -> String {
     match bound {
         Bound::Ends => "starts and stops".to_owned(),
@@ -74,7 +74,7 @@ impl Serialize for Spent {
     }
 }
 
-/// Counts ticks by what the machine does.
+/// Counter of ticks by activity of the machine.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Clock {
     ticks: [u64; 7],
@@ -82,23 +82,23 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Counts the phases of a motion.
+    /// Adds the phases of a motion.
     pub(super) fn add(&mut self, motion: &Motion) {
         for phase in &motion.phases {
             self.ticks[phase.kind.part()] += u64::from(phase.ticks);
         }
     }
 
-    /// Counts what bounds a cut.
+    /// Adds the limits of a cut.
     pub(super) fn bind(&mut self, shares: &Shares) {
         self.shares.merge(shares);
     }
 
-    /// The times, s, of ticks of a period.
+    /// Times, s, for a period in s.
     pub(super) fn spent(&self, period: f64) -> Spent {
         let time = |ticks: u64| ticks as f64 * period;
         let [cut, travel, turn, plunge, lift, drill, wait] = self.ticks.map(time);
-        // The same motion with the knife up is a travel: what bounds it keeps no cut from being faster.
+        // A dry run with the knife up only travels: its limits slow no cut down.
         let shares = |bound: &Bound| if cut > 0.0 { time(self.shares.of(*bound)) } else { 0.0 };
         let bounds = BOUNDS.iter().map(|bound| (*bound, shares(bound))).filter(|row| row.1 > 0.0).collect();
         Spent { cut, travel, turn, plunge, lift, drill, wait, bounds }

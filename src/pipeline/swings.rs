@@ -1,4 +1,4 @@
-//! Warnings of swings: bends behind which the heel of the blade leaves its line by so much that a worker sees it.
+//! Warnings of swings: bends behind which the heel of the blade leaves its line visibly.
 
 use crate::analysis::swing::{Swing, swing};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -8,10 +8,10 @@ use crate::ir::toolpath::{Run, Step};
 use crate::machine::Knife;
 use crate::units::number::up;
 
-/// Greatest swing that is worth no word, mm: less is seen on no seam allowance.
+/// Greatest swing without a warning, mm: it is not noticed on any seam allowance.
 const WORTH: f64 = 3.0;
 
-/// Warns of the worst swing of a toolpath that declares one, unless a curve tighter than the blade is told of already.
+/// Warns of the worst swing of a toolpath that declares one, unless a curve tighter than the blade is reported already.
 pub(super) fn warn(toolpath: &Toolpath, declared: &[Declaration], knife: &Knife, found: &mut Diagnostics) {
     let is_worth = |entry: &Declaration| entry.kind == Kind::Swing && entry.magnitude_mm > WORTH;
     let is_told = || found.iter().any(|finding| finding.code == &code::PATH_TIGHT_CURVE);
@@ -30,7 +30,7 @@ pub(super) fn warn(toolpath: &Toolpath, declared: &[Declaration], knife: &Knife,
         n => format!(" ({n} more in this contour)"),
     };
     let message = format!("the heel leaves its line by {by} mm at a bend{more}");
-    // The block that leads to the bend in the file.
+    // Block that leads to the bend in the file.
     let chord = if run.turned { worst.vertex } else { worst.vertex.checked_sub(1).unwrap_or(run.spans.len() - 1) };
     let finding = Diagnostic::new(&code::PATH_SWING, message).at(run.spans[chord]).by(worst.off);
     let finding = finding.on_cloth(run.points[worst.vertex]);

@@ -1,4 +1,4 @@
-//! The toolpaths of a marker, after all passes, a window of them at a time.
+//! Toolpaths of a marker after all passes, in windows.
 
 use rayon::prelude::*;
 
@@ -11,44 +11,44 @@ use crate::machine::{Job, Mode};
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, ToolpathPass, frame, trace};
 use crate::plan;
 
-/// Toolpaths of a window, of which every stage has one: enough to keep all cores busy, few enough to keep memory small.
+/// Number of toolpaths in a window, one per stage: enough to keep all cores busy, few enough to keep memory small.
 const WINDOW: usize = 128;
 
-/// Makes toolpaths in cut order.
+/// Producer of toolpaths in cut order.
 pub(super) struct Toolpaths<'a> {
     raw: Box<dyn Iterator<Item = Toolpath> + Send + 'a>,
-    /// What the passes look at; nothing where there is nothing to pass.
+    /// Context of the passes; `None` if there is nothing to pass.
     scene: Option<Scene<'a>>,
-    /// Where the first one begins.
+    /// Pose at the start of the first one.
     home: Pose,
 }
 
-/// Some toolpaths that follow each other, and what their passes found.
+/// Consecutive toolpaths, and the findings of their passes.
 pub(super) struct Window {
     pub(super) toolpaths: Vec<Toolpath>,
-    /// The cut of the marker that each is of, if it is of one.
+    /// Cut of the marker to which each belongs, if any.
     pub(super) cuts: Vec<Option<u32>>,
-    /// Those of each.
+    /// Findings of each.
     pub(super) findings: Vec<Diagnostics>,
 }
 
-/// The first stage: what is made of each toolpath by itself.
+/// First stage: processes each toolpath by itself.
 pub(super) struct Drawing<'t, 'a> {
     raw: &'t mut Box<dyn Iterator<Item = Toolpath> + Send + 'a>,
     scene: Option<&'t Scene<'a>>,
-    /// Cuts that were made so far.
+    /// Number of cuts made so far.
     cuts: u32,
 }
 
-/// The second stage: what is made of one toolpath after the other.
+/// Second stage: processes toolpaths in sequence.
 pub(super) struct Linking<'t, 'a> {
     scene: Option<&'t Scene<'a>>,
-    /// Where the last one ends.
+    /// Pose at the end of the last one.
     pose: Pose,
 }
 
 impl<'a> Toolpaths<'a> {
-    /// Those of a job over a marker; none is made yet.
+    /// Toolpaths of a job over a marker; none is made yet.
     pub(super) fn new(marker: &'a Marker, job: &'a Job) -> Self {
         let home = plan::home_over(marker.moved_on, job);
         if job.mode == Mode::Frame {
@@ -60,7 +60,7 @@ impl<'a> Toolpaths<'a> {
         Self { raw: Box::new(trace(marker, job)), scene: Some(scene), home }
     }
 
-    /// The two stages that make them, which work on different ones at the same time.
+    /// Both stages; they work on different toolpaths at the same time.
     pub(super) fn stages(&mut self) -> (Drawing<'_, 'a>, Linking<'_, 'a>) {
         let scene = self.scene.as_ref();
         (Drawing { raw: &mut self.raw, scene, cuts: 0 }, Linking { scene, pose: self.home })
@@ -68,7 +68,7 @@ impl<'a> Toolpaths<'a> {
 }
 
 impl Drawing<'_, '_> {
-    /// The next ones; `None` when there are no more.
+    /// Next window; `None` at the end.
     pub(super) fn next(&mut self) -> Option<Window> {
         let mut toolpaths: Vec<Toolpath> = self.raw.by_ref().take(WINDOW).collect();
         if toolpaths.is_empty() {
@@ -87,7 +87,7 @@ impl Drawing<'_, '_> {
         Some(Window { toolpaths, cuts, findings })
     }
 
-    /// The cut that a raw toolpath, which comes next, is of.
+    /// Cut to which the next raw toolpath belongs.
     fn next_cut(&mut self, toolpath: &Toolpath) -> Option<u32> {
         let is_cut = matches!(toolpath.steps[..], [Step::Run(_)]);
         let cut = self.cuts;
@@ -97,12 +97,12 @@ impl Drawing<'_, '_> {
 }
 
 impl<'t, 'a> Linking<'t, 'a> {
-    /// The cloth on which they lie; `None` where nothing is cut.
+    /// Cloth on which they lie; `None` if nothing is cut.
     pub(super) fn cloth(&self) -> Option<&'t Cloth<'a>> {
         self.scene.map(|scene| &scene.cloth)
     }
 
-    /// Finishes the next ones.
+    /// Finishes the next window.
     pub(super) fn link(&mut self, mut window: Window) -> Window {
         let Some(scene) = self.scene else { return window };
         for (toolpath, found) in window.toolpaths.iter_mut().zip(&mut window.findings) {
@@ -114,7 +114,7 @@ impl<'t, 'a> Linking<'t, 'a> {
     }
 }
 
-/// The passes that look at one toolpath alone, and those from the first on that looks at the one before it.
+/// Passes that process a toolpath by itself, and those from the first one on that depends on the previous toolpath.
 fn passes() -> [&'static [ToolpathPass]; 2] {
     let chained = TOOLPATH_PASSES.iter().position(|pass| pass.chained).unwrap_or(TOOLPATH_PASSES.len());
     let (alone, chained) = TOOLPATH_PASSES.split_at(chained);
