@@ -1,9 +1,9 @@
-//! Centre: where the cloth wanders on its conveyor, the marker goes with it.
+//! Centre: moves the marker with a cloth that wanders on its conveyor.
 //!
 //! Needs: the marker as it lies on the table, X along the feed. Leaves true: the same pieces in the same order, each place
-//! moved across by as much as the centre of the cloth is off the middle when the conveyor is at its X. What is straight on the
-//! cloth is not so on a machine past which it wanders: lines are parted where the centre line bends, so that they follow it
-//! within a part of the tolerance. All places go by one line of few rows, so that edges which touch still do.
+//! moved across by the offset of the centre of the cloth from the middle when the conveyor is at its X. A straight line on the
+//! cloth is bent on a machine past which the cloth wanders: lines are split where the centre line bends, so that they follow it
+//! within a share of the tolerance. All places use one line of few rows, so that touching edges still touch.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -16,13 +16,13 @@ use crate::units::number::{fixed, up};
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "centre", about: "moves the marker with the cloth that wanders", run };
 
-/// The part of the tolerance by which lines may leave the centre line: the knife may leave them by the whole of it.
+/// Share of the tolerance by which lines may deviate from the centre line; the knife may deviate from the lines by all of it.
 const PART: f64 = 0.25;
-/// A line is not parted where it leaves the centre line by less if it is not, mm: no file resolves it.
+/// Deviation from the centre line below which a line is not split, mm: no file resolves it.
 const STRAIGHT_EPSILON: f64 = 0.001;
-/// How far a cloth may wander across, in parts of the way of the conveyor, without being asked about.
+/// Steepest course of a cloth across the feed without a warning, per length of feed.
 const STEEP: f64 = 0.5;
-/// Decimals of places of the conveyor, mm.
+/// Decimals of positions of the conveyor, mm.
 const DECIMALS: u32 = 1;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
@@ -48,7 +48,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Says how far a marker reaches beyond the ends of the centre line.
+/// Reports the length by which a marker extends beyond the ends of the centre line.
 fn tell(centre: &CentreLine, [from, to]: [f64; 2], diagnostics: &mut Diagnostics) {
     let [start, end] = centre.range();
     let beyond = (start - from).max(to - end);
@@ -68,7 +68,7 @@ fn tell(centre: &CentreLine, [from, to]: [f64; 2], diagnostics: &mut Diagnostics
     diagnostics.push(Diagnostic::new(&code::CENTRE_BEYOND, message).by(beyond).hint(hint));
 }
 
-/// Says where the cloth would run across more steeply than any does: a file in another unit, or damage that was followed.
+/// Warns of a cloth that would run across implausibly steeply: the file has another unit, or damage was followed.
 fn steep(Shift(line): &Shift, [from, to]: [f64; 2], diagnostics: &mut Diagnostics) {
     let across = |ends: &[[f64; 2]]| [ends[1][0] - ends[0][0], (ends[1][1] - ends[0][1]).abs()];
     let on = line.rows().windows(2).filter(|ends| ends[1][0] > from && ends[0][0] < to);
@@ -85,7 +85,7 @@ fn steep(Shift(line): &Shift, [from, to]: [f64; 2], diagnostics: &mut Diagnostic
     diagnostics.push(Diagnostic::new(&code::CENTRE_STEEP, message).by(slope(worst)).hint(hint));
 }
 
-/// Says where the cloth bends so much within a notch that its stroke, which stays straight, leaves it.
+/// Warns of a bend of the cloth within a notch that its straight stroke does not follow.
 fn bent(shift: &Shift, marker: &Marker, tolerance: f64, diagnostics: &mut Diagnostics) {
     let notches = marker.pieces.iter().flat_map(|piece| &piece.notches);
     let off = notches.map(|notch| (shift.bend(notch.root.x, notch.tip.x), notch.root));
@@ -95,7 +95,7 @@ fn bent(shift: &Shift, marker: &Marker, tolerance: f64, diagnostics: &mut Diagno
     diagnostics.push(Diagnostic::new(&code::CENTRE_STEEP, message).on_cloth(at).by(off).hint(hint));
 }
 
-/// How places move across, by a line of few rows.
+/// Displacement of places across the feed, by a line of few rows.
 struct Shift(CentreLine);
 
 impl Shift {
@@ -107,7 +107,7 @@ impl Shift {
         *at = self.place(*at);
     }
 
-    /// Where the line bends between two places of the conveyor, in the direction from the one to the other.
+    /// Positions of the bends of the line between two positions of the conveyor, in the direction from one to the other.
     fn bends(&self, from: f64, to: f64) -> Vec<f64> {
         let Self(line) = self;
         let (rows, [least, most]) = (line.rows(), [from.min(to), from.max(to)]);
@@ -130,22 +130,22 @@ impl Shift {
         bends
     }
 
-    /// How far the line leaves the straight one between two places of the conveyor, mm.
+    /// Greatest deviation of the line from the straight one between two positions of the conveyor, mm.
     fn bend(&self, from: f64, to: f64) -> f64 {
         let Self(line) = self;
         let straight = |at: f64| line.at(from) + (line.at(to) - line.at(from)) * ((at - from) / (to - from));
         self.bends(from, to).into_iter().map(|at| (line.at(at) - straight(at)).abs()).fold(0.0, f64::max)
     }
 
-    /// Moves what a piece has beside its contours. Strokes of notches are short: they are not
-    /// parted, and what that takes is told.
+    /// Moves the parts of a piece besides its contours. Strokes of notches are short: they are not split, and the resulting
+    /// error is reported.
     fn piece(&self, piece: &mut Piece) {
         piece.places_mut().for_each(|at| self.move_place(at));
         piece.labels.iter_mut().filter_map(|label| label.at.as_mut()).for_each(|at| self.move_place(at));
     }
 }
 
-/// Parts the lines of a contour where the centre line bends.
+/// Splits the lines of a contour where the centre line bends.
 fn part(list: &mut SegmentList, range: &mut Range, shift: &Shift) {
     if list.lines(*range).all(|[from, to]| shift.bends(from.x, to.x).is_empty()) {
         return;
@@ -164,7 +164,7 @@ fn part(list: &mut SegmentList, range: &mut Range, shift: &Shift) {
     }
 }
 
-/// Counts anew the segments of the notches that the contours of a piece make: some may have been parted.
+/// Recounts the segments of the notches in the contours of a piece: some may have been split.
 fn recount(piece: &mut Piece, list: &SegmentList) {
     let Piece { contours, outline_notches, .. } = piece;
     for OutlineNotch { mouth, segments, .. } in outline_notches {

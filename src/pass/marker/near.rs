@@ -1,8 +1,8 @@
-//! Near: where cuts of two parts run beside each other, not cut as one and so near that a thin strip of cloth stands between
-//! them, or none.
+//! Near: finds cuts of two parts that run beside each other, not cut as one, with only a thin strip of cloth or none between
+//! them.
 //!
-//! Needs: the cuts of the pieces. Leaves true: `near` holds the stretches of cuts around parts beside which, outside of their
-//! own part or over its edge by the band, a cut around another part runs at `common.near_mm` at the most.
+//! Needs: the cuts of the pieces. Leaves true: `near` holds the stretches of cuts around parts beside which a cut around
+//! another part runs at a distance of at most `common.near_mm`, outside of their own part or over its edge by at most the band.
 
 use super::pass::MarkerPass;
 use super::search::search_ended;
@@ -15,19 +15,19 @@ use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass = MarkerPass { name: "near", about: "finds thin strips between two cuts", run };
 
-/// Least cosine between two edges that run beside each other (30 degrees): lines of a few units tell no direction.
+/// Least cosine of the angle between two edges that run beside each other (30 degrees): lines of a few units have no direction.
 const ALONG: f64 = 0.866;
-/// Shorter stretches are none, mm: rounding.
+/// Length below which a stretch counts as empty, mm: rounding.
 const LEAST: f64 = 1e-6;
-/// What two edges beside each other cost beside the comparison of their boxes: they are kept.
+/// Cost of two edges beside each other besides the comparison of their boxes: they are stored.
 const HIT: usize = 200;
 
-/// A chord of a cut around a part.
+/// Chord of a cut around a part.
 struct Chord {
     piece: u32,
-    /// The part that the cut bounds.
+    /// Part that the cut bounds.
     part: u32,
-    /// Whether that lies on its left.
+    /// True if the part is on its left.
     is_part_left: bool,
     ends: [Point; 2],
 }
@@ -49,7 +49,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The chords of the cuts around parts that lie near those around others, mm.
+/// Chords of cuts around parts that are within a distance of those around others, mm.
 fn chords(marker: &Marker, distance: f64) -> Vec<Chord> {
     let around = |cut: &&Cut| match cut.kind {
         CutKind::Outline | CutKind::Inner | CutKind::Edge => true,
@@ -70,7 +70,7 @@ fn chords(marker: &Marker, distance: f64) -> Vec<Chord> {
     chords
 }
 
-/// Leaves out where cuts only cross or meet: a strip is longer than it is wide, mm.
+/// Removes crossings and contacts of cuts: a strip is longer than it is wide, mm.
 fn leave_out_crossings(near: &mut Vec<NearEdge>, wide: f64) {
     let goes_on = |a: &NearEdge, b: &NearEdge| a.piece == b.piece && (b.ends[0] - a.ends[1]).norm() <= LEAST;
     let length = |edge: &NearEdge| (edge.ends[1] - edge.ends[0]).norm();
@@ -78,7 +78,7 @@ fn leave_out_crossings(near: &mut Vec<NearEdge>, wide: f64) {
     *near = strips.flatten().copied().collect();
 }
 
-/// The stretches of chords beside which others run so near; `None` when the search has no end.
+/// Stretches of chords beside which others run within the given distances; `None` if the budget is spent.
 fn near(chords: &[Chord], [least, most]: [f64; 2], work: &mut Budget) -> Option<Vec<NearEdge>> {
     let boxes = Boxes::new(chords.iter().map(|chord| Extent::between(chord.ends[0], chord.ends[1])).collect());
     let mut found = Vec::new();
@@ -113,7 +113,7 @@ fn near(chords: &[Chord], [least, most]: [f64; 2], work: &mut Budget) -> Option<
     Some(found)
 }
 
-/// From where to where on a chord another edge runs beside it, outside of its part.
+/// Stretch of a chord beside which another edge runs, outside of its part.
 fn stretch(chord: &Chord, other: [Point; 2], [least, most]: [f64; 2]) -> Option<[f64; 2]> {
     let [from, to] = chord.ends;
     let along = polyline::direction(from, to)?;

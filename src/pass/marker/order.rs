@@ -1,11 +1,9 @@
-//! Order: what lies within a contour is cut before it, the outline last: a part that is free shifts, with all that lies
-//! in it.
+//! Order: cuts the contents of a contour before it, and the outline last: once a part is free it shifts, with everything in it.
 //!
-//! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no contour comes
-//! behind a closed one of its piece that holds it, and no piece behind one within whose outline it lies, unless
-//! something is asked of the operator between them; otherwise contours and pieces keep the order of the file. What is
-//! asked stays where it is: before the pieces that are brought before the one behind it. Holes and slits come before
-//! all contours anyway.
+//! Needs: welded contours. In a file without piece numbers every contour is a piece. Leaves true: no contour follows a closed
+//! one of its piece that contains it, and no piece follows one whose outline contains it, unless an event lies between them;
+//! otherwise contours and pieces keep the order of the file. Events keep their places: pieces moved forward stay behind the
+//! event before them. Holes and slits precede all contours anyway.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -37,7 +35,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     sort_pieces(&mut marker.pieces, &waiting);
 }
 
-/// Puts the contours of a piece in order: by the outermost contour that holds them, what the most contours hold first.
+/// Sorts the contours of a piece by the outermost contour around them, the most deeply nested first.
 fn sort_contours(piece: &mut Piece, lines: Range<usize>, nesting: &Nesting) {
     if piece.contours.len() < 2 {
         return;
@@ -51,10 +49,10 @@ fn sort_contours(piece: &mut Piece, lines: Range<usize>, nesting: &Nesting) {
     piece.contours = order.into_iter().map(|line| piece.contours[line - lines.start]).collect();
 }
 
-/// The pieces that wait for others that the file has behind them, each with these.
+/// Pieces that must wait for later ones of the file, each with these.
 fn waiting(pieces: &[Piece], nesting: &Nesting) -> BTreeMap<usize, Vec<usize>> {
     let mut waiting: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    // The last piece so far before which something is asked: no other is brought past that.
+    // Last piece so far with an event before it: no other piece is moved past that.
     let mut asked = 0;
     for (i, piece) in pieces.iter().enumerate() {
         asked = if piece.events.is_empty() { asked } else { i };
@@ -65,12 +63,12 @@ fn waiting(pieces: &[Piece], nesting: &Nesting) -> BTreeMap<usize, Vec<usize>> {
     waiting
 }
 
-/// Puts pieces in the order in which each comes when all that it waits for has come, and otherwise as in the file.
+/// Reorders pieces so that each follows all those for which it waits, otherwise as in the file.
 fn sort_pieces(pieces: &mut Vec<Piece>, waiting: &BTreeMap<usize, Vec<usize>>) {
     if waiting.is_empty() {
         return; // as in most files
     }
-    // Pieces move only between two places where something is asked, so that these are still the first of theirs.
+    // Pieces move only between two events, so that these keep their places.
     let events: Vec<Vec<Event>> = pieces.iter_mut().map(|piece| std::mem::take(&mut piece.events)).collect();
     let mut left: Vec<Option<Piece>> = pieces.drain(..).map(Some).collect();
     pieces.extend(inside_out(left.len(), waiting).into_iter().filter_map(|i| left[i].take()));

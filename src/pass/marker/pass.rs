@@ -1,4 +1,4 @@
-//! What a pass over the marker is.
+//! Description of a pass over the marker.
 
 use crate::diagnostic::Diagnostics;
 use crate::ir::Marker;
@@ -9,8 +9,8 @@ use crate::machine::Job;
 pub struct MarkerPass {
     /// Name, as `--dump-after` takes it.
     pub name: &'static str,
-    /// What it does, in a line.
+    /// Effect, in a line.
     pub about: &'static str,
-    /// Does it.
+    /// Function that runs it.
     pub run: fn(&mut Marker, &Job, &mut Diagnostics),
 }

@@ -1,14 +1,14 @@
 //! Sanity: warns of outlines that cross and of holes outside every part. Changes nothing.
 //!
-//! Needs: welded contours. Says each of these once for a piece, or a pair of them, at the first place in cut order:
+//! Needs: welded contours. Reports each of these once per piece or pair, at the first place in cut order:
 //!
 //! - An outline crosses itself, or another one of its piece.
-//! - The outlines of two pieces overlap by more than edges of different parts may lie apart and still be one (`nest.band_mm`).
-//!   Pieces that lie edge to edge, or one in the other, do not.
-//! - A slit comes to another one of its piece, or to an edge on the other side.
+//! - The outlines of two pieces overlap by more than the distance within which edges of different parts merge (`nest.band_mm`).
+//!   Pieces edge to edge, or one inside the other, do not overlap.
+//! - A slit reaches another one of its piece, or an edge on the other side.
 //! - A slit leads out of its part.
-//! - A hole lies in no part. Where nothing is closed there are no parts to tell.
-//! - The number of a piece comes again.
+//! - A hole lies in no part. Without closed contours there are no parts to check.
+//! - The number of a piece is repeated.
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
@@ -34,13 +34,13 @@ use crate::units::number::fixed;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sanity", about: "warns of outlines that cross and of holes outside every part", run };
 
-/// Places of an outline that are tried for lying in another.
+/// Number of places on an outline that are tested for lying in another.
 const PROBES: usize = 16;
-/// What it takes to say that two pieces overlap, beside the comparison of two boxes.
+/// Cost of reporting that two pieces overlap, besides the comparison of two boxes.
 const SAYING: usize = 500;
-/// Least distance from the part to the middle of a slit that leads out of it, mm.
+/// Least distance from the part of the middle of a slit that leads out of it, mm.
 const OUTSIDE: f64 = 0.3;
-/// Decimals of how far pieces overlap, mm.
+/// Decimals of the depth of overlaps, mm.
 const DEPTH_DECIMALS: u32 = 2;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
@@ -65,7 +65,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let mut search = Search::new(marker, Boxes::new(boxes), job.profile.band(marker.unit));
     let mut work = Budget::of_a_marker();
     ended = earlier(ended, search.overlaps(&mut work, diagnostics));
-    // Where nothing is closed there are no parts to tell.
+    // Without closed contours there are no parts to check.
     if let Some(&(first, _)) = loose.first().filter(|_| any_closed) {
         search.make_room();
         loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
@@ -78,19 +78,19 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The earlier of two pieces.
+/// Earlier one of two pieces.
 fn earlier(one: Option<usize>, other: Option<usize>) -> Option<usize> {
     one.into_iter().chain(other).min()
 }
 
-/// What is found of pieces by themselves.
+/// Findings about pieces by themselves.
 #[derive(Default)]
 struct Alone {
     findings: Vec<Diagnostic>,
-    /// Holes outside their own piece, and its place in the marker.
+    /// Holes outside of their own piece, with the index of that.
     loose: Vec<(usize, Drill)>,
     any_closed: bool,
-    /// The piece at which no work was left.
+    /// Piece at which the budget was spent.
     ended: Option<usize>,
     boxes: Vec<Extent>,
 }
@@ -122,7 +122,7 @@ impl Alone {
                 alone.findings.push(finding.hint(hint));
             }
             alone.findings.extend(slits_outwards(marker, i, &part, &mut work));
-            // Its own piece is the likeliest.
+            // A hole is most likely in its own piece.
             let outside = marker.pieces[i].drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
             alone.loose.extend(outside.map(|drill| (i, *drill)));
             alone.any_closed |= part.closed().next().is_some();
@@ -135,9 +135,9 @@ impl Alone {
     }
 }
 
-/// Says which slits of a piece lead out of it.
+/// Warns of slits that lead out of a piece.
 fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Budget) -> Option<Diagnostic> {
-    // Where nothing is closed there is no part to leave.
+    // Without closed contours there is no part to leave.
     part.closed().next()?;
     let leads_out = |slit: &&Notch| {
         let middle = slit.root + (slit.tip - slit.root) / 2.0;
@@ -157,7 +157,7 @@ fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Bud
     Some(finding.hint("slits are cut as the file says, into waste or another part: check in the CAD for swapped ends"))
 }
 
-/// Numbers that start again from one that was there already, or stay.
+/// Warns of numbers that start again or repeat.
 fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
     if marker.pieces.is_sorted_by(|before, after| before.number < after.number) {
         return; // as in most files
@@ -180,27 +180,26 @@ fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A piece as messages name it.
+/// Name of a piece in messages.
 fn name(marker: &Marker, piece: usize) -> String {
     format!("piece {}", marker.pieces[piece].number)
 }
 
-/// The span of the segment of a piece that starts at one of its points.
+/// Span of the segment of a piece that starts at a point.
 fn span(marker: &Marker, piece: usize, part: &Outlines, point: usize) -> Span {
     let k = part.contour_of(point);
     let spans = marker.list.spans(marker.pieces[piece].contours[k].range);
     spans.get(point - part.contours[k].first).copied().unwrap_or_default()
 }
 
-/// What all searches look at.
+/// Data shared by all searches.
 struct Search<'a> {
     marker: &'a Marker,
-    /// The boxes of the pieces.
+    /// Boxes of the pieces.
     boxes: Boxes,
-    /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as
-    /// long as none is.
+    /// Outlines of pieces, filled when they are compared with others: most pieces of a marker are apart. Empty until then.
     parts: Vec<OnceCell<Box<Outlines<'a>>>>,
-    /// By how much outlines that only touch overlap at the most, mm: by rounding, or by the band.
+    /// Greatest overlap of outlines that only touch, mm: by rounding, or by the band.
     touching: f64,
 }
 
@@ -209,7 +208,7 @@ impl<'a> Search<'a> {
         Self { marker, boxes, parts: Vec::new(), touching: band.max(slack(marker)) }
     }
 
-    /// Makes room for outlines that are to be looked at.
+    /// Allocates space for the outlines to compare.
     fn make_room(&mut self) {
         self.parts.resize_with(self.boxes.all().len(), OnceCell::new);
     }
@@ -218,7 +217,7 @@ impl<'a> Search<'a> {
         self.parts[piece].get_or_init(|| Box::new(Outlines::of(self.marker, piece)))
     }
 
-    /// Says which pieces overlap; the piece at which no work was left.
+    /// Warns of overlapping pieces; returns the piece at which the budget was spent.
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) -> Option<usize> {
         for i in 0..self.boxes.all().len() {
             let extent = self.boxes.all()[i];
@@ -244,7 +243,7 @@ impl<'a> Search<'a> {
                         let message = format!("the outlines of {one} and {other} overlap by {by} mm");
                         Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).by(depth.by).on_cloth(depth.at)
                     }
-                    // Nobody has looked how far.
+                    // The depth was not determined.
                     None => {
                         let message = format!("the outlines of {one} and {other} overlap");
                         Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).on_cloth(place)
@@ -252,7 +251,7 @@ impl<'a> Search<'a> {
                 };
                 diagnostics.push(finding.hint("move one of the two in the marker: each is cut into the other"));
             }
-            // Behind its pairs as the earlier one it has no others: those as the later one came before.
+            // All its pairs as the earlier one are done, and those as the later one came before.
             self.parts[i].take();
             if work.is_spent() {
                 return Some(i);
@@ -261,7 +260,7 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// A place where the outlines of two pieces overlap, and the span of the later one there.
+    /// Place where the outlines of two pieces overlap, and the span of the later one there.
     fn overlap(&self, i: usize, k: usize, work: &mut Budget) -> Option<(Point, Span)> {
         let (a, b) = (self.part(i), self.part(k));
         let common = |part: &Outlines, other: &Outlines| -> Vec<Chain> {
@@ -291,14 +290,14 @@ impl<'a> Search<'a> {
             }
         }
         let is_near = self.are_near(a, b, work);
-        // A line that comes nowhere near another is on one side of it.
+        // A line that is not near another is on one side of it.
         let may_straddle = |part: &Outlines| is_near || part.contours.len() > 1;
         let mut straddles = |part, other| if may_straddle(part) { self.straddles(part, other, work) } else { None };
         let place = straddles(b, a).map(|(place, point)| (place, span(self.marker, k, b, point)));
         place.or_else(|| straddles(a, b).map(|(place, _)| (place, self.marker.pieces[k].span)))
     }
 
-    /// Whether lines of two parts come so near to each other that rounding may have put one on the other.
+    /// True if lines of two parts are so near to each other that rounding may have made them coincide.
     fn are_near(&self, a: &Outlines, b: &Outlines, work: &mut Budget) -> bool {
         let slack = slack(self.marker);
         let beside = |part: &Outlines, other: &Outlines| -> Vec<Chain> {
@@ -312,8 +311,8 @@ impl<'a> Search<'a> {
         of_a.into_iter().any(&mut is_near)
     }
 
-    /// A place of `part` that lies well inside `other`, while another place of it lies well outside: they overlap though
-    /// no two segments cross, since lines of the one run along lines of the other. With the point that starts it.
+    /// Place of `part` well inside `other`, if another place of it is well outside, with the index of its point: the parts
+    /// overlap without crossing segments, because lines of one run along lines of the other.
     fn straddles(&self, part: &Outlines, other: &Outlines, work: &mut Budget) -> Option<(Point, usize)> {
         let ends: Vec<usize> = (0..part.points.len().saturating_sub(1)).collect();
         let stride = ends.len().div_ceil(PROBES).max(1);
@@ -336,13 +335,13 @@ impl<'a> Search<'a> {
         inside.filter(|_| outside)
     }
 
-    /// Whether a hole lies in any part.
+    /// True if a hole lies in any part.
     fn is_in_a_part(&self, drill: &Drill, work: &mut Budget) -> bool {
         !work.spend(self.boxes.cost_at(drill.at))
             || self.boxes.at(drill.at).any(|piece| self.part(piece).may_hold(drill, work))
     }
 
-    /// Holes outside all parts, with their pieces.
+    /// Reports holes outside of all parts, by piece.
     fn report_drills(&self, loose: &[(usize, Drill)], diagnostics: &mut Diagnostics) {
         for of_one in loose.chunk_by(|one, other| one.0 == other.0) {
             let (piece, first) = of_one[0];

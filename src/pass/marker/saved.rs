@@ -1,4 +1,4 @@
-//! What another order of the pieces would save.
+//! Savings by another order of the pieces.
 
 use super::{cut, route};
 use crate::analysis::{air, duration};
@@ -6,8 +6,9 @@ use crate::diagnostic::Diagnostics;
 use crate::ir::Marker;
 use crate::machine::{Job, OrderPolicy};
 
-/// About the time that an order by a policy would save a marker whose cuts are made, s: at the least, as it is not looked for as
-/// long as where it is asked for. The order decides which edges are cut with which part, so that the cuts are made anew.
+/// Approximate time that an order by a policy would save for a marker with its cuts made, s. It is a lower bound, because the
+/// search is shorter than for the actual order. The order determines with which part edges are cut, so that the cuts are made
+/// anew.
 pub fn saved_by(policy: OrderPolicy, marker: &Marker, job: &Job) -> f64 {
     let mut job = job.clone();
     job.profile.order.policy = policy;

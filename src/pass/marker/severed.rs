@@ -1,4 +1,4 @@
-//! Slits that meet across their part: it comes apart there.
+//! Slits that meet across their part, which comes apart there.
 
 use crate::analysis::outlines::Outlines;
 use crate::geom::budget::Budget;
@@ -6,13 +6,13 @@ use crate::geom::polyline::{distance_of_segments, distance_to_segment};
 use crate::geom::{Extent, Point, cross};
 use crate::ir::marker::{Notch, Piece};
 
-/// Cloth that is left between two cuts below this tears at the next touch, mm.
+/// Width of cloth between two cuts below which it tears at the next touch, mm.
 const LEAST_BRIDGE: f64 = 0.5;
-/// Edges and slits so near to where a slit begins, mm, are those that it begins on.
+/// Distance from the start of a slit within which edges and slits are those on which it begins, mm.
 const AT_ROOT: f64 = 1.0;
 
-/// A slit of a piece that comes to another one, or through the part to another edge; `None` where there is none, or no work is
-/// left to find out.
+/// Slit of a piece that reaches another one, or another edge through the part; `None` if there is none, or if the budget is
+/// spent.
 pub(super) fn severing(piece: &Piece, part: &Outlines, work: &mut Budget) -> Option<Notch> {
     let slits = &piece.notches;
     let deepest = slits.iter().map(Notch::depth).fold(0.0, f64::max);
@@ -31,13 +31,13 @@ fn ends(slit: &Notch) -> [Point; 2] {
 /// Other slits of a part.
 struct Others<'a> {
     slits: &'a [Notch],
-    /// The depth of the deepest one, mm.
+    /// Depth of the deepest one, mm.
     deepest: f64,
     part: &'a Outlines<'a>,
 }
 
 impl Others<'_> {
-    /// Whether a slit comes to one of them. Strokes from one place are one notch, and so are a slit and its branch.
+    /// True if a slit reaches one of them. Strokes from one place are one notch, and so are a slit and its branch.
     fn meet(&self, slit: &Notch, work: &mut Budget) -> bool {
         let reach = 2.0 * self.deepest + LEAST_BRIDGE;
         let mut meets = |other: &Notch| {
@@ -52,7 +52,7 @@ impl Others<'_> {
         work.spend(self.slits.len()) && met
     }
 
-    /// Whether a slit begins on another one, and not on the edge.
+    /// True if a slit begins on another one, and not on the edge.
     fn is_branch(&self, slit: &Notch, other: &Notch, work: &mut Budget) -> bool {
         let around = Extent::between(slit.root, slit.root).grown(AT_ROOT);
         let is_near = |[from, to]: [Point; 2]| distance_to_segment(slit.root, from, to) <= AT_ROOT;
@@ -60,13 +60,13 @@ impl Others<'_> {
     }
 }
 
-/// Whether a slit begins on another one.
+/// True if a slit begins on another one.
 fn begins_on_slit(slit: &Notch, other: &Notch) -> bool {
     distance_to_segment(slit.root, other.root, other.tip) < LEAST_BRIDGE
 }
 
-/// Whether a slit comes to an edge beside the one that it begins on. One that begins on no edge, nor as a branch of another
-/// slit, does so where it first passes an edge.
+/// True if a slit reaches an edge besides the one on which it begins. A slit that begins neither on an edge nor on another slit
+/// is taken to begin where it first passes an edge.
 fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget) -> bool {
     let slit = &slits[place];
     let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
@@ -89,7 +89,7 @@ fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget)
     near.into_iter().any(is_across(root))
 }
 
-/// Where a slit first passes an edge; its root where it passes none.
+/// Place where a slit first passes an edge; its root if it passes none.
 fn first_passed(slit: &Notch, edges: &[[Point; 2]]) -> Point {
     let way = slit.tip - slit.root;
     let share = |[a, b]: &[Point; 2]| {

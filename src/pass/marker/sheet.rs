@@ -1,11 +1,10 @@
-//! Sheet: the marker is laid on the table as the profile says (turned, mirrored, scaled, moved, copied), or as registration
-//! marks say.
+//! Sheet: lays the marker on the table by the profile (turned, mirrored, scaled, moved, copied), or by registration marks.
 //!
-//! Needs: all that is found by its size as the file draws it, such as notches. Leaves true: the same pieces, in the same
-//! order, once for each copy; what is asked of the operator is asked in each of them. Whatever is done, the lower left corner
-//! of the box stays where it is, but for `sheet.origin`. Texts turn with their pieces and stay readable: they are never
-//! mirrored, and where the file has another text for mirrored pieces, that one is shown. A marker that moves the cloth on by
-//! itself is not made longer, turned or copied: its advances belong to the places that the file has.
+//! Needs: everything recognised by its size in the file, such as notches. Leaves true: the same pieces, in the same order, once
+//! for each copy; events are repeated in each. The lower left corner of the box stays where it is, except for `sheet.origin`.
+//! Texts turn with their pieces and stay readable: they are never mirrored, and if the file has another text for mirrored
+//! pieces, that one is shown. A marker that advances the cloth itself is not lengthened, turned or copied: its advances belong
+//! to the places in the file.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -19,16 +18,16 @@ use crate::units::number::fixed;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sheet", about: "turns, mirrors, scales, moves and copies the marker, if that is asked", run };
 
-/// Degrees of a quarter turn.
+/// Quarter turn, degrees.
 const QUARTER: f64 = 90.0;
 /// Stretch of cloth beyond which a map is doubted, as a share.
 const ODD_STRETCH: f64 = 0.05;
 /// Turn or skew of a lay beyond which a map is doubted, deg.
 const ODD_ANGLE_DEG: f64 = 5.0;
-/// Error of a map at the corners of the marker beyond which it is doubted, in the greatest one at a mark: that about a third
-/// of their extent beyond them.
+/// Error of a map at the corners of the marker beyond which it is doubted, relative to the greatest one at a mark: it is
+/// reached about a third of the extent of the marks beyond them.
 const MOST_ERROR: f64 = 1.5;
-/// Segments of all copies together, at the most: they take some gigabytes of memory.
+/// Greatest number of segments of all copies together: they take some gigabytes of memory.
 const MOST_SEGMENTS: usize = 1 << 26;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
@@ -74,7 +73,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     copy(marker, copies, Vector::new(pitch, 0.0));
 }
 
-/// Lays a marker where its registration marks were found.
+/// Lays a marker by its registration marks.
 fn by_marks(marker: &mut Marker, marks: &Marks, job: &Job, diagnostics: &mut Diagnostics) {
     let sheet = &job.profile.sheet;
     if !sheet.is_plain() {
@@ -124,14 +123,14 @@ fn odd(marks: &Marks, drawn: &Extent, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Where the file moves the cloth on.
+/// Events of the file that advance the cloth.
 fn advances(marker: &Marker) -> impl Iterator<Item = &Event> {
     let events = marker.pieces.iter().flat_map(|piece| &piece.events).chain(&marker.closing);
     events.filter(|event| event.kind == toolpath::Event::Advance)
 }
 
-/// Where the lower left corner of what is so long and wide, mm, lies in that of the table: as far from an edge as the blade may
-/// reach beyond a line, with as much room on either side where there is less.
+/// Position of the lower left corner of a box of this size, mm, in that of the table: as far from an edge as the blade may
+/// reach beyond a line, or centred if there is less room.
 fn in_corner(profile: &MachineProfile, size: [f64; 2]) -> Point {
     let along = |ends: Option<[f64; 2]>, size: f64| {
         ends.map_or(0.0, |[least, most]| least + profile.knife.reach().min((most - least - size) / 2.0).max(0.0))
@@ -141,13 +140,13 @@ fn in_corner(profile: &MachineProfile, size: [f64; 2]) -> Point {
     Point::new(along(profile.table.x_mm, long), along(profile.table.y_mm, size[1]))
 }
 
-/// Where places come to lie.
+/// Placement of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Way {
-    /// Where a step along X goes, and one along Y.
+    /// Images of the unit vectors along X and Y.
     axes: [Vector; 2],
     by: Vector,
-    /// Whether left becomes right.
+    /// True if it mirrors.
     is_mirrored: bool,
 }
 
@@ -155,9 +154,9 @@ impl Way {
     const STAYS: Self =
         Self { axes: [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)], by: Vector::new(0.0, 0.0), is_mirrored: false };
 
-    /// About the origin of the file: turned, then mirrored and scaled along X and Y of the table.
+    /// Placement about the origin of the file: turned, then mirrored and scaled along X and Y of the table.
     fn of(sheet: &Sheet) -> Self {
-        // Quarter turns to the bit, so that edges along an axis stay such.
+        // Quarter turns are exact, so that edges along an axis stay so.
         let (sin, cos) = match (sheet.rotate_deg / QUARTER).rem_euclid(4.0) {
             0.0 => (0.0, 1.0),
             1.0 => (1.0, 0.0),
@@ -181,7 +180,7 @@ impl Way {
         }
     }
 
-    /// By a map, which mirrors nothing.
+    /// Placement by a map without mirroring.
     fn by(map: &AffineMap) -> Self {
         Self { axes: map.axes.map(Vector::from), by: Vector::from(map.by), is_mirrored: false }
     }
@@ -218,7 +217,7 @@ impl Way {
         if self.stays() {
             return;
         }
-        // A text without a direction runs along X of the file, wherever that goes.
+        // A text without a direction runs along the image of X.
         let heading = label.heading.unwrap_or(Heading::new(0.0));
         let turned = Heading::of(self.vector(heading.unit()));
         if label.heading.is_some() || has_place && turned != heading {
@@ -227,7 +226,7 @@ impl Way {
     }
 }
 
-/// Moves all that is cut, and all that is shown.
+/// Moves all geometry, and everything that is shown.
 fn lay(marker: &mut Marker, way: &Way) {
     if *way == Way::STAYS {
         return;
@@ -239,7 +238,7 @@ fn lay(marker: &mut Marker, way: &Way) {
     }
 }
 
-/// Puts copies behind the marker, each so far from the one before it.
+/// Appends copies of the marker, each displaced by `step` from the previous one.
 fn copy(marker: &mut Marker, copies: usize, step: Vector) {
     if copies < 2 {
         return;

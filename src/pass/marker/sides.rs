@@ -1,18 +1,18 @@
-//! Sides: strokes of one outline whose ends were rounded apart meet halfway.
+//! Sides: joins strokes of an outline whose ends were rounded apart.
 //!
-//! A CAD system that writes each side of an outline for itself may round a corner twice: the next side then starts a unit
-//! of the file beside the end of the one before. An outline in one stroke may end a unit beside its start. Both places stand for one that is within half a diagonal of a cell of the
-//! grid, and so is the middle between them.
+//! A CAD system that writes each side of an outline separately may round a corner twice: the next side then starts a unit of
+//! the file beside the end of the previous one. An outline in one stroke may end a unit beside its start. Both ends stand for
+//! one place within half a diagonal of a cell of the grid, and so does the middle between them.
 
 use crate::geom::{Point, ring};
 use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::{Contour, Piece};
 
-/// Greatest distance of two ends to which one place was rounded, in units of the file: a unit along X and along Y.
+/// Greatest distance of two ends rounded from one place, in units of the file: a unit along X and along Y.
 const APART: f64 = std::f64::consts::SQRT_2 + 1e-6;
 
-/// Joins open contours of a piece that make a ring, each of which starts beside the end of the one before. A start that lies
-/// beside two ends, or an end beside two starts, stays as it is. `seam` settles the joints where two become one.
+/// Joins open contours of a piece that make a ring, each starting beside the end of the previous one. A start beside two ends,
+/// or an end beside two starts, stays as it is. `seam` merges the joints where two become one.
 pub(super) fn join(list: &mut SegmentList, piece: &mut Piece, unit: f64, seam: fn(&mut SegmentList, Range, Range)) {
     let reach = APART * unit;
     let open: Vec<usize> = (0..piece.contours.len()).filter(|&k| !piece.contours[k].closed).collect();
@@ -35,7 +35,7 @@ pub(super) fn join(list: &mut SegmentList, piece: &mut Piece, unit: f64, seam: f
     piece.contours.retain(|_| !taken.next().unwrap_or_default());
 }
 
-/// The only contour that starts beside the end of each one, if no other one ends there.
+/// Only contour that starts beside the end of each one, if no other one ends there.
 fn successors(ends: &[[Point; 2]], reach: f64) -> Vec<Option<usize>> {
     let mut starts: Vec<usize> = (0..ends.len()).collect();
     starts.sort_by(|&a, &b| ends[a][0].x.total_cmp(&ends[b][0].x));
@@ -52,7 +52,8 @@ fn successors(ends: &[[Point; 2]], reach: f64) -> Vec<Option<usize>> {
     next.iter().map(|next| next.filter(|&next| count[next] == 1)).collect()
 }
 
-/// The rings among contours, each from its first one on. None follows two, so every way ends or comes back to its start.
+/// Rings among contours, each from its first one on. Each contour has at most one predecessor, so every path ends or returns to
+/// its start.
 fn cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     let mut is_seen = vec![false; next.len()];
     let mut cycles = Vec::new();
@@ -69,7 +70,7 @@ fn cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     cycles
 }
 
-/// One range of several that make a ring, the ends of which are moved to the middles between them.
+/// Joins several ranges that make a ring into one, with their ends moved to the middles between them.
 fn joined(list: &mut SegmentList, mut ranges: Vec<Range>, seam: fn(&mut SegmentList, Range, Range)) -> Range {
     for k in 0..ranges.len() {
         let after = (k + 1) % ranges.len();

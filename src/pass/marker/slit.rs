@@ -1,16 +1,16 @@
-//! Slit: short strokes at an outline become slit notches, and a short stroke over the tip of one becomes its crossbar.
+//! Slit: converts short strokes at an outline to slit notches, and a short stroke over the tip of a slit to its crossbar.
 //!
-//! Needs: welded contours. Files write slits as strokes of their own, too: before the contour, at a vertex or within a
-//! segment of it, or there and back. A stroke is a contour of two places that are [`Notch::LONGEST`] apart at most.
+//! Needs: welded contours. Files also write slits as separate strokes: before the contour, at a vertex or within a segment of
+//! it, or there and back. A stroke is a contour of two places at most [`Notch::LONGEST`] apart.
 //!
 //! - One that starts on an outline of its piece is a slit.
-//! - One that the tip of a slit divides is the crossbar of a T, also when the file calls it a slit: then it touches no
+//! - A stroke divided by the tip of a slit is the crossbar of a T, even if the file calls it a slit; it then touches no
 //!   outline.
-//! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap. One that is drawn
-//!   there and back is cut once.
+//! - Any other stroke stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap. One that is
+//!   drawn there and back is cut once.
 //!
-//! A slit that starts up to [`Notch::MISS`] inside its edge reaches it: where its own line leads back there. Leaves true:
-//! notches in the order of the file; none without length, and no slit twice, whichever way round.
+//! A slit that starts up to [`Notch::MISS`] inside its edge is extended to it along its own line. Leaves true: notches in the
+//! order of the file; none without length, and no slit twice in either direction.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -28,11 +28,11 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "slit", about: "makes notches of short strokes at an outline, and cuts none twice", run };
 
-/// What a slit may miss its edge by and stay as it is: half a unit of the file, and this where there is none, mm.
+/// Least gap between a slit and its edge that is closed if the file has no grid, mm; otherwise it is half a unit.
 const MISS_EPSILON: f64 = 0.01;
-/// Slack where there is no grid, in the place of a unit, mm: files without one are written with two or three decimals.
+/// Slack in place of a unit if there is no grid, mm: such files are written with two or three decimals.
 const NO_GRID: f64 = 0.01;
-/// How much more that may be by rounding, mm: the diagonal of the coarsest unit.
+/// Additional gap due to rounding, mm: the diagonal of the coarsest unit.
 const ROUNDED: f64 = 0.36;
 /// Sine of the least angle between a slit and its edge: 20 degrees.
 const LEAST_ANGLE: f64 = 0.34;
@@ -66,18 +66,18 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A contour that is a stroke.
+/// Contour that is a stroke.
 #[derive(Debug, Clone, Copy)]
 struct Short {
     stroke: NotchStroke,
     percent: u8,
-    /// Its place among the contours of the piece.
+    /// Index among the contours of the piece.
     contour: usize,
-    /// Whether it is part of a notch now.
+    /// True if it has become part of a notch.
     taken: bool,
 }
 
-/// A contour as a stroke, if it goes between two near places only.
+/// Stroke of a contour that goes only between two near places; `None` for any other.
 fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     let points = list.points(contour.range);
     if points.iter().any(|&point| point != points[0] && point != points[1]) {
@@ -89,13 +89,13 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
 
-/// The points of each outline of a piece.
+/// Points of each outline of a piece.
 fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item = Cow<'a, [Point]>> {
     let outlines = piece.contours.iter().filter(|contour| contour.closed && short(list, contour, 0).is_none());
     outlines.map(|contour| list.points(contour.range))
 }
 
-/// Does something with each segment of the outlines of a piece: with plain loops, since every segment of a marker comes by here.
+/// Calls `edge` for each segment of the outlines of a piece, in plain loops, since every segment of a marker passes here.
 fn each_edge(list: &SegmentList, piece: &Piece, mut edge: impl FnMut([Point; 2])) {
     for points in outlines(list, piece) {
         for ends in points.windows(2) {
@@ -104,14 +104,14 @@ fn each_edge(list: &SegmentList, piece: &Piece, mut edge: impl FnMut([Point; 2])
     }
 }
 
-/// What may be a crossbar.
+/// Possible crossbar.
 struct Bar {
     stroke: NotchStroke,
     percent: u8,
     origin: Origin,
 }
 
-/// Where a crossbar comes from: its place there.
+/// Origin of a crossbar, with its index there.
 enum Origin {
     Notches(usize),
     Shorts(usize),
@@ -121,13 +121,13 @@ fn is_short_slit(notch: &Notch) -> bool {
     notch.kind == NotchKind::Slit && notch.depth() <= Notch::LONGEST
 }
 
-/// What the search in all pieces needs.
+/// State of the search in all pieces.
 struct Search<'a> {
     list: &'a mut SegmentList,
     near: Near,
-    /// The same, as far as a slit may miss its edge.
+    /// Proximity test that includes the distance by which a slit may miss its edge.
     around: Near,
-    /// The least that a slit is led on to its edge, mm.
+    /// Least extension of a slit to its edge, mm.
     least_miss: f64,
     diagnostics: &'a mut Diagnostics,
 }
@@ -139,7 +139,7 @@ impl Search<'_> {
             return;
         }
         let starts = sorted(shorts.iter().map(|short| short.stroke.from));
-        // What a tip divides is a crossbar, also when it ends beside an edge.
+        // A stroke divided by a tip is a crossbar, even if it ends beside an edge.
         let tips =
             sorted(piece.notches.iter().map(|notch| notch.tip).chain(shorts.iter().map(|short| short.stroke.to)));
         let slack = self.near.slack();
@@ -165,7 +165,7 @@ impl Search<'_> {
         piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
     }
 
-    /// Leads slits that start inside their edge back to it, along their own lines.
+    /// Extends slits that start inside their edge back to it, along their own lines.
     fn reach_edges(&mut self, piece: &mut Piece) {
         let slit = |notch: &Notch| NotchStroke { from: notch.root, to: notch.tip, span: notch.span };
         let starts = sorted(piece.notches.iter().map(|notch| notch.root));
@@ -173,12 +173,12 @@ impl Search<'_> {
         each_edge(self.list, piece, |ends| {
             self.around.each(&starts, ends, |i| {
                 let stroke = slit(&piece.notches[i]);
-                // At a vertex no edge may be met, by rounding.
+                // At a vertex rounding may hide both edges.
                 if polyline::distance_to_segment(stroke.from, ends[0], ends[1]) <= self.least_miss {
                     missed[i] = None;
                 }
                 if let Some(back) = back_to(&stroke, ends) {
-                    // What crosses an edge has reached it.
+                    // A slit that crosses an edge has reached it.
                     missed[i] = missed[i].filter(|_| back >= self.least_miss).map(|least| least.min(back));
                 }
             });
@@ -191,11 +191,11 @@ impl Search<'_> {
         }
     }
 
-    /// The strokes that may be crossbars: slits that touch no outline, then contours.
+    /// Possible crossbars: slits that touch no outline, then contours.
     fn bars(&mut self, piece: &Piece, shorts: &[Short]) -> Vec<Bar> {
         let slits: Vec<(usize, &Notch)> = piece.notches.iter().enumerate().filter(|(_, n)| is_short_slit(n)).collect();
         let mut touches = vec![false; slits.len()];
-        // A slit alone has none that could be its crossbar, or whose crossbar it could be.
+        // A single slit has no other that could be its crossbar, or the reverse.
         if slits.len() > 1 {
             let ends = sorted(slits.iter().flat_map(|(_, notch)| [notch.root, notch.tip]));
             each_edge(self.list, piece, |edge| self.near.each(&ends, edge, |i| touches[i / 2] = true));
@@ -211,7 +211,7 @@ impl Search<'_> {
         notches.chain(contours).collect()
     }
 
-    /// Gives the strokes that the tip of a slit divides to that slit.
+    /// Assigns the strokes divided by the tip of a slit to that slit.
     fn take_crossbars(&mut self, piece: &mut Piece, shorts: &mut [Short]) {
         let tips = sorted(piece.notches.iter().map(|notch| notch.tip));
         let mut is_bar = vec![false; piece.notches.len()];
@@ -253,8 +253,8 @@ impl Search<'_> {
     }
 }
 
-/// How far behind its start the line of a stroke meets a segment, mm; negative when it does so behind that, no farther
-/// on than the stroke is long.
+/// Distance behind the start of a stroke at which its line meets a segment, mm; negative, by at most the length of the stroke,
+/// if it meets it ahead of the start.
 fn back_to(stroke: &NotchStroke, [a, b]: [Point; 2]) -> Option<f64> {
     let (way, edge) = (stroke.to - stroke.from, b - a);
     let length = way.norm();
@@ -267,7 +267,7 @@ fn back_to(stroke: &NotchStroke, [a, b]: [Point; 2]) -> Option<f64> {
     ((0.0..=1.0).contains(&place) && back >= -length && back <= Notch::MISS + ROUNDED).then_some(back)
 }
 
-/// Takes out slits without length and slits that stand twice, whichever way round.
+/// Removes slits without length and slits that are repeated in either direction.
 fn drop_doubles(piece: &mut Piece, diagnostics: &mut Diagnostics) {
     let mut seen = BTreeSet::new();
     let number = piece.number;
@@ -288,7 +288,7 @@ fn drop_doubles(piece: &mut Piece, diagnostics: &mut Diagnostics) {
     });
 }
 
-/// Two places, the same whichever comes first.
+/// Key of two places in any order.
 fn ends(a: Point, b: Point) -> [[u64; 2]; 2] {
     let mut ends = [a, b].map(bits);
     ends.sort_unstable();

@@ -1,9 +1,8 @@
-//! Weld: chains of segments as the file interrupts them become the contours that it means.
+//! Weld: joins chains of segments that the file interrupts into the intended contours.
 //!
-//! Needs: contours as the reader left them, walked in list order, `closed` not yet meant. Leaves true: no segment of
-//! length zero; within a piece no open contour that a later open one continues to the bit; `closed` exactly when the
-//! ends meet. Contours keep the order of their first chain. Chains that make a ring but for a unit of the file meet
-//! halfway ([`sides`]).
+//! Needs: contours as the reader left them, walked in list order, with `closed` undefined. Leaves true: no segment of length
+//! zero; within a piece no open contour that a later open one continues exactly; `closed` exactly if the ends meet. Contours
+//! keep the order of their first chains. Chains that make a ring except for a unit of the file meet halfway ([`sides`]).
 
 use std::collections::BTreeSet;
 
@@ -33,7 +32,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         piece.contours.retain_mut(|contour| {
             let before = dropped.count;
             let kept = drop_equal_points(&mut marker.list, &mut contour.range, &mut dropped);
-            // One point alone is how some files move the knife; several say that something was drawn there.
+            // Some files move the knife by a single point; several points suggest that something was drawn there.
             if !kept && dropped.count - before > 1 {
                 let (_, first) = marker.list.walk(contour.range).next().expect("a range is never empty");
                 let message = format!("a contour of piece {number} has no length: all its points are the same");
@@ -49,18 +48,18 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     dropped.report(diagnostics);
 }
 
-/// Longest segment without length, mm: rounding of places that were computed, as of the ends of arcs.
+/// Greatest length of an empty segment, mm: rounding of computed places, such as the ends of arcs.
 const LENGTH_EPSILON: f64 = 1e-6;
-/// How near to each other points are one where numbers are on no grid, mm, and as a part of the tolerance at the most. Such
-/// files are written with two or three decimals; programs that offset, join or mirror outlines leave points there that go
-/// a few micrometres on or back, each of which would be a corner.
+/// Distance within which points merge if numbers are on no grid, mm, and its limit as a share of the tolerance. Such files are
+/// written with two or three decimals; programs that offset, join or mirror outlines leave points there that go a few
+/// micrometres on or back, each of which would be a corner.
 const OFF_GRID: f64 = 0.01;
 const OFF_GRID_PART: f64 = 0.25;
 
-/// Segments without length that were taken out.
+/// Removed segments without length.
 #[derive(Default)]
 struct Dropped {
-    /// How long they may be, mm.
+    /// Greatest length, mm.
     longest: f64,
     count: usize,
     first: Option<Span>,
@@ -82,14 +81,14 @@ impl Dropped {
     }
 }
 
-/// Takes the segments without length out of a range; `false` when there are no others, and one is left.
+/// Removes the segments without length from a range; returns `false`, with one segment left, if there are no others.
 ///
-/// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
-/// contour has no segment of its own: its joint is the first segment's.
+/// Codes of the file at a removed segment apply at that point, where the next segment starts. The end of the contour has no
+/// segment of its own: its joint is the first segment's.
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
     let longest = dropped.longest;
     let has_length = |way: Vector| has_length(way, longest);
-    // Nearly all have, and along X alone.
+    // Nearly all segments have a length, and already along X.
     let is_long = |(from, to): (&Point, &Point)| (to.x - from.x).abs() > longest || has_length(to - from);
     let points = list.points(*range);
     if points.iter().zip(&points[1..]).all(is_long) {
@@ -113,7 +112,7 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
         if !cursor.remove() {
             return false;
         }
-        // What is left still hangs together.
+        // The remaining segments stay connected.
         if was_last {
             *cursor.to_mut() = segment.to;
             break;
@@ -123,7 +122,7 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     let end = cursor.segment().to;
     let mut first = list.cursor(range);
     let closed = first.segment().from == end;
-    // At the end of an open contour the knife goes up anyway and does not come down again: only the overcut matters.
+    // At the end of an open contour the knife is lifted anyway and does not come down again: only the overcut matters.
     carry(
         first.joint_mut(),
         if closed { carried } else { Joint { no_overcut: carried.no_overcut, ..Joint::default() } },
@@ -131,7 +130,7 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     true
 }
 
-/// Whether a way is longer than `longest`, mm: told without its length where it is so along X or Y alone.
+/// True if a vector is longer than `longest`, mm; the components are tested first.
 fn has_length(way: Vector, longest: f64) -> bool {
     (way.x.abs() > longest) | (way.y.abs() > longest) || way.norm() > longest
 }
@@ -142,7 +141,7 @@ fn carry(joint: &mut Joint, carried: Joint) {
     joint.no_overcut |= carried.no_overcut;
 }
 
-/// Says which chains of a piece are closed, and joins the others.
+/// Marks the closed chains of a piece, and joins the others.
 fn join(list: &mut SegmentList, piece: &mut Piece) {
     for contour in &mut piece.contours {
         let [start, end] = list.ends_of(contour.range);
@@ -153,11 +152,11 @@ fn join(list: &mut SegmentList, piece: &mut Piece) {
     }
 }
 
-/// A chain's start, by the bits of its coordinates, and its place among the contours.
+/// Start of a chain, by the bits of its coordinates, and its index among the contours.
 type Start = ([u64; 2], usize);
 
-/// Joins the open chains of a piece. A chain takes the first later one that starts where it ends, until it closes or
-/// none does; a chain that runs into an earlier one stays apart, since the file wants the earlier one cut first.
+/// Joins the open chains of a piece. A chain takes the first later one that starts at its end, until it closes or none does. A
+/// chain that runs into an earlier one stays separate, since the file wants the earlier one cut first.
 fn join_open(list: &mut SegmentList, piece: &mut Piece) {
     let chains: Vec<([Point; 2], Range)> = piece.contours.iter().map(|c| (list.ends_of(c.range), c.range)).collect();
     let open = |i: usize| chains[i].0[0] != chains[i].0[1];
@@ -184,9 +183,9 @@ fn join_open(list: &mut SegmentList, piece: &mut Piece) {
     }
 }
 
-/// Settles the joints of two chains of which the second now continues the first. The first segment of a chain holds
-/// the advance of its plunge and the overcut of its last lift; the seam has the plunge of the second chain and the
-/// lift of the first, the contour the other two.
+/// Merges the joints of two chains of which the second continues the first. The first segment of a chain holds the advance of
+/// its plunge and the overcut of its last lift. The seam has the plunge of the second chain and the lift of the first; the
+/// contour has the other two.
 fn seam(list: &mut SegmentList, mut first: Range, mut second: Range) {
     let no_overcut = list.cursor(&mut second).segment().joint.no_overcut;
     let mut begin = list.cursor(&mut first);

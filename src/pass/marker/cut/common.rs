@@ -1,7 +1,7 @@
-//! Common lines: which edges two parts have in common, with which of the two each is cut, and what is left of the other.
+//! Common lines: edges that two parts share, the part with which each is cut, and the rest of the other part's outline.
 //!
-//! An edge is cut with the part that comes first. What is left of the other's outline are open cuts, each led on until it
-//! crosses what is cut there already. Where that cannot be the edge is cut for both.
+//! An edge is cut with the part that comes first. The rest of the other's outline becomes open cuts, each extended until it
+//! crosses the cut that is already there. If that is impossible, the edge is cut for both.
 
 use super::facing::{Facing, Segments};
 use super::lead::{Arrival, LEAST_COSINE, LEAST_SINE, Leads, Neighbour};
@@ -12,27 +12,27 @@ use crate::geom::budget::Budget;
 use crate::geom::{Point, cross, polyline};
 use crate::ir::list::{Joint, Segment};
 
-/// How many distances of two edges a corner may be from the end of the other's edge.
+/// Greatest distance of a corner from the end of the other's edge, in multiples of the band.
 const CORNER: f64 = std::f64::consts::SQRT_2;
-/// Stretches that are shorter have no length, mm: rounding.
+/// Length below which a stretch counts as empty, mm: rounding.
 const LEAST: f64 = 1e-6;
 
-/// What becomes of a ring.
+/// Result for a ring.
 #[derive(Debug, Default)]
 pub(super) struct Outcome {
-    /// What is cut of it: open cuts, or itself when that is `None`; the legs of notches on its edges first.
+    /// Open cuts of the ring, with the legs of notches on its edges first; `None` if it is cut as a whole.
     pub(super) cuts: Option<Vec<Vec<Segment>>>,
-    /// How many of these are legs.
+    /// Number of legs among the cuts.
     pub(super) legs: usize,
-    /// What is cut with others, each with the ring of the one, and how far it is from there at the most, mm.
+    /// Stretches cut with others: the index of the other ring, the stretch, and its greatest distance from that ring, mm.
     pub(super) shared: Vec<(usize, Vec<Segment>, f64)>,
-    /// Short ways about which its cuts cross others.
+    /// Short lines at which its cuts cross others.
     pub(super) junctions: Vec<[Point; 2]>,
 }
 
-/// Finds what rings, in the order in which they are cut, have in common; `None` when the search has no end. Rings whose
-/// notches stand on edges in common run straight over their mouths then, all others by their legs. Slits, piece by piece,
-/// that stand on what is cut with another begin at that cut.
+/// Finds the common edges of rings, given in the order in which they are cut; `None` if the budget is spent. Rings with notches
+/// on common edges then run straight over their mouths; all others follow their legs. Slits, grouped by piece, that stand on an
+/// edge cut with another part begin at that cut.
 pub(super) fn share(
     rings: &mut [Ring],
     slits: &mut [&mut [Slit]],
@@ -67,7 +67,7 @@ pub(super) fn share(
     Some(outcomes)
 }
 
-/// Which of the mouths of a ring another part's edge, and not its mouth, lies along.
+/// True for each mouth of a ring along which another part's edge, and not its mouth, lies.
 fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Asked) -> Vec<bool> {
     let own = &rings[ring];
     let is_over = |mouth: &Mouth, [low, high]: [f64; 2], ring: &Ring| {
@@ -103,15 +103,15 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
             }
             faces |= is_by([theirs[0] - least, theirs[1] + least]);
         }
-        // What is within the band at the ends of two mouths that face each other is no base. Where the other's edge is not, what
-        // stands out of it may lie, or a third part.
+        // A base within the band at the ends of two facing mouths does not count. Where the other's edge is missing, a
+        // protrusion of it or a third part may lie.
         let slack = if faces { least } else { least.min((to - from) / 2.0) };
         base > slack && covered >= to - from - slack
     };
     own.mouths().iter().map(is_wanted).collect()
 }
 
-/// Whether the legs of a notch leave its edge at so small an angle that they would not surely cross what is cut over its mouth.
+/// True if the legs of a notch leave its edge at so small an angle that they might not cross the cut over its mouth.
 fn is_shallow(mouth: &Mouth, own: &Ring) -> bool {
     let over = own.arriving(own.station(mouth.segment + 1), true);
     let ends = [mouth.legs.first(), mouth.legs.last()].into_iter().flatten();
@@ -119,16 +119,16 @@ fn is_shallow(mouth: &Mouth, own: &Ring) -> bool {
     ways.any(|way| cross(way, over).abs() < LEAST_SINE)
 }
 
-/// Open cuts, and the ways on which they were led on.
+/// Open cuts and their extensions.
 #[derive(Debug, Default)]
 struct Led {
     cuts: Vec<Vec<Segment>>,
     ways: Vec<[Point; 2]>,
-    /// Where cuts cross each other as they are.
+    /// Crossings of cuts without an extension.
     met: Vec<[Point; 2]>,
 }
 
-/// What of a ring lies between two stations, led on to two places; like a segment of it where that is nothing.
+/// Stretch of a ring between two stations, extended to two places; if it is empty, the extensions get the attributes of `like`.
 fn led_on(own: &Ring, [from, to]: [f64; 2], [start, end]: [Point; 2], like: Segment) -> Vec<Segment> {
     let mut cut = own.stretch([from, to]);
     let at = own.place(from);
@@ -137,7 +137,7 @@ fn led_on(own: &Ring, [from, to]: [f64; 2], [start, end]: [Point; 2], like: Segm
     cut.insert(0, Segment { from: start, to: ends[0], joint: Joint::default(), ..first });
     cut.push(Segment { from: ends[1], to: end, joint: Joint::default(), ..last });
     cut.retain(|segment| segment.length() > LEAST);
-    // Closes the gaps that dropped segments leave.
+    // Close the gaps left by dropped segments.
     let mut at = start;
     for segment in &mut cut {
         segment.from = at;
@@ -149,7 +149,7 @@ fn led_on(own: &Ring, [from, to]: [f64; 2], [start, end]: [Point; 2], like: Segm
     cut
 }
 
-/// Settles ring after ring.
+/// Processing of rings in sequence.
 struct Sharing<'a> {
     rings: &'a [Ring],
     asked: Asked,
@@ -157,7 +157,7 @@ struct Sharing<'a> {
 }
 
 impl Sharing<'_> {
-    /// What becomes of a ring, those before it being settled.
+    /// Result for a ring, after all earlier ones.
     fn settle(&mut self, ring: usize, facing: &[Facing]) -> Outcome {
         let kept: Vec<Facing> =
             facing.iter().filter(|part| part.other < ring).flat_map(|part| self.leads.kept_of(part)).collect();
@@ -176,7 +176,7 @@ impl Sharing<'_> {
             }
             match self.cuts(ring, &shared) {
                 Ok(led) => break led,
-                // An end that finds nothing to cross: that edge is cut for both.
+                // An end finds nothing to cross: that edge is cut for both.
                 Err(failed) => drop(shared.remove(failed)),
             }
         };
@@ -191,8 +191,8 @@ impl Sharing<'_> {
         Outcome { shared, cuts, legs: own.mouths().len(), junctions: [junctions, of_legs].concat() }
     }
 
-    /// The cuts of a ring with those of the notches on its edges in front, `None` where it is cut as it is; and the ways on
-    /// which the legs of these cross what is cut over their mouths.
+    /// Cuts of a ring, preceded by those of the notches on its edges (`None` if it is cut as a whole), and the stretches where
+    /// the legs cross the cuts over their mouths.
     fn legs(&self, ring: usize, cuts: Option<Vec<Vec<Segment>>>) -> (Option<Vec<Vec<Segment>>>, Vec<[Point; 2]>) {
         let own = &self.rings[ring];
         if own.mouths().is_empty() {
@@ -208,7 +208,7 @@ impl Sharing<'_> {
         (Some(legs.into_iter().chain(cuts.unwrap_or_else(whole)).collect()), roots)
     }
 
-    /// Where two stretches lie over each other the one that begins first has what they share.
+    /// Assigns the overlap of two stretches to the one that begins first.
     fn part(&self, shared: &mut Vec<Shared>, own: &Ring) {
         let least = self.asked.least();
         let mut i = 1;
@@ -220,7 +220,7 @@ impl Sharing<'_> {
                 shared.remove(i);
             }
         }
-        // The last one may go on over the start of the ring.
+        // The last stretch may continue past the start of the ring.
         while let [first, .., last] = &mut shared[..]
             && last.own[1] - own.length() > first.own[0]
             && !first.begin_at(last.own[1] - own.length(), least)
@@ -229,9 +229,9 @@ impl Sharing<'_> {
         }
     }
 
-    /// The end, 0 or 1, of a cut that must not be made. One that is no longer than two edges lie apart is too short for
-    /// any blade, which would cut what lies about it. Of one that `is_short` an end is wrong that is a way off to the side as
-    /// short as that: the blade would only swing; and so is one that comes back along itself, as at the tip of a wedge.
+    /// End, 0 or 1, of a cut that must not be made; `None` if the cut is good. A cut no longer than the band is too short for
+    /// any blade, which would cut into its surroundings. An end of an `is_short` cut is bad if it deviates sideways by a
+    /// comparably short stretch, because the blade would only swing, or if it returns along itself, as at the tip of a wedge.
     fn short_end(&self, cut: &[Segment], is_short: bool) -> Option<usize> {
         if !cut.is_empty() && cut.iter().map(Segment::length).sum::<f64>() <= self.asked.near.distance {
             return Some(0);
@@ -251,7 +251,7 @@ impl Sharing<'_> {
         ends.iter().position(|&swings| swings)
     }
 
-    /// Lets a stretch go on to the corners of its ring that stand as near to the end of the other's edge.
+    /// Extends a stretch to the corners of its ring that are near enough to the end of the other's edge.
     fn reach_corners(&self, shared: &mut Shared, own: &Ring) {
         let reach = BREAK * self.asked.near.distance;
         let other = &self.rings[shared.other];
@@ -270,7 +270,8 @@ impl Sharing<'_> {
         }
     }
 
-    /// The open cuts between stretches, led on at either end; else which of these has an end that nothing crosses.
+    /// Open cuts between stretches, extended at both ends; the error is the index of a stretch with an end that nothing
+    /// crosses.
     fn cuts(&self, ring: usize, shared: &[Shared]) -> Result<Led, usize> {
         let own = &self.rings[ring];
         let length = own.length();
@@ -310,7 +311,7 @@ impl Sharing<'_> {
                     Some(past) => past.end,
                     None => self.leads.lead(ring, arrival, neighbour(k)).ok_or([i, next][k])?,
                 };
-                // Where the outlines overlap it crosses the other's before it is led on.
+                // Where the outlines overlap, it crosses the other before its extension.
                 let over = arrival.at - arrival.along * (2.0 * self.asked.near.distance);
                 led.ways.extend([[over, arrival.at], [arrival.at, ends[k]]]);
                 led.ways.extend(past.map(|past| past.corner));
@@ -332,7 +333,7 @@ mod tests {
     use super::*;
     use crate::source::Span;
 
-    /// A stretch that begins less than a segment's least length before a corner.
+    /// A stretch that begins before a corner by less than the least length of a segment.
     #[test]
     fn a_cut_that_begins_just_before_a_corner_has_no_gap_there() {
         let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|[x, y]| Point::new(x, y));

@@ -1,75 +1,75 @@
-//! Where edges of two parts face each other: as near as one edge, with the parts on either side.
+//! Facing edges of two parts: near enough to merge, with the parts on opposite sides.
 
 use super::ring::Ring;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, cross, polyline};
 
-/// Least cosine between two edges that face each other (30 degrees): shorter ones than rounding tell no direction.
+/// Least cosine of the angle between two facing edges (30 degrees): edges not much longer than the rounding have no direction.
 const LEAST_COSINE: f64 = 0.866;
 /// Tangent of the greatest angle between them that rounding does not explain (2 degrees).
 const MOST_SLOPE: f64 = 0.035;
-/// Shorter stretches are none, mm: rounding.
+/// Length below which a stretch counts as empty, mm: rounding.
 const LEAST: f64 = 1e-6;
 
-/// What two segments that face each other cost beside the comparison of their boxes: they are kept.
+/// Cost of two facing segments besides the comparison of their boxes: they are stored.
 const HIT: usize = 200;
 
-/// A stretch of a ring beside a stretch of another, both straight.
+/// Stretch of a ring beside a stretch of another, both straight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facing {
-    /// Its stations on the ring, mm.
+    /// Stations on its own ring, mm.
     pub(super) own: [f64; 2],
-    /// The other ring.
+    /// Index of the other ring.
     pub(super) other: usize,
-    /// Which stations of that lie beside these.
+    /// Stations on the other ring, beside those on its own, mm.
     pub(super) theirs: [f64; 2],
-    /// How far apart they are there, mm.
+    /// Distances between both at its ends, mm.
     pub(super) apart: [f64; 2],
 }
 
 impl Facing {
-    /// The part of it between two shares of its length.
+    /// Part between two shares of its length.
     pub(super) fn part(&self, [from, to]: [f64; 2]) -> Self {
         let between = |ends: [f64; 2]| [from, to].map(|share| ends[0] + (ends[1] - ends[0]) * share);
         Self { own: between(self.own), theirs: between(self.theirs), apart: between(self.apart), ..*self }
     }
 
-    /// Which share of its length lies before a station of its own ring.
+    /// Share of its length before a station of its own ring.
     fn share(&self, station: f64) -> f64 {
         (station - self.own[0]) / self.length()
     }
 
-    /// How far apart they are at a station of its own ring, mm.
+    /// Distance between both at a station of its own ring, mm.
     fn apart_at(&self, station: f64) -> f64 {
         self.apart[0] + (self.apart[1] - self.apart[0]) * self.share(station)
     }
 
-    /// Its length on its own ring, mm.
+    /// Length on its own ring, mm.
     pub(super) fn length(&self) -> f64 {
         self.own[1] - self.own[0]
     }
 }
 
-/// How edges must lie to face each other.
+/// Criteria for facing edges.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
-    /// How far apart they are at the most, mm.
+    /// Greatest distance, mm.
     pub(super) distance: f64,
-    /// By how much rounding may turn them, mm at either end.
+    /// Displacement of either end by rounding, mm.
     pub(super) slack: f64,
 }
 
-/// The segments of rings, by place.
+/// Spatial index of the segments of rings.
 #[derive(Debug)]
 pub(super) struct Segments {
     boxes: Boxes,
-    /// The ring and the place on it of each.
+    /// Index of the ring and of the segment on it, for each box.
     of: Vec<[u32; 2]>,
 }
 
 impl Segments {
-    /// The segments of all rings.
+    /// Indexes the segments of all rings.
     pub(super) fn new(rings: &[Ring]) -> Self {
         let of_ring = |i: usize| (0..rings[i].segments().len()).map(move |k| [i, k].map(|place| place as u32));
         let of: Vec<[u32; 2]> = (0..rings.len()).flat_map(of_ring).collect();
@@ -80,7 +80,7 @@ impl Segments {
         Self { boxes: Boxes::new(extents.collect()), of }
     }
 
-    /// Those that meet a box: the ring of each, its place on it, and its ends.
+    /// Segments whose boxes meet a box: index of the ring, index of the segment on it, and its ends.
     pub(super) fn near<'a>(
         &'a self,
         rings: &'a [Ring],
@@ -89,7 +89,7 @@ impl Segments {
         self.boxes.near(extent).map(move |i| (self.of[i].map(|place| place as usize), ends(rings, self.of[i])))
     }
 
-    /// For each ring where it faces others, by its stations; `None` when the search has no end.
+    /// Facing stretches of each ring, by station; `None` if the budget is spent.
     pub(super) fn facing(&self, rings: &[Ring], near: Near, work: &mut Budget) -> Option<Vec<Vec<Facing>>> {
         let mut found = vec![Vec::new(); rings.len()];
         for (i, &[ring, segment]) in self.of.iter().enumerate() {
@@ -126,13 +126,13 @@ impl Segments {
     }
 }
 
-/// Whether two rings may have an edge in common: they bound two parts that lie on the table at the same time.
+/// True if two rings may share an edge: they bound two parts that are on the table at the same time.
 fn may_share(one: &Ring, other: &Ring) -> bool {
     one.part != other.part && one.advances == other.advances
 }
 
-/// What faces a ring, in order, without what lies behind something nearer: a narrow part between two others has both edges,
-/// and these have none in common. `None` when the search has no end.
+/// Facing stretches of a ring, in order, without those behind a nearer one: a narrow part between two others has both edges,
+/// and these do not share one. `None` if the budget is spent.
 fn nearest_of(facing: &[Facing], slack: f64, work: &mut Budget) -> Option<Vec<Facing>> {
     let mut behind: Vec<Vec<[f64; 2]>> = vec![Vec::new(); facing.len()];
     let mut open: Vec<usize> = Vec::new();
@@ -157,7 +157,7 @@ fn nearest_of(facing: &[Facing], slack: f64, work: &mut Budget) -> Option<Vec<Fa
     Some(kept.collect())
 }
 
-/// What some stretches leave of one.
+/// Rest of a stretch without some others.
 pub(super) fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     gone.fold(vec![whole], |left, [from, to]| {
         let parts = left.iter().flat_map(|&[low, high]| [[low, high.min(from)], [low.max(to), high]]);
@@ -165,17 +165,17 @@ pub(super) fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> 
     })
 }
 
-/// The ends of a segment.
+/// Ends of a segment.
 fn ends(rings: &[Ring], [ring, segment]: [u32; 2]) -> [Point; 2] {
     let segment = rings[ring as usize].segments()[segment as usize];
     [segment.from, segment.to]
 }
 
-/// Stations from the start of a segment, those of another beside them, and how far apart they are.
+/// Stations from the start of a segment, those of another beside them, and the distances between both.
 type Beside = ([f64; 2], [f64; 2], [f64; 2]);
 
-/// Where a segment lies beside another; `is_same_way` tells whether their rings go the same way round their parts, so that
-/// edges which face each other go opposite ways.
+/// Stretch of a segment beside another. `is_same_way` is true if their rings run the same way round their parts, so that facing
+/// edges run opposite ways.
 fn beside([own, other]: [[Point; 2]; 2], is_same_way: bool, near: Near) -> Option<Beside> {
     let along = polyline::direction(own[0], own[1])?;
     let direction = polyline::direction(other[0], other[1])?;

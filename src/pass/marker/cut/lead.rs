@@ -1,7 +1,7 @@
-//! Where open cuts end at others: led on until they cross what is cut there, so that no thread holds.
+//! Ends of open cuts at other cuts: they are extended until they cross, so that no thread remains.
 //!
-//! A cut that comes to an edge at an angle goes straight on. One that runs along the edge is led over to it, gently, where the
-//! edge is cut on. Both end a little beyond it.
+//! A cut that reaches an edge at an angle goes straight on. A cut that runs along the edge is led over to it at a small angle
+//! where the edge continues to be cut. Both end a little beyond it.
 
 use std::collections::HashMap;
 
@@ -13,80 +13,80 @@ use crate::ir::list::Segment;
 
 /// Sine of the least angle at which a cut goes straight on to another (15 degrees).
 pub(super) const LEAST_SINE: f64 = 0.259;
-/// Cosine of that angle: ways that turn by less go straight on.
+/// Cosine of that angle: smaller turns count as straight.
 pub(super) const LEAST_COSINE: f64 = 0.966;
-/// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
+/// Tangent of the greatest angle at which a cut is led over to an edge along which it runs (6 degrees).
 const SLOPE: f64 = 0.105;
-/// How far such a cut goes through the edge, in distances of two edges.
+/// Length by which such a cut passes through the edge, in multiples of the band.
 const THROUGH: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// How deep it may end in a part, in distances of two edges: the diagonal of those of X and Y, as for other cuts.
+/// Greatest depth of its end in a part, in multiples of the band: the diagonal of a band in X and Y, as for other cuts.
 const DEEPEST: f64 = std::f64::consts::SQRT_2;
-/// How often a way over to an edge that bends is halved.
+/// Number of times that the transition to a bent edge is halved.
 const HALVINGS: usize = 3;
-/// Places of such a way that are looked at.
+/// Number of places tested on such a transition.
 const PLACES: usize = 4;
-/// How far about a place cuts meet that should meet there, in distances of two edges.
+/// Radius around a place within which cuts that should meet there do meet, in multiples of the band.
 const ABOUT: f64 = 3.0;
-/// Cuts near a place that are looked at to see whether they hang together, at the most: in no lay there are more.
+/// Greatest number of cuts near a place that are tested for connection: no lay has more.
 const MOST_CUTS: usize = 200;
-/// Stretches that are shorter have no length, mm: rounding.
+/// Length below which a stretch counts as empty, mm: rounding.
 const LEAST: f64 = 1e-9;
 /// Distance within which a place is on an edge, mm: rounding.
 const ON_EDGE_EPSILON: f64 = 1e-9;
 
-/// How a cut comes to where it should cross another.
+/// Arrival of a cut at the place where it should cross another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arrival {
-    /// The place.
+    /// Place.
     pub(super) at: Point,
-    /// The unit vector along its way there.
+    /// Unit vector of its direction there.
     pub(super) along: Vector,
-    /// How far that is straight, mm.
+    /// Length of the straight stretch that ends there, mm.
     pub(super) straight: f64,
 }
 
 impl Arrival {
-    /// That of a ring at a station of it, in its own direction or against that.
+    /// Arrival at a station of a ring, in or against its direction.
     pub(super) fn on(ring: &Ring, station: f64, is_along: bool) -> Self {
         let straight = ring.arriving_on(station, is_along).length();
         Self { at: ring.place(station), along: ring.arriving(station, is_along), straight }
     }
 }
 
-/// What it should cross.
+/// Cut to be crossed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Neighbour {
-    /// The ring with which the edge ahead is cut.
+    /// Index of the ring with which the edge ahead is cut.
     pub(super) ring: usize,
-    /// The station of that beside the place, mm.
+    /// Station of that ring beside the place, mm.
     pub(super) station: f64,
-    /// A ring that is not meant.
+    /// Index of a ring to be ignored.
     pub(super) not: Option<usize>,
 }
 
-/// What is cut of the rings so far.
+/// Cuts of the rings so far.
 #[derive(Debug)]
 pub(super) struct Leads<'a> {
     pub(super) rings: &'a [Ring],
     segments: &'a Segments,
     pub(super) asked: Asked,
-    /// Of each ring what is cut with others.
+    /// Stretches of each ring that are cut with others.
     spared: Vec<Vec<[f64; 2]>>,
-    /// How long the way over to an edge is, mm.
+    /// Length of the transition to an edge, mm.
     longest: f64,
-    /// The ways on which open cuts were led on, by cells as large as the longest.
+    /// Extensions of open cuts, in cells of the size of the longest one.
     ways: HashMap<[i64; 2], Vec<[Point; 2]>>,
 }
 
 impl<'a> Leads<'a> {
     pub(super) fn new(rings: &'a [Ring], segments: &'a Segments, asked: Asked) -> Self {
         let Asked { near, width, .. } = asked;
-        // As long whatever lies between them, and no bend under the plunged blade.
+        // The length is independent of the distance between both, and leaves no bend under the plunged blade.
         let longest = (2.0 * near.distance / SLOPE).max(width);
         Self { rings, segments, asked, longest, spared: vec![Vec::new(); rings.len()], ways: HashMap::new() }
     }
 
-    /// Takes what of a ring is cut with others, and the ways on which what is left of it was led on.
+    /// Records the stretches of a ring that are cut with others, and the extensions of its remaining cuts.
     pub(super) fn spare(&mut self, ring: usize, shared: &[Shared], ways: Vec<[Point; 2]>) {
         let length = self.rings[ring].length();
         for &Shared { own: [from, to], .. } in shared {
@@ -102,7 +102,7 @@ impl<'a> Leads<'a> {
         }
     }
 
-    /// What of a stretch faces an edge that is cut.
+    /// Parts of a stretch that face an edge which is cut.
     pub(super) fn kept_of(&self, part: &Facing) -> Vec<Facing> {
         let (from, to) = (part.theirs[0], part.theirs[1]);
         let share = |station: f64| (station - from) / (to - from);
@@ -111,11 +111,11 @@ impl<'a> Leads<'a> {
         kept.into_iter().map(|shares| part.part(shares)).collect()
     }
 
-    /// Where a cut of a ring that comes to a place goes on to so that it crosses what is cut there with the others: no farther
-    /// where it crosses that already; `None` where it finds nothing to cross.
+    /// End of a cut of a ring that arrives at a place, extended to cross the other rings' cut there. It is not extended if it
+    /// crosses that already; `None` if it finds nothing to cross.
     pub(super) fn lead(&self, ring: usize, arrival: Arrival, to: Neighbour) -> Option<Point> {
         let Arrival { at, along, .. } = arrival;
-        // Where it goes through the neighbour's outline at an angle, such as beside a corner of it, it needs no way over.
+        // Where it passes the neighbour's outline at an angle, as beside a corner, it needs no transition.
         let through = self.straight_on(ring, at, along, |other| other == Some(to.ring));
         if let Some(way) = through.filter(|&way| way <= self.asked.near.distance) {
             return Some(at + along * way.max(0.0));
@@ -129,8 +129,8 @@ impl<'a> Leads<'a> {
         Some(if way > LEAST { at + along * way } else { at })
     }
 
-    /// Whether a way of a ring along an edge of another goes through the outline of a third part, such as a notch of it that
-    /// stands out over the edge, or lies in it deeper than edges lie apart.
+    /// True if a line of a ring along an edge of another passes through the outline of a third part, such as a protruding
+    /// notch, or lies in one deeper than the band.
     fn enters_another(&self, own: usize, other: usize, [from, to]: [Point; 2]) -> bool {
         let known = [own, other].map(|ring| self.rings[ring].part);
         let Some(along) = polyline::direction(from, to) else { return false };
@@ -156,7 +156,7 @@ impl<'a> Leads<'a> {
         segments.iter().copied().any(crosses) || places.any(|place| is_clear(place) && is_in_one(place))
     }
 
-    /// A straight cut of a ring through a place where what is cut with one neighbour ends and what is cut with the next begins,
+    /// Straight cut of a ring through a place where the stretch cut with one neighbour ends and that cut with the next begins,
     /// so that it crosses both: its ends, with the place between them.
     pub(super) fn tie(&self, ring: usize, station: f64, [before, behind]: [Neighbour; 2]) -> Option<[Point; 3]> {
         let own = &self.rings[ring];
@@ -173,8 +173,8 @@ impl<'a> Leads<'a> {
         [before, behind].iter().all(|to| self.surely_crosses(ring, tie, to.ring)).then_some(tie)
     }
 
-    /// Whether a tie of a ring crosses what is cut with another also where it lies to either side by half the tolerance: the
-    /// blade rounds the bends of both.
+    /// True if a tie of a ring crosses the other's cut even when displaced to either side by half the tolerance: the blade
+    /// rounds the bends of both.
     fn surely_crosses(&self, before: usize, tie: [Point; 3], other: usize) -> bool {
         let ([start, at, end], aside) = (tie, self.asked.beyond / 2.0);
         let cuts = self.cut_near(before, Extent::of(&tie).grown(aside));
@@ -190,8 +190,8 @@ impl<'a> Leads<'a> {
         })
     }
 
-    /// How far a way from a place goes straight on until it is through a cut of this ring's forerunners that is meant, by its
-    /// ring, mm.
+    /// Length by which a line goes straight on from a place until it has passed a cut of an earlier ring selected by
+    /// `is_meant`, mm.
     fn straight_on(
         &self,
         before: usize,
@@ -212,7 +212,7 @@ impl<'a> Leads<'a> {
             (ahead <= reach && sine >= LEAST_SINE).then_some((ahead + beyond / sine, ring, end))
         });
         let (way, ring, grazed) = crossings.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-        // What only grazes a corner is no crossing, and what only comes to where a cut ends none that is sure.
+        // Grazing a corner is not a crossing, and reaching the end of a cut is not a reliable one.
         let end = at + along * way.max(0.0);
         let is_through = |ends: [Point; 2]| polyline::distance_to_segment(end, ends[0], ends[1]) > beyond / 2.0;
         let is_crossed = |corner: Point| {
@@ -233,17 +233,17 @@ impl<'a> Leads<'a> {
         grazed.is_none_or(is_crossed).then_some(way)
     }
 
-    /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
+    /// End of a gentle transition from a place to an edge, starting at a station of that, with the cosine of the turn.
     fn way_over(&self, arrival: Arrival, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
         let Arrival { at, along, straight } = arrival;
         let Asked { near, beyond, width, .. } = self.asked;
         let edge = &self.rings[other];
-        // Far enough, as both cuts may be off by the tolerance and cross at a small angle, and not so far that the overlap past
-        // its end, which goes on as it does, leaves the distance, or that it ends deeper than it may.
+        // Long enough, since both cuts may be off by the tolerance and cross at a small angle, but not so long that its end is
+        // too deep, or that the overlap past it, in the same direction, leaves the band.
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
-        // The cut ends on the far side of the edge, seen from where it begins. A place on the edge, or one within half a
-        // distance that is reached along the edge, tells no side: there the stretch before it decides.
+        // The cut ends on the far side of the edge, seen from its start. The side is undefined for a place on the edge, or one
+        // within half the band that is reached along the edge: there the stretch before it decides.
         let ahead = from + sign * 2.0 * near.distance;
         let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
         let behind = from - sign * 2.0 * near.distance;
@@ -259,15 +259,15 @@ impl<'a> Leads<'a> {
                 (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through.abs()
             });
             let is_cut = self.is_cut(other, [from, station(1.0)]);
-            // A blade that is plunged over the bend stands on a chord of both ways: so far from that the bend is, of which
-            // each of the two may be off by half. What is shorter than the blade is cut by plunges of its own.
+            // A blade plunged over the bend is a chord of both stretches. Its distance from the bend is split between the two,
+            // which may each be off by half of it. A stretch shorter than the blade is cut by plunges of its own.
             let off = length * (width - length) / width * (1.0 - cosine * cosine).sqrt();
             let is_straight = length >= width || straight < width - length || off / 2.0 <= beyond;
             (cosine >= LEAST_COSINE && is_beside && is_cut && is_straight).then_some((cosine, end))
         })
     }
 
-    /// Whether all between two stations of a ring is cut with it.
+    /// True if everything between two stations of a ring is cut with it.
     pub(super) fn is_cut(&self, ring: usize, [a, b]: [f64; 2]) -> bool {
         let length = self.rings[ring].length();
         let (low, high) = (a.min(b), a.max(b));
@@ -277,7 +277,7 @@ impl<'a> Leads<'a> {
         !self.spared[ring].iter().any(|&[from, to]| is_over([from, to]) || is_over([from + length, to + length]))
     }
 
-    /// What is cut in a box of the rings before one: segments, each with its ring, and ways on which cuts were led on.
+    /// Cuts of earlier rings in a box: segments with the index of their ring, and extensions, without one.
     fn cut_near(&self, before: usize, extent: Extent) -> Vec<(Option<usize>, [Point; 2])> {
         let mut found = Vec::new();
         for ([ring, segment], _) in self.segments.near(self.rings, extent).filter(|([ring, _], _)| *ring < before) {
@@ -288,7 +288,7 @@ impl<'a> Leads<'a> {
             let place = |station: f64| start + (end - start) * ((station - from) / (to - from));
             found.extend(kept.into_iter().map(|stretch| (Some(ring), stretch.map(place))));
         }
-        // They are found in no order.
+        // They are found in no particular order.
         let key = |&(ring, [a, b]): &(Option<usize>, [Point; 2])| (ring, [a.x, a.y, b.x, b.y].map(f64::to_bits));
         found.sort_unstable_by_key(key);
         let [low, high] = [extent.min, extent.max].map(|corner| self.cell(corner));
@@ -298,28 +298,28 @@ impl<'a> Leads<'a> {
         found
     }
 
-    /// The cell of a place.
+    /// Cell of a place.
     fn cell(&self, at: Point) -> [i64; 2] {
         [at.x, at.y].map(|value| (value / self.longest).floor() as i64)
     }
 
-    /// Whether what is cut of one edge and what is cut of the next cross each other where the one ends and the other begins.
+    /// True if the cut of one edge and the cut of the next cross where the one ends and the other begins.
     pub(super) fn meet(&self, ring: usize, [before, behind]: [&Shared; 2]) -> bool {
         let way = (behind.theirs[0] - before.theirs[1]).rem_euclid(self.rings[behind.other].length());
         let way = way.min(self.rings[behind.other].length() - way);
         if before.other == behind.other && way > BREAK * self.asked.near.distance {
-            // A notch of the other stands there: what is cut round that leaves its waste hanging on this part.
+            // A notch of the other ring is there: the cut round it leaves its waste attached to this part.
             return false;
         }
         let at = self.rings[ring].place(before.own[1]);
         let about = Extent::between(at, at).grown(ABOUT * self.asked.near.distance);
-        // What meets elsewhere only leaves a strip between the two that is open here.
+        // Cuts that meet elsewhere only leave a strip between the two that is open here.
         let clipped = |(ring, ends)| about.clip(ends).filter(|[from, to]| from != to).map(|ends| (ring, ends));
         let cuts: Vec<(Option<usize>, [Point; 2])> =
             self.cut_near(ring, about).into_iter().filter_map(clipped).collect();
         let meets = |one: &(Option<usize>, [Point; 2]), other: &(Option<usize>, [Point; 2])| {
             let ([a, b], [c, d]) = (one.1, other.1);
-            // Two outlines may be off their lines: what only touches, or crosses at a small angle, is not sure to.
+            // Two outlines may be off their lines: touching, or crossing at a small angle, is not reliable.
             let is_sure = one.0 == other.0 || one.0.is_none() || other.0.is_none();
             let touches = || [a, b].iter().any(|p| [c, d].iter().any(|q| (p - q).norm() <= LEAST));
             let crosses = || {
@@ -335,7 +335,7 @@ impl<'a> Leads<'a> {
         if cuts.len() > MOST_CUTS {
             return false;
         }
-        // What hangs together with the one edge, from there on.
+        // Cuts connected with the first edge, from there on.
         let (mut reached, mut left): (Vec<usize>, Vec<usize>) =
             (0..cuts.len()).partition(|&i| cuts[i].0 == Some(before.other));
         while let Some(next) = reached.pop() {
@@ -349,8 +349,8 @@ impl<'a> Leads<'a> {
         false
     }
 
-    /// The legs of a notch, at either end led on through the edge that is cut over its mouth: its own, or the one that is cut
-    /// in place of that.
+    /// Legs of a notch, extended at both ends through the edge that is cut over its mouth: its own, or the one that is cut in
+    /// its place.
     pub(super) fn led_legs(&self, ring: usize, Mouth { segment, legs }: &Mouth) -> Vec<Segment> {
         let mut led = legs.clone();
         let [Some(&first), Some(&last)] = [legs.first(), legs.last()] else { return led };
@@ -371,7 +371,7 @@ impl<'a> Leads<'a> {
         led
     }
 
-    /// The station of a ring beside a place that lies on it, up to the distance of two edges.
+    /// Station of a ring nearest to a place within the band; `None` if there is none.
     pub(super) fn foot(&self, ring: usize, at: Point) -> Option<f64> {
         let own = &self.rings[ring];
         let around = Extent::between(at, at).grown(self.asked.near.distance);
@@ -385,8 +385,8 @@ impl<'a> Leads<'a> {
         nearest.filter(|&(away, _)| away <= self.asked.near.distance).map(|(_, station)| station)
     }
 
-    /// Where a slit begins that stands on an edge of a ring, by its station, that is cut with another: where it is through
-    /// that cut, if that is farther out; beside such an edge it is where it is through its own.
+    /// Start of a slit on an edge of a ring that is cut with another: the place where it has passed that cut, if that is
+    /// farther out. Beside such an edge it is the place where it has passed its own.
     pub(super) fn led_root(&self, ring: usize, station: f64, [root, tip]: [Point; 2]) -> Option<Point> {
         let is_cut_within = |reach: f64| self.is_cut(ring, [station - reach, station + reach]);
         let is_own = is_cut_within(2.0 * LEAST);
@@ -417,7 +417,7 @@ mod tests {
         Ring::new([piece, piece], true, sides.map(|(&from, &to)| segment(from, to)).collect(), mouths)
     }
 
-    /// Both legs cross the other's edge a little before they end: enough only where that is cut in place of their own.
+    /// Both legs cross the other's edge a little before they end: that suffices only where it is cut in place of their own.
     #[test]
     fn a_notch_ends_at_its_own_edge_where_that_is_cut() {
         let legs = vec![segment([4.0, 0.0], [5.0, 4.0]), segment([5.0, 4.0], [6.0, 0.0])];
@@ -434,12 +434,12 @@ mod tests {
             [led[0].from.y, led[1].to.y]
         };
         assert!(ends(&leads).iter().all(|y| (-0.02..-0.009).contains(y)), "{:?}", ends(&leads));
-        // Where the other's is cut in its place they have crossed that already.
+        // Where the other's edge is cut in its place, they have crossed that already.
         leads.spared[1].push([0.0, 10.0]);
         assert_eq!(ends(&leads), [0.0; 2]);
     }
 
-    /// Where a cut comes to the end of another nothing is crossed for sure, as it does at a corner where the other goes on.
+    /// At the end of another cut no crossing is reliable; at a corner, where the other goes on, it is.
     #[test]
     fn a_cut_is_led_on_over_a_corner_but_not_over_an_end() {
         let rings = [ring(0, &[[0.0, -9.0], [10.0, -9.0], [10.0, 0.0], [0.0, 0.0]], Vec::new())];

@@ -1,29 +1,29 @@
-//! Where an open cut ends beside a corner of another outline, along whose next edge it would run on: both go straight on, past
-//! the corner, until they have crossed. Neither bends, and no edge is cut twice.
+//! Ends of open cuts beside a corner of another outline along whose next edge they would run: both go straight on, past the
+//! corner, until they have crossed. Neither bends, and no edge is cut twice.
 
 use super::lead::{Arrival, LEAST_COSINE, LEAST_SINE, Leads, Neighbour};
 use super::ring::Ring;
 use super::stretch::BREAK;
 use crate::geom::{Point, angle, cross};
 
-/// Widths of the blade for which an edge at such a corner is straight, at the least: else it may be cut by plunges, whose ends
-/// lie elsewhere, or its corner be one by rounding only.
+/// Least length of a straight edge at such a corner, in blade widths: a shorter one may be cut by plunges with their ends
+/// elsewhere, or its corner may be due to rounding.
 const STRAIGHT: f64 = 2.0;
-/// How far beside the corner the open cut may pass, in distances of two edges.
+/// Greatest distance beside the corner at which the open cut may pass, in multiples of the band.
 const BESIDE: f64 = std::f64::consts::SQRT_2;
 
-/// Two cuts that go on until they have crossed.
+/// Two cuts that continue until they have crossed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Past {
-    /// Where the open cut ends.
+    /// End of the open cut.
     pub(super) end: Point,
-    /// The corner of the outline, and how far that goes on from there.
+    /// Corner of the outline, and the end of its extension from there.
     pub(super) corner: [Point; 2],
 }
 
 impl Leads<'_> {
-    /// Where a cut that comes to a place crosses what is cut with a neighbour, each past the end of its own edge; `None` where
-    /// that has no corner there along whose next edge the cut would run.
+    /// Crossing of an arriving cut with a neighbour's cut, each past the end of its own edge; `None` if the neighbour has no
+    /// corner there along whose next edge the cut would run.
     pub(super) fn past_corner(&self, arrival: Arrival, to: Neighbour) -> Option<Past> {
         let (ring, reach) = (&self.rings[to.ring], BREAK * self.asked.near.distance);
         let straight = STRAIGHT * self.asked.width;
@@ -37,7 +37,7 @@ impl Leads<'_> {
         corners.find_map(|corner| [true, false].into_iter().find_map(|before| self.past(ring, corner, before, arrival)))
     }
 
-    /// The same at one corner, with the edge `before` or behind it.
+    /// Crossing at one corner, with the edge `before` or behind it.
     fn past(&self, ring: &Ring, corner: f64, before: bool, Arrival { at, along, .. }: Arrival) -> Option<Past> {
         let (edge, next) = (ring.arriving(corner, before), -ring.arriving(corner, !before));
         let sine = cross(along, edge);

@@ -1,36 +1,36 @@
-//! A closed line of a part on its way to becoming cuts.
+//! Closed line of a part that is being converted to cuts.
 
 use crate::geom::{Point, Vector, cross, polyline, ring};
 use crate::ir::list::{Joint, Segment};
 
-/// Stretches that are shorter have no length, mm: rounding.
+/// Length below which a stretch counts as empty, mm: rounding.
 const SAME_PLACE: f64 = 1e-9;
 
-/// A closed line of a part, as it is cut.
+/// Closed line of a part, as it is cut.
 #[derive(Debug)]
 pub(super) struct Ring {
-    /// The piece that it is of, by its place in the marker.
+    /// Index of its piece in the marker.
     pub(super) piece: usize,
-    /// The part that it bounds, by the piece that its outline is of.
+    /// Part that it bounds, by the index of the piece of the part's outline.
     pub(super) part: u32,
-    /// Whether the part is on its left.
+    /// True if the part is on its left.
     pub(super) is_part_left: bool,
-    /// How often the cloth is moved on before it is cut.
+    /// Number of advances of the cloth before it is cut.
     pub(super) advances: usize,
-    /// Its segments, the last of which ends where the first starts.
+    /// Segments; the last one ends where the first starts.
     segments: Vec<Segment>,
-    /// Length from its start to each segment, and of all, mm.
+    /// Distance from its start to each segment, and the total length, mm.
     stations: Vec<f64>,
-    /// The segments that run straight over the mouth of a notch, in order.
+    /// Segments that run straight over the mouth of a notch, in order.
     mouths: Vec<Mouth>,
 }
 
-/// A notch whose mouth is cut through.
+/// Notch whose mouth is cut through.
 #[derive(Debug, Clone)]
 pub(super) struct Mouth {
-    /// The segment over its mouth.
+    /// Index of the segment over its mouth.
     pub(super) segment: usize,
-    /// Its legs, in the order of the outline.
+    /// Legs, in the order of the outline.
     pub(super) legs: Vec<Segment>,
 }
 
@@ -57,7 +57,7 @@ impl Ring {
         }));
     }
 
-    /// Its length, mm.
+    /// Length, mm.
     pub(super) fn length(&self) -> f64 {
         self.stations[self.segments.len()]
     }
@@ -66,17 +66,17 @@ impl Ring {
         &self.segments
     }
 
-    /// The notches whose mouths it runs over.
+    /// Notches over whose mouths it runs.
     pub(super) fn mouths(&self) -> &[Mouth] {
         &self.mouths
     }
 
-    /// Where a segment starts, mm.
+    /// Station at which a segment starts, mm.
     pub(super) fn station(&self, segment: usize) -> f64 {
         self.stations[segment]
     }
 
-    /// Whether a place lies within its part, as far as it bounds that.
+    /// True if a place lies within its part, as far as this ring bounds that.
     pub(super) fn holds(&self, place: Point) -> bool {
         let points: Vec<Point> =
             self.segments.iter().map(|segment| segment.from).chain([self.segments[0].from]).collect();
@@ -84,7 +84,7 @@ impl Ring {
         ring::contains(&points, place) == is_part_within
     }
 
-    /// Goes by the legs again of the notches that are not wanted as cuts of their own.
+    /// Restores the legs of the notches that are not wanted as separate cuts.
     pub(super) fn keep_mouths(&mut self, mut is_wanted: impl FnMut(&Mouth) -> bool) -> bool {
         let mouths = std::mem::take(&mut self.mouths);
         let count = mouths.len();
@@ -105,29 +105,28 @@ impl Ring {
         self.mouths.len() < count
     }
 
-    /// The segment of a station, which may lie on any lap, and the station on the first lap.
+    /// Segment at a station, which may be on any lap, and the station on the first lap.
     fn segment_at(&self, station: f64) -> (usize, f64) {
         let station = station.rem_euclid(self.length());
         let next = self.stations.partition_point(|&start| start <= station);
         (next.clamp(1, self.segments.len()) - 1, station)
     }
 
-    /// The place at a station.
+    /// Place at a station.
     pub(super) fn place(&self, station: f64) -> Point {
         let (i, station) = self.segment_at(station);
         let Segment { from, to, .. } = self.segments[i];
         from + (to - from) * ((station - self.stations[i]) / self.segments[i].length())
     }
 
-    /// The direction in which it arrives at a station, or leaves it against its own direction: a unit vector along the way
-    /// that ends there.
+    /// Direction of arrival at a station, in or against the direction of the ring, as a unit vector.
     pub(super) fn arriving(&self, station: f64, is_along: bool) -> Vector {
         let Segment { from, to, .. } = self.arriving_on(station, is_along);
         let along = (to - from) / (to - from).norm();
         if is_along { along } else { -along }
     }
 
-    /// The segment on which it does so.
+    /// Segment on which it arrives at a station, in or against its direction.
     pub(super) fn arriving_on(&self, station: f64, is_along: bool) -> Segment {
         let count = self.segments.len();
         let (i, at) = self.segment_at(station);
@@ -150,7 +149,7 @@ impl Ring {
         if self.is_part_left { left } else { -left }
     }
 
-    /// The vertices between two stations, each with its station, and nothing at the ends.
+    /// Stations of the vertices strictly between two stations.
     pub(super) fn vertices(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = f64> + '_ {
         let (length, count) = (self.length(), self.segments.len());
         let lap = (from / length).floor();
@@ -159,7 +158,7 @@ impl Ring {
         (first..).map(station).take_while(move |&station| station < to)
     }
 
-    /// What lies between two stations, as segments of a cut of its own.
+    /// Stretch between two stations, as segments of a separate cut.
     pub(super) fn stretch(&self, [from, to]: [f64; 2]) -> Vec<Segment> {
         let mut found: Vec<Segment> = Vec::new();
         let mut at = from;
@@ -169,7 +168,7 @@ impl Ring {
             }
             let (i, _) = self.segment_at(f64::midpoint(at, end));
             let start = found.last().map_or_else(|| self.place(from), |last| last.to);
-            // What the file asks for where a segment starts holds there and nowhere else.
+            // Codes of the file at the start of a segment apply only there.
             let is_whole = !found.is_empty() && (start - self.segments[i].from).norm() <= SAME_PLACE;
             let joint = if is_whole { self.segments[i].joint } else { Joint::default() };
             found.push(Segment { from: start, to: self.place(end), joint, ..self.segments[i] });
@@ -180,8 +179,8 @@ impl Ring {
     }
 }
 
-/// Where a way from a place on along a unit vector crosses a segment: how far ahead, mm, at the least that far, and the sine of
-/// the angle between them.
+/// Crossing of a line, from a place along a unit vector, with a segment: the distance ahead, mm, at least `least`, and the sine
+/// of the angle between them.
 pub(super) fn crossing(at: Point, along: Vector, [from, to]: [Point; 2], least: f64) -> Option<(f64, f64)> {
     let direction = polyline::direction(from, to)?;
     let sine = cross(along, direction);

@@ -1,52 +1,52 @@
-//! Stretches that a ring has in common with others: what faces it, joined.
+//! Stretches that a ring shares with others, joined from facing edges.
 
 use super::facing::{Facing, Near};
 use super::ring::Ring;
 
-/// How many distances of two edges what they have in common may be broken: about a corner the feet on the one miss the other.
+/// Greatest gap within a common stretch, in multiples of the band: at a corner the feet on one ring miss the other.
 pub(super) const BREAK: f64 = 2.0;
-/// Stretches that were begun last, of which one may go on: few parts lie over each other.
+/// Number of recently begun stretches that may be continued: few parts lie over each other.
 const OPEN: usize = 8;
-/// Stretches that are shorter have no length, mm: rounding.
+/// Length below which a stretch counts as empty, mm: rounding.
 const LEAST: f64 = 1e-6;
 
-/// What is asked of edges that are cut once.
+/// Criteria for edges that are cut once.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asked {
-    /// How they must lie.
+    /// Criteria for facing edges.
     pub(super) near: Near,
-    /// The shortest, mm: one or several that go on where one ends.
+    /// Least length, mm, of one stretch or of consecutive ones together.
     pub(super) min: f64,
-    /// How far an open cut goes beyond what it ends at, mm.
+    /// Length by which an open cut continues beyond the cut at which it ends, mm.
     pub(super) beyond: f64,
     /// Width of the blade, mm.
     pub(super) width: f64,
-    /// The least turn at which the blade is lifted, rad.
+    /// Least turn at which the blade is lifted, rad.
     pub(super) corner: f64,
 }
 
 impl Asked {
-    /// Where a stretch goes on from the end of another it may be shorter than `min`, but no shorter than the blade is wide,
-    /// mm: what is left beside it would be cut by a plunge longer than it.
+    /// Least length of a stretch that continues another one, mm: it may be shorter than `min`, but not shorter than the blade,
+    /// because the rest beside it would be cut by a plunge longer than that.
     pub(super) fn least(self) -> f64 {
         self.width.max(BREAK * self.near.distance).min(self.min)
     }
 }
 
-/// A stretch of a ring that is cut with another.
+/// Stretch of a ring that is cut with another.
 #[derive(Debug, Clone)]
 pub(super) struct Shared {
-    /// Its stations; on a ring that may be over its end, mm.
+    /// Stations on its own ring, mm; they may extend past its end.
     pub(super) own: [f64; 2],
-    /// The other ring, and the stations of that beside its ends.
+    /// Index of the other ring, and its stations beside the ends.
     pub(super) other: usize,
     pub(super) theirs: [f64; 2],
-    /// The straight parts of it, in order.
+    /// Straight parts, in order.
     pub(super) parts: Vec<Facing>,
 }
 
 impl Shared {
-    /// Lets it begin at a station at the earliest, mm; `false` when no more than `least` is left.
+    /// Moves its start to a station at the earliest, mm; returns `false` if at most `least` is left.
     pub(super) fn begin_at(&mut self, from: f64, least: f64) -> bool {
         if self.own[0] >= from {
             return true;
@@ -61,8 +61,8 @@ impl Shared {
     }
 }
 
-/// The stretches that a ring has in common with others, by what faces it. Where one goes on from the end of another nothing
-/// is cut between them: together they are as long as is asked.
+/// Stretches that a ring shares with others, from its facing edges. Consecutive ones have no cut between them: together they
+/// satisfy the least length.
 pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: Asked) -> Vec<Shared> {
     let reach = BREAK * asked.near.distance;
     let mut found: Vec<Shared> = Vec::new();
@@ -84,7 +84,7 @@ pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: As
             }
         }
     }
-    // One that goes over the start of the ring was found in two.
+    // A stretch over the start of the ring was found in two parts.
     let length = own.length();
     let over = |part: &Facing| Facing { own: part.own.map(|station| station + length), ..*part };
     let begins_late = (1..found.len()).find(|&i| found[i].own[0] > reach).unwrap_or(found.len());
@@ -106,7 +106,7 @@ pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: As
     found
 }
 
-/// What stretches of a ring of a length cover together, where each begins no farther than `reach` behind another's end.
+/// Unions of the stretches of a ring of `length`, joined across gaps of at most `reach`.
 fn chains(stretches: &[Shared], length: f64, reach: f64) -> Vec<[f64; 2]> {
     let mut ends: Vec<[f64; 2]> = stretches.iter().map(|shared| shared.own).collect();
     ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -117,7 +117,7 @@ fn chains(stretches: &[Shared], length: f64, reach: f64) -> Vec<[f64; 2]> {
             _ => chains.push([from, to]),
         }
     }
-    // The last one may go on over the start of the ring.
+    // The last one may continue past the start of the ring.
     if let [first, .., last] = &mut chains[..]
         && first[0] + length - last[1] <= reach
     {

@@ -1,7 +1,7 @@
-//! Notches in the style of the profile: which slits are cut, and what of the outline they replace.
+//! Notches in the style of the profile: the slits that are cut, and the parts of the outline that they replace.
 //!
-//! A notch of an outline that is cut as a slit, or not at all, leaves the outline: that runs straight over its mouth. The
-//! marker keeps it as it is drawn.
+//! A notch in an outline that is cut as a slit, or not at all, leaves the outline, which runs straight over its mouth. The
+//! marker keeps it as drawn.
 
 use crate::analysis::cloth::Cloth;
 use crate::analysis::mouths::mouths;
@@ -13,17 +13,17 @@ use crate::ir::marker::{Notch, NotchKind, NotchStroke, OutlineNotch};
 use crate::machine::{NotchStyle, Notches};
 use crate::units::number::fixed;
 
-/// Places along a slit are looked at this far from each other, mm, the first so far behind its tip.
+/// Spacing of tested places along a slit, and the distance of the first from its tip, mm.
 const STEP: f64 = 0.25;
 const INSIDE: f64 = 0.05;
 
-/// A cut of a notch: a stroke, and its speed in percent of the speed of its piece.
+/// Cut of a notch: a stroke, and its speed in percent of the speed of its piece.
 pub(super) struct Slit {
     pub(super) stroke: NotchStroke,
     pub(super) percent: u8,
 }
 
-/// The cuts of a notch that is drawn as a slit.
+/// Cuts of a notch that is drawn as a slit.
 pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = NotchStroke> + use<> {
     let notch = deepened(notch, notches.depth_mm);
     let count = match notches.style {
@@ -34,7 +34,7 @@ pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = N
     notch.strokes().take(count)
 }
 
-/// Finds slits that the profile makes so deep that they lead out of their part.
+/// Warns of slits that the profile makes so deep that they lead out of their part.
 pub(super) fn check_depths(marker: &Marker, cloth: &Cloth, notches: Notches, diagnostics: &mut Diagnostics) {
     let Some(depth) = notches.depth_mm else { return };
     for (index, piece) in marker.pieces.iter().enumerate() {
@@ -46,7 +46,7 @@ pub(super) fn check_depths(marker: &Marker, cloth: &Cloth, notches: Notches, dia
             let deeper = depth - drawn.length();
             let steps = (deeper / STEP).ceil();
             let is_in = |i: usize| cloth.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
-            // A slit that is drawn outside of all parts is nobody's.
+            // A slit drawn outside of all parts belongs to none.
             if is_in(0) && !(1..=steps as usize).all(is_in) {
                 let depth = fixed(depth, 2);
                 let message = format!("a slit of {depth} mm leads out of its part, which is narrower here");
@@ -57,7 +57,7 @@ pub(super) fn check_depths(marker: &Marker, cloth: &Cloth, notches: Notches, dia
     }
 }
 
-/// A notch of another depth; its crossbar stays at its tip.
+/// Notch with another depth; its crossbar stays at its tip.
 fn deepened(notch: &Notch, depth: Option<f64>) -> Notch {
     let (Some(depth), along) = (depth, notch.tip - notch.root) else { return *notch };
     let tip = notch.root + along * (depth / notch.depth());
@@ -69,27 +69,26 @@ fn deepened(notch: &Notch, depth: Option<f64>) -> Notch {
     Notch { kind, tip, ..*notch }
 }
 
-/// The slit that a notch of an outline becomes: from the middle of its mouth into the part, also where the notch stands
-/// out.
+/// Slit in place of a notch in an outline: from the middle of its mouth into the part, even if the notch protrudes.
 pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> NotchStroke {
     let depth = notches.depth_mm.unwrap_or(notch.depth());
     NotchStroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }
 }
 
-/// A notch that an outline runs straight over.
+/// Notch over which an outline runs straight.
 #[derive(Debug, Clone)]
 pub(super) struct Bridged {
-    /// The segment over its mouth.
+    /// Index of the segment over its mouth.
     pub(super) at: usize,
-    /// The notch.
+    /// Notch.
     pub(super) notch: OutlineNotch,
-    /// What the outline had there.
+    /// Replaced segments of the outline.
     pub(super) legs: Vec<Segment>,
-    /// The least speed of that, in percent.
+    /// Least speed of these, in percent.
     pub(super) percent: u8,
 }
 
-/// Leads an outline straight over the mouths of its notches: these, in the order of the outline.
+/// Replaces the notches of an outline by straight segments over their mouths, and returns them in the order of the outline.
 pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Vec<Bridged> {
     let edges: Vec<[Point; 2]> = outline.iter().map(|segment| [segment.from, segment.to]).collect();
     let (drawn, count) = (outline.clone(), outline.len());

@@ -1,5 +1,5 @@
-//! In which order what common lines leave of outlines is cut: the file does not say. Each keeps its direction: which way it is
-//! led over other cuts must not hang on a gap within the band.
+//! Order of the cuts that common lines leave of outlines: the file does not give one. Each cut keeps its direction, because the
+//! way in which it is led over other cuts must not depend on a gap within the band.
 
 use std::ops::Range;
 
@@ -9,18 +9,18 @@ use crate::ir::marker::{Cut, Marker};
 use crate::machine::Job;
 use crate::pass::marker::visit::{Choices, Cuts, Measures, Visit};
 
-/// What a cut is made with.
+/// Group of cuts made together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::pass::marker) enum Group {
-    /// The strokes of notches, in the order of these.
+    /// Strokes of notches, in the order of these.
     Slits,
-    /// A contour, by its place in its piece, cut as a whole.
+    /// A contour, by its index in its piece, cut as a whole.
     Contour(usize),
-    /// What common lines leave of one, or the legs of notches on it, by the place of the first: in any order.
+    /// Remaining cuts of contours with common lines, or the legs of notches on them, in any order, by the index of the first.
     Edges(usize),
 }
 
-/// Puts what is left of outlines in the order with the least travel; all else stays as it is.
+/// Reorders the remaining cuts of outlines for the least travel; everything else stays as it is.
 pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
     if !groups.iter().any(|group| matches!(group, Group::Edges(_))) {
         return; // as in most files
@@ -45,16 +45,16 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
     }
 }
 
-/// The cuts of a marker as they are made.
+/// Cuts of a marker.
 struct MadeCuts<'a> {
     marker: &'a Marker,
-    /// For each cut the group that it is of.
+    /// Group of each cut.
     groups: &'a [Group],
     measures: Measures,
 }
 
 impl MadeCuts<'_> {
-    /// Those of a piece, slits first.
+    /// Cuts of a piece, slits first.
     fn of_piece(&self, piece: usize) -> Cuts {
         let Self { marker, groups, measures } = self;
         let range = marker.range_of(piece as u32);

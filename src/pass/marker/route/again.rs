@@ -1,9 +1,9 @@
-//! Once more: with common lines a piece is cut where others leave something of its outline, and that decides anew in which
-//! order pieces come.
+//! Improvement of the order with common lines: a piece is cut where others leave some of its outline, and that affects the best
+//! order in turn.
 //!
-//! Which of two parts an edge is cut with follows from their order, so that other cuts are made in another one. The order is
-//! looked for with the cuts that the last one gives, a few times; then parts that have an edge in common change which of them
-//! comes first, two by two. The order whose cuts take the least time stays.
+//! The order of two parts determines with which of them an edge is cut, so that another order has other cuts. The search
+//! repeats with the cuts of the last order, a few times; then pairs of parts with a common edge exchange their precedence. The
+//! order whose cuts take the least time is kept.
 
 use super::block::{Search, order};
 use super::rules::Rules;
@@ -14,27 +14,26 @@ use crate::machine::Job;
 use crate::pass::marker::cut::{self, Group};
 use crate::pass::marker::visit::{Cuts, Measures};
 
-/// How often another order is looked for from each one that it starts with, at the most.
+/// Greatest number of rounds from each starting order.
 const ROUNDS: usize = 12;
-/// Pieces that are ordered in these rounds together, at the most, but for one round.
+/// Greatest number of pieces ordered in all rounds together, except for one round.
 const MOST_PIECES: usize = 2000;
-/// Rounds after which the search ends when none of them gains.
+/// Number of rounds without a gain after which the search ends.
 const PATIENCE: usize = 3;
-/// Pieces of all orders together in which two parts have changed places, at the most.
+/// Greatest number of pieces in all orders with an exchanged pair together.
 const MOST_EXCHANGED: usize = 20_000;
-/// Gains that are less are none, s.
+/// Least gain that counts, s.
 const LEAST_GAIN: f64 = 1e-6;
 
-/// A marker with its cuts.
+/// Marker with its cuts.
 struct Made {
     marker: Marker,
     groups: Vec<Group>,
-    /// What its cuts take, s, about, with the moves between them.
+    /// Approximate duration of the cuts and of the moves between them, s.
     time: f64,
 }
 
-/// Puts pieces with common lines in a better order, if there is one: also one that is like that of the file, where this
-/// suits what the parts have in common.
+/// Improves the order of pieces with common lines, also starting from the order of the file, where that suits the common edges.
 pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
     let Some(least) = ordered(marker, as_filed, job) else { return };
     let best = Made::of(marker.clone(), job).exchanged(job).improved(job);
@@ -43,8 +42,8 @@ pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
     }
 }
 
-/// The same, but parts do not change places two by two, which takes as long as all else. About what the cuts take then, s; `None`
-/// without common lines.
+/// Improves the order without exchanging pairs of parts, which takes as long as everything else. Returns the approximate
+/// duration of the cuts, s; `None` without common lines.
 pub(super) fn ordered(marker: &mut Marker, as_filed: Marker, job: &Job) -> Option<f64> {
     let routed = Made::of(marker.clone(), job);
     if routed.marker.common.is_empty() {
@@ -71,7 +70,7 @@ impl Made {
         Self { marker, groups, time }
     }
 
-    /// The best that is found from here on: each order is looked for near the one before, with the cuts that this gives.
+    /// Best order found from here: each is searched near the previous one, with the cuts of that.
     fn improved(self, job: &Job) -> Self {
         let rounds = (MOST_PIECES / self.marker.pieces.len()).clamp(1, ROUNDS);
         let measures = Measures::new(job, &self.marker);
@@ -94,8 +93,8 @@ impl Made {
         best
     }
 
-    /// The best that is found when of two parts that have an edge in common the one that comes first comes behind the other,
-    /// or this before it, as long as that gains.
+    /// Best order found by moving the first of two parts with a common edge behind the other, or the other before it, as long
+    /// as that gains.
     fn exchanged(self, job: &Job) -> Self {
         let base = self.without_cuts();
         let rules = Rules::of(&base, job);
@@ -129,12 +128,12 @@ impl Made {
         best
     }
 
-    /// The same pieces, as they were before their cuts were made.
+    /// Marker with the same pieces, without cuts.
     fn without_cuts(&self) -> Marker {
         Marker { cuts: Vec::new(), common: Vec::new(), junctions: Vec::new(), ..self.marker.clone() }
     }
 
-    /// How a piece is cut: contours that are cut as a whole begin anywhere, by their places; edges have places behind these.
+    /// Cuts of a piece: contours that are cut as a whole begin anywhere, with their indices; edges have indices behind these.
     fn cuts_of(&self, piece: usize, measures: &Measures) -> Cuts {
         let (of_piece, list) = (&self.marker.pieces[piece], &self.marker.list);
         let mut cuts = Cuts::marks(of_piece, list, measures);
@@ -153,12 +152,12 @@ impl Made {
                 }
             }
         }
-        // One that is cut with others alone keeps a place among these.
+        // A piece that is only cut with others keeps its place among these.
         if cuts.is_empty() { Cuts::drawn(of_piece, list, measures) } else { cuts }
     }
 }
 
-/// An order in which of two pieces the first comes right behind the other, or the other right before the first.
+/// Order in which the first of two pieces is moved right behind the other, or the other right before the first.
 fn exchanged(order: &[usize], pair: [usize; 2], is_back: bool) -> Vec<usize> {
     let place = |piece: usize| order.iter().position(|&other| other == piece).expect("each piece is in it");
     let [one, other] = pair.map(place);
@@ -172,7 +171,7 @@ fn exchanged(order: &[usize], pair: [usize; 2], is_back: bool) -> Vec<usize> {
     then
 }
 
-/// A marker with its pieces in another order; what is asked stays between the same ones.
+/// Marker with its pieces in another order; events stay at the same places in the order.
 fn in_order(base: &Marker, order: &[usize]) -> Marker {
     let mut marker = base.clone();
     let asked = base.pieces.iter().map(|piece| piece.events.clone());

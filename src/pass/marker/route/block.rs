@@ -1,4 +1,4 @@
-//! Pieces in their order: between two places where something is asked of the operator that is chosen anew.
+//! Ordering of pieces, separately between any two events.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -12,23 +12,23 @@ use crate::ir::marker::{Marker, OutlineNotch, Piece};
 use crate::machine::Job;
 use crate::pass::marker::visit::{Begin, Cuts, Visit};
 
-/// Among which orders the best is looked for.
+/// Range of a search for orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Search {
-    /// All of them.
+    /// All orders.
     Whole,
-    /// Those that are much like the one that there is.
+    /// Orders similar to the present one.
     Near,
 }
 
-/// Puts pieces that are cut so in the best order, block by block.
+/// Orders pieces with the given cuts, block by block.
 pub(super) fn order(marker: &mut Marker, job: &Job, cuts: &dyn Fn(usize, &Marker) -> Cuts, search: Search) {
     let routing = Routing::of(marker, job);
     let cuts: Vec<Cuts> = (0..marker.pieces.len()).map(|piece| cuts(piece, marker)).collect();
     let Marker { pieces, list, .. } = marker;
     let mut home = routing.home;
     for block in blocks(pieces) {
-        // A conveyor moves the cloth on under the axes: on it they come to stand as much farther.
+        // A conveyor moves the cloth under the axes: relative to the cloth they are that much farther.
         let advances = pieces[block.start].events.iter().map(|event| event.kind.advance_mm());
         home.at.x += f64::from(advances.sum::<u32>());
         let lay = Lay { cuts: &cuts[block.clone()], first: block.start, pieces, list };
@@ -38,41 +38,41 @@ pub(super) fn order(marker: &mut Marker, job: &Job, cuts: &dyn Fn(usize, &Marker
     }
 }
 
-/// The pieces of a block.
+/// Pieces of a block.
 struct Lay<'a> {
-    /// How each is cut.
+    /// Cuts of each.
     cuts: &'a [Cuts],
-    /// The place of its first piece.
+    /// Index of its first piece.
     first: usize,
     pieces: &'a [Piece],
     list: &'a SegmentList,
 }
 
-/// The pieces in blocks among which nothing is asked of the operator: that is asked between the same ones.
+/// Blocks of pieces without an event between them: events stay between the same blocks.
 fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
     let asked = (1..pieces.len()).filter(|&i| !pieces[i].events.is_empty());
     let ends: Vec<usize> = asked.chain([pieces.len()]).collect();
     std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied()).map(|(first, end)| first..end).collect()
 }
 
-/// What routes go by.
+/// Parameters of routes.
 struct Routing {
     air: Air,
-    /// Where the axes stand before the program, whatever the blade does there.
+    /// Position of the axes before the program, with the blade in any direction.
     home: Stop,
     rules: Rules,
 }
 
-/// The order of the pieces of a block.
+/// Order of the pieces of a block.
 struct Route {
-    /// Places in the block, each with how it is visited; none where nothing is cut.
+    /// Indices in the block, each with its visit; `None` if nothing is cut.
     sequence: Vec<(usize, Option<Visit>)>,
-    /// Where the knife comes up in the end.
+    /// Stop at the last lift.
     end: Stop,
 }
 
 impl Route {
-    /// Puts the pieces of the block in its order.
+    /// Applies the order to the pieces of the block.
     fn apply(self, pieces: &mut [Piece], list: &mut SegmentList) {
         let events = pieces.first_mut().map(|first| std::mem::take(&mut first.events)).unwrap_or_default();
         let mut taken: Vec<Option<Piece>> = pieces.iter_mut().map(|piece| Some(std::mem::take(piece))).collect();
@@ -94,7 +94,7 @@ impl Routing {
         Self { air: Air::new(job), home: Stop::anyhow(Point::new(x, y)), rules: Rules::of(marker, job) }
     }
 
-    /// The pieces of a block in the best order, from where the axes stand before it.
+    /// Best order of the pieces of a block, from the given position of the axes.
     fn route(&self, lay: &Lay, home: Stop, search: Search) -> Route {
         let left: Vec<usize> = (0..lay.cuts.len()).filter(|&i| !lay.cuts[i].is_empty()).collect();
         let visits: Vec<Vec<Visit>> = left.iter().map(|&i| lay.cuts[i].visits(&self.air)).collect();
@@ -120,12 +120,12 @@ impl Routing {
     }
 }
 
-/// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.
+/// Applies the sequence of notches and the starts of contours of a visit to a piece.
 fn apply(visit: &Visit, piece: &mut Piece, list: &mut SegmentList) {
     piece.notches = visit.slits.iter().map(|&slit| piece.notches[slit]).collect();
     let begun = |i: usize| visit.cuts.iter().find(|(contour, _)| *contour == i).map(|(_, begin)| *begin);
     for (i, contour) in piece.contours.iter_mut().enumerate() {
-        // What is cut of one with common lines has directions of its own.
+        // The cuts of a contour with common lines have directions of their own.
         let Begin { segment, is_reversed } = begun(i).unwrap_or_default();
         if segment > 0 {
             let mut segments: Vec<Segment> = list.walk(contour.range).map(|(_, segment)| segment).collect();
@@ -141,7 +141,7 @@ fn apply(visit: &Visit, piece: &mut Piece, list: &mut SegmentList) {
         }
     }
     if visit.cuts.iter().any(|(_, begin)| *begin != Begin::default()) {
-        // They stand in the order in which the contours come to them.
+        // Notches are sorted in the order in which the contours pass them.
         let places =
             piece.contours.iter().flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| bits(segment.from));
         let place: BTreeMap<[u64; 2], usize> = places.zip(0..).collect();

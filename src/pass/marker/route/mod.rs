@@ -1,12 +1,12 @@
-//! Route: the order of pieces, notches and starts in which the knife travels least.
+//! Route: orders pieces, notches and starts for the least travel.
 //!
-//! Needs: all pieces with their notches, what lies within a part before it. Leaves true: with `order.policy` `"file"`
-//! everything; else the same pieces, each whole, what lies within a part before that still, events between the same pieces;
-//! slits on the way round, closed contours begun as they are drawn or at a corner, either way round, open ones from either
-//! end, unless the file asks for something on them. Where parts have edges in common the order goes by the cuts that the pass
-//! `cut` makes of them. With `"steady"` no piece lies farther behind the foremost so far
-//! than `order.window_mm`, but where something within it does; small pieces come before the larger ones next to them; and each
-//! piece ends towards the cloth that is still uncut, if one of its ways does.
+//! Needs: all pieces with their notches, the contents of a part before it. Leaves true: with `order.policy` `"file"`
+//! everything. Otherwise the same pieces, each whole, the contents of a part still before it, events between the same pieces;
+//! slits on the way round; closed contours started as drawn or at a corner, either way round, open ones at either end, unless
+//! the file has codes on them. If parts have common edges, the order considers the cuts that the pass `cut` makes of them. With
+//! `"steady"` no piece lies farther behind the foremost so far than `order.window_mm`, except where a piece inside it does;
+//! small pieces come before the larger ones next to them; and each piece ends towards the uncut cloth, if one of its visits
+//! does.
 
 mod again;
 mod block;
@@ -42,7 +42,7 @@ fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
     }
 }
 
-/// Orders pieces by the policy of a job in a part of the time, and not as well where parts have edges in common.
+/// Orders pieces by the policy of a job in a fraction of the time, with a worse result if parts have common edges.
 pub(super) fn roughly(marker: &mut Marker, job: &Job) {
     let as_filed = as_filed(marker, job);
     once(marker, job);
@@ -51,12 +51,12 @@ pub(super) fn roughly(marker: &mut Marker, job: &Job) {
     }
 }
 
-/// The marker in the order of the file, where parts may have edges in common.
+/// Marker in the order of the file, if parts may have common edges.
 fn as_filed(marker: &Marker, job: &Job) -> Option<Marker> {
     job.profile.common(marker.unit).is_some().then(|| marker.clone())
 }
 
-/// Orders pieces as they are drawn, whatever common lines leave of them.
+/// Orders pieces as drawn, regardless of common lines.
 fn once(marker: &mut Marker, job: &Job) {
     let measures = Measures::new(job, marker);
     let of = |piece: usize, marker: &Marker| Cuts::drawn(&marker.pieces[piece], &marker.list, &measures);

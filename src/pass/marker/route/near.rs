@@ -1,18 +1,18 @@
-//! Which visits are near each other: those between which a tour may move.
+//! Neighbouring visits, between which a tour may move.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point};
 
-/// Visits that are near each, on either side, by their distance.
+/// Number of nearest visits on either side, by distance.
 const NEAR: usize = 10;
-/// Visits of which these are chosen, at the most: where more stand about one place any of them will do.
+/// Greatest number of visits from which these are chosen: if more are around a place, any will do.
 const MOST_AROUND: usize = 500;
-/// How far about a place visits are looked for at the least, mm.
+/// Least search radius around a place, mm.
 const LEAST_REACH: f64 = 1.0;
-/// Visits of those near each that are nearest in time.
+/// Number of neighbours kept, by time.
 const NEAREST: usize = 8;
 
-/// For each visit, by where it starts and ends, those that start near its end or end near its start.
+/// Visits that start near the end or end near the start of each visit, from the start and end points of all.
 pub(super) fn near(ends: &[[Point; 2]]) -> Vec<Vec<u32>> {
     let boxes = |side: usize| Boxes::new(ends.iter().map(|ends| Extent::between(ends[side], ends[side])).collect());
     let (starts, stops) = (boxes(0), boxes(1));
@@ -48,13 +48,13 @@ pub(super) fn near(ends: &[[Point; 2]]) -> Vec<Vec<u32>> {
         .collect()
 }
 
-/// A visit near another, and the time of the move between the two, s.
+/// Neighbouring visit, and the duration of the move between the two, s.
 pub(super) type Near = (u32, f64);
 
-/// Those near each visit, the nearest in time first.
+/// Neighbours of each visit, the nearest in time first.
 pub(super) struct Nearest {
     all: Vec<Near>,
-    /// Where those of each begin, and where the last end.
+    /// Index of the first neighbour of each visit, and the end of the last.
     starts: Vec<u32>,
 }
 
@@ -70,7 +70,7 @@ impl Nearest {
         nearest
     }
 
-    /// Those near a visit.
+    /// Neighbours of a visit.
     pub(super) fn of(&self, visit: usize) -> &[Near] {
         &self.all[self.starts[visit] as usize..self.starts[visit + 1] as usize]
     }

@@ -1,4 +1,4 @@
-//! Rules that an order of pieces keeps, whatever it saves.
+//! Rules for the order of pieces that hold regardless of savings.
 
 use super::small;
 use crate::analysis::nesting::Nesting;
@@ -8,20 +8,20 @@ use crate::ir::list::SegmentList;
 use crate::ir::marker::Piece;
 use crate::machine::{Job, Order, OrderPolicy};
 
-/// What holds for the order of the pieces of a marker, which are known by their places in it.
+/// Rules for the order of the pieces of a marker, which are identified by index.
 pub(super) struct Rules {
-    /// For each piece those that come after it: within whose outlines it lies, and, if it is small, the larger ones next to it.
+    /// Pieces that must follow each piece: those whose outlines contain it, and, if it is small, the larger ones next to it.
     pub(super) held: Vec<Vec<usize>>,
-    /// How far pieces may lie behind the foremost so far, mm, if that counts.
+    /// Greatest distance of a piece behind the foremost so far, mm; `None` = any.
     pub(super) window: Option<f64>,
-    /// For each piece how often something is asked of the operator before it: pieces stay between the same two questions.
+    /// Number of events before each piece: pieces stay between the same two events.
     block: Vec<usize>,
-    /// The left edge of each, mm; none where nothing is cut.
+    /// Left edge of each piece, mm; `None` if nothing is cut.
     along: Vec<Option<f64>>,
 }
 
 impl Rules {
-    /// Those of a marker.
+    /// Rules for a marker.
     pub(super) fn of(marker: &Marker, job: &Job) -> Self {
         let nesting = Nesting::of(marker, job.profile.band(marker.unit));
         let pieces = &marker.pieces;
@@ -43,7 +43,7 @@ impl Rules {
         Self { held, window: steady.map(|order| order.window_mm), block: asked.collect(), along }
     }
 
-    /// How many an order breaks.
+    /// Number of violations in an order.
     pub(super) fn broken(&self, order: &[usize]) -> usize {
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &piece)| place[piece] = at);
@@ -65,13 +65,13 @@ impl Rules {
     }
 }
 
-/// What holds if the work is to be steady.
+/// Settings of a steady order, if it applies.
 fn steady(marker: &Marker, job: &Job) -> Option<Order> {
     let order = job.profile.order;
     (order.policy(marker.drawing.is_some()) == OrderPolicy::Steady).then_some(order)
 }
 
-/// The box around all of a piece.
+/// Bounding box of a piece.
 pub(super) fn extent(piece: &Piece, list: &SegmentList) -> Extent {
     let mut extent = Extent::EMPTY;
     piece.contours.iter().for_each(|contour| extent.join(&Extent::of(&list.points(contour.range))));

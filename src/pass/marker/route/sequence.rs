@@ -1,71 +1,69 @@
-//! Visits one after another: what it gains when two neighbouring stretches change places or are turned round, and which rules
-//! are broken then.
+//! Sequence of visits: gain and violated rules when two adjacent stretches are exchanged or reversed.
 
-/// Places in each block: what turning gains is summed up within these, so that neither a sum over a stretch nor what a change
-/// of it costs grows much beyond its length.
+/// Number of places per block of prefix sums: the cost of a sum over a stretch and of an update stays near its length.
 const BLOCK: usize = 64;
 
-/// What a tour goes by.
+/// Parameters of a tour.
 pub(super) struct Ways<'a> {
-    /// Time of the move from the end of one visit to the start of another, s; none ends where the tour starts, as `START`.
+    /// Duration of the move from the end of one visit to the start of another, s; `START` is never the target.
     pub(super) time: &'a dyn Fn(usize, usize) -> f64,
-    /// Those near each visit.
+    /// Neighbours of each visit.
     pub(super) near: &'a [Vec<u32>],
-    /// Those that come before each visit.
+    /// Visits that must precede each visit.
     pub(super) before: &'a [Vec<u32>],
-    /// Where each lies along X, mm, and how far the tour may go back there; `None` = as far as it likes.
+    /// Position of each visit along X, mm, and the greatest distance that the tour may go back; `None` = any.
     pub(super) along: &'a [f64],
     pub(super) window: Option<f64>,
 }
 
-/// Where the tour starts: no visit.
+/// Index of the start of the tour, which is not a visit.
 pub(super) const START: usize = usize::MAX;
 
-/// Two neighbouring stretches that change places, each turned round or not. With nothing in the second only the first is turned.
+/// Exchange of two adjacent stretches, each optionally reversed. If the second is empty, only the first is reversed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
-    /// The place at which the first starts, at which the second does, and that behind it.
+    /// Start of the first stretch, start of the second, and end of the second.
     pub(super) places: [usize; 3],
-    /// Which of the two are turned round.
+    /// True for each of the two that is reversed.
     pub(super) turned: [bool; 2],
 }
 
 impl Change {
-    /// Without turning.
+    /// Exchange without reversal.
     pub(super) fn swap(places: [usize; 3]) -> Self {
         Self { places, turned: [false; 2] }
     }
 
-    /// What lies between two places is turned.
+    /// Reversal of the stretch between two places.
     pub(super) fn turn([low, high]: [usize; 2]) -> Self {
         Self { places: [low, high, high], turned: [true, false] }
     }
 
-    /// Visits that are moved.
+    /// Number of visits moved.
     pub(super) fn count(self) -> usize {
         self.places[2] - self.places[0]
     }
 
-    /// Where the stretch that was the second ends afterwards, and that which was the first starts.
+    /// Boundary between the two stretches after the change.
     fn middle_then(self) -> usize {
         let [low, middle, high] = self.places;
         low + high - middle
     }
 
-    /// What takes it back.
+    /// Inverse change.
     pub(super) fn inverse(self) -> Self {
         let ([low, _, high], [first, second]) = (self.places, self.turned);
         Self { places: [low, self.middle_then(), high], turned: [second, first] }
     }
 
-    /// The places on either side of those before which another stands afterwards, where there are any.
+    /// Places on both sides of each seam after the change, where they exist.
     pub(super) fn seams(self) -> [usize; 6] {
         let [low, _, high] = self.places;
         let middle = self.middle_then();
         [low.wrapping_sub(1), low, middle.wrapping_sub(1), middle, high - 1, high]
     }
 
-    /// Where what stands at a place comes to stand.
+    /// Place after the change of the visit at a place.
     fn place_then(self, place: usize) -> usize {
         let ([low, middle, high], [first, second]) = (self.places, self.turned);
         if place < low || high <= place {
@@ -78,19 +76,19 @@ impl Change {
     }
 }
 
-/// Visits in an order, with what is asked of it again and again.
+/// Visits in an order, with cached properties.
 pub(super) struct Sequence<'a> {
     ways: &'a Ways<'a>,
     has_rules: bool,
     order: Vec<u32>,
-    /// The place of each visit in the order.
+    /// Place of each visit in the order.
     place: Vec<u32>,
-    /// The farthest along X before each place, mm; noted if there is a window.
+    /// Greatest position along X before each place, mm; maintained if there is a window.
     front: Vec<f64>,
-    /// Time of the move to each place from the one before, and of that back, s; behind the last there is none.
+    /// Duration of the move to each place from the previous one, and of the reverse move, s; 0 after the last.
     onward: Vec<f64>,
     back: Vec<f64>,
-    /// How much less the moves to the places of a block up to each take back than onward, s.
+    /// Within each block, the prefix sum of the durations of moves minus those of their reverse moves, s.
     saved: Vec<f64>,
 }
 
@@ -124,37 +122,37 @@ impl<'a> Sequence<'a> {
         self.place[visit] as usize
     }
 
-    /// The visit at a place.
+    /// Visit at a place.
     pub(super) fn at(&self, place: usize) -> usize {
         self.order[place] as usize
     }
 
-    /// The same, if there is any.
+    /// Visit at a place; `None` past the end.
     pub(super) fn get(&self, place: usize) -> Option<usize> {
         self.order.get(place).map(|&visit| visit as usize)
     }
 
-    /// Time of the move to a place from the one before, s; none behind the last.
+    /// Duration of the move to a place from the previous one, s; 0 after the last.
     pub(super) fn onward(&self, place: usize) -> f64 {
         self.onward[place]
     }
 
-    /// The visit before a place, or the start.
+    /// Visit before a place, or `START`.
     fn before(&self, place: usize) -> usize {
         place.checked_sub(1).map_or(START, |before| self.at(before))
     }
 
-    /// Notes how long the moves between a place and the one before take.
+    /// Updates the durations of the moves between a place and the previous one.
     fn join(&mut self, place: usize) {
         if let Some(visit) = self.get(place) {
             let before = self.before(place);
             self.onward[place] = (self.ways.time)(before, visit);
-            // Nothing is turned with the start.
+            // The start is never part of a reversal.
             self.back[place] = if before == START { 0.0 } else { (self.ways.time)(visit, before) };
         }
     }
 
-    /// Notes what follows from who stands at some places.
+    /// Updates the cached properties that depend on the visits in a range of places.
     fn note(&mut self, low: usize, high: usize) {
         for (&visit, place) in self.order[low..high].iter().zip(low as u32..) {
             self.place[visit as usize] = place;
@@ -168,7 +166,7 @@ impl<'a> Sequence<'a> {
                 front = front.max(along(place));
             }
         }
-        // The move to the place behind them is another, too.
+        // The move to the place behind them changes as well.
         let end = (high + 1).next_multiple_of(BLOCK).min(self.saved.len());
         let mut saved = if low.is_multiple_of(BLOCK) { 0.0 } else { self.saved[low - 1] };
         for place in low..end {
@@ -180,14 +178,14 @@ impl<'a> Sequence<'a> {
         }
     }
 
-    /// How much less the moves between the first and the last of some places take back than onward, s.
+    /// Time saved by reversing the moves between the first and the last of some places, s.
     fn saved(&self, [first, last]: [usize; 2]) -> f64 {
         let blocks = first / BLOCK..last / BLOCK;
         let whole: f64 = blocks.map(|block| self.saved[block * BLOCK + BLOCK - 1]).sum();
         whole + self.saved[last] - self.saved[first]
     }
 
-    /// What a change gains, s; if that is no more than asked for, something that is no more, either.
+    /// Time saved by a change, s. May return any value up to `asked` early.
     pub(super) fn gain(&self, change: Change, asked: f64) -> f64 {
         let Change { places: [low, middle, high], turned } = change;
         let time = self.ways.time;
@@ -219,7 +217,7 @@ impl<'a> Sequence<'a> {
         gain
     }
 
-    /// Whether more rules of either kind are broken after a change than before: what lies in a part is no price for a window.
+    /// True if a change increases the violations of either kind: a window does not justify cutting a part before its contents.
     pub(super) fn breaks(&self, change: Change) -> bool {
         if !self.has_rules {
             return false;
@@ -276,7 +274,7 @@ mod tests {
     use super::*;
     use fastrand::Rng;
 
-    /// Makes changes of an order with times, rules and a window at random, and compares what is told of them with the orders.
+    /// Applies random changes to an order with times, rules and a window, and compares the cached properties with the order.
     fn check(count: usize, changes: usize, seed: u64) {
         let mut rng = Rng::with_seed(seed);
         let times: Vec<f64> = (0..(count + 1) * count).map(|_| rng.f64()).collect();

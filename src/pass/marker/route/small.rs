@@ -1,5 +1,5 @@
-//! Small pieces first: once the pieces around it are cut out, nothing but suction keeps a small one in its place, so that it is
-//! cut before the larger ones next to it.
+//! Small pieces first: once the pieces around it are cut out, only suction holds a small piece, so it is cut before its larger
+//! neighbours.
 
 use crate::analysis::nesting::Nesting;
 use crate::geom::boxes::Boxes;
@@ -7,20 +7,20 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::Marker;
 use crate::machine::Order;
 
-/// Pieces are next to each other up to this distance, mm: a strip of waste that is narrower holds nothing.
+/// Greatest distance of neighbouring pieces, mm: a narrower strip of waste holds nothing.
 const NEXT: f64 = 10.0;
-/// How much farther along X than a larger piece one may begin that is cut before it, as a part of the window: farther on it would
-/// take the work so far that what lies beside the larger one was left behind.
+/// Greatest distance along X by which a small piece may begin after a larger one and still be cut before it, as a share of the
+/// window: farther on the work would leave the surroundings of the larger one behind.
 pub(super) const AHEAD: f64 = 0.5;
 
-/// The outline of a piece.
+/// Outline of a piece.
 struct Outline {
     points: Vec<Point>,
     extent: Extent,
     is_small: bool,
 }
 
-/// For each piece the larger ones that come after it, because it is small and they lie next to it.
+/// Larger pieces that must follow each piece because it is small and they are next to it.
 pub(super) fn held(marker: &Marker, nesting: &Nesting, order: &Order) -> Vec<Vec<usize>> {
     let outlines: Vec<Option<Outline>> = (0..marker.pieces.len())
         .map(|piece| outline(marker, nesting, piece))
@@ -64,7 +64,7 @@ impl Outline {
     }
 }
 
-/// The points of the outline of a piece, if it bounds a part.
+/// Points of the outline of a piece; `None` if it does not bound a part.
 fn outline(marker: &Marker, nesting: &Nesting, piece: usize) -> Option<Vec<Point>> {
     let line = nesting.widest(piece).filter(|&line| nesting.lines()[line].is_closed && !nesting.is_inner(line))?;
     let contour = marker.pieces[piece].contours[line - nesting.of_group(piece).start];

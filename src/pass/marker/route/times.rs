@@ -1,5 +1,4 @@
-//! Times of moves that are kept once they were asked for: the same ones are asked for again and again, and each takes roots and
-//! an arc cosine.
+//! Cache of durations of moves: the same ones are needed repeatedly, and each takes roots and an arc cosine.
 
 use std::cell::Cell;
 
@@ -7,8 +6,8 @@ use super::sequence::START;
 
 /// Times that are kept, at the most; a power of two.
 const MOST_KEPT: usize = 1 << 20;
-/// What rows begin apart where there is no place for all of them: 2^32 by the golden ratio, which spreads them (Knuth, *The art
-/// of computer programming* 6.4).
+/// Distance between rows if they do not all fit: 2^32 times the golden ratio, which spreads them (Knuth, *The art of computer
+/// programming* 6.4).
 const APART: usize = 0x9e37_79b1;
 
 #[derive(Clone, Copy)]
@@ -17,15 +16,15 @@ struct Kept {
     time: f64,
 }
 
-/// Between visits no time is kept under this.
+/// Empty entry: no visits have these numbers.
 const NONE: Kept = Kept { between: [u32::MAX; 2], time: 0.0 };
 
-/// Times of moves between visits, s: of few all, of many those asked for last.
+/// Durations of moves between visits, s: all of few visits, or the most recent of many.
 pub(super) struct Times<'a> {
     time: &'a dyn Fn(usize, usize) -> f64,
-    /// Visits between which moves are made; the start comes behind them.
+    /// Number of visits; the start has the index after them.
     count: usize,
-    /// How far the places of the times from one visit are from those from the next.
+    /// Distance between the entries of one visit and those of the next.
     row: usize,
     kept: Vec<Cell<Kept>>,
 }
@@ -72,7 +71,7 @@ mod tests {
                 }
             }
             let all = moves().count() + count;
-            // Each is asked for here, too.
+            // Here, too, each is requested.
             assert!(count > 1023 || asked.get() == 3 * all, "{count}: {} {all}", asked.get());
         }
     }

@@ -1,30 +1,30 @@
-//! The order of visits in which the moves between them take the least time: a travelling salesman's tour with an open end.
+//! Order of visits with the least total duration of moves: a travelling salesman's tour with an open end.
 //!
-//! Two moves are put in the place of two others and what lies between is turned round (2-opt), or three of three, by which a
-//! stretch comes to another place, turned or not (Or-opt, of any length). Only moves to near ones are looked at, and only
-//! while they may gain (Lin & Kernighan 1973, *An effective heuristic algorithm for the traveling-salesman problem*). Then
-//! stretches about a place are put in the opposite order, the tour is improved there, and what is no better is taken back
-//! (Applegate, Cook & Rohe 2003, *Chained Lin-Kernighan for large traveling salesman problems*). No clock and fixed dice: the
-//! same on every machine.
+//! Two moves are replaced by two others, which reverses the stretch between (2-opt), or three by three, which moves a stretch,
+//! reversed or not (Or-opt, of any length). Only moves to neighbours are tried, and only while they may gain (Lin & Kernighan
+//! 1973, *An effective heuristic algorithm for the traveling-salesman problem*). Then stretches around a place are exchanged,
+//! the tour is improved there, and the result is undone if it is not better (Applegate, Cook & Rohe 2003, *Chained
+//! Lin-Kernighan for large traveling salesman problems*). There is no clock and the random numbers are fixed, so that every
+//! machine finds the same tour.
 
 use std::collections::VecDeque;
 
 use super::near::{Near, Nearest};
 use super::sequence::{Change, Sequence, Ways};
 
-/// Visits that change their places at once, at the most: each of them costs time.
+/// Greatest number of visits moved by one change: each costs time.
 const MOST_CHANGED: usize = 30_000;
-/// How often stretches are swapped, for each visit and at the most.
+/// Number of kicks per visit, and in all at most.
 const KICKS_A_VISIT: usize = 25;
 const MOST_KICKS: usize = 100_000;
-/// Visits in the stretches that are swapped, at the most.
+/// Greatest number of visits in the stretches of a kick.
 const MOST_SWAPPED: usize = 50;
-/// Steps from each end of a stretch that is swapped to another, from one visit to one near it.
+/// Number of steps between neighbours from one end of a stretch of a kick to the next.
 const STEPS: usize = 2;
-/// Gains that are less are none, s: rounding.
+/// Least gain that counts, s: rounding.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// Improves the order of visits, with swaps that a seed chooses or without any; rules that it keeps are kept.
+/// Improves the order of visits, with kicks chosen by a seed or without any; rules that hold remain so.
 pub(super) fn improve(order: &mut Vec<usize>, ways: &Ways, seed: Option<u64>) {
     let count = order.len();
     if count < 2 {
@@ -44,12 +44,11 @@ pub(super) fn improve(order: &mut Vec<usize>, ways: &Ways, seed: Option<u64>) {
     *order = tour.sequence.order().collect();
 }
 
-/// Numbers without a pattern, always the same ones (Steele, Lea & Flood 2014, *Fast splittable pseudorandom number
-/// generators*).
+/// Pseudorandom numbers with a fixed seed (Steele, Lea & Flood 2014, *Fast splittable pseudorandom number generators*).
 struct Dice(u64);
 
 impl Dice {
-    /// The next one, below a limit of less than 2^32.
+    /// Next number, below a limit of less than 2^32.
     fn below(&mut self, limit: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let bits = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -60,14 +59,14 @@ impl Dice {
 
 struct Tour<'a> {
     sequence: Sequence<'a>,
-    /// For each visit those to which moves from it take the least time.
+    /// Nearest targets of moves from each visit, by duration.
     onward: Nearest,
-    /// And those from which moves to it do.
+    /// Nearest origins of moves to each visit, by duration.
     back: Nearest,
-    /// Visits about which something may be gained, each once.
+    /// Visits at which a gain may be possible, each once.
     queue: VecDeque<usize>,
     is_open: Vec<bool>,
-    /// The changes since the last kick.
+    /// Changes since the last kick.
     done: Vec<Change>,
 }
 
@@ -101,8 +100,8 @@ impl<'a> Tour<'a> {
         }
     }
 
-    /// Puts three stretches about some place in the opposite order and improves the tour there, unless that is worse in the
-    /// end. No change of two or three moves takes that back.
+    /// Reverses the order of three stretches around some place and improves the tour there, unless the result is worse. No
+    /// change of two or three moves can undo that.
     fn kick(&mut self, dice: &mut Dice) {
         let mut visit = dice.below(self.sequence.count());
         let mut cuts = [0; 4];
@@ -136,7 +135,7 @@ impl<'a> Tour<'a> {
         }
     }
 
-    /// Improves the tour about the open visits until nothing more is gained; what was gained, s.
+    /// Improves the tour around the queued visits until nothing more is gained; returns the gain, s.
     fn settle(&mut self) -> f64 {
         let mut gained = 0.0;
         while let Some(visit) = self.queue.pop_front() {
@@ -149,10 +148,10 @@ impl<'a> Tour<'a> {
         gained
     }
 
-    /// A change about a visit that gains: how much, s.
+    /// Change at a visit that gains, and its gain, s.
     fn gain_at(&self, visit: usize) -> Option<(f64, Change)> {
         let place = self.sequence.place(visit);
-        // One of the moves that it takes the place of must take longer.
+        // One of the moves that it replaces must take longer.
         let most = self.sequence.onward(place).max(self.sequence.onward(place + 1));
         let is_less = |near: &&Near| near.1 < most;
         let place_of = |other: u32| self.sequence.place(other as usize);
@@ -162,8 +161,8 @@ impl<'a> Tour<'a> {
         onward.chain(back).find_map(|(i, j, time)| self.gain_by(i, j, time))
     }
 
-    /// A change that gains by the move from `i` to `j`, which takes so long: a stretch that ends at `i` or starts at `j` is
-    /// turned, or is moved so that it has someone near at its other end too.
+    /// Change that gains by the move from `i` to `j`, of duration `time`: a stretch that ends at `i` or starts at `j` is
+    /// reversed, or moved so that its other end has a neighbour as well.
     fn gain_by(&self, i: usize, j: usize, time: f64) -> Option<(f64, Change)> {
         let sequence = &self.sequence;
         if j == i + 1 {
@@ -176,7 +175,7 @@ impl<'a> Tour<'a> {
         }
         let place_of = |&(other, _): &Near| sequence.place(other as usize);
         if i + 1 < sequence.count() {
-            // What stands behind `i` comes behind `k`.
+            // The visit behind `i` moves behind `k`.
             let most = sequence.onward(i + 1) + sequence.onward(j).max(sequence.onward(j + 1)) - time;
             for k in self.back.of(sequence.at(i + 1)).iter().take_while(|near| near.1 < most).map(place_of) {
                 let turned = if i < j {
@@ -191,7 +190,7 @@ impl<'a> Tour<'a> {
             }
         }
         if j > 0 {
-            // What stands before `j` comes before `k`.
+            // The visit before `j` moves before `k`.
             let most = sequence.onward(j) + sequence.onward(i).max(sequence.onward(i + 1)) - time;
             for k in self.onward.of(sequence.at(j - 1)).iter().take_while(|near| near.1 < most).map(place_of) {
                 let turned = if i < j {
@@ -208,7 +207,7 @@ impl<'a> Tour<'a> {
         None
     }
 
-    /// What a change gains, s, if it does and breaks no more rules than are broken.
+    /// Gain of a change, s, if it is positive and violates no more rules than before.
     fn gain(&self, change: Change) -> Option<(f64, Change)> {
         if change.count() > MOST_CHANGED {
             return None;
@@ -218,7 +217,7 @@ impl<'a> Tour<'a> {
     }
 }
 
-/// The change that brings what stands at `i` right before what stands at `j`, by cutting the order before `k` as well, too.
+/// Change that brings the visit at `i` right before the one at `j`, with `k` as the third cut of the order.
 fn moved(i: usize, j: usize, k: usize) -> Option<Change> {
     let places = if i < j {
         if k <= i {
@@ -247,7 +246,7 @@ mod tests {
         (0..count).map(|_| Point::new(rng.f64() * 1000.0, rng.f64() * 1000.0)).collect()
     }
 
-    /// Distance between points; from the corner of the table to the first.
+    /// Distance between points, or from the corner of the table to a point.
     fn distance(points: &[Point]) -> impl Fn(usize, usize) -> f64 {
         |from, to| (points[to] - if from == START { Point::origin() } else { points[from] }).norm()
     }
@@ -257,7 +256,7 @@ mod tests {
         from.zip(order).map(|(from, &to)| time(from, to)).sum()
     }
 
-    /// The tour over points from the order in which they are given.
+    /// Tour over points, starting from their given order.
     fn toured(points: &[Point], before: &[Vec<u32>], window: Option<f64>) -> Vec<usize> {
         let count = points.len();
         let near: Vec<Vec<u32>> = (0..count)
@@ -301,7 +300,7 @@ mod tests {
         }
     }
 
-    /// Times as they are: from the end of one visit to the start of another, which are different places.
+    /// Times between visits with different start and end points.
     fn between(ends: &[[Point; 2]]) -> impl Fn(usize, usize) -> f64 {
         |from, to| (ends[to][0] - if from == START { Point::origin() } else { ends[from][1] }).norm()
     }
@@ -327,7 +326,7 @@ mod tests {
     fn tours_are_short_and_the_same_each_time() {
         let points = points(&mut Rng::with_seed(1), 1000);
         let order = toured(&points, &vec![Vec::new(); 1000], None);
-        // The shortest tours come near this from above the more points there are; of 1,000 they are about 1.025 as long.
+        // The shortest tours approach this from above with the number of points; with 1,000 they are about 1.025 times as long.
         let least = 0.7124 * (1000.0f64 * 1e6).sqrt();
         let length = length(&order, &distance(&points));
         assert!(length < 1.055 * least, "{length} {least}");
@@ -339,7 +338,7 @@ mod tests {
         for seed in 0..4 {
             let mut rng = Rng::with_seed(seed);
             let points = points(&mut rng, 120);
-            // Each third one waits for the one in front of it.
+            // Every third point must follow the one before it.
             let before: Vec<Vec<u32>> = (0..120).map(|i| if i % 3 == 2 { vec![i - 1] } else { Vec::new() }).collect();
             let order = toured(&points, &before, None);
             let place = |visit: usize| order.iter().position(|&other| other == visit).expect("it is made");

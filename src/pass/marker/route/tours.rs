@@ -1,4 +1,4 @@
-//! The order of visits and which of each piece is made: the two chosen in turn.
+//! Alternating choice of the order of pieces and of the visit of each piece.
 
 use super::near::near;
 use super::sequence::{START, Ways};
@@ -9,42 +9,42 @@ use crate::analysis::air::{Air, Stop};
 use crate::geom::Extent;
 use crate::pass::marker::visit::{Choices, Visit};
 
-/// How often the order and the visits are chosen in turn, at the most.
+/// Greatest number of alternations.
 const ROUNDS: usize = 6;
-/// From which of these rounds on the order is looked for thoroughly: for rougher ones before other visits are chosen.
+/// First of these rounds with a thorough search for the order: a rough one suffices before other visits are chosen.
 const THOROUGH: usize = 3;
-/// Visits of which it is looked for from the first round on as well, at the most, and as often as something is gained.
+/// Greatest number of visits for which the search is thorough from the first round on, and repeated as long as it gains.
 const FEW: usize = 1000;
 
-/// The visits of pieces, of which one each is made.
+/// Visits of pieces, one of which is made for each.
 pub(super) struct Tours<'a> {
     pub(super) visits: &'a [Vec<Visit>],
-    /// The boxes around the pieces.
+    /// Bounding boxes of the pieces.
     pub(super) extents: Vec<Extent>,
-    /// Those that come before each.
+    /// Pieces that must precede each.
     pub(super) before: Vec<Vec<u32>>,
-    /// Where the axes stand first.
+    /// Initial position of the axes.
     pub(super) home: Stop,
     pub(super) air: Air,
-    /// How far pieces may lie behind the foremost so far, mm, if that counts.
+    /// Greatest distance of a piece behind the foremost so far, mm; `None` = any.
     pub(super) window: Option<f64>,
 }
 
-/// An order of visits, and which of each piece.
+/// Order of pieces, and the visit of each.
 pub(super) struct Tour {
     pub(super) order: Vec<usize>,
     pub(super) visit: Vec<usize>,
-    /// Time of the moves with the knife up, s.
+    /// Duration of the moves with the knife up, s.
     time: f64,
 }
 
 impl Tours<'_> {
-    /// One with little travel that is much like an order: only what is improved step by step is another in it.
+    /// Tour with little travel that resembles an order: only incremental improvements are made.
     pub(super) fn like(&self, order: Vec<usize>) -> Tour {
         self.improved(order, usize::MAX)
     }
 
-    /// The shortest that is found.
+    /// Shortest tour found.
     pub(super) fn best(&self) -> Tour {
         let strips = || inner_first(strips(&self.extents, self.window), &self.before);
         let late = self.improved(strips(), THOROUGH);
@@ -57,7 +57,7 @@ impl Tours<'_> {
         others.fold(late, |best, other| if other.time < best.time { other } else { best })
     }
 
-    /// Whether none lies farther behind the foremost before it than the window, if there is one.
+    /// True if no piece lies farther behind the foremost before it than the window, if there is one.
     fn keeps_window(&self, order: &[usize]) -> bool {
         let mut front = f64::NEG_INFINITY;
         order.iter().map(|&visit| self.extents[visit].min.x).all(|along| {
@@ -67,7 +67,7 @@ impl Tours<'_> {
         })
     }
 
-    /// An order improved; another is looked for thoroughly from some round on, of few visits until nothing is gained.
+    /// Improved order; the search is thorough from a round on, and for few visits repeated until nothing is gained.
     fn improved(&self, mut order: Vec<usize>, first: usize) -> Tour {
         let &Self { visits, ref before, home, air, window, .. } = self;
         let choices = Choices { visits, home, air };
@@ -93,11 +93,11 @@ impl Tours<'_> {
     }
 }
 
-/// Strips that are narrower hold one piece each, mm.
+/// Least width of a strip, mm.
 const LEAST_STRIP: f64 = 1.0;
 
-/// Visits in strips across the cloth, up and down in turn; with a window by their left edges, which that is about, and none
-/// wider than what is left of that when a small piece is brought before one that it lies ahead of.
+/// Visits in strips across the cloth, alternately up and down. With a window, strips are assigned by left edges, as in the
+/// window, and are at most as wide as the part of it that remains when a small piece is moved before one behind it.
 fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let whole = extents.iter().fold(Extent::EMPTY, |mut whole, extent| {
         whole.join(extent);
@@ -105,7 +105,7 @@ fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     });
     let (width, height) = whole.size();
     let middle = |i: usize| extents[i].min + (extents[i].max - extents[i].min) / 2.0;
-    // As wide as two pieces.
+    // Width of two pieces.
     let strip = 2.0 * (width * height / extents.len().max(1) as f64).sqrt();
     let strip = strip.min(window.map_or(f64::INFINITY, |window| (1.0 - AHEAD) * window)).max(LEAST_STRIP);
     let key = |&i: &usize| {
@@ -122,7 +122,7 @@ fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     order
 }
 
-/// The same order, but each behind those that come before it.
+/// Order modified so that each visit follows those that must precede it.
 fn inner_first(order: Vec<usize>, before: &[Vec<u32>]) -> Vec<usize> {
     let mut sorted = Vec::with_capacity(order.len());
     let mut is_done = vec![false; order.len()];

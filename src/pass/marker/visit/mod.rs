@@ -1,9 +1,9 @@
-//! Visits of pieces: in which sequence and from which starts the cuts of one may be made, and how long the moves take.
+//! Visits of pieces: possible sequences and starts of the cuts of a piece, with the durations of the moves.
 //!
-//! Slits are cut on the way round the outline, from each of them on and either way; then what is cut of each contour: a closed
-//! line from the corner that is nearest in time, what common lines leave of one in any order and either way. What the file asks
-//! for at the start of a line holds there, so that such a one is left alone. Where the work is to be steady only those ways count
-//! that end towards the cloth that is still uncut, if there are any.
+//! Slits are cut on the way round the outline, from any of them and either way; then the cuts of each contour: a closed line
+//! from the corner that is nearest in time, the remains of one with common lines in any order and direction. Codes of the file
+//! at the start of a line apply there, so that such a line is left as it is. For steady work only visits that end towards the
+//! uncut cloth count, if there are any.
 
 mod starts;
 mod ways;
@@ -17,75 +17,75 @@ use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::Piece;
 
-/// Visits of a piece that are looked at, at the most, as a rule.
+/// Usual limit of the number of visits of a piece.
 const MOST_VISITS: usize = 32;
-/// Comparisons of slits with segments of their outline, at the most: of more slits the sequence stays.
+/// Greatest number of comparisons of slits with segments of their outline: with more the sequence of slits stays.
 const MOST_LOOKS: usize = 10_000_000;
 
-/// How far from its front edge a piece ends when the work is to be steady, at the most, as a part of its length along X.
+/// Greatest distance of the end of a piece from its front edge for steady work, as a share of its length along X.
 const AT_FRONT: f64 = 1.0 / 3.0;
 
-/// A sequence of the cuts of a piece.
+/// Sequence of the cuts of a piece.
 #[derive(Debug, Clone)]
 pub(super) struct Visit {
-    /// The notches that are drawn as slits, by their places in the piece.
+    /// Notches that are drawn as slits, by their indices in the piece.
     pub(super) slits: Vec<usize>,
-    /// The other cuts by their places, each with how it is begun.
+    /// Other cuts by index, each with its start.
     pub(super) cuts: Vec<(usize, Begin)>,
-    /// Where the knife first comes down, and where it last comes up.
+    /// Stops at the first plunge and the last lift.
     pub(super) ends: [Stop; 2],
-    /// Time of the moves between them, s.
+    /// Duration of the moves between them, s.
     pub(super) within: f64,
-    /// Whether it ends where the piece should.
+    /// True if it ends at the front of the piece.
     is_at_front: bool,
 }
 
 /// Cuts that may be made in any order.
 #[derive(Debug)]
 struct Unordered {
-    /// The place of the first of them: the others follow it.
+    /// Index of the first of them; the others follow it.
     first: usize,
-    /// For each where it may start, as it is first.
+    /// Possible starts of each, the drawn one first.
     starts: Vec<Vec<Start>>,
 }
 
-/// A piece as it may be visited.
+/// Cuts of a piece and their possible sequences.
 #[derive(Debug, Default)]
 pub(super) struct Cuts {
-    /// What comes first, in this order: where the knife comes down and up.
+    /// Stops of the cuts that come first, in this order.
     pub(super) fixed: Vec<[Stop; 2]>,
-    /// Slits, with where each stands on the outline, mm from its start.
+    /// Slits, with their stations on the outline, mm.
     slits: Vec<([Stop; 2], f64)>,
-    /// What is cut of contours, one group after the other.
+    /// Cuts of contours, one group after the other.
     groups: Vec<Unordered>,
-    /// From which X on the last of them should end, mm.
+    /// Least X at which the last of them should end, mm.
     front: Option<f64>,
 }
 
-/// The first cuts of a visit.
+/// First cuts of a visit.
 struct Begun {
     slits: Rc<[usize]>,
-    /// Its cuts but for those of the last group: the last link of them.
+    /// Last link of its cuts, without those of the last group.
     trail: Option<usize>,
-    /// Its cuts of the last group.
+    /// Cuts of the last group.
     last: Vec<(usize, Begin)>,
     ends: Option<[Stop; 2]>,
     within: f64,
     is_at_front: bool,
 }
 
-/// The cuts of many visits, which begin alike.
+/// Cuts of many visits with common beginnings.
 #[derive(Default)]
 struct Trail(Vec<Link>);
 
-/// The cuts of a group, and the link of the group before it.
+/// Cuts of a group, and the link of the previous group.
 struct Link {
     cuts: Vec<(usize, Begin)>,
     before: Option<usize>,
 }
 
 impl Trail {
-    /// Keeps the last cuts of a visit.
+    /// Stores the last cuts of a visit.
     fn keep(&mut self, begun: &mut Begun) {
         self.0.push(Link { cuts: std::mem::take(&mut begun.last), before: begun.trail });
         begun.trail = Some(self.0.len() - 1);
@@ -103,7 +103,7 @@ impl Trail {
 }
 
 impl Begun {
-    /// With cuts that follow those that a trail keeps, the moves to and between which take so long, s.
+    /// Appends cuts to those stored in a trail, with the duration of the moves to and between them, s.
     fn with(&self, starts: &[(usize, Start)], time: f64, is_at_front: bool) -> Self {
         let [first, last] = [&starts[0].1, &starts[starts.len() - 1].1];
         Self {
@@ -118,7 +118,7 @@ impl Begun {
 }
 
 impl Cuts {
-    /// As it is drawn: each contour is cut whole.
+    /// Cuts as drawn: each contour is cut as a whole.
     pub(super) fn drawn(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
         let mut drawn = Self::marks(piece, list, measures);
         for (place, contour) in piece.contours.iter().enumerate() {
@@ -127,7 +127,7 @@ impl Cuts {
         drawn
     }
 
-    /// The holes and slits of a piece.
+    /// Holes and slits of a piece.
     pub(super) fn marks(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
         let air = &measures.air;
         let is_few = |outline: &Vec<Segment>| outline.len() * piece.notches.len() <= MOST_LOOKS;
@@ -143,7 +143,7 @@ impl Cuts {
         Self { slits: slits.collect(), ..Self::of_drills(piece, list, measures) }
     }
 
-    /// The holes alone.
+    /// Holes of a piece.
     pub(super) fn of_drills(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
         let fixed = piece.drills.iter().map(|drill| [measures.air.drill(drill.at); 2]).collect();
         let outline = piece.contours.last().filter(|last| measures.is_steady && last.closed);
@@ -154,7 +154,7 @@ impl Cuts {
         Self { fixed, slits: Vec::new(), groups: Vec::new(), front }
     }
 
-    /// Adds a cut with its starts behind the others, or to the last of them that may be made in any order.
+    /// Adds a cut with its starts as a new group, or to the last group.
     pub(super) fn add(&mut self, place: usize, starts: Vec<Start>, is_of_last: bool) {
         match self.groups.last_mut().filter(|_| is_of_last) {
             Some(group) => group.starts.push(starts),
@@ -162,27 +162,27 @@ impl Cuts {
         }
     }
 
-    /// Whether anything is cut or drilled.
+    /// True if nothing is cut or drilled.
     pub(super) fn is_empty(&self) -> bool {
         self.fixed.is_empty() && self.slits.is_empty() && self.groups.is_empty()
     }
 
-    /// The ways in which it may be visited, that of the file first.
+    /// Possible visits, the one in the order of the file first.
     pub(super) fn visits(&self, air: &Air) -> Vec<Visit> {
         let groups = self.groups.iter().map(|group| Group::new(&group.starts, air)).collect();
         Search { cuts: self, groups, air }.visits()
     }
 
-    /// Whether the piece may end where a cut of it does.
+    /// True if the piece may end where this cut ends.
     fn is_at_front(&self, start: &Start) -> bool {
         self.front.is_some_and(|front| start.to.x >= front)
     }
 }
 
-/// A search for the ways in which a piece may be visited.
+/// Search for the visits of a piece.
 struct Search<'a> {
     cuts: &'a Cuts,
-    /// What is cut of contours, with the times between.
+    /// Cuts of contours, with the durations between them.
     groups: Vec<Group<'a>>,
     air: &'a Air,
 }
@@ -196,7 +196,7 @@ impl Search<'_> {
         let mut trail = Trail::default();
         let mut from = 0;
         if let (true, Some(first)) = (begun.is_empty(), self.groups.first()) {
-            // Nothing comes before them: they begin with each of their states.
+            // Nothing precedes them: they begin with each of their states.
             from = 1;
             let nothing = self.begun(Vec::new());
             let step = first.states().len().div_ceil(2 * MOST_VISITS).max(1);
@@ -217,7 +217,7 @@ impl Search<'_> {
         visits
     }
 
-    /// Rounds of the slits behind what is fixed: from several of them on, onward and back.
+    /// Rounds of the slits after the fixed cuts: from several of them on, in both directions.
     fn rounds(&self) -> Vec<Begun> {
         let slits = &self.cuts.slits;
         let count = slits.len();
@@ -232,7 +232,7 @@ impl Search<'_> {
         sequences.map(|slits| self.begun(slits)).collect()
     }
 
-    /// What is fixed, and slits in a sequence.
+    /// Fixed cuts, and slits in a sequence.
     fn begun(&self, slits: Vec<usize>) -> Begun {
         let of_slits = slits.iter().map(|&slit| self.cuts.slits[slit].0);
         let stops: Vec<[Stop; 2]> = self.cuts.fixed.iter().copied().chain(of_slits).collect();
@@ -241,13 +241,13 @@ impl Search<'_> {
         Begun { slits: slits.into(), trail: None, last: Vec::new(), ends, within, is_at_front: false }
     }
 
-    /// A visit so far, led on through a group in each way that may be the best.
+    /// Extensions of a visit by a group, in each way that may be the best.
     fn led_on(&self, place: usize, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
         let Unordered { first, starts } = &self.cuts.groups[place];
         let is_last = place + 1 == self.groups.len();
         let is_at_front = |[cut, start]: State| is_last && self.cuts.is_at_front(&starts[cut][start]);
         let mut ways = self.groups[place].shortest(into, &is_at_front);
-        // Another start of one closed line is no other end of it: the nearest is the best.
+        // Another start of a closed line does not change its end: the nearest is the best.
         ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 4 } else { MOST_VISITS });
         let led = ways.into_iter().map(|way| {
             let states = way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start]));
@@ -256,7 +256,7 @@ impl Search<'_> {
         led.collect()
     }
 
-    /// A visit led on through all groups from one on, in so many ways at the most.
+    /// Extensions of a visit through all groups from one on, at most `most`.
     fn ended(&self, from: usize, begun: Begun, most: usize, trail: &mut Trail) -> Vec<Visit> {
         let mut all = vec![begun];
         for (place, group) in self.groups.iter().enumerate().skip(from) {
@@ -275,7 +275,7 @@ impl Search<'_> {
         all.into_iter().map(|begun| trail.visit(begun)).collect()
     }
 
-    /// All as it is drawn.
+    /// Visit as drawn.
     fn as_is(&self) -> Visit {
         let mut trail = Trail::default();
         let mut begun = self.begun((0..self.cuts.slits.len()).collect());
@@ -290,20 +290,19 @@ impl Search<'_> {
     }
 }
 
-/// The visits of some pieces, of which one each is made.
+/// Visits of some pieces, one of which is made for each.
 pub(in crate::pass::marker) struct Choices<'a> {
     pub(in crate::pass::marker) visits: &'a [Vec<Visit>],
-    /// Where the axes stand first.
+    /// Initial position of the axes.
     pub(in crate::pass::marker) home: Stop,
     pub(in crate::pass::marker) air: Air,
 }
 
 impl Choices<'_> {
-    /// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
-    /// exact.
+    /// Visits of the pieces in an order with the least total duration, and that duration, s; exact, by dynamic programming.
     pub(in crate::pass::marker) fn choose(&self, order: &[usize]) -> (Vec<usize>, f64) {
         let Self { visits, home, air } = self;
-        // For each visit of each piece the best one of the piece before.
+        // Best visit of the previous piece for each visit of each piece.
         let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
         let mut spent: Vec<f64> = Vec::new();
         for (i, &piece) in order.iter().enumerate() {
@@ -334,7 +333,7 @@ impl Choices<'_> {
     }
 }
 
-/// How far from the start of an outline the place of it is that is nearest to a point, mm.
+/// Station of the place of an outline that is nearest to a point, mm.
 fn station(outline: &[Segment], point: Point) -> f64 {
     let mut start = 0.0;
     let mut best = (f64::INFINITY, 0.0);

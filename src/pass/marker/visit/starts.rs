@@ -1,4 +1,4 @@
-//! Where lines may start, and which way they may be cut from there.
+//! Possible starts and directions of lines.
 
 use crate::analysis::air::{Air, Stop};
 use crate::geom::{Point, corner};
@@ -6,45 +6,45 @@ use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker, OutlineNotch, Piece};
 use crate::machine::{Job, OrderPolicy};
 
-/// Corners of a contour that are looked at, at the most, each either way round.
+/// Greatest number of corners of a contour that are tried, each in both directions.
 const MOST_STARTS: usize = 64;
 
-/// What visits are made by.
+/// Parameters of visits.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::pass::marker) struct Measures {
-    /// How long moves take.
+    /// Durations of moves.
     pub(in crate::pass::marker) air: Air,
-    /// Greatest turn that is no corner, rad.
+    /// Greatest turn that is not a corner, rad.
     pub(in crate::pass::marker) corner: f64,
-    /// What coordinates are multiples of, mm.
+    /// Grid of coordinates, mm.
     pub(in crate::pass::marker) unit: f64,
-    /// Whether pieces end towards the cloth that is still uncut, if they can: that of larger X.
+    /// True if pieces should end towards the uncut cloth, at larger X.
     pub(in crate::pass::marker) is_steady: bool,
 }
 
-/// How a line is begun.
+/// Start of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::pass::marker) struct Begin {
-    /// The segment that starts where it is begun, by its place among its own; of an open one the first.
+    /// Index of the segment that starts there; the first one for an open line.
     pub(in crate::pass::marker) segment: usize,
-    /// Whether it is cut against its direction from there on.
+    /// True if the line is cut against its direction from there.
     pub(in crate::pass::marker) is_reversed: bool,
 }
 
-/// A start of a line.
+/// Start of a line, with its positions.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::pass::marker) struct Start {
     pub(super) begin: Begin,
-    /// Where the knife comes down then, and where it comes up.
+    /// Stops at the plunge and at the lift.
     pub(in crate::pass::marker) stops: [Stop; 2],
-    /// Where the line ends then.
+    /// End of the line.
     pub(super) to: Point,
 }
 
 impl Start {
     fn new(of: &[Segment], begin: Begin, air: &Air) -> Self {
         let count = of.len();
-        // The last segment of a closed one ends where the first starts.
+        // The last segment of a closed line ends where the first starts.
         let (first, last) = (&of[begin.segment], &of[(begin.segment + count - 1) % count]);
         if begin.is_reversed {
             let stops = [air.down(last.to, last.from), air.up(first.to, first.from)];
@@ -55,13 +55,13 @@ impl Start {
 }
 
 impl Measures {
-    /// Those of a job for a marker.
+    /// Parameters of a job for a marker.
     pub(in crate::pass::marker) fn new(job: &Job, marker: &Marker) -> Self {
         let is_steady = job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::Steady;
         Self { air: Air::new(job), corner: job.profile.corner_angle(), unit: marker.unit, is_steady }
     }
 
-    /// That of a line that is cut as it is.
+    /// Start of a line that is cut as it is.
     pub(in crate::pass::marker) fn as_is(&self, range: Range, list: &SegmentList) -> Start {
         Start::new(&segments(range, list), Begin::default(), &self.air)
     }
@@ -71,8 +71,8 @@ impl Measures {
         ways[..=usize::from(is_plain(of))].iter().map(|&begin| Start::new(of, begin, &self.air)).collect()
     }
 
-    /// Where a contour may start: as it does, and, if the file asks for nothing on it, at its other end, or a closed one at its
-    /// corners, either way round.
+    /// Possible starts of a contour: as drawn, and, if the file has no codes on it, at the other end of an open one, or at the
+    /// corners of a closed one, in both directions.
     pub(in crate::pass::marker) fn of_contour(
         &self,
         contour: &Contour,
@@ -105,12 +105,12 @@ fn segments(range: Range, list: &SegmentList) -> Vec<Segment> {
     list.walk(range).map(|(_, segment)| segment).collect()
 }
 
-/// Whether the file asks for nothing on a line.
+/// True if the file has no codes on a line.
 fn is_plain(of: &[Segment]) -> bool {
     of.iter().all(|segment| segment.joint == Joint::default() && segment.percent == of[0].percent)
 }
 
-/// Which points of a closed contour are of notches that it makes, mouths included.
+/// True for each point of a closed contour that belongs to a notch, mouths included.
 fn on_notches(of: &[Segment], notches: &[OutlineNotch]) -> Vec<bool> {
     let count = of.len();
     let mut found = vec![false; count];

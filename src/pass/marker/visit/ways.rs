@@ -1,44 +1,44 @@
-//! Ways through several cuts that may be made in any order, each from any of its starts.
+//! Sequences of several cuts that may be made in any order, each from any of its starts.
 
 use super::Start;
 use crate::analysis::air::{Air, Stop};
 
-/// Cuts whose every order is looked at, at the most: the work grows by four with each.
+/// Greatest number of cuts of which every order is tried: the work quadruples with each.
 const MOST_EXACT: usize = 5;
-/// Gains that are less are none, s: rounding.
+/// Least gain that counts, s: rounding.
 const LEAST_GAIN: f64 = 1e-9;
-/// What it must gain, s, to turn a cut round or not to take it behind the one that it stands behind: the few tenths of a
-/// millimetre by which edges in common lie apart decide nothing.
+/// Least gain for reversing a cut or separating it from its predecessor, s: gaps of a few tenths of a millimetre between common
+/// edges must not decide.
 const CHANGE: f64 = 1e-2;
-/// How much more than for the one in front of it, as a share, so that no two changes weigh the same.
+/// Additional least gain per cut, as a share, so that no two changes weigh the same.
 const STEP: f64 = 1.0 / 16.0;
 
-/// A cut of some, and one of its starts.
+/// Index of a cut, and of one of its starts.
 pub(super) type State = [usize; 2];
 
-/// A way through all of some cuts.
+/// Sequence of all cuts.
 #[derive(Debug, Clone)]
 pub(super) struct Way {
-    /// The cuts in their order, each with its start.
+    /// Cuts in their order, each with its start.
     pub(super) states: Vec<State>,
-    /// Time of the moves between them and of that to the first, s, and what it must gain to be another way than the first.
+    /// Duration of the moves to the first and between them, s, plus the least gains of its changes.
     pub(super) time: f64,
 }
 
-/// Cuts that may be made in any order, with the times between them.
+/// Cuts that may be made in any order, with the durations between them.
 pub(super) struct Group<'a> {
     cuts: &'a [Vec<Start>],
     states: Vec<State>,
-    /// The time from the end of each state to the start of another, row by row, s, and what the change must gain.
+    /// Duration from the end of each state to the start of another plus the least gain of the change, s, row by row.
     times: Vec<f64>,
 }
 
-/// What a change of a cut must gain, s.
+/// Least gain for a change of a cut, s.
 fn weight([cut, _]: State) -> f64 {
     CHANGE * (1.0 + STEP * cut as f64)
 }
 
-/// What it must gain to begin a cut so, s.
+/// Least gain for this start of a cut, s.
 fn turned(state: State) -> f64 {
     if state[1] == 0 { 0.0 } else { weight(state) }
 }
@@ -51,7 +51,7 @@ impl<'a> Group<'a> {
             .flat_map(|(cut, starts)| (0..starts.len()).map(move |start| [cut, start]))
             .collect();
         let mut group = Self { cuts, states, times: Vec::new() };
-        // Alone it is followed by none of them.
+        // A single cut has no successor.
         if cuts.len() > 1 {
             let pairs = group.states.iter().flat_map(|&from| group.states.iter().map(move |&to| [from, to]));
             let weighed = pairs.map(|[from, to]| {
@@ -68,13 +68,14 @@ impl<'a> Group<'a> {
         &self.states
     }
 
-    /// Where the knife comes down and up.
+    /// Stops at the plunge and at the lift.
     pub(super) fn stops(&self, [cut, start]: State) -> [Stop; 2] {
         self.cuts[cut][start].stops
     }
 
-    /// For each state in which a way may end the shortest such, the shortest of all first; the way in takes so long, s:
-    /// infinite where it does not begin. Of many cuts a short one alone. Where one may end as it should, none ends otherwise.
+    /// Shortest sequence for each possible final state, the shortest of all first. `into` is the duration of the move to the
+    /// first cut, s; infinite if it cannot be first. Of many cuts only one short sequence is found. If a sequence can end at
+    /// the front, the others are dropped.
     pub(super) fn shortest(&self, into: &dyn Fn(State) -> f64, is_end: &dyn Fn(State) -> bool) -> Vec<Way> {
         let is_one = self.cuts.len() == 1;
         let first = self.states.iter().map(|&state| into(state) + if is_one { 0.0 } else { turned(state) });
@@ -101,12 +102,12 @@ impl<'a> Group<'a> {
         Way { states: states.map(|state| self.states[state]).collect(), time }
     }
 
-    /// Dynamic programming over the cuts that are made and the state of the last of them (Held & Karp 1962, *A dynamic
+    /// Dynamic programming over the set of finished cuts and the state of the last of them (Held & Karp 1962, *A dynamic
     /// programming approach to sequencing problems*).
     fn exact(&self, first: &[f64]) -> Vec<Way> {
         let count = self.states.len();
         let all = (1 << self.cuts.len()) - 1;
-        // For each set of cuts and each state of it: the time, and the state before.
+        // For each set of cuts and each state of it: the duration, and the previous state.
         let mut reached = vec![(f64::INFINITY, usize::MAX); (all + 1) * count];
         for (state, &time) in first.iter().enumerate() {
             reached[(1 << self.cut(state)) * count + state].0 = time;
@@ -136,8 +137,8 @@ impl<'a> Group<'a> {
         (0..count).filter(|last| reached[all * count + last].0.is_finite()).map(way).collect()
     }
 
-    /// The nearest next, and then single cuts put elsewhere, either way, as long as that gains; in the end, if none ends as it
-    /// should, the cut behind the others that may and costs the least there.
+    /// Nearest neighbour, then single cuts moved elsewhere, in either direction, as long as that gains. If none ends at the
+    /// front, the cut that can and costs least there is moved to the end.
     fn improved(&self, first: &[f64], is_end: &dyn Fn(State) -> bool) -> Vec<Way> {
         let time = |from: Option<usize>, to: usize| from.map_or(first[to], |from| self.time(from, to));
         let mut left: Vec<usize> = (0..self.states.len()).collect();
@@ -172,7 +173,7 @@ impl<'a> Group<'a> {
         vec![self.way(order.into_iter(), time)]
     }
 
-    /// Puts the cut at a place of an order where it gains the most, and tells whether it gains.
+    /// Moves the cut at a place of an order to where it gains most; returns true if it gains.
     fn put_elsewhere(&self, order: &mut Vec<usize>, i: usize, time: &dyn Fn(Option<usize>, usize) -> f64) -> bool {
         let mut others = order.clone();
         let state = others.remove(i);
@@ -183,7 +184,7 @@ impl<'a> Group<'a> {
         };
         let own = (0..self.states.len()).filter(|&other| self.cut(other) == self.cut(state));
         let places = own.flat_map(|state| (0..=others.len()).map(move |place| (place, state)));
-        // With which one a way begins may be settled: then what comes in front of it takes no time that is a number.
+        // The first cut may be fixed: then any cut before it has an infinite duration.
         let times = places.map(|at| (inserted(at), at)).filter(|(time, _)| time.is_finite());
         let Some((then, (place, state))) = times.min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
         let gains = then < inserted((i, order[i])) - LEAST_GAIN;
@@ -203,7 +204,7 @@ mod tests {
     use crate::pass::marker::visit::Begin;
     use fastrand::Rng;
 
-    /// A straight cut that starts at either end.
+    /// Straight cut that starts at either end.
     fn cut([from, to]: [[f64; 2]; 2], air: &Air) -> Vec<Start> {
         let [from, to] = [from, to].map(|[x, y]| Point::new(x, y));
         let start = |is_reversed, [from, to]: [Point; 2]| Start {
@@ -232,7 +233,7 @@ mod tests {
     #[test]
     fn what_was_passed_by_is_taken_on_the_way() {
         let cuts = [[[100.0, 0.0], [200.0, 0.0]], [[-150.0, 0.0], [-60.0, 0.0]], [[300.0, 0.0], [900.0, 0.0]]];
-        // Whichever way round it is cut.
+        // In whichever direction it is cut.
         let order: Vec<usize> = from([0.0, 0.0], &cuts)[0].states.iter().map(|state| state[0]).collect();
         assert_eq!(order, [1, 0, 2]);
     }
@@ -251,7 +252,7 @@ mod tests {
                 made.sort_unstable();
                 assert_eq!(made, (0..count).collect::<Vec<_>>(), "seed {seed}");
             }
-            // Of cuts whose every order is looked at no other order takes less; of more it takes little more.
+            // The result is optimal for few cuts, and nearly optimal for more.
             let least = (0..1 << count).map(|turned| least_of(&cuts, turned)).fold(f64::INFINITY, f64::min);
             let most = if count <= MOST_EXACT { least } else { 1.15 * least };
             let changes = 3.0 * CHANGE * count as f64;
@@ -269,7 +270,7 @@ mod tests {
         least
     }
 
-    /// The time of the shortest order of cuts some of which are turned round, s: every order is looked at.
+    /// Duration of the shortest order of cuts, some of them reversed, s; tries every order.
     fn least_of(cuts: &[[[f64; 2]; 2]], turned: usize) -> f64 {
         let air = Air::new(&Job::default());
         let mut stops: Vec<[Stop; 2]> =
