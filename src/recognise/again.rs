@@ -1,9 +1,9 @@
-//! Strokes that are drawn again: each has the places of one before it, in the same direction or the other, and a pen of
-//! the same use. A whole plot may be drawn twice, an outline, or a notch; and one stroke may go there and back.
+//! Repeated strokes: each has the places of an earlier one, in either direction, and a pen of the same use. A whole plot may be
+//! drawn twice, an outline, or a notch; a single stroke may go there and back.
 //!
-//! Two parts that share an edge may both draw it, and then it is no repetition: other strokes go on from its ends to
-//! both sides. So the copies of a stroke are taken out where no place is left at which more than two strokes meet.
-//! Where all that meet do so twice, half of the copies are taken: the parts were drawn twice, each with its own edges.
+//! Two parts that share an edge may both draw it, which is not a repetition: other strokes continue from its ends to both
+//! sides. Therefore the copies of a stroke are removed only if no place remains at which more than two strokes meet. If all
+//! strokes that meet do so twice, half of the copies are removed: the parts were drawn twice, each with its own edges.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,14 +16,14 @@ use crate::geom::{Point, bits};
 use crate::ir::drawing::{Drawing, PenStroke, Vertex};
 use crate::ir::marker::Notch;
 
-/// Ends in one cell that are compared: more are the middle of a star, and nothing is taken out there.
+/// Greatest number of ends in one cell that are compared: more are the centre of a star, and nothing is removed there.
 const MOST_ENDS: usize = 32;
 
-/// Strokes that are equal, in the order of the file.
+/// Equal strokes, in the order of the file.
 type Set = Vec<usize>;
 
-/// Takes the strokes out of a drawing that are drawn again, but for those whose places were `laid` in order. Ends within
-/// `reach` of each other, mm, may belong to one line.
+/// Removes repeated strokes from a drawing, except those whose places were `laid` in order. Ends within `reach` of each other,
+/// mm, may belong to one line.
 pub(super) fn take(drawing: &mut Drawing, uses: &[Use], laid: &Range<usize>, reach: f64) -> Vec<PenStroke> {
     let mut again = there_and_back(drawing);
     let sets = sets(drawing, uses, laid);
@@ -41,7 +41,7 @@ pub(super) fn take(drawing: &mut Drawing, uses: &[Use], laid: &Range<usize>, rea
     again
 }
 
-/// Lines of strokes that are drawn again.
+/// Lines of repeated strokes.
 pub(super) fn lines(strokes: Vec<PenStroke>, drawing: &Drawing, uses: &[Use]) -> impl Iterator<Item = Line> {
     strokes.into_iter().map(|stroke| {
         let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
@@ -50,8 +50,8 @@ pub(super) fn lines(strokes: Vec<PenStroke>, drawing: &Drawing, uses: &[Use]) ->
     })
 }
 
-/// Puts the lines that a stroke there and back draws in its place, and takes out what it draws again. A short straight
-/// one is a notch as it is.
+/// Replaces a stroke there and back by the lines that it draws, and removes its repetitions. A short straight one stays: it is
+/// a notch.
 fn there_and_back(drawing: &mut Drawing) -> Vec<PenStroke> {
     let mut again = Vec::new();
     for k in 0..drawing.strokes.len() {
@@ -83,11 +83,11 @@ fn is_closed(drawing: &Drawing, stroke: usize) -> bool {
     drawing.vertices[range.start].at == drawing.vertices[range.end - 1].at
 }
 
-/// The sets of two equal strokes or more.
+/// Sets of at least two equal strokes.
 fn sets(drawing: &Drawing, uses: &[Use], laid: &Range<usize>) -> Vec<Set> {
     let usage = |k: usize| uses.get(usize::from(drawing.strokes[k].pen)).copied().unwrap_or(Use::Ignore);
     let places = |k: usize| drawing.strokes[k].range().map(|i| bits(drawing.vertices[i].at));
-    // Most strokes differ from all others by what both their ends have in common.
+    // The sums of both ends already distinguish most strokes from all others.
     let common = |k: usize| {
         let range = drawing.strokes[k].range();
         let [[ax, ay], [bx, by]] = [range.start, range.end - 1].map(|i| bits(drawing.vertices[i].at));
@@ -97,7 +97,7 @@ fn sets(drawing: &Drawing, uses: &[Use], laid: &Range<usize>) -> Vec<Set> {
     let meant = (0..drawing.strokes.len()).filter(is_meant);
     let mut alike: Vec<((usize, u64, u64), usize)> = meant.map(|k| (common(k), k)).collect();
     alike.sort_unstable();
-    // A stroke is compared in the direction in which its places come first.
+    // A stroke is compared in the direction whose places sort first.
     let is_back = |k: usize| places(k).rev().cmp(places(k)) == Ordering::Less;
     let alike = alike.chunk_by(|a, b| a.0 == b.0).filter(|set| set.len() > 1).flatten();
     let mut keyed: Vec<(Use, usize, bool, usize)> =
@@ -116,13 +116,13 @@ fn sets(drawing: &Drawing, uses: &[Use], laid: &Range<usize>) -> Vec<Set> {
     same.map(|set| set.iter().map(|key| key.3).collect()).collect()
 }
 
-/// Open strokes that are drawn several times, among all others.
+/// Repeated open strokes among all others.
 struct Open<'a> {
     drawing: &'a Drawing,
     sets: Vec<Set>,
-    /// Of each stroke the set that it is of.
+    /// Set of each stroke.
     set_of: Vec<Option<usize>>,
-    /// The strokes with an end in each cell, and the length of one, mm.
+    /// Strokes with an end in each cell, and the size of a cell, mm.
     cells: BTreeMap<[i64; 2], Vec<usize>>,
     reach: f64,
 }
@@ -131,9 +131,9 @@ struct Open<'a> {
 struct Meeting {
     /// Other sets.
     sets: BTreeSet<usize>,
-    /// Whether more than two strokes would meet at an end when each is drawn once.
+    /// True if more than two strokes would meet at an end with each drawn once.
     is_crossing: bool,
-    /// Whether some stroke there is drawn an odd number of times.
+    /// True if some stroke there is drawn an odd number of times.
     is_odd: bool,
 }
 
@@ -166,7 +166,7 @@ impl<'a> Open<'a> {
         [at.x, at.y].map(|mm| (mm / self.reach).floor() as i64)
     }
 
-    /// The strokes that are drawn again.
+    /// Repeated strokes.
     fn again(&self) -> Vec<usize> {
         let meetings: Vec<Meeting> = (0..self.sets.len()).map(|set| self.meeting(set)).collect();
         let mut again = Vec::new();
@@ -175,7 +175,7 @@ impl<'a> Open<'a> {
             if std::mem::replace(&mut seen[first], true) {
                 continue;
             }
-            // The sets that hang together.
+            // Connected sets.
             let mut group = vec![first];
             let mut next = 0;
             while let Some(&set) = group.get(next) {
@@ -199,7 +199,7 @@ impl<'a> Open<'a> {
         again
     }
 
-    /// The pen that draws the most of some sets, so that what stays can be joined; the first of several.
+    /// Pen that draws the most strokes of some sets, so that the rest can be joined; the first of several.
     fn widest_pen(&self, group: &[usize]) -> u16 {
         let mut counts: BTreeMap<u16, usize> = BTreeMap::new();
         let pens = group.iter().flat_map(|&set| &self.sets[set]).map(|&stroke| self.drawing.strokes[stroke].pen);
@@ -212,7 +212,7 @@ impl<'a> Open<'a> {
     fn meeting(&self, set: usize) -> Meeting {
         let mut meeting = Meeting { sets: BTreeSet::new(), is_crossing: false, is_odd: self.sets[set].len() % 2 == 1 };
         for end in self.ends(self.sets[set][0]) {
-            // Others, by the first stroke of their set.
+            // Other strokes, by the first one of their set.
             let mut others = BTreeSet::new();
             let [column, row] = self.cell(end);
             for cell in (column - 1..=column + 1).flat_map(|c| (row - 1..=row + 1).map(move |r| [c, r])) {

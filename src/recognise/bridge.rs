@@ -1,8 +1,8 @@
 //! Bridges: short straight lines between the strokes of an outline that nearly meet.
 //!
-//! Ends up to `drawing.close_mm` apart, each the nearest of the other, are bridged where the strokes then go around
-//! something and come back. A dashed line has more gap than that, and stays as it is. Where another line begins beside
-//! a bridge and leads inwards, the ring may be that of two outlines together, and stays open.
+//! Ends at most `drawing.close_mm` apart that are mutually nearest are bridged if the strokes then go around something and come
+//! back. A dashed line has larger gaps, and stays as it is. If another line begins beside a bridge and leads inwards, the ring
+//! may combine two outlines, and stays open.
 
 use super::chains::{Chains, End, other, place};
 use super::line::SMALL_OUTLINE;
@@ -11,25 +11,25 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Drawing;
 use crate::ir::marker::Notch;
 
-/// Share of an outline that its bridges take at the most: the gaps of dashed lines take a fifth and more.
+/// Greatest share of an outline that its bridges take up: the gaps of dashed lines take a fifth and more.
 const MOST_BRIDGED: f64 = 0.05;
-/// Ends near one that are compared: more are the middle of a star.
+/// Greatest number of ends near one that are compared: more are the centre of a star.
 const MOST_ENDS: usize = 64;
-/// Distances that differ by less are equal, mm: less than any unit of a file.
+/// Difference of distances that count as equal, mm: less than any unit of a file.
 const EQUAL_EPSILON: f64 = 1e-6;
 
-/// Ends of strokes that nothing continues, and how far apart bridges may lead.
+/// Free ends of strokes, and the greatest length of bridges.
 pub(super) struct Gaps<'a> {
     pub(super) drawing: &'a Drawing,
     pub(super) chains: &'a Chains,
-    /// In ascending order.
+    /// Ascending.
     pub(super) ends: &'a [End],
-    /// Longest bridge, mm.
+    /// Greatest length of a bridge, mm.
     pub(super) close: f64,
 }
 
 impl Gaps<'_> {
-    /// The bridges, each from an end to another.
+    /// Bridges, each from an end to another.
     pub(super) fn bridges(&self) -> Vec<[End; 2]> {
         let at = |end: &End| place(self.drawing, *end);
         let boxes = Boxes::new(self.ends.iter().map(|end| Extent::between(at(end), at(end))).collect());
@@ -66,14 +66,14 @@ impl Gaps<'_> {
         apart.filter(|(distance, _)| *distance <= self.close)
     }
 
-    /// The end that is nearer to one than all others.
+    /// End that is nearer to one than all others; `None` if two are equally near.
     fn nearest(&self, k: usize, boxes: &Boxes) -> Option<usize> {
         let (distance, nearest) = self.near(k, boxes).min_by(|a, b| a.0.total_cmp(&b.0))?;
         let is_other = |(apart, near): (f64, usize)| near != nearest && apart <= distance + EQUAL_EPSILON;
         (!self.near(k, boxes).any(is_other)).then_some(nearest)
     }
 
-    /// The bridges of the ring that leads on from an end, if one does and none of it was seen before.
+    /// Bridges of the ring from an end on; `None` if there is no ring, or if it was visited before.
     fn ring(&self, first: End, across: &[Option<End>], seen: &mut [bool]) -> Option<Vec<[End; 2]>> {
         let mut bridges = Vec::new();
         let mut at = first;
@@ -91,7 +91,7 @@ impl Gaps<'_> {
         }
     }
 
-    /// Whether a ring is as large as an outline, drawn for the most part, and one outline alone.
+    /// True if a ring is as large as an outline, mostly drawn, and a single outline.
     fn goes_around(&self, bridges: &[[End; 2]], boxes: &Boxes) -> bool {
         let (mut places, mut bridged) = (Vec::new(), 0.0);
         for &[from, to] in bridges {
@@ -117,7 +117,7 @@ impl Gaps<'_> {
         !near.into_iter().any(|(_, k)| leads_in(k))
     }
 
-    /// The places of a stroke from an end on.
+    /// Places of a stroke, starting from an end.
     fn places(&self, end: End) -> Vec<Point> {
         let stroke = &self.drawing.vertices[self.drawing.strokes[end / 2].range()];
         let places = stroke.iter().map(|vertex| vertex.at);

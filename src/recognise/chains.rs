@@ -1,28 +1,28 @@
-//! Chains of strokes: which end continues which.
+//! Chains of linked strokes.
 
 use crate::geom::Point;
 use crate::ir::drawing::Drawing;
 
-/// An end of a stroke: twice its index, and one more for its last place.
+/// End of a stroke: twice its index, plus one for its last place.
 pub(super) type End = usize;
 
-/// The other end of a stroke.
+/// Other end of a stroke.
 pub(super) const fn other(end: End) -> End {
     end ^ 1
 }
 
-/// Where an end is.
+/// Place of an end.
 pub(super) fn place(drawing: &Drawing, end: End) -> Point {
     let stroke = drawing.strokes[end / 2];
     drawing.vertices[if end.is_multiple_of(2) { stroke.first } else { stroke.end - 1 } as usize].at
 }
 
-/// Links between the ends of strokes, and the chains that they make.
+/// Links between the ends of strokes, and the resulting chains.
 #[derive(Debug)]
 pub(super) struct Chains {
-    /// The end that continues each end, where one does.
+    /// End that continues each end; `None` for a free end.
     pub(super) links: Vec<Option<End>>,
-    /// The other end of the chain, for each end of a chain of linked strokes; of no use for other ends.
+    /// Other end of the chain, valid for the ends of chains only.
     far: Vec<End>,
 }
 
@@ -32,12 +32,12 @@ impl Chains {
         Self { links: vec![None; 2 * strokes], far: (0..2 * strokes).map(other).collect() }
     }
 
-    /// The other end of the chain that an end is one of.
+    /// Other end of the chain with this end.
     pub(super) fn far(&self, end: End) -> End {
         self.far[end]
     }
 
-    /// Makes one chain of two.
+    /// Joins two chains.
     pub(super) fn join(&mut self, [a, b]: [End; 2]) {
         (self.links[a], self.links[b]) = (Some(b), Some(a));
         let [start, end] = [self.far[a], self.far[b]];
@@ -55,12 +55,12 @@ impl Chains {
         self.join([start + 1, b]);
     }
 
-    /// The strokes of a chain by the ends that they start at, from one on.
+    /// Strokes of a chain, by the ends at which they start, from one on.
     pub(super) fn from(&self, first: End) -> impl Iterator<Item = End> {
         std::iter::successors(Some(first), move |&at| self.links[other(at)].filter(|&next| next != first))
     }
 
-    /// Where a chain that holds a stroke starts. One that closes starts with that stroke itself.
+    /// Start of the chain that contains a stroke; the stroke itself for a closed chain.
     pub(super) fn start(&self, stroke: usize) -> End {
         let mut at = 2 * stroke;
         while let Some(before) = self.links[at] {

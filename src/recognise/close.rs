@@ -1,8 +1,8 @@
-//! Lines that close in another way than by their last place: they run past their start or go round again, they stop a
-//! little before it, or they end at the edge of the cloth, which only the frame draws.
+//! Lines that do not close by their last place: they run past their start or go round again, stop a little before it, or end at
+//! the edge of the cloth, which only the frame draws.
 //!
-//! A line with a wider gap stays open and still holds what lies in it: a seam line is no part because the outline
-//! around it has a fault.
+//! A line with a wider gap stays open but still contains others: a seam line must not become a part because the outline around
+//! it has a fault.
 
 use arrayvec::ArrayVec;
 
@@ -12,13 +12,13 @@ use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
 use crate::machine::Job;
 
-/// Share of its length that the gap of a line takes at the most, if it goes around something: a tenth of a square of
-/// straight sides is less than half of one side.
+/// Greatest gap of a line that goes around something, as a share of its length: a tenth of a square with straight sides is less
+/// than half of one side.
 const WIDEST_OPEN: f64 = 0.1;
-/// Places of a line at least that goes around something.
+/// Least number of places of a line that goes around something.
 const LEAST_PLACES: usize = 3;
 
-/// How far apart two places may be that a line closes over.
+/// Greatest distances of places over which a line closes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reach {
     /// Distance of a tail from the head that it retraces, mm.
@@ -32,7 +32,7 @@ impl Reach {
         Self { retraced: closing::reach(unit), close: job.profile.drawing.close_mm }
     }
 
-    /// Whether the edge of a rectangle would close an open line to a ring with an inside.
+    /// True if the edge of a rectangle would close an open line to a ring with an inside.
     pub(super) fn is_edged(&self, frame: &Extent, line: &Line, vertices: &[Vertex]) -> bool {
         let drawn = line.as_drawn(vertices);
         let ends = [drawn[0].at, drawn[drawn.len() - 1].at];
@@ -40,7 +40,7 @@ impl Reach {
     }
 }
 
-/// Finds how each line closes, and adds the rings to the vertices.
+/// Determines how each line closes, and appends the rings to the vertices.
 pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
     for line in lines.iter_mut() {
         if line.is_set_aside() || line.size() <= SMALL_OUTLINE {
@@ -65,8 +65,7 @@ pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach
     }
 }
 
-/// Closes lines whose ends lie on the same side of a frame, or on two sides that meet: the frame draws the rest of
-/// them.
+/// Closes lines whose ends lie on the same side of a frame, or on two adjacent sides: the frame draws the rest of them.
 pub(super) fn close_along_frames(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
     let frames: Vec<Extent> = lines.iter().filter(|line| line.class == Class::Frame).map(|line| line.extent).collect();
     if frames.is_empty() {
@@ -92,13 +91,13 @@ pub(super) fn close_along_frames(lines: &mut [Line], vertices: &mut Vec<Vertex>,
     }
 }
 
-/// Whether a ring is more than a line that runs along the edge.
+/// True if a ring is more than a line along the edge.
 fn drawn_is_wide(ring: &Line, reach: Reach) -> bool {
     ring.is_closed && ring.area > ring.length * reach.close.max(reach.retraced)
 }
 
-/// The corners on the way along a frame between two places on it: none, or one. `None` when a place lies elsewhere or
-/// the two lie on sides that do not meet.
+/// Corners between two places on a frame, along it: none or one. `None` if a place lies elsewhere, or if their sides are not
+/// adjacent.
 pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<ArrayVec<Point, 1>> {
     let sides = ends.map(|at| {
         let off = [at.x - frame.min.x, frame.max.x - at.x, at.y - frame.min.y, frame.max.y - at.y];
@@ -116,16 +115,16 @@ pub(super) fn along(frame: &Extent, ends: [Point; 2], reach: f64) -> Option<Arra
     corner(sides[0], sides[1]).or_else(|| corner(sides[1], sides[0])).map(|at| ArrayVec::from([at]))
 }
 
-/// A ring that a line makes.
+/// Ring made of a line.
 struct Ring<'a> {
-    /// The places of the line that are in it.
+    /// Places of the line in the ring.
     places: Vec<Vertex>,
-    /// What it goes by on the way back to the first of them.
+    /// Places on the way back to the first of them.
     along: &'a [Point],
     closing: Closing,
 }
 
-/// A line with its ring, which is added to the vertices. What closes it comes from where it ends.
+/// Line with its ring, which is appended to the vertices. The closing segments get the span of the end of the line.
 fn with_ring(line: &Line, vertices: &mut Vec<Vertex>, Ring { places, along, closing }: Ring) -> Line {
     let first = vertices.len() as u32;
     let (start, span) = (places[0].at, places[places.len() - 1].span);

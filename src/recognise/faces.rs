@@ -1,8 +1,8 @@
-//! Faces of the graph that loose lines of a drawing with layers make: parts with common edges, drawn for each of them or once.
+//! Faces of the graph of loose lines in a drawing with layers: parts with common edges, drawn for each of them or once.
 //!
-//! In the order of the file such lines tell the parts apart ([`succession`](super::succession)). In any other order their
-//! stretches between the places where they meet ([`nodes`]) are put in the order of the faces that they bound, so
-//! that the rings are found. A graph that is not plane, or has a face below the size of a part, stays as it is drawn.
+//! In the order of the file such lines distinguish the parts ([`succession`](super::succession)). In any other order their
+//! stretches between the places where they meet ([`nodes`]) are sorted by the faces that they bound, so that the rings are
+//! found. A graph that is not plane, or that has a face smaller than a part, stays as drawn.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -16,22 +16,21 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
 use crate::source::Span;
 
-/// Ends at one place that are looked at: more are the middle of a star.
+/// Greatest number of ends at one place that are processed: more are the centre of a star.
 const MOST_ENDS: usize = 64;
-/// Distance of two strokes that are drawn along each other, in those of ends that meet: stations differ as lengths do.
+/// Distance of two strokes drawn along each other, relative to that of ends that meet: stations differ as lengths do.
 const REACH_OF_TWINS: f64 = 2.0;
-/// Stretch of a stroke that its direction at an end is taken from, mm.
+/// Length of a stroke from which its direction at an end is taken, mm.
 const STRETCH: f64 = 1.0;
-/// Places of a stroke that are looked at for its direction at an end.
+/// Greatest number of places of a stroke for its direction at an end.
 const MOST_STEPS: usize = 64;
-/// Least angle between two strokes that leave a place, rad: nearer ones are in no order.
+/// Least angle between two strokes at a place, rad: at a smaller one they have no order.
 const LEAST_ANGLE: f64 = 1e-3;
 /// Least number of open lines of a part and another one.
 const LEAST_STROKES: usize = 2;
 
-/// Puts lines in the order of the faces that they bound; what was moved so that their ends meet, what is drawn once and stands
-/// twice, and the lines that are drawn again on the edge of one face. Edges that are drawn once bound one part alone unless
-/// `divides`.
+/// Sorts lines by the faces that they bound. Returns the displacements that made their ends meet and the edges drawn once but
+/// used twice, and the repeated lines on the edge of one face. Unless `divides`, an edge drawn once bounds only one part.
 pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64, divides: bool) -> (Moved, Vec<PenStroke>) {
     let is_asked = |k: &usize| {
         let pen = usize::from(drawing.strokes[*k].pen);
@@ -48,7 +47,7 @@ pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64, divi
     if strokes.len() < LEAST_STROKES {
         return (moved, Vec::new()); // as in nearly all
     }
-    // Lines that lead nowhere, as notches do, part no others.
+    // Dead ends, such as notches, do not split others.
     let leading: BTreeSet<usize> = {
         let stretches = nodes::parted(drawing, &strokes, reach);
         Graph::new(&stretches, reach).strokes()
@@ -75,16 +74,16 @@ pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64, divi
 /// Lines in the order of faces.
 #[derive(Default)]
 struct Laid {
-    /// Places and pens of the lines that stand in the place of each stroke.
+    /// Places and pens of the lines that replace each stroke.
     lines: BTreeMap<usize, Vec<(Vec<Vertex>, u16)>>,
-    /// Stretches that were laid.
+    /// Stretches that were placed.
     taken: BTreeSet<usize>,
-    /// Places that the lines are led to.
+    /// Number of places to which the lines lead.
     places: usize,
 }
 
 impl Laid {
-    /// Lays the stretches of faces in the place of a stroke.
+    /// Places the stretches of faces in the position of a stroke.
     fn add(&mut self, stroke: usize, graph: &Graph, faces: Vec<Vec<End>>, moved: &mut Moved) {
         for face in faces {
             for end in face {
@@ -106,7 +105,7 @@ impl Laid {
         }
     }
 
-    /// Puts the lines into a drawing, for the strokes that they are stretches of; those that are drawn again.
+    /// Inserts the lines into a drawing in place of the strokes from which they were made; returns the repeated ones.
     fn put_into(mut self, drawing: &mut Drawing, graph: &Graph, moved: &mut Moved) -> Vec<PenStroke> {
         let is_twin = |(stretch, twin): (&usize, &usize)| {
             (self.taken.contains(stretch) && !self.taken.contains(twin)).then_some(*twin)
@@ -144,14 +143,14 @@ impl Laid {
     }
 }
 
-/// Places that a line is led to: the chords of an arc lead to one.
+/// Number of places to which a line leads: all chords of an arc lead to one.
 fn places(vertices: &[Vertex]) -> usize {
     let mut before: Option<Span> = None;
     let is_new = |pair: &&[Vertex]| pair[0].at != pair[1].at && before.replace(pair[1].span) != Some(pair[1].span);
     vertices.windows(2).filter(is_new).count()
 }
 
-/// The places of a stroke from one of its ends on; each line keeps what drew it.
+/// Places of a stroke from one of its ends; each line keeps its span.
 fn directed(vertices: &[Vertex], from: End) -> Vec<Vertex> {
     if from.is_multiple_of(2) {
         return vertices.to_vec();
@@ -160,14 +159,14 @@ fn directed(vertices: &[Vertex], from: End) -> Vec<Vertex> {
     (0..=last).rev().map(|k| Vertex { at: vertices[k].at, span: vertices[(k + 1).min(last)].span }).collect()
 }
 
-/// Stretches between the places where their ends meet, those that lead nowhere left out.
+/// Stretches between the places where their ends meet, without dead ends.
 struct Graph<'a> {
     stretches: &'a [Stretch],
     /// Distance within which ends meet, mm.
     reach: f64,
-    /// The place of each end.
+    /// Place of each end.
     node: BTreeMap<End, usize>,
-    /// The ends at each place, those of twins left out.
+    /// Ends at each place, without those of twins.
     nodes: BTreeMap<usize, Vec<End>>,
     /// Stretches that lie on others, by these.
     twins: BTreeMap<usize, usize>,
@@ -182,7 +181,7 @@ impl<'a> Graph<'a> {
             let mut places = graph.places(stretch);
             places.sort_unstable();
             let known = between.entry(places).or_default();
-            // A place where more lines end has no order anyway.
+            // A place with more lines has no order anyway.
             let twin = known.iter().take(MOST_ENDS).position(|&other| graph.are_twins([other, stretch], reach));
             if let Some(k) = twin {
                 graph.twins.insert(known.swap_remove(k), stretch);
@@ -197,7 +196,7 @@ impl<'a> Graph<'a> {
         graph
     }
 
-    /// Strokes that lead from place to place.
+    /// Strokes that are not dead ends.
     fn strokes(&self) -> BTreeSet<usize> {
         let alive: BTreeSet<usize> = self.nodes.values().flatten().map(|end| end / 2).collect();
         let twins = self.twins.iter().filter(|(stretch, _)| alive.contains(stretch)).map(|(_, twin)| twin);
@@ -209,12 +208,12 @@ impl<'a> Graph<'a> {
         place(self.stretches, end)
     }
 
-    /// The places of a stretch from one of its ends on.
+    /// Places of a stretch, from one of its ends.
     fn directed(&self, from: End) -> Vec<Vertex> {
         directed(self.vertices(from / 2), from)
     }
 
-    /// Leaves out strokes that lead nowhere, and those that do then.
+    /// Removes dead ends repeatedly.
     fn leave_out_dead_ends(&mut self) {
         let mut degree: BTreeMap<usize, usize> = self.nodes.iter().map(|(place, ends)| (*place, ends.len())).collect();
         let mut is_dead: BTreeSet<usize> = BTreeSet::new();
@@ -237,7 +236,7 @@ impl<'a> Graph<'a> {
         self.nodes.retain(|_, ends| !ends.is_empty());
     }
 
-    /// The places of both ends of a stroke.
+    /// Places of both ends of a stroke.
     fn places(&self, stroke: usize) -> [usize; 2] {
         [2 * stroke, 2 * stroke + 1].map(|end| self.node[&end])
     }
@@ -246,7 +245,7 @@ impl<'a> Graph<'a> {
         &self.stretches[stretch].vertices
     }
 
-    /// Whether two strokes between two places are drawn along each other.
+    /// True if two strokes between two places are drawn along each other.
     fn are_twins(&self, [one, other]: [usize; 2], reach: f64) -> bool {
         let end = if self.places(one)[0] == self.places(other)[0] { 2 * other } else { 2 * other + 1 };
         let [one, other] = [2 * one, end].map(|end| self.points(&[end]));
@@ -258,7 +257,7 @@ impl<'a> Graph<'a> {
         (length(&of_one) - length(&of_other)).abs() <= reach && one.iter().zip(&of_one).all(is_along)
     }
 
-    /// Moves the first and the last place of a stroke to where others meet it; the lines that were moved.
+    /// Moves the first and the last place of a stroke to those where others meet it; returns the lines that were moved.
     fn meet(&self, along: &mut [Vertex], ends: [End; 2]) -> Vec<Redrawn> {
         let last = along.len() - 1;
         let before: Vec<Point> = along.iter().map(|vertex| vertex.at).collect();
@@ -271,7 +270,7 @@ impl<'a> Graph<'a> {
         lines.into_iter().filter(moved).map(redrawn).collect()
     }
 
-    /// Strokes that hang together, in their order.
+    /// Connected components of strokes, in their order.
     fn components(&self) -> Vec<Vec<usize>> {
         let mut components = Vec::new();
         let (mut seen, mut passed): (BTreeSet<usize>, BTreeSet<usize>) = Default::default();
@@ -290,15 +289,15 @@ impl<'a> Graph<'a> {
         components
     }
 
-    /// The faces of a plane graph but the one around it: each as the ends at which its strokes begin, counter-clockwise, in the
-    /// order of their first strokes; `None` for one that is not plane, has strokes with one face on both sides, or small faces.
+    /// Faces of a plane graph except the outer one, each as the starting ends of its strokes, counter-clockwise, in the order
+    /// of their first strokes. `None` for a graph that is not plane, has strokes with one face on both sides, or small faces.
     fn faces(&self, component: &[usize]) -> Option<Vec<Vec<End>>> {
         let places: BTreeSet<usize> = component.iter().flat_map(|&stroke| self.places(stroke)).collect();
         let is_once = |stretch: &usize| !self.twins.contains_key(stretch);
         if places.iter().all(|place| self.nodes[place].len() < 3) && component.iter().all(is_once) {
             return None; // a ring
         }
-        // Of each end the one that is next to it clockwise.
+        // Next end clockwise of each end.
         let mut next: BTreeMap<End, End> = BTreeMap::new();
         for &place in &places {
             let around = self.around(place)?;
@@ -317,7 +316,7 @@ impl<'a> Graph<'a> {
             faces.push(face);
         }
         let has_two_sides = component.iter().all(|stroke| face_of[&(2 * stroke)] != face_of[&(2 * stroke + 1)]);
-        // Euler's formula for a graph that hangs together.
+        // Euler's formula for a connected graph.
         let is_plane = places.len() + faces.len() == component.len() + 2;
         let (inner, around): (Vec<_>, Vec<_>) =
             faces.into_iter().partition(|face| ring::area(&self.points(face)) > 0.0);
@@ -329,7 +328,7 @@ impl<'a> Graph<'a> {
         (has_two_sides && is_plane && around.len() == 1 && inner.iter().all(is_part)).then_some(inner)
     }
 
-    /// The ends at a place, counter-clockwise by the directions in which their strokes leave it.
+    /// Ends at a place, counter-clockwise by the directions in which their strokes leave it.
     fn around(&self, place: usize) -> Option<Vec<End>> {
         let ends = &self.nodes[&place];
         if ends.len() > MOST_ENDS {
@@ -343,7 +342,7 @@ impl<'a> Graph<'a> {
         (is_apart && turn >= LEAST_ANGLE).then(|| around.into_iter().map(|(_, end)| end).collect())
     }
 
-    /// The direction in which a stretch leaves the place of an end, rad; `None` of one that is shorter than a place is wide.
+    /// Direction in which a stretch leaves the place of an end, rad; `None` if the stretch is within the size of a place.
     fn heading(&self, end: End) -> Option<f64> {
         let vertices = self.vertices(end / 2);
         let from = self.place(self.node[&end]);
@@ -353,14 +352,14 @@ impl<'a> Graph<'a> {
         (way.norm() > self.reach).then(|| way.y.atan2(way.x))
     }
 
-    /// Places of some strokes behind each other.
+    /// Places of consecutive strokes.
     fn points(&self, ends: &[End]) -> Vec<Point> {
         let vertices = |&end: &End| directed(self.vertices(end / 2), end);
         ends.iter().flat_map(vertices).map(|vertex| vertex.at).collect()
     }
 }
 
-/// The place of each end, named by the first end there.
+/// Place of each end, identified by the first end there.
 fn ends_at_places(stretches: &[Stretch], reach: f64) -> BTreeMap<End, End> {
     let drawn = (0..2 * stretches.len()).map(|end| (stretches[end / 2].pen, place(stretches, end)));
     let drawn: Vec<(u16, Point)> = drawn.collect();

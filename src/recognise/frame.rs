@@ -1,5 +1,5 @@
-//! The frames of markers: rectangles around parts, drawn like them. A frame is known by what it holds: a title block, a
-//! test square or a second marker may lie beside it.
+//! Frames of markers: rectangles around parts, drawn like these. A frame is recognised by its contents: a title block, a test
+//! square or a second marker may lie beside it.
 
 use super::close::Reach;
 use super::line::{Class, Line, SMALL_OUTLINE};
@@ -11,44 +11,44 @@ use crate::geom::budget::Budget;
 use crate::ir::drawing::Vertex;
 use crate::machine::plot::Frame;
 
-/// Least share of a frame that the closed lines in it fill; a rectangle with less is a part with cut-outs. A frame taken for
-/// a part is reported; a part taken for a frame would be cut inside.
+/// Least share of a frame that the closed lines in it fill; a rectangle with less is a part with cut-outs. A frame taken for a
+/// part is reported; a part taken for a frame would be cut inside.
 const LEAST_FILL: f64 = 0.5;
-/// Least share of a rectangle that the closed lines in it fill where somebody must say whether it is a frame: with less it
-/// is a part with cut-outs.
+/// Least share of a rectangle that the closed lines in it fill for the user to decide whether it is a frame: with less it is a
+/// part with cut-outs.
 const LEAST_DOUBTFUL: f64 = 0.15;
-/// Area of all that lies outside frames, as a share of theirs, at the most: title blocks and test squares. More may be
-/// parts, and then the rectangle may be one of them.
+/// Greatest area outside of frames, as a share of theirs: title blocks and test squares. More may be parts, and the rectangle
+/// may then be one of them.
 pub(super) const MOST_OUTSIDE: f64 = 0.1;
-/// Share of an outer frame that the frame in it takes where something lies between them: the cloth on the paper.
+/// Least share of an outer frame taken up by the frame in it if something lies between them: the cloth on the paper.
 const LEAST_CLOTH: f64 = 0.75;
-/// Least number of parts, or least share of the area, that rectangles beside each other hold to be frames: with less they may be
+/// Least number of parts, or least share of filled area, for rectangles beside each other to be frames: with less they may be
 /// parts with cut-outs.
 const SURE_PARTS: usize = 3;
 const SURE_FILL: f64 = 0.7;
-/// Frames in frames that are looked for: the paper, and the cloth on it.
+/// Greatest nesting depth of frames: the paper, and the cloth on it.
 const MOST_FRAMES: usize = 3;
 
-/// Boxes around a corner that are looked at for one that holds another, and open lines that a frame closes.
+/// Greatest number of boxes around a corner that are tested for containing another, and of open lines that a frame closes.
 const MOST_HOLDERS: usize = 64;
 /// Largest mark on the hem of a part, mm: a loop, a button stand.
 const LARGEST_MARK: f64 = 100.0;
-/// Largest area of a mark, as a share of that of the seam line.
+/// Largest area of a mark, as a share of the area of the seam line.
 const MARK_SHARE: f64 = 0.1;
 
 /// Settings of the search for frames.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrameSettings {
     pub(super) how: Frame,
-    /// How far lines that touch may lie in one another, mm.
+    /// Greatest overlap of touching lines, mm.
     pub(super) band: f64,
-    /// How far apart two places may be that a line closes over.
+    /// Greatest distances over which a line closes.
     pub(super) reach: Reach,
 }
 
-/// Marks the frames among the lines. A rectangle around one closed line alone is a part, and so is one around its seam
-/// line and small marks. An open line that a rectangle would close along its edge, from inside, is as good as a closed
-/// one. Returns a rectangle that may be a frame or a part, if only somebody else can tell.
+/// Marks the frames among the lines. A rectangle around a single closed line is a part, as is one around its seam line and
+/// small marks. An open line that a rectangle would close along its edge from inside counts as closed. Returns a rectangle that
+/// may be a frame or a part if only the user can decide.
 pub(super) fn mark(
     lines: &mut [Line],
     vertices: &[Vertex],
@@ -77,20 +77,20 @@ struct Found {
     doubt: Option<usize>,
 }
 
-/// A line that lies in no other, and the lines in it, the largest first.
+/// Line that lies in no other, and the lines in it, the largest first.
 struct Top {
     line: usize,
     inner: Vec<usize>,
 }
 
-/// The parts in a rectangle: how many, and the share of it that they fill.
+/// Parts in a rectangle: their number, and the share of it that they fill.
 #[derive(Clone, Copy)]
 struct Filling {
     parts: usize,
     share: f64,
 }
 
-/// The lines among which frames are looked for.
+/// Lines among which frames are searched.
 struct Frames<'a> {
     lines: &'a [Line],
     vertices: &'a [Vertex],
@@ -100,7 +100,7 @@ struct Frames<'a> {
 }
 
 impl Frames<'_> {
-    /// The largest line, and the rectangles beside it around two lines or more.
+    /// Largest line, and the rectangles beside it around at least two lines.
     fn asked(&self, order: &[usize], work: &mut Budget) -> Found {
         let tops = self.tops(order, work);
         let is_frame = |(k, top): &(usize, &Top)| *k == 0 || self.is_rectangle(top.line) && top.inner.len() > 1;
@@ -108,7 +108,7 @@ impl Frames<'_> {
         Found { frames, doubt: None }
     }
 
-    /// The frames among large lines, the largest first: those of several markers beside each other, too.
+    /// Frames among large lines, given the largest first, including those of several markers beside each other.
     fn find(&self, order: &[usize], work: &mut Budget) -> Found {
         let tops = self.tops(order, work);
         let (mut frames, mut framed, mut outside) = (Vec::new(), 0.0, 0.0);
@@ -136,7 +136,7 @@ impl Frames<'_> {
         Found { frames: Vec::new(), doubt: Some(first).filter(|_| outside <= framed) }
     }
 
-    /// A rectangle that is nearly all there is, and holds parts or cut-outs beside each other that fill some of it.
+    /// Rectangle that takes up nearly all the area and is partly filled with parts or cut-outs beside each other.
     fn doubtful(&self, tops: &[Top], outside: f64, work: &mut Budget) -> Option<usize> {
         let top = tops.first().filter(|top| top.inner.len() > 1 && self.is_rectangle(top.line))?;
         let area = self.lines[top.line].area;
@@ -144,7 +144,7 @@ impl Frames<'_> {
         (filling.parts > 1 && outside - area <= MOST_OUTSIDE * area).then_some(top.line)
     }
 
-    /// The frames that a line and those in it are, the outermost first, if it is one.
+    /// Nested frames from a line inwards, the outermost first; `None` if the line is not a frame.
     fn frame(&self, top: &Top, depth: usize, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
         if depth > MOST_FRAMES || !self.is_rectangle(top.line) {
             return None;
@@ -162,7 +162,7 @@ impl Frames<'_> {
         Some((frames, filling))
     }
 
-    /// The frames in a frame: the cloth on the paper, around all that lies there but a title block.
+    /// Frames in a frame: the cloth on the paper, around everything except a title block.
     fn inner_frames(&self, outer: &Top, depth: usize, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
         let tops = self.tops(&outer.inner, work);
         let [first, others @ ..] = &tops[..] else { return None };
@@ -179,7 +179,7 @@ impl Frames<'_> {
         self.lines[line].is_rectangle(self.settings.band)
     }
 
-    /// The lines that lie in none of the others, each with those that lie in it. None when the budget does not last.
+    /// Lines that lie in none of the others, each with the lines in it; empty if the budget is spent.
     fn tops(&self, order: &[usize], work: &mut Budget) -> Vec<Top> {
         let extent = |line: usize| self.lines[line].extent.grown(self.settings.band);
         let boxes = Boxes::new(order.iter().map(|&line| extent(line)).collect());
@@ -201,13 +201,13 @@ impl Frames<'_> {
         tops
     }
 
-    /// Whether lines lie in another.
+    /// True if lines lie in another.
     fn holds(&self, outer: usize, inner: &[usize]) -> bool {
         let outer = [self.lines[outer].extent];
         inner.iter().all(|&i| is_in_frame(&self.lines[i], &outer, self.settings.band))
     }
 
-    /// The parts that fill a rectangle, if there are two or more.
+    /// Filling of a rectangle with at least two parts; `None` with fewer.
     fn filling(&self, Top { line, inner }: &Top, work: &mut Budget) -> Option<Filling> {
         let frame = &self.lines[*line];
         let edged = self.beside(frame, inner, work);
@@ -226,8 +226,7 @@ impl Frames<'_> {
         Some(Filling { parts: all().count(), share: all().map(|&i| self.lines[i].area).sum::<f64>() / frame.area })
     }
 
-    /// Whether a rectangle is a part: one line in it is its seam line, and all others in it are lines of that or small
-    /// marks.
+    /// True if a rectangle is a part: one line in it is its seam line, and all others in it are lines of that or small marks.
     fn is_part(&self, frame: &Line, largest: usize, others: &[usize], work: &mut Budget) -> bool {
         let is_small = |line: &Line| line.size() <= LARGEST_MARK && line.area <= MARK_SHARE * self.lines[largest].area;
         let is_mark = |&i: &usize| is_small(&self.lines[i]) || self.holds(largest, &[i]);
@@ -235,8 +234,8 @@ impl Frames<'_> {
         others.iter().all(is_mark) && work.spend(seam::COST * outline.len()) && seam::follows(&line, &outline)
     }
 
-    /// Large open lines that a frame would close from inside. They lie beside all closed ones and beside each other:
-    /// a line inside another one belongs to it.
+    /// Large open lines that a frame would close from inside. They lie beside all closed ones and beside each other, because a
+    /// line inside another one belongs to it.
     fn beside(&self, frame: &Line, closed: &[usize], work: &mut Budget) -> Vec<usize> {
         let FrameSettings { band, reach, .. } = self.settings;
         let within = frame.extent.grown(band);
@@ -261,7 +260,7 @@ impl Frames<'_> {
     }
 }
 
-/// The closed lines whose box lies in no other box.
+/// Closed lines whose box lies in no other box.
 fn outermost(lines: &[Line], by_size: &[usize]) -> Vec<usize> {
     let boxes = Boxes::new(by_size.iter().map(|&i| lines[i].extent).collect());
     let is_outermost = |k: &usize| {
@@ -271,7 +270,7 @@ fn outermost(lines: &[Line], by_size: &[usize]) -> Vec<usize> {
     (0..by_size.len()).filter(is_outermost).map(|k| by_size[k]).collect()
 }
 
-/// The frames that hold no other one: they show the cloth.
+/// Frames without another frame inside: they show the cloth.
 pub(super) fn cloths(lines: &[Line], band: f64) -> Vec<Extent> {
     let frames: Vec<&Line> = lines.iter().filter(|line| line.class == Class::Frame).collect();
     let is_around = |outer: &Line| {
@@ -281,7 +280,7 @@ pub(super) fn cloths(lines: &[Line], band: f64) -> Vec<Extent> {
     frames.iter().filter(|frame| !is_around(frame)).map(|frame| frame.extent).collect()
 }
 
-/// Whether a line lies in one of some frames. A hem may be drawn past it.
+/// True if a line lies in one of some frames. A hem may be drawn past it.
 pub(super) fn is_in_frame(line: &Line, frames: &[Extent], band: f64) -> bool {
     let holds = |frame: &Extent| {
         let reach = frame.grown(band);

@@ -1,12 +1,11 @@
-//! Strokes that continue each other become one line: plots lift the pen inside an outline, some write every line by
-//! itself, in any direction, and outlines end a unit or a few from where they start.
+//! Joining of strokes that continue each other: plots lift the pen inside an outline, some write every line separately, in any
+//! direction, and outlines end a few units from their start.
 //!
-//! Ends of one pen that meet to the bit are at one place, and so are two that lie within reach of each other and of no
-//! third. Where two ends are left at a place once lines that lead nowhere are put aside, they continue each other;
-//! where more are, a line that comes back to the place closes, and else the two that go straightest continue each
-//! other. Two strokes of one notch drawn twice are not joined, and a slit between two strokes of an outline is passed over.
-//! A line that starts and ends on the edge of the frame, or runs past its start, is an outline of its own: its
-//! neighbours end in the same places.
+//! Ends of one pen at exactly the same coordinates are at one place, and so are two that are within reach of each other and of
+//! no third. Two ends that remain at a place without dead ends continue each other. Of more ends, a line that returns to the
+//! place closes; otherwise the two with the least turn continue each other. Two strokes of one notch drawn twice are not
+//! joined, and a slit between two strokes of an outline is skipped. A line that starts and ends on the edge of the frame, or
+//! runs past its start, is an outline of its own: its neighbours end in the same places.
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
@@ -30,33 +29,32 @@ use crate::ir::marker::Notch;
 use crate::machine::Job;
 use crate::source::Span;
 
-/// Farthest that two ends may miss each other along an axis, in units of the file and in mm: plots of several CAD
-/// systems end their outlines 0.025 to 0.1 mm from where they start. Four units, and half a one for what fractions
-/// round to.
+/// Greatest gap between two ends along an axis, in units of the file and in mm: plots of several CAD systems end their outlines
+/// 0.025 to 0.1 mm from their start. Four units, plus half a unit for the rounding of fractions.
 const REACH_UNITS: f64 = 4.5;
 const REACH: f64 = 0.2;
-/// Places of a stroke that is a rectangle.
+/// Number of places of a stroke that is a rectangle.
 const RECTANGLE: std::ops::RangeInclusive<usize> = 4..=6;
-/// Fewest places of a line that goes around something and comes back: a triangle's.
+/// Least number of places of a line that goes around something and returns: a triangle's.
 const LEAST_RING: usize = 4;
-/// Most ends at one place among which a continuation is looked for: more are the middle of a star or a hatching.
+/// Greatest number of ends at one place that are tested for a continuation: more are the centre of a star or a hatching.
 const MOST_ENDS: usize = 8;
-/// A line that turns by more than this does not go on, rad.
+/// Greatest turn of a line that continues, rad.
 const SHARPEST: f64 = FRAC_PI_2;
-/// The stretch of a line that its direction at an end is taken from, mm, and how many places are looked at for it.
+/// Length of a line from which its direction at an end is taken, mm, and the greatest number of places for it.
 const STRETCH: f64 = 1.0;
 const MOST_STEPS: usize = 64;
 
-/// The pen, and the cell of a grid.
+/// Pen, and cell of a grid.
 type Cell = (u16, [i64; 2]);
 
-/// Farthest that two places which are meant to be one may miss each other along an axis in a file with that unit, mm.
+/// Greatest gap along an axis between two places that are meant to be one, in a file with that unit, mm.
 pub(super) fn reach(unit: f64) -> f64 {
     if unit > 0.0 { (REACH_UNITS * unit).min(REACH) } else { REACH }
 }
 
-/// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that. Strokes
-/// whose places were `laid` in order are not drawn again.
+/// Joins the strokes of a drawing. Returns its lines, whose places are among its vertices, and the displacements made. Strokes
+/// whose places were `laid` in order are never repetitions.
 pub(super) fn join(drawing: &mut Drawing, laid: &Range<usize>, job: &Job, work: &mut Budget) -> (Vec<Line>, Moved) {
     let uses = pens::uses(&drawing.pens, job);
     let reach = reach(drawing.unit);
@@ -98,7 +96,7 @@ struct Joining<'a> {
     reach: f64,
     /// Widest gap that is closed, mm.
     close: f64,
-    /// Strokes that the file draws; those behind them are bridges.
+    /// Number of strokes in the file; later ones are bridges.
     strokes: usize,
     drawing: &'a mut Drawing,
     moved: Moved,
@@ -121,8 +119,8 @@ impl Joining<'_> {
         }
     }
 
-    /// Chains of the strokes; a stroke is added where a gap is bridged. And of each end whether others go on without its
-    /// stroke there.
+    /// Chains of the strokes, with a stroke added where a gap is bridged, and true for each end at whose place others continue
+    /// without its stroke.
     fn chains(&mut self, work: &mut Budget) -> (Chains, Vec<bool>) {
         let frame = self.frame();
         let open = |k: &usize| {
@@ -161,20 +159,20 @@ impl Joining<'_> {
         self.moved.closed.push(ends.to_vec());
     }
 
-    /// Whether a stroke closes by itself and runs on.
+    /// True if a stroke closes by itself and runs on.
     fn retraces(&self, stroke: usize) -> bool {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         closing::retrace(vertices.len(), |k| vertices[k].at, closing::reach(self.drawing.unit)).is_some()
     }
 
-    /// Whether a stroke goes around something and ends so near to its start that it is closed.
+    /// True if a stroke goes around something and ends near enough to its start to be closed.
     fn nearly_closes(&self, stroke: usize) -> bool {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let [first, .., last] = vertices else { return false };
         (last.at - first.at).norm() <= self.close && vertices.iter().any(|at| (at.at - first.at).amax() > SMALL_OUTLINE)
     }
 
-    /// Whether a stroke may be a notch by itself: it has a mouth and a tip.
+    /// True if a stroke may be a notch by itself, with a mouth and a tip.
     fn is_notch(&self, stroke: usize) -> bool {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let [first, _, .., last] = vertices else { return false };
@@ -186,7 +184,7 @@ impl Joining<'_> {
         polyline::length(&places) <= Notch::LONGEST_STROKE && places.iter().any(is_deep)
     }
 
-    /// The place of a stroke that is farthest from the line between its ends.
+    /// Place of a stroke that is farthest from the line between its ends.
     fn tip(&self, stroke: usize) -> Option<Point> {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let [first, .., last] = vertices else { return None };
@@ -194,14 +192,14 @@ impl Joining<'_> {
         vertices.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).map(|vertex| vertex.at)
     }
 
-    /// Whether a stroke may be a slit by itself: it is straight and as long as one.
+    /// True if a stroke may be a slit by itself: straight, with the length of one.
     fn is_slit(&self, stroke: usize) -> bool {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let length = (vertices[vertices.len() - 1].at - vertices[0].at).norm();
         vertices.len() == 2 && (SHORTEST_NOTCH..=Notch::LONGEST).contains(&length)
     }
 
-    /// The largest rectangle that one stroke draws.
+    /// Largest rectangle drawn by one stroke.
     fn frame(&self) -> Option<Extent> {
         let drawing = &self.drawing;
         let rectangles = drawing.strokes.iter().filter(|stroke| RECTANGLE.contains(&stroke.range().len()));
@@ -211,12 +209,12 @@ impl Joining<'_> {
         frames.max_by(|a, b| a.area.total_cmp(&b.area)).map(|line| line.extent)
     }
 
-    /// Whether a line between two places is closed by a frame.
+    /// True if a frame closes a line between two places.
     fn ends_at(&self, frame: &Extent, ends: [Point; 2]) -> bool {
         (ends[1] - ends[0]).amax() > SMALL_OUTLINE && along(frame, ends, self.close).is_some()
     }
 
-    /// Ends that are at one place, two at least.
+    /// Groups of at least two ends at one place.
     fn nodes(&self, ends: Vec<End>) -> Vec<Vec<End>> {
         let key = |end: End| (self.drawing.strokes[end / 2].pen, bits(place(self.drawing, end)), end);
         let mut keyed: Vec<(u16, [u64; 2], End)> = ends.into_iter().map(key).collect();
@@ -246,11 +244,11 @@ impl Joining<'_> {
         (0..cells.len()).filter_map(pair).map(|pair| pair.map(|k| cells[k].1)).collect()
     }
 
-    /// Of each of some ends, sorted by their cells, the only other one within reach, as an index; nothing when there
-    /// are more, and the other end of the same stroke does not count.
+    /// Index of the only other end within reach of each end; `None` if there are more. The ends are sorted by their cells; the
+    /// other end of the same stroke does not count.
     fn only_near(&self, cells: &[(Cell, End)], reach: f64) -> Vec<Option<usize>> {
         let cell = |k: usize| cells.get(k).map(|(cell, _)| *cell);
-        // Where the cells below and beside an end begin, in the three columns around it: they go on as the ends do.
+        // First ends in the three columns of cells around an end, from the row below it; they advance with the ends.
         let mut starts = [0; 3];
         let mut only = Vec::with_capacity(cells.len());
         for (k, &((pen, [x, y]), end)) in cells.iter().enumerate() {
@@ -259,7 +257,7 @@ impl Joining<'_> {
                     *start += 1;
                 }
             }
-            // Where many meet in one cell, nothing is searched.
+            // A cell with many ends is not searched.
             if (k.saturating_sub(2)..=k + 2).filter(|&other| cell(other) == cell(k)).count() > 2 {
                 only.push(None);
                 continue;
@@ -278,7 +276,7 @@ impl Joining<'_> {
         only
     }
 
-    /// Puts the strokes of a chain together in one, from an end on.
+    /// Combines the strokes of a chain into one, starting from an end.
     fn chain(&mut self, strokes: &[PenStroke], chains: &Chains, start: End, taken: &mut [bool]) -> PenStroke {
         let first = self.drawing.vertices.len();
         for at in chains.from(start) {
@@ -301,7 +299,7 @@ impl Joining<'_> {
         PenStroke { first: first as u32, end, pen: strokes[start / 2].pen }
     }
 
-    /// Adds the places of a stroke, in its own direction or the other; each line keeps what drew it.
+    /// Appends the places of a stroke in either direction; each line keeps its span.
     fn append(&mut self, stroke: &PenStroke, is_forward: bool, first: usize) {
         let range = stroke.range();
         let last = range.end - 1;
@@ -329,7 +327,7 @@ impl Joining<'_> {
         }
     }
 
-    /// Ends a chain where it starts.
+    /// Ends a chain at its start.
     fn close(&mut self, first: usize) {
         let at = self.drawing.vertices[first].at;
         let [.., before, last] = &mut self.drawing.vertices[first..] else { return };
@@ -339,7 +337,7 @@ impl Joining<'_> {
         }
     }
 
-    /// The way from an end into its stroke.
+    /// Vector from an end into its stroke.
     fn way(&self, end: End) -> Vector {
         let stroke = &self.drawing.strokes[end / 2];
         let vertices = &self.drawing.vertices[stroke.range()];
@@ -356,14 +354,14 @@ impl Joining<'_> {
     }
 }
 
-/// Strokes and the places where their ends meet, while it is decided which ends continue each other.
+/// Strokes and the places where their ends meet, during the choice of continuations.
 struct Graph<'a, 'b> {
     joining: &'a Joining<'b>,
     nodes: Vec<Vec<End>>,
-    /// Of each end the place where it meets others.
+    /// Place of each end where it meets others.
     node: Vec<Option<u32>>,
     chains: Chains,
-    /// Strokes that lead nowhere.
+    /// Dead ends.
     is_dead: Vec<bool>,
     /// Ends of notches on an edge of another line, where they meet other strokes.
     on_edge: BTreeSet<End>,
@@ -381,7 +379,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         Self { joining, nodes, node, chains, is_dead, on_edge: BTreeSet::new() }
     }
 
-    /// Finds the strokes of which an end meets no other, and those that then lead nowhere.
+    /// Finds the strokes with an end that meets no other, repeatedly.
     fn put_dead_ends_aside(&mut self) {
         let mut degree: Vec<usize> = self.nodes.iter().map(Vec::len).collect();
         let mut queue: Vec<usize> = (0..self.is_dead.len()).filter(|k| self.is_free(*k, &degree)).collect();
@@ -402,7 +400,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         [2 * stroke, 2 * stroke + 1].iter().any(|&end| self.node[end].is_none_or(|node| degree[node as usize] < 2))
     }
 
-    /// Sets the slits apart that stand on an edge and lead nowhere: other lines begin at their foot or at their tip.
+    /// Separates dead-end slits that stand on an edge: other lines begin at their foot or at their tip.
     fn set_slits_apart(&mut self, work: &mut Budget) {
         let joining = self.joining;
         let all = 0..joining.drawing.strokes.len();
@@ -452,8 +450,8 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Decides at every place, first for rings, then where two lines meet, then where more do, then among those that lead
-    /// nowhere.
+    /// Chooses continuations at all places: first for rings, then where two lines meet, then where more do, then among dead
+    /// ends.
     fn link(&mut self, work: &mut Budget) {
         self.find_edges(work);
         self.close_rings();
@@ -479,7 +477,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Whether two strokes are one notch that is drawn twice: they meet at both ends, and their tips are one.
+    /// True if two strokes are one notch that is drawn twice: they meet at both ends and have the same tip.
     fn are_one_notch(&self, [a, b]: [End; 2]) -> bool {
         let far = [a, b].map(|end| self.node[other(end)]);
         let is_pair = a / 2 != b / 2 && far[0].is_some() && far[0] == far[1];
@@ -488,8 +486,8 @@ impl<'a, 'b> Graph<'a, 'b> {
         is_pair && is_one(tips) && [a, b].iter().all(|end| self.joining.is_notch(end / 2))
     }
 
-    /// Whether two strokes are notches of two parts at one place of their common edge: they meet at both ends, on an edge, and
-    /// lead to either side.
+    /// True if two strokes are notches of two parts at one place of their common edge: they meet at both ends, on an edge, and
+    /// lead to opposite sides.
     fn are_facing(&self, [a, b]: [End; 2]) -> bool {
         let far = [a, b].map(|end| self.node[other(end)]);
         let is_pair = a / 2 != b / 2 && far[0].is_some() && far[0] == far[1];
@@ -499,15 +497,15 @@ impl<'a, 'b> Graph<'a, 'b> {
         is_pair && [a, b].into_iter().all(is_notch_on_edge) && self.lead_apart([a, b])
     }
 
-    /// Whether the tips of two strokes lie on either side of the line between the ends of the first.
+    /// True if the tips of two strokes lie on opposite sides of the line between the ends of the first.
     fn lead_apart(&self, [a, b]: [End; 2]) -> bool {
         let [from, to] = [a, other(a)].map(|end| place(self.joining.drawing, end));
         let side = |end: End| self.joining.tip(end / 2).map_or(0.0, |tip| cross(to - from, tip - from));
         side(a) * side(b) < 0.0
     }
 
-    /// Whether one of two strokes is a notch that the other has no part in: the other is a notch, too, or begins at its mouth,
-    /// on the edge of a part. A slit may begin so at the mouth of a notch that misses the edge with its other end.
+    /// True if one of two strokes is a notch of which the other is not a part: the other is a notch too, or begins at its mouth
+    /// on the edge of a part. A slit may also begin at the mouth of a notch whose other end misses the edge.
     fn are_notches(&self, ends: [End; 2]) -> bool {
         let is_apart = |[notch, beside]: [End; 2]| {
             let is_slit = self.joining.is_slit(beside / 2);
@@ -521,7 +519,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Finds the ends of notches on an edge of another line, of those that meet other strokes.
+    /// Finds the ends of notches on an edge of another line, for notches that meet other strokes.
     fn find_edges(&mut self, work: &mut Budget) {
         let joining = self.joining;
         let notches = self.nodes.iter().flatten().filter(|&&end| joining.is_notch(end / 2));
@@ -554,7 +552,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         }
     }
 
-    /// Of each end whether its stroke leads on somewhere and others go on without it.
+    /// True for each end whose stroke is not a dead end and at whose place others continue without it.
     fn left(&self) -> Vec<bool> {
         let mut is_left = vec![false; self.node.len()];
         for node in &self.nodes {
@@ -568,15 +566,14 @@ impl<'a, 'b> Graph<'a, 'b> {
         is_left
     }
 
-    /// The ends at a place that nothing continues yet.
+    /// Free ends at a place.
     fn open(&self, node: usize, with_dead: bool) -> Vec<End> {
         let may_go_on = |stroke: usize| !self.is_dead[stroke] || with_dead && !self.joining.nearly_closes(stroke);
         let is_open = |end: &End| self.chains.links[*end].is_none() && may_go_on(end / 2);
         self.nodes[node].iter().copied().filter(is_open).collect()
     }
 
-    /// Ends at a place that nothing continues yet. Slits that begin there and end free are left out where exactly two other
-    /// ends remain.
+    /// Free ends at a place. Slits that begin there and end free are omitted if exactly two other ends remain.
     fn open_but_slits(&self, node: usize) -> Vec<End> {
         let open = self.open(node, true);
         let is_slit = |end: End| self.joining.is_slit(end / 2) && self.node[other(end)].is_none();

@@ -1,4 +1,4 @@
-//! Layers, in words: what their names say that they are, and what was typed of them that does nothing.
+//! Messages about layers: uses implied by their names, and options that have no effect on them.
 
 use super::pens;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -7,13 +7,13 @@ use crate::machine::Job;
 use crate::machine::layers::Known;
 use crate::machine::plot::PenUse;
 
-/// Word for the use of a layer of which nobody says anything.
+/// Word for the use of a layer without a known one.
 const BY_SHAPE: &str = "by shape";
 
-/// Layers that a message names.
+/// Greatest number of layers that a message names.
 const SHOWN: usize = 8;
 
-/// Says which layers are cut by their names, and refuses options that do nothing to a drawing with these pens.
+/// Reports the layers that are cut by their names, and refuses options without effect on a drawing with these pens.
 pub(super) fn say(pens: &[Pen], job: &Job, out: &mut Diagnostics) {
     let names: Vec<&str> = pens.iter().filter(|pen| pen.is_layer).map(|pen| pen.name.as_str()).collect();
     if let Some(refusal) = misplaced(&names, job) {
@@ -40,7 +40,7 @@ pub(super) fn say(pens: &[Pen], job: &Job, out: &mut Diagnostics) {
     out.push(finding.hint("say otherwise with `--layers CUT,FOLD=pen,TEXT=ignore`; `cutc info` lists the layers"));
 }
 
-/// The layers of a drawing, with what they draw.
+/// Layers of a drawing, with their lines.
 pub(super) fn drawn(drawing: &Drawing, job: &Job) -> Vec<LayerLines> {
     let mut uses = pens::of_layers(&drawing.pens, job).into_iter();
     let word = |used: PenUse| match used {
@@ -67,7 +67,7 @@ pub(super) fn drawn(drawing: &Drawing, job: &Job) -> Vec<LayerLines> {
     layers.into_iter().flatten().collect()
 }
 
-/// The error that something was typed of pens where layers draw, or of layers that the drawing does not have.
+/// Error if options for pens were given for a drawing with layers, or options for layers that it does not have.
 fn misplaced(names: &[&str], job: &Job) -> Option<Diagnostic> {
     let error = |message: String, hint: String| Some(Diagnostic::new(&code::DRAWING_NO_LAYER, message).hint(hint));
     if let Some(typed) = &job.lines.layers {
@@ -93,7 +93,7 @@ fn listed(names: &[&str]) -> String {
     format!("{} {}", quoted(names), if names.len() == 1 { "is" } else { "are" })
 }
 
-/// Names in quotes, as many as a message has room for.
+/// Names in quotes, as many as fit in a message.
 fn quoted(names: &[&str]) -> String {
     let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
     format!("{}{}", shown.join(", "), if names.len() > SHOWN { ", ..." } else { "" })

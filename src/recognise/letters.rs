@@ -1,5 +1,5 @@
-//! Letters drawn as lines: rows of small strokes. A text may stand so near to an edge that its strokes have the shape of
-//! notches: then they begin off the edge, and stand in a row or have a bar from stroke to stroke.
+//! Letters drawn as lines: rows of small strokes. A text may be so near to an edge that its strokes have the shape of notches:
+//! unlike notches they begin off the edge, and form a row or have a bar from stroke to stroke.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,21 +9,22 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
 
-/// Largest letter, mm: what is larger is a part or an inner line, whatever stands beside it.
+/// Largest letter, mm: a larger line is a part or an inner line, whatever is beside it.
 const LARGEST: f64 = 15.0;
-/// How many times higher than another a letter of the same text may be: a capital beside a small letter.
+/// Greatest ratio of the heights of two letters of a text: a capital beside a small letter.
 const RATIO: f64 = 2.0;
-/// Share of its height that a letter stands beside another, at least, and of its width that it stands over it, at the most.
+/// Least overlap of two adjacent letters across the text, as a share of the height, and greatest overlap along it, as a share
+/// of the width.
 const BESIDE: f64 = 0.5;
-/// Gaps between letters, as multiples of their height: those of any text, and those of narrow letters in wide columns.
+/// Greatest gaps between letters, in multiples of their height: of any text, and of narrow letters in wide columns.
 const CLOSE: f64 = 0.5;
 const WIDE: f64 = 1.3;
-/// Share of their size by which lines of one shape may differ.
+/// Difference of lines with the same shape, as a share of their size.
 const ALIKE: f64 = 0.1;
-/// Strokes that make a row at least.
+/// Least number of strokes in a row.
 const ROW: usize = 3;
 
-/// Marks the letters among the lines that are not taken for anything yet.
+/// Marks the letters among the lines that are not classified yet.
 pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
     let is_small = |line: &Line| line.is_open_question() && line.size() <= LARGEST;
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
@@ -45,11 +46,10 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
     }
 }
 
-/// Small lines by the cells that their middles are in.
+/// Small lines, by the cells of their middles.
 type Cells = BTreeMap<[i64; 2], Vec<usize>>;
 
-/// Row of lines around one of them, with gaps of so many times their height at the most; its lines are taken out of the
-/// cells.
+/// Row of lines around one of them, with gaps of at most `gap` times their height; removes its lines from the cells.
 fn row(first: usize, lines: &[Line], (cells, gap): (&mut Cells, f64), work: &mut Budget) -> Vec<usize> {
     if !take(first, lines, cells) {
         return Vec::new();
@@ -71,8 +71,8 @@ fn row(first: usize, lines: &[Line], (cells, gap): (&mut Cells, f64), work: &mut
     row
 }
 
-/// Strokes with the shape of notches that are letters, among those that begin off their edge, in order: those in a row of
-/// small strokes, and those that a bar joins amid their length.
+/// Letters among strokes with the shape of notches that begin off their edge, in order: those in a row of small strokes, and
+/// those that a bar joins amid their length.
 pub(super) fn among(
     off: &[usize],
     lines: &[Line],
@@ -105,7 +105,7 @@ pub(super) fn among(
             letters.extend(joined);
         }
     }
-    // Notches in a row are alike, and farther apart than letters; words of many letters are of several shapes.
+    // Notches in a row are alike, and farther apart than letters; words of many letters contain several shapes.
     for gap in [CLOSE, WIDE] {
         let mut cells = cells.clone();
         for &first in off {
@@ -120,12 +120,12 @@ pub(super) fn among(
     letters
 }
 
-/// Whether a line may be the bar of a letter.
+/// True if a line may be the bar of a letter.
 fn is_bar(line: &Line, vertices: &[Vertex]) -> bool {
     !line.is_closed && line.is_open_question() && line.size() <= LARGEST && line.vertices(vertices).len() == 2
 }
 
-/// Whether a place lies on a stroke, and not on one of its vertices.
+/// True if a place lies on a stroke, but not on one of its vertices.
 fn is_amid(at: Point, stroke: &[Point], touch: f64) -> bool {
     polyline::distance(at, stroke) <= touch && stroke.iter().all(|vertex| (vertex - at).norm() > touch)
 }
@@ -142,14 +142,14 @@ fn cell(line: &Line) -> [i64; 2] {
     [f64::midpoint(min.x, max.x), f64::midpoint(min.y, max.y)].map(|mm| (mm / LARGEST).floor() as i64)
 }
 
-/// Whether two lines have as many vertices and boxes of one size, as notches of one part have.
+/// True if two lines have the same number of vertices and boxes of the same size, like the notches of one part.
 fn are_alike([a, b]: [&Line; 2]) -> bool {
     let [(width, height), (other_width, other_height)] = [a, b].map(|line| line.extent.size());
     a.end - a.first == b.end - b.first
         && (width - other_width).abs().max((height - other_height).abs()) <= ALIKE * width.max(height)
 }
 
-/// Whether two lines stand as letters of a text do that runs along X or along Y.
+/// True if two lines are placed like letters of a text along X or along Y.
 fn are_beside(a: &Line, b: &Line, gap: f64) -> bool {
     let spans = |line: &Line| {
         let Extent { min, max } = line.extent;
@@ -159,7 +159,7 @@ fn are_beside(a: &Line, b: &Line, gap: f64) -> bool {
     along([ax, ay], [bx, by], gap) || along([ay, ax], [by, bx], gap)
 }
 
-/// Whether lines stand so in a text in one direction, by the spans of each along it and across it.
+/// True if lines are placed like letters of a text in one direction, by their spans along it and across it.
 fn along([a, a_across]: [[f64; 2]; 2], [b, b_across]: [[f64; 2]; 2], gap: f64) -> bool {
     let size = |span: [f64; 2]| span[1] - span[0];
     let common = |a: [f64; 2], b: [f64; 2]| a[1].min(b[1]) - a[0].max(b[0]);

@@ -1,11 +1,11 @@
-//! Lines of a drawing with their measures, and the table of what they are taken for.
+//! Lines of a drawing with their measures, and the table of their classes.
 
 use super::pens::Use;
 use crate::geom::{Extent, Point, cross};
 use crate::ir::drawing::{BROKEN_OUTLINE, OPEN_LINE, OPEN_OUTLINE, Vertex};
 use crate::source::Span;
 
-/// What a line is taken for.
+/// Class of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
     Part,
@@ -27,36 +27,36 @@ pub(super) enum Class {
     Ignored,
 }
 
-/// Whether lines of a class are cut.
+/// Condition on which lines of a class are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// Unless their pen only draws.
+    /// Always, unless their pen only draws.
     Always,
-    /// When their pen is said to be a knife.
+    /// If their pen is explicitly a knife.
     Knife,
-    /// When their pen is a knife, or inner lines are asked for.
+    /// If their pen is a knife, or if inner lines are requested.
     Inner,
-    /// When seam lines are asked for, too.
+    /// If seam lines are requested as well.
     All,
-    /// When every line is asked for.
+    /// If every line is requested.
     Every,
-    /// Not even then.
+    /// Never.
     Never,
 }
 
-/// A row of the table.
+/// Row of the table.
 #[derive(Debug)]
 pub(super) struct Rule {
     pub(super) class: Class,
-    /// The name that people read.
+    /// Name for people.
     pub(super) name: &'static str,
-    /// How such lines are told from others; the first row that fits a line holds.
+    /// Distinguishing feature; the first row that fits a line applies.
     pub(super) about: &'static str,
     pub(super) cut: Cut,
 }
 
-/// Classes of lines in the order in which they are shown, and whether their lines are cut: a wrong cut inside a part
-/// cannot be mended, one that is missing can.
+/// Classes of lines, in the order in which they are shown, and their conditions for being cut: a wrong cut inside a part cannot
+/// be mended, a missing one can.
 #[rustfmt::skip] // a table: one row a class
 pub(super) const RULES: [Rule; 17] = [
     Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
@@ -84,54 +84,55 @@ impl Class {
     }
 }
 
-/// Two places nearer than this, in units of the file, may be one that was rounded twice: the diagonal of a unit.
+/// Distance within which two places may be one that was rounded twice, in units of the file: the diagonal of a unit.
 pub(super) const ROUNDING: f64 = std::f64::consts::SQRT_2;
-/// An area below this share of the squared length is the rounding of a line that goes out and back, or of an eight.
+/// Least area of a ring, as a share of the squared length: less is the rounding of a line that goes out and back, or of an
+/// eight.
 const FLAT_EPSILON: f64 = 1e-9;
-/// Largest closed line that is no part, mm.
+/// Largest closed line that is not a part, mm.
 pub(super) const SMALL_OUTLINE: f64 = 25.0;
-/// Largest sign, mm: blades are as wide as that.
+/// Largest sign, mm: blades have that width.
 pub(super) const SIGN: f64 = 10.0;
 /// Shortest notch, mm.
 pub(super) const SHORTEST_NOTCH: f64 = 1.0;
 
-/// How a line closes that does not end where it starts.
+/// Way in which a line closes that does not end at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Closing {
-    /// It stays as it is drawn.
+    /// Stays as drawn.
     Drawn,
-    /// It runs past its start, or goes round again.
+    /// Runs past its start, or goes round again.
     Retraced,
-    /// A straight line closes a gap of so many mm.
+    /// Closes a gap of this length, mm, by a straight line.
     Gap(f64),
-    /// Straight bridges between its strokes; length of the longest, mm, and where that begins.
+    /// Closes by straight bridges between its strokes; length of the longest, mm, and its start.
     Bridged(f64, Point),
-    /// The edge of the frame closes it, along so many mm.
+    /// Closes along the edge of the frame, over this length, mm.
     Edge(f64),
-    /// It nearly encloses something, and a gap of so many mm stays open.
+    /// Nearly encloses something; a gap of this width, mm, stays open.
     Open(f64),
 }
 
-/// A line with its measures.
+/// Line with its measures.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
-    /// Its places among the vertices, the last one excluded: those of the ring where it closes in another way than by
-    /// its last place.
+    /// Range of its places among the vertices, end exclusive; those of the ring if it closes in another way than by its last
+    /// place.
     pub(super) first: u32,
     pub(super) end: u32,
-    /// Its places as it is drawn, in the same way.
+    /// Range of its places as drawn, end exclusive.
     pub(super) drawn: [u32; 2],
-    /// How it closes.
+    /// Way in which it closes.
     pub(super) closing: Closing,
-    /// What its pen stands for.
+    /// Use of its pen.
     pub(super) usage: Use,
-    /// Whether it ends where it starts and has an inside.
+    /// True if it ends at its start and has an inside.
     pub(super) is_closed: bool,
-    /// Whether it is open and leads from one place where strokes of other lines meet to another.
+    /// True if it is open and connects two places where strokes of other lines meet.
     pub(super) is_between: bool,
-    /// mm.
+    /// Length, mm.
     pub(super) length: f64,
-    /// mm2; never negative.
+    /// Area, mm2; never negative.
     pub(super) area: f64,
     pub(super) extent: Extent,
     pub(super) class: Class,
@@ -139,7 +140,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Measures the line of some places.
+    /// Measures the line through some places.
     pub(super) fn of(vertices: &[Vertex], first: u32, usage: Use) -> Self {
         let origin = vertices[0].at;
         let (mut length, mut doubled, mut extent) = (0.0, 0.0, Extent::EMPTY);
@@ -160,29 +161,29 @@ impl Line {
         Self { first, end, drawn, closing, usage, is_closed, is_between, length, area, extent, class, is_cut }
     }
 
-    /// The line with a ring in place of its own places.
+    /// Line with a ring in place of its own places.
     pub(super) fn as_ring(&self, vertices: &[Vertex], first: u32, closing: Closing) -> Self {
         let ring = Self::of(vertices, first, self.usage);
         let is_closed = ring.is_closed && !matches!(closing, Closing::Open(_));
         Self { drawn: self.drawn, length: self.length, class: self.class, closing, is_closed, ..ring }
     }
 
-    /// Its places as it is drawn.
+    /// Places as drawn.
     pub(super) fn as_drawn<'a>(&self, all: &'a [Vertex]) -> &'a [Vertex] {
         &all[self.drawn[0] as usize..self.drawn[1] as usize]
     }
 
-    /// Its places.
+    /// Places, with their spans.
     pub(super) fn vertices<'a>(&self, all: &'a [Vertex]) -> &'a [Vertex] {
         &all[self.first as usize..self.end as usize]
     }
 
-    /// The same without what led there.
+    /// Places, without spans.
     pub(super) fn points(&self, all: &[Vertex]) -> Vec<Point> {
         self.vertices(all).iter().map(|vertex| vertex.at).collect()
     }
 
-    /// The first of its places that something was drawn to.
+    /// Span of its first drawn segment.
     pub(super) fn span(&self, all: &[Vertex]) -> Span {
         self.vertices(all)[1].span
     }
@@ -193,38 +194,38 @@ impl Line {
         width.max(height)
     }
 
-    /// Whether nothing was found out about it yet.
+    /// True if it is not classified yet.
     pub(super) fn is_open_question(&self) -> bool {
         self.class == Class::Other
     }
 
-    /// Whether it is a closed line that may hold others: neither ignored nor a frame.
+    /// True if it is a closed line that may contain others: neither ignored nor a frame.
     pub(super) fn is_outline(&self) -> bool {
         self.is_closed && self.may_hold()
     }
 
-    /// Whether it goes around something, with a gap or without one.
+    /// True if it goes around something, with a gap or without.
     pub(super) fn may_hold(&self) -> bool {
         let goes_around = self.is_closed || matches!(self.closing, Closing::Open(_));
         goes_around && !self.is_set_aside() && self.class != Class::Frame
     }
 
-    /// Whether it does not matter: its pen is ignored, or it is drawn again.
+    /// True if it is irrelevant: ignored by its pen, or repeated.
     pub(super) fn is_set_aside(&self) -> bool {
         matches!(self.class, Class::Ignored | Class::Again)
     }
 
-    /// Whether it is its own box, but for rounding.
+    /// True if it equals its box within rounding.
     pub(super) fn is_rectangle(&self, slack: f64) -> bool {
         let (width, height) = self.extent.size();
         self.area >= width * height - slack * (width + height)
     }
 }
 
-/// Farthest that a place of a straight stroke lies off it, mm.
+/// Greatest distance of a place of a straight stroke from it, mm.
 const STRAIGHT: f64 = 0.1;
 
-/// Whether a stroke is one straight line, there and back or once.
+/// True if a stroke is one straight line, drawn once or there and back.
 pub(super) fn is_straight(vertices: &[Vertex]) -> bool {
     let first = vertices[0].at;
     let far = vertices.iter().map(|vertex| vertex.at).max_by(|a, b| (a - first).norm().total_cmp(&(b - first).norm()));

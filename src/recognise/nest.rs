@@ -1,4 +1,4 @@
-//! Which closed line lies in which.
+//! Nesting of closed lines.
 
 use std::borrow::Cow;
 
@@ -8,11 +8,11 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point};
 use crate::ir::drawing::Vertex;
 
-/// Hems are drawn past the corners of their parts, and parts that touch overlap by rounding. A line that is drawn twice
-/// holds itself.
+/// Criteria of nesting: hems are drawn past the corners of their parts, and touching parts overlap by rounding. Of a line that
+/// is drawn twice, one contains the other.
 const MOSTLY: Hold = Hold { box_share: 0.8, share: 0.75, twins: true, band: 0.0 };
 
-/// What holds each line that may be an outline; only large ones hold others.
+/// Nesting of the lines that may be outlines; only large ones contain others.
 pub(super) fn nesting(lines: &[Line], vertices: &[Vertex], work: &mut Budget) -> Nesting {
     let line = |(line, group): (&Line, u32)| nesting::Line {
         extent: if line.may_hold() { line.extent } else { Extent::EMPTY },
@@ -24,7 +24,7 @@ pub(super) fn nesting(lines: &[Line], vertices: &[Vertex], work: &mut Budget) ->
     Nesting::new(lines.iter().zip(0..).map(line).collect(), MOSTLY, points, work)
 }
 
-/// The middle of a box.
+/// Middle of a box.
 pub(super) fn middle(extent: &Extent) -> Point {
     extent.min + (extent.max - extent.min) / 2.0
 }

@@ -1,4 +1,4 @@
-//! Noding: loose lines parted at the ends of others that lie on them, and where they cross each other.
+//! Noding: splits loose lines at the ends of others that lie on them, and where they cross each other.
 
 use std::collections::BTreeMap;
 
@@ -6,22 +6,22 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, cross, polyline};
 use crate::ir::drawing::{Drawing, PenStroke, Vertex};
 
-/// Pairs of chords that are compared, for each chord, at the most: more are a hatching or a tangle, which stays as it is drawn.
+/// Greatest number of compared pairs per chord: more are a hatching or a tangle, which stays as drawn.
 const MOST_PAIRS: usize = 64;
 /// Least sine of the angle at which two lines cross: at a smaller one they run along each other.
 const LEAST_SINE: f64 = 0.1;
 
-/// A stretch of a stroke between places where it meets others.
+/// Stretch of a stroke between places where it meets others.
 #[derive(Debug, Clone)]
 pub(super) struct Stretch {
-    /// The stroke, by its place in the drawing.
+    /// Index of the stroke in the drawing.
     pub(super) stroke: usize,
     pub(super) pen: u16,
-    /// Its places, each with what led there.
+    /// Places, with their spans.
     pub(super) vertices: Vec<Vertex>,
 }
 
-/// Strokes parted where others of their pen meet them within `reach`, mm; whole where too many lie over each other.
+/// Strokes split where others of their pen meet them within `reach`, mm; unsplit if too many lie over each other.
 pub(super) fn parted(drawing: &Drawing, strokes: &[usize], reach: f64) -> Vec<Stretch> {
     let cuts = cuts(drawing, strokes, reach).unwrap_or_default();
     let stretches = strokes.iter().flat_map(|&stroke| {
@@ -33,10 +33,10 @@ pub(super) fn parted(drawing: &Drawing, strokes: &[usize], reach: f64) -> Vec<St
     stretches.collect()
 }
 
-/// A place amid a stroke: its chord, and how far along it, as a share.
+/// Place on a stroke: the index of its chord, and the share of its length.
 type Cut = (usize, f64);
 
-/// Places at which strokes are met, by stroke; `None` where more chords are near each other than are compared.
+/// Places at which strokes are met, by stroke; `None` if too many chords are near each other.
 fn cuts(drawing: &Drawing, strokes: &[usize], reach: f64) -> Option<BTreeMap<usize, Vec<Cut>>> {
     let chords: Vec<Chord> = strokes.iter().flat_map(|&stroke| Chord::of(drawing, stroke)).collect();
     let boxes = Boxes::new(chords.iter().map(|chord| Extent::between(chord.from, chord.to).grown(reach)).collect());
@@ -56,19 +56,19 @@ fn cuts(drawing: &Drawing, strokes: &[usize], reach: f64) -> Option<BTreeMap<usi
     Some(cuts)
 }
 
-/// A straight line of a stroke.
+/// Straight segment of a stroke.
 struct Chord {
     stroke: usize,
     pen: u16,
     index: usize,
     from: Point,
     to: Point,
-    /// Its ends that are those of the stroke.
+    /// Its ends that are also ends of the stroke.
     ends: [Option<Point>; 2],
 }
 
 impl Chord {
-    /// The chords of a stroke.
+    /// Chords of a stroke.
     fn of(drawing: &Drawing, stroke: usize) -> impl Iterator<Item = Self> {
         let (range, pen) = (drawing.strokes[stroke].range(), drawing.strokes[stroke].pen);
         let count = range.len() - 1;
@@ -79,7 +79,8 @@ impl Chord {
         })
     }
 
-    /// Places at which another chord ends on this one or crosses it, as shares of it; none at the ends of its own stroke.
+    /// Places at which another chord ends on this one or crosses it, as shares of its length, except at the ends of its own
+    /// stroke.
     fn met(&self, other: &Self, reach: f64) -> impl Iterator<Item = f64> {
         let place = |share: f64| self.from + (self.to - self.from) * share;
         let is_at = move |share: f64, end: Point| (place(share) - end).amax() <= reach;
@@ -90,7 +91,7 @@ impl Chord {
         ends_here.into_iter().chain([crossing]).flatten().filter(is_amid)
     }
 
-    /// Crossing of two chords, as a share of this one, if the other stroke does not end there.
+    /// Crossing of two chords, as a share of this one; `None` if the other stroke ends there.
     fn crossing(&self, other: &Self, reach: f64) -> Option<f64> {
         let [way, across] = [self.to - self.from, other.to - other.from];
         let sine = cross(way, across);
@@ -106,7 +107,7 @@ impl Chord {
     }
 }
 
-/// The stretches of a stroke between cuts; those within `reach` of the one before, mm, are the same.
+/// Stretches of a stroke between cuts; cuts within `reach` of the previous one, mm, are merged.
 fn divided(vertices: &[Vertex], cuts: &[Cut], reach: f64) -> Vec<Vec<Vertex>> {
     let mut cuts = cuts.to_vec();
     cuts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));

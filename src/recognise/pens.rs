@@ -1,4 +1,4 @@
-//! Pens and layers: what a user, a profile or a name says that their lines are.
+//! Uses of pens and layers, as given by a user, a profile or a name.
 
 use crate::ir::drawing::Pen;
 use crate::machine::Job;
@@ -8,20 +8,20 @@ use crate::machine::plot::PenUse;
 /// Use of the lines of a pen or a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Use {
-    /// Nobody says: their shapes do.
+    /// Unknown: decided by the shapes of the lines.
     Unsaid,
     /// Cuts of parts.
     Knife,
     /// Cuts: a layer is a tool, and all of its lines are cut.
     Tool,
-    /// Edges of parts and marks that are drawn only.
+    /// Edges of parts and marks that are only drawn.
     Drawn,
-    /// Nothing.
+    /// Ignored lines.
     Ignore,
 }
 
 impl Use {
-    /// Whether it says that lines are cut.
+    /// True if lines are cut by this use.
     pub(super) fn is_knife(self) -> bool {
         matches!(self, Self::Knife | Self::Tool)
     }
@@ -55,7 +55,7 @@ pub(super) fn uses(pens: &[Pen], job: &Job) -> Vec<Use> {
         .collect()
 }
 
-/// Uses of the layers among the pens of a drawing, in their order, and how each is known.
+/// Uses of the layers among the pens of a drawing, in their order, and their sources.
 pub(super) fn of_layers(pens: &[Pen], job: &Job) -> Vec<Option<(PenUse, Known)>> {
     let names: Vec<&str> = pens.iter().filter(|pen| pen.is_layer).map(|pen| pen.name.as_str()).collect();
     layers::uses(&names, job.lines.layers.as_ref(), &job.profile.drawing.layers)
@@ -65,7 +65,7 @@ pub(super) fn of_layers(pens: &[Pen], job: &Job) -> Vec<Option<(PenUse, Known)>>
 fn of_pen(pen: &Pen, job: &Job) -> Use {
     let number = pen.name.parse::<u32>().ok();
     match (&job.lines.pens, job.profile.hpgl.pen(&pen.name)) {
-        // While no pen is taken nothing is drawn.
+        // A plotter without a pen draws nothing.
         _ if !pen.draws => Use::Ignore,
         (_, Some(PenUse::Ignore)) => Use::Ignore,
         (Some(pens), _) => {

@@ -1,4 +1,4 @@
-//! The marker of a drawing whose lines are sorted out, and the account of what it does not cut.
+//! Marker of a drawing with classified lines, and the account of its uncut lines.
 
 use super::line::{Class, Closing, Line, RULES, Rule};
 use super::marks::Mark;
@@ -12,7 +12,7 @@ use crate::ir::drawing::{Account, Aside, LayerLines, LineClass, Redrawn, Vertex}
 use crate::ir::list::{FULL_SPEED, SegmentList};
 use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Piece};
 
-/// The drill that makes the holes.
+/// Number of the drill that makes the holes.
 const DRILL: u8 = 1;
 
 /// Makes the marker.
@@ -49,16 +49,16 @@ struct Making<'a> {
     sheet: &'a Sheet,
     list: SegmentList,
     pieces: Vec<Piece>,
-    /// The closed lines that pieces are of, in cut order, and their boxes.
+    /// Closed lines that own pieces, in cut order, and their boxes.
     owners: Vec<usize>,
     boxes: Boxes,
-    /// Of each line the piece that it is of, plus one.
+    /// Piece of each line, plus one.
     piece_of: Vec<u32>,
     work: Budget,
 }
 
 impl<'a> Making<'a> {
-    /// A piece for each part that is cut, or in which something is, in the order of the file.
+    /// Creates a piece for each part that is cut or contains something, in the order of the file.
     fn new(sheet: &'a Sheet) -> Self {
         let lines = &sheet.lines;
         let owners = owners(sheet);
@@ -91,10 +91,10 @@ impl<'a> Making<'a> {
         }
     }
 
-    /// Lines inside a part come before its outline.
+    /// Adds contours, with the lines inside a part before its outline.
     fn add_contours(&mut self) {
         let sheet = self.sheet;
-        // A notch that goes from edge to edge is made part of its outline by a pass, as in every dialect.
+        // A notch from edge to edge becomes a part of its outline in a pass, as in every dialect.
         for stroke in sheet.strokes.iter().filter(|stroke| sheet.lines[stroke.line].is_cut) {
             let line = &sheet.lines[stroke.line];
             let own = self.piece_of[stroke.outline].checked_sub(1);
@@ -123,7 +123,7 @@ impl<'a> Making<'a> {
 
     fn add_contour(&mut self, piece: usize, line: &Line) {
         let all = &self.sheet.vertices;
-        // The retraced part of a line is left out by a pass, as in every dialect.
+        // The retraced part of a line is removed by a pass, as in every dialect.
         let vertices = match line.closing {
             Closing::Drawn | Closing::Bridged(..) | Closing::Gap(_) | Closing::Edge(_) => line.vertices(all),
             Closing::Retraced | Closing::Open(_) => line.as_drawn(all),
@@ -134,7 +134,7 @@ impl<'a> Making<'a> {
         }
     }
 
-    /// The piece whose outline holds a place most closely; a new one when none does.
+    /// Piece with the innermost outline around a place; a new one if there is none.
     fn piece_around(&mut self, at: Point, line: &Line) -> usize {
         self.part_around(at).unwrap_or_else(|| {
             self.pieces.push(Piece { span: line.span(&self.sheet.vertices), ..Piece::default() });
@@ -162,7 +162,7 @@ impl<'a> Making<'a> {
         best.map(|(_, piece)| piece)
     }
 
-    /// A text goes to the part that it stands in; titles beside the parts go to none: how many there are.
+    /// Assigns each text to the part in which it stands; returns the number of texts outside of all parts, such as titles.
     fn add_labels(&mut self, texts: Vec<Label>) -> usize {
         let mut outside = 0;
         for text in texts {
@@ -175,19 +175,19 @@ impl<'a> Making<'a> {
     }
 }
 
-/// The closed lines that pieces are of, in the order of the file: piece 1 is of the first.
+/// Closed lines that own pieces, in the order of the file: the first owns piece 1.
 pub(super) fn owners(sheet: &Sheet) -> Vec<usize> {
     let lines = &sheet.lines;
     let mut owns = vec![false; lines.len()];
     for i in (0..lines.len()).filter(|&i| lines[i].is_cut && lines[i].is_outline()) {
-        // What lies in a part that is not cut is one of its own.
+        // A line inside a part that is not cut is a part of its own.
         let part = sheet.part_around(i);
         owns[part.unwrap_or(i)] |= lines[i].class != Class::Hole || part.is_some();
     }
     (0..lines.len()).filter(|&i| owns[i]).collect()
 }
 
-/// The notch of a mark.
+/// Notch of a mark.
 fn notch(mark: &Mark, sheet: &Sheet) -> Notch {
     let [root, tip] = mark.cut;
     let kind = mark.bar.map_or(NotchKind::Slit, |bar| {
@@ -199,7 +199,7 @@ fn notch(mark: &Mark, sheet: &Sheet) -> Notch {
     Notch { kind, root, tip, percent: FULL_SPEED, span }
 }
 
-/// The centre of gravity of a closed line: that of a circle whatever its chords.
+/// Centroid of a closed line: that of a circle regardless of its chords.
 fn centroid(vertices: &[Vertex]) -> Point {
     let origin = vertices[0].at;
     let part = |pair: &[Vertex]| {
@@ -211,7 +211,7 @@ fn centroid(vertices: &[Vertex]) -> Point {
     origin + sum / (3.0 * doubled)
 }
 
-/// What is drawn and not cut.
+/// Drawn lines that are not cut.
 fn aside(sheet: &Sheet) -> Aside {
     let mut aside = Aside { moved: sheet.moved.clone(), ..Aside::default() };
     for line in &sheet.lines {
@@ -228,7 +228,7 @@ fn aside(sheet: &Sheet) -> Aside {
     }
     // Two legs of one line are both cut.
     for marks in sheet.marks.chunk_by(|a, b| a.line == b.line) {
-        // The places of a crossbar amid its length are none of the marker's.
+        // The marker has no places amid the length of a crossbar.
         for bar in marks.iter().filter_map(|mark| mark.bar).filter(|&bar| sheet.lines[bar].is_cut) {
             aside.moved.points += sheet.lines[bar].vertices(&sheet.vertices).len() - 2;
         }
@@ -241,7 +241,7 @@ fn aside(sheet: &Sheet) -> Aside {
     aside
 }
 
-/// Of a stroke with more places than the two of its cut: all of it is left aside, but for the cut.
+/// Sets the places of a stroke aside that are not part of its cut, if it has more than these two.
 fn leave_beside_cut(vertices: &[Vertex], mark: &Mark, aside: &mut Aside) {
     if vertices.len() == 2 {
         return;
@@ -262,7 +262,7 @@ fn pen_down(sheet: &Sheet) -> f64 {
     sheet.moved.redrawn.iter().map(longer).fold(lines, |sum, longer| sum + longer) - bridges
 }
 
-/// How many lines were taken for what.
+/// Numbers and lengths of the lines of each class.
 fn classes(lines: &[Line]) -> Vec<LineClass> {
     let row = |cut, rule: &Rule| LineClass { name: rule.name, about: rule.about, cut, count: 0, length: 0.0 };
     let mut classes: Vec<LineClass> = RULES.iter().flat_map(|rule| [row(true, rule), row(false, rule)]).collect();

@@ -1,45 +1,43 @@
-//! Seam lines: closed lines that follow the outline around them at a nearly even distance along each of its edges. The
-//! distance may differ from edge to edge: hems are wider than seams. An outline that lacks a side is followed by what
-//! is left.
+//! Seam lines: closed lines that follow the outline around them at a nearly constant distance along each of its edges. The
+//! distance may differ from edge to edge: hems are wider than seams. If an outline lacks a side, its remaining sides are
+//! compared.
 
 use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
 
-/// Farthest that a seam line lies from its outline, mm: hems are up to that wide.
+/// Greatest distance of a seam line from its outline, mm: the width of hems.
 pub(super) const FARTHEST: f64 = 60.0;
-/// The same for the sides of their boxes: at a sharp point of a part the two are farther apart.
+/// Greatest distance between the sides of their boxes, mm: at a sharp point of a part the two lines are farther apart.
 pub(super) const BOX_MARGIN: f64 = 2.5 * FARTHEST;
-/// Greatest distance of a seam line from its edge where there is no hem, mm.
+/// Greatest distance of a seam line from its edge without a hem, mm.
 const WIDEST_ALLOWANCE: f64 = 26.0;
-/// Least share of a seam line within [`WIDEST_ALLOWANCE`]: hems are on some edges only, and an opening as of a facing lies
-/// farther off all around.
+/// Least share of a seam line within [`WIDEST_ALLOWANCE`]: hems are on some edges only, and an opening, such as that of a
+/// facing, is farther off all around.
 const LEAST_AT_SEAM: f64 = 0.25;
-/// Sine of the greatest angle between a seam line and the edge beside it: edges that curve are hemmed along their
-/// chord.
+/// Sine of the greatest angle between a seam line and the edge beside it: curved edges are hemmed along their chord.
 const LARGEST_TURN: f64 = 0.5;
-/// Shares of a line that must be near the outline, and go along it.
+/// Least shares of a line that are near the outline, and that run along it.
 const NEAR: f64 = 0.75;
 const ALONG: f64 = 0.7;
-/// Least share of its part that a seam line goes around: what is smaller goes along edges, but not around.
+/// Least area of a seam line, as a share of its part: a smaller line runs along edges, but not around.
 const LEAST_AREA: f64 = 0.15;
-/// Places of a line that are looked at.
+/// Number of sampled places on a line.
 const SAMPLES: usize = 48;
-/// Closed lines of a part that are tried for its seam line, the largest first.
+/// Number of closed lines of a part tried as its seam line, the largest first.
 pub(super) const CANDIDATES: usize = 3;
-/// Cost of the look at one edge from all of them, in comparisons of boxes.
+/// Cost of comparing one edge with all samples, in comparisons of boxes.
 pub(super) const COST: usize = SAMPLES;
 
-/// Share of a closed line, by its length and by its box, that an outline goes around which lacks the rest.
+/// Least share of a closed line that an incomplete outline goes around, by its length and by its box.
 const LEAST_LEFT: f64 = 0.4;
 
-/// Whether the box of an open line fits what is left of the outline around a closed line.
+/// True if the box of an open line fits an incomplete outline around a closed line.
 pub(super) fn may_be_left_of(outline: &Extent, line: &Extent) -> bool {
     let (low, high) = (outline.min.sup(&line.min), outline.max.inf(&line.max));
     let (shared, size) = ((high - low).map(|side| side.max(0.0)), line.max - line.min);
     line.grown(BOX_MARGIN).covers(outline) && shared.x * shared.y >= LEAST_LEFT * size.x * size.y
 }
 
-/// Whether an open line is what is left of the outline around a closed line: it runs beside that line, around much of
-/// it.
+/// True if an open line is an incomplete outline around a closed line: it runs beside that line, around much of it.
 pub(super) fn is_left_of(outline: &[Point], line: &[Point]) -> bool {
     if polyline::length(outline) < LEAST_LEFT * polyline::length(line) {
         return false;
@@ -52,7 +50,7 @@ pub(super) fn is_left_of(outline: &[Point], line: &[Point]) -> bool {
     samples.iter().filter(runs_beside).count() as f64 >= NEAR * samples.len() as f64
 }
 
-/// Whether a closed line follows the outline that it lies in.
+/// True if a closed line follows the outline in which it lies.
 pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
     let (inner, outer) = (Extent::of(line), Extent::of(outline));
     let margins = [inner.min - outer.min, outer.max - inner.max];
@@ -72,18 +70,18 @@ pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
     share(near) >= NEAR && share(at_seam) >= LEAST_AT_SEAM && share(along) >= ALONG
 }
 
-/// The edge of a line nearest to a place: how far it is, mm, and its way.
+/// Nearest edge of a line to a place: its distance, mm, and its vector.
 fn nearest(at: Point, line: &[Point]) -> (f64, Vector) {
     let edges = line.windows(2).map(|edge| (polyline::distance_to_segment(at, edge[0], edge[1]), edge[1] - edge[0]));
     edges.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, Vector::zeros()))
 }
 
-/// Whether two ways are nearly one, forwards or back.
+/// True if two vectors have nearly the same direction, forwards or backwards.
 pub(super) fn is_along(way: Vector, edge: Vector) -> bool {
     cross(way, edge).abs() <= LARGEST_TURN * way.norm() * edge.norm()
 }
 
-/// Places along a line at even distances, each with the way of the line there.
+/// Evenly spaced places along a line, each with the vector of its edge.
 pub(super) fn samples(line: &[Point]) -> Vec<(Point, Vector)> {
     let step = polyline::length(line) / SAMPLES as f64;
     let mut samples = Vec::with_capacity(SAMPLES);
@@ -120,9 +118,9 @@ mod tests {
             (rectangle(10.0, 50.0, 380.0, 240.0), true),
             (rectangle(10.0, 10.0, 380.0, 100.0), false),
             (rectangle(100.0, 100.0, 100.0, 100.0), false),
-            // The opening of a facing lies far from all edges.
+            // The opening of a facing is far from all edges.
             (rectangle(50.0, 50.0, 300.0, 200.0), false),
-            // A slot beside an edge goes along it, but not around.
+            // A slot beside an edge runs along it, but not around.
             (rectangle(10.0, 10.0, 100.0, 4.0), false),
         ] {
             assert_eq!(follows(&seam, &part), is_seam, "{seam:?}");

@@ -1,7 +1,8 @@
-//! Edges of two parts that loose lines of a drawing draw, each part for itself.
+//! Edges of two parts that loose lines in a drawing draw separately for each part.
 //!
-//! Lines in the order of the file tell the parts apart ([`succession`](super::succession)). In any other order the ends of
-//! such an edge meet four lines or more, and one part may be lost: then the drawing is refused. What is drawn once for two is told.
+//! Lines in the order of the file distinguish the parts ([`succession`](super::succession)). In any other order the ends of
+//! such an edge meet at least four lines, and one part may be lost: the drawing is then refused. An edge drawn once for two
+//! parts is reported.
 
 use std::collections::BTreeMap;
 
@@ -15,19 +16,19 @@ use crate::ir::drawing::{Drawing, Vertex};
 use crate::source::Span;
 use crate::units::number::fixed;
 
-/// Shortest edge of two parts that is looked at, mm: shorter ones are letters and signs.
+/// Least length of a shared edge of two parts, mm: shorter ones are letters and signs.
 const SHORTEST: f64 = 25.0;
 /// Distance within which ends are at one place, mm.
 const REACH: f64 = 0.2;
-/// Lines that meet where two parts do, the edge that they share counted once.
+/// Number of lines that meet where two parts do, with the shared edge counted once.
 const MEETING: usize = 3;
-/// Digits of the length that a message tells.
+/// Decimals of lengths in messages.
 const DECIMALS: u32 = 1;
 
 /// Number of a place where ends meet.
 type Node = usize;
 
-/// An edge that two strokes draw where others go on from both its ends.
+/// Edge drawn by two strokes with others continuing from both its ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SharedEdge {
     middle: Point,
@@ -35,7 +36,7 @@ pub(super) struct SharedEdge {
     span: Span,
 }
 
-/// Edges of a drawing with layers that are drawn twice between places where three lines or more meet.
+/// Edges of a drawing with layers that are drawn twice between places where at least three lines meet.
 pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
     let is_asked = |pen: u16| {
         let pen = usize::from(pen);
@@ -79,7 +80,7 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
     twice.filter(|(count, _)| *count > 1).map(|(_, edge)| *edge).collect()
 }
 
-/// Says that edges which are drawn once stand on the outlines of two parts.
+/// Reports edges that are drawn once for the outlines of two parts.
 pub(super) fn say_doubled(doubled: &[Vec<Vertex>], out: &mut Diagnostics) {
     let Some(first) = doubled.first().and_then(|places| places.get(1)) else { return };
     let length = |places: &Vec<Vertex>| places.windows(2).map(|ends| (ends[1].at - ends[0].at).norm()).sum::<f64>();
@@ -94,7 +95,7 @@ pub(super) fn say_doubled(doubled: &[Vec<Vertex>], out: &mut Diagnostics) {
     );
 }
 
-/// Refuses a drawing of whose shared edges not each is on the outlines of two parts.
+/// Refuses a drawing with a shared edge that is not on the outlines of two parts.
 pub(super) fn refuse(edges: &[SharedEdge], lines: &[Line], vertices: &[Vertex], out: &mut Diagnostics) {
     if edges.is_empty() {
         return;

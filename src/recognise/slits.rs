@@ -1,7 +1,7 @@
-//! Slits that a plot draws by themselves: short straight strokes from the edge of a closed stroke inwards. They are no part
-//! of a line that begins at their foot or goes on from their tip: a dart, a fold line, a pleat, a seam line.
+//! Slits that a plot draws separately: short straight strokes from the edge of a closed stroke inwards. They are not part of a
+//! line that begins at their foot or continues from their tip: a dart, a fold line, a pleat, a seam line.
 //!
-//! What has the size of a notch goes on from a tip as before: a notch may be drawn in several strokes.
+//! A stroke of the size of a notch still continues from a tip: a notch may be drawn in several strokes.
 
 use super::chains::{End, other, place};
 use super::line::{Line, SMALL_OUTLINE};
@@ -16,12 +16,12 @@ use crate::ir::marker::Notch;
 const LEAST_DEPTH: f64 = 0.5;
 /// Greatest turn between the halves of a crossbar, rad.
 const STRAIGHT: f64 = 0.2;
-/// Least turn of a line drawn side by side that bends at the tip of a short one, rad.
+/// Least turn at the tip of a short line into a line that is drawn side by side, rad.
 const BEND: f64 = 0.5;
-/// Closed strokes in a rectangle that make it a frame, at whose edge outlines in strokes may begin.
+/// Number of closed strokes in a rectangle that make it a frame, at whose edge outlines in strokes may begin.
 const FRAMED: usize = 2;
 
-/// Strokes of a drawing, and those among them that may be slits and that lead nowhere.
+/// Strokes of a drawing, with possible dead-end slits among them.
 pub(super) struct Slits<'a> {
     pub(super) drawing: &'a Drawing,
     /// Strokes that are closed, or nearly so.
@@ -32,7 +32,7 @@ pub(super) struct Slits<'a> {
 }
 
 impl Slits<'_> {
-    /// The end of each candidate that stands on an edge, from which it leads inwards.
+    /// Ends of candidates that stand on an edge from which they lead inwards.
     pub(super) fn feet(&self, work: &mut Budget) -> Vec<End> {
         let ends: Vec<End> = self.candidates.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
         let reach = Notch::MISS + self.touch;
@@ -75,7 +75,7 @@ impl Slits<'_> {
         })
     }
 
-    /// Whether a slit ends where it meets others, given by their ends there.
+    /// True if a slit ends where it meets others, given by their ends there.
     pub(super) fn ends_at_tip(&self, foot: End, others: &[End], feet: &[End]) -> bool {
         let is_foot = |end: End| feet.binary_search(&end).is_ok();
         let is_long = |end: End| self.length(end) > Notch::LONGEST_STROKE;
@@ -94,13 +94,13 @@ impl Slits<'_> {
         }
     }
 
-    /// Whether a stroke leads from an end to the tip of a slit.
+    /// True if a stroke leads from an end to the tip of a slit.
     fn leads_to_slit(&self, end: End, feet: &[End]) -> bool {
         let to = place(self.drawing, other(end));
         feet.iter().any(|&foot| (place(self.drawing, other(foot)) - to).amax() <= self.touch)
     }
 
-    /// The straight way from an end of a stroke to its other end.
+    /// Vector from an end of a stroke to its other end.
     fn way(&self, end: End) -> Vector {
         place(self.drawing, other(end)) - place(self.drawing, end)
     }
@@ -111,7 +111,7 @@ impl Slits<'_> {
     }
 }
 
-/// Whether a rectangle holds enough of the boxes to be a frame. It is one of them itself.
+/// True if a rectangle contains enough of the boxes to be a frame. Its own box is one of them.
 fn is_around(boxes: &Boxes, rectangle: Extent) -> bool {
     boxes.near(rectangle).filter(|&k| rectangle.covers(&boxes.all()[k])).take(1 + FRAMED).count() > FRAMED
 }

@@ -1,8 +1,8 @@
-//! Rings that strokes draw in succession, each from the end of the one before it.
+//! Rings that strokes draw in succession, each from the end of the previous one.
 //!
-//! Parts that share an edge may both draw it. At its ends the straightest continuation leads into the other part; the order
-//! of the strokes tells the parts apart. An edge that is drawn once for two parts leaves one of them without a ring: a ring
-//! that meets a stroke outside all rings is left out, and so is each ring that meets it.
+//! Parts that share an edge may both draw it. At its ends the straightest continuation leads into the other part; the order of
+//! the strokes distinguishes the parts. An edge that is drawn once for two parts leaves one of them without a ring: therefore a
+//! ring that meets a stroke outside of all rings is dropped, and so is each ring that meets it.
 
 use std::ops::RangeInclusive;
 
@@ -13,19 +13,19 @@ pub(super) struct Ends<'a> {
     pub(super) nodes: &'a [Vec<End>],
     /// The node of each end.
     pub(super) node: &'a [Option<u32>],
-    /// Strokes that lead nowhere.
+    /// Dead ends.
     pub(super) is_dead: &'a [bool],
 }
 
 impl Ends<'_> {
-    /// The rings that meet others, each by its first and last stroke.
+    /// Rings that meet others, each by its first and last stroke.
     pub(super) fn rings(&self) -> Vec<RangeInclusive<usize>> {
         let mut rings = self.in_succession();
         let mut ring_of = vec![None; self.is_dead.len()];
         for (k, ring) in rings.iter().enumerate() {
             ring.clone().for_each(|stroke| ring_of[stroke] = Some(k));
         }
-        // A ring that meets a stroke outside all rings is left out, and then every ring that meets it.
+        // A ring that meets a stroke outside of all rings is dropped, then every ring that meets it.
         let mut is_left_out = vec![false; rings.len()];
         let is_bare = |end: &End| ring_of[end / 2].is_none() && !self.is_dead[end / 2];
         let mut queue: Vec<&[End]> =
@@ -44,7 +44,7 @@ impl Ends<'_> {
         rings
     }
 
-    /// Strokes that lead back to where the first of them began.
+    /// Consecutive strokes that return to the start of the first.
     fn in_succession(&self) -> Vec<RangeInclusive<usize>> {
         let (mut rings, mut first) = (Vec::new(), 0);
         for last in 0..self.is_dead.len() {
@@ -61,7 +61,7 @@ impl Ends<'_> {
         rings
     }
 
-    /// The ends at the place of one of them.
+    /// Ends at the place of one of them.
     fn beside(&self, end: End) -> &[End] {
         self.node[end].map_or(&[], |node| &self.nodes[node as usize])
     }
@@ -75,7 +75,7 @@ impl Ends<'_> {
 mod tests {
     use super::*;
 
-    /// The rings of strokes between places that are given by their numbers.
+    /// Rings of strokes between numbered places.
     fn rings(strokes: &[[usize; 2]]) -> Vec<RangeInclusive<usize>> {
         let ends = strokes.as_flattened();
         let mut nodes = vec![Vec::new(); ends.iter().max().expect("strokes") + 1];
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn rings_that_draw_an_edge_twice_are_found_and_those_that_draw_it_once_are_not() {
-        // Two squares beside each other with the places 1 and 2 in common.
+        // Two squares side by side, with the places 1 and 2 in common.
         let first = [[0, 1], [1, 2], [2, 3], [3, 0]];
         let both = [&first[..], &[[1, 4], [4, 5], [5, 2], [2, 1]]].concat();
         assert_eq!(rings(&both), [0..=3, 4..=7]);

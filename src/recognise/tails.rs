@@ -1,15 +1,15 @@
-//! Tails: slits that a plot draws in one stroke with their outline. The pen goes from the tip to the edge and round the outline,
-//! or the other way about.
+//! Tails: slits that a plot draws in one stroke with their outline. The pen goes from the tip to the edge and round the
+//! outline, or the reverse.
 
 use super::line::SHORTEST_NOTCH;
 use crate::geom::closing;
 use crate::ir::drawing::{Drawing, PenStroke};
 use crate::ir::marker::Notch;
 
-/// Fewest places of an outline with its tail: a triangle's, its first once more, and the tip.
+/// Least number of places of an outline with its tail: a triangle's, its first one again, and the tip.
 const LEAST: usize = 5;
 
-/// Makes two strokes of each outline with a tail: the slit, and the outline. Places up to `reach` apart along an axis are one, mm.
+/// Splits each outline with a tail into two strokes: the slit, and the outline. Places within `reach` along an axis merge, mm.
 pub(super) fn split(drawing: &mut Drawing, reach: f64) {
     let strokes = std::mem::take(&mut drawing.strokes);
     drawing.strokes.reserve(strokes.len());
@@ -25,7 +25,7 @@ pub(super) fn split(drawing: &mut Drawing, reach: f64) {
     }
 }
 
-/// The place of a stroke at which its tail stands on its outline.
+/// Index of the place of a stroke at which its tail stands on its outline; `None` without a tail.
 fn foot(drawing: &Drawing, stroke: &PenStroke, reach: f64) -> Option<u32> {
     let vertices = &drawing.vertices[stroke.range()];
     // A line that runs past its start has an overcut, not a tail.

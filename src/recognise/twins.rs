@@ -1,5 +1,5 @@
-//! Twins: lines along which another line of the same use runs from end to end, though their vertices differ. A second pass
-//! of an outline may start elsewhere, have other vertices, or lie a unit aside.
+//! Twins: lines along which another line of the same use runs from end to end with other vertices. A second pass of an outline
+//! may start elsewhere, have other vertices, or be a unit aside.
 //!
 //! Two parts never share all of their edges, so twins are one line.
 
@@ -8,7 +8,7 @@ use crate::geom::along::Lines;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::Vertex;
 
-/// Marks lines as drawn again: those that lie within `reach`, mm, of another line, and that line of them. The line that
+/// Marks repeated lines: those that are within `reach`, mm, of another line all along, and that line of them. The line that
 /// needs no closing stays; of two such lines, the first.
 pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], reach: f64, work: &mut Budget) {
     let mut order: Vec<usize> = (0..lines.len()).filter(|&i| !lines[i].is_set_aside()).collect();
@@ -23,7 +23,7 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], reach: f64, work: &m
     }
 }
 
-/// Whether two lines have the same use and kind, and nearly the same area.
+/// True if two lines have the same use and kind, and nearly the same area.
 fn may_be_twins([one, other]: [&Line; 2], reach: f64) -> bool {
     let is_as_large = (one.area - other.area).abs() <= reach * one.length.max(other.length);
     is_as_large && one.usage == other.usage && one.is_closed == other.is_closed
