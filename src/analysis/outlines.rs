@@ -169,7 +169,7 @@ fn pairs(boxes: &[Extent], around: &Extent, work: &mut Budget, mut met: impl FnM
     let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
     let mut order: Vec<(i64, u32)> =
         boxes.iter().zip(0..).map(|(extent, i)| (in_total_order(side(extent)[0]), i)).collect();
-    order.sort_by_key(|&(start, _)| start); // stable: those that start alike in their order
+    order.sort_by_key(|&(start, _)| start); // stable: equal starts keep their order
     // Boxes not yet passed by the sweep: their ends and indices.
     let mut active: Vec<(f64, usize)> = Vec::with_capacity(boxes.len());
     for i in order.into_iter().map(|(_, i)| i as usize) {

@@ -1,4 +1,4 @@
-//! How parts lie beside each other: the keys `nest.*`.
+//! Distances between parts in a nest: the keys `nest.*`.
 
 use serde::{Deserialize, Serialize};
 

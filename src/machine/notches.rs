@@ -60,7 +60,7 @@ pub enum TNotch {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NotchStyle {
-    /// As the file draws them.
+    /// As drawn in the file.
     #[default]
     AsDrawn,
     /// As slits.

@@ -45,7 +45,7 @@ pub struct Slow {
     /// Length of line before a corner; `None` = no slowdown.
     #[serde(with = "OrWord::<Off>")]
     pub before_corner_mm: Option<f64>,
-    /// Reduced speed.
+    /// Speed there, relative to the speed without a slowdown.
     pub before_corner_percent: f64,
 }
 

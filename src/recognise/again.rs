@@ -58,7 +58,7 @@ fn there_and_back(drawing: &mut Drawing) -> Vec<PenStroke> {
         let stroke = drawing.strokes[k];
         let range = stroke.range();
         if !turns_back(range.len(), |place| drawing.vertices[range.start + place].at) {
-            continue; // as nearly all
+            continue; // the usual case
         }
         let vertices = drawing.vertices[range].to_vec();
         let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();

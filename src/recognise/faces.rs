@@ -45,7 +45,7 @@ pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64, divi
     let mut strokes: Vec<usize> = (0..drawing.strokes.len()).filter(is_asked).filter(is_open).collect();
     let mut moved = Moved::default();
     if strokes.len() < LEAST_STROKES {
-        return (moved, Vec::new()); // as in nearly all
+        return (moved, Vec::new()); // the usual case
     }
     // Dead ends, such as notches, do not split others.
     let leading: BTreeSet<usize> = {

@@ -241,7 +241,7 @@ impl Frames<'_> {
         let within = frame.extent.grown(band);
         let may_be = |line: &Line| within.covers(&line.extent) && reach.is_edged(&frame.extent, line, self.vertices);
         if !self.open.iter().any(|&i| may_be(&self.lines[i])) {
-            return Vec::new(); // as in nearly all
+            return Vec::new(); // the usual case
         }
         let boxes = Boxes::new(closed.iter().map(|&i| self.lines[i].extent).collect());
         let mut found: Vec<usize> = Vec::new();

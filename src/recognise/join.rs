@@ -138,7 +138,7 @@ impl Joining<'_> {
         let is_left = graph.left();
         let mut chains = graph.chains;
         if self.close <= self.reach {
-            return (chains, is_left); // what is nearer is joined
+            return (chains, is_left); // nearer ends are joined already
         }
         let is_free = |end: &End| chains.links[*end].is_none() && !self.nearly_closes(end / 2);
         let free: Vec<End> = ends.into_iter().filter(is_free).collect();
@@ -177,7 +177,7 @@ impl Joining<'_> {
         let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
         let [first, _, .., last] = vertices else { return false };
         if (last.at - first.at).norm() > Notch::WIDEST {
-            return false; // as nearly all
+            return false; // the usual case
         }
         let places: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
         let is_deep = |at: &Point| polyline::distance_to_segment(*at, first.at, last.at) >= SHORTEST_NOTCH;
@@ -286,7 +286,7 @@ impl Joining<'_> {
             } else {
                 let stroke = strokes[at / 2];
                 let [from, to] = [stroke.first, stroke.first + 1].map(|k| self.drawing.vertices[k as usize].at);
-                // No instruction leads over a bridge: it counts to the one before it.
+                // No instruction draws a bridge: it gets the span of the previous one.
                 let span = self.drawing.vertices[self.drawing.vertices.len() - 1].span;
                 let at = if at.is_multiple_of(2) { to } else { from };
                 self.drawing.vertices.push(Vertex { at, span });
@@ -313,7 +313,7 @@ impl Joining<'_> {
                 continue;
             };
             if step == 0 {
-                continue; // it starts where the one before it ends, but for rounding
+                continue; // it starts where the previous stroke ends, within rounding
             }
             let from = self.drawing.vertices[if is_forward { range.start } else { last }].at;
             if from != end.at {
@@ -408,7 +408,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         let candidates: Vec<usize> =
             all.clone().filter(|k| self.is_dead[*k] && meets(k) && joining.is_slit(*k)).collect();
         if candidates.is_empty() {
-            return; // as in nearly all
+            return; // the usual case
         }
         let is_ring = |k: &usize| {
             let ends = [2 * k, 2 * k + 1].map(|end| place(joining.drawing, end));

@@ -11,7 +11,7 @@ use super::chains::End;
 /// Ends of strokes, and the places where they meet.
 pub(super) struct Ends<'a> {
     pub(super) nodes: &'a [Vec<End>],
-    /// The node of each end.
+    /// Node of each end.
     pub(super) node: &'a [Option<u32>],
     /// Dead ends.
     pub(super) is_dead: &'a [bool],

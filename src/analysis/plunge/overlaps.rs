@@ -15,7 +15,7 @@ const OVERLAP_EPSILON: f64 = 1e-6;
 pub struct Overlap {
     /// Length, mm.
     pub length: f64,
-    /// Where it lies.
+    /// Kind of region in which it lies.
     pub side: Side,
 }
 

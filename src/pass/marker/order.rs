@@ -26,7 +26,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     if nesting.is_flat() {
-        return; // as most markers of whole parts: nothing lies in anything
+        return; // the usual case for markers of whole parts: no nesting
     }
     for (piece, i) in marker.pieces.iter_mut().zip(0..) {
         sort_contours(piece, nesting.of_group(i), &nesting);
@@ -66,7 +66,7 @@ fn waiting(pieces: &[Piece], nesting: &Nesting) -> BTreeMap<usize, Vec<usize>> {
 /// Reorders pieces so that each follows all those for which it waits, otherwise as in the file.
 fn sort_pieces(pieces: &mut Vec<Piece>, waiting: &BTreeMap<usize, Vec<usize>>) {
     if waiting.is_empty() {
-        return; // as in most files
+        return; // the usual case
     }
     // Pieces move only between two events, so that these keep their places.
     let events: Vec<Vec<Event>> = pieces.iter_mut().map(|piece| std::mem::take(&mut piece.events)).collect();

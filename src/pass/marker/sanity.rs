@@ -160,7 +160,7 @@ fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Bud
 /// Warns of numbers that start again or repeat.
 fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
     if marker.pieces.is_sorted_by(|before, after| before.number < after.number) {
-        return; // as in most files
+        return; // the usual case
     }
     let mut seen = BTreeSet::new();
     let mut repeated = BTreeSet::new();

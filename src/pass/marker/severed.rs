@@ -75,7 +75,7 @@ fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget)
     let is_across = |root: Point| move |edge: [Point; 2]| !begins_on(root)(&edge) && comes_to(edge);
     let mut edges = part.edges_near(around);
     if !edges.any(|edge| work.spend(1) && is_across(slit.root)(edge)) {
-        return false; // as nearly all
+        return false; // the usual case
     }
     let is_branch = |work: &mut Budget| {
         let mut others = slits.iter().enumerate().filter(|(k, _)| *k != place);

@@ -46,7 +46,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         let contours = piece.contours.iter().zip(0..);
         let mut shorts: Vec<Short> = contours.filter_map(|(contour, i)| short(search.list, contour, i)).collect();
         if shorts.is_empty() && piece.notches.is_empty() {
-            continue; // as in many
+            continue; // the usual case
         }
         search.take_slits(piece, &mut shorts);
         search.reach_edges(piece);
@@ -81,7 +81,7 @@ struct Short {
 fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     let points = list.points(contour.range);
     if points.iter().any(|&point| point != points[0] && point != points[1]) {
-        return None; // as nearly all, at their third point
+        return None; // the usual case, at the third point
     }
     let (_, first) = list.walk(contour.range).next()?;
     let stroke = NotchStroke { from: first.from, to: first.to, span: first.span };
@@ -162,7 +162,7 @@ impl Search<'_> {
             let NotchStroke { from: root, to: tip, span } = *stroke;
             piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
         }
-        piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
+        piece.notches.sort_by_key(|notch| notch.span); // stable: notches without a block keep their order
     }
 
     /// Extends slits that start inside their edge back to it, along their own lines.

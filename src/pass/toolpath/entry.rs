@@ -2,8 +2,8 @@
 //!
 //! Needs runs split at corners. On the runs it leaves, the blade that plunges as a chord at the start lies along the path, and
 //! as near to it as to an arc with the same turn under the blade (w^2 k / 8 at small turns, k = curvature). A sharper bend that
-//! close to a start is cut like a corner, although it is none: up to the bend, then on from it, without overlaps, because these
-//! would leave the path.
+//! close to a start is cut like a corner, although it is not one: up to the bend, then on from it, without overlaps, because
+//! these would leave the path.
 
 use super::pass::ToolpathPass;
 use super::runs;

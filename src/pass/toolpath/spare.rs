@@ -175,7 +175,7 @@ fn under(
     })
 }
 
-/// Interval of [0, 1] in which a linear function lies in a range.
+/// Part of the interval from 0 to 1 in which a linear function from `start` to `end` lies in a range.
 fn between(start: f64, end: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     let slope = end - start;
     if slope == 0.0 {

@@ -23,7 +23,7 @@ pub(in crate::pass::marker) enum Group {
 /// Reorders the remaining cuts of outlines for the least travel; everything else stays as it is.
 pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
     if !groups.iter().any(|group| matches!(group, Group::Edges(_))) {
-        return; // as in most files
+        return; // the usual case
     }
     let made = MadeCuts { marker, groups, measures: Measures::new(job, marker) };
     let given: Vec<Cuts> = (0..marker.pieces.len()).map(|piece| made.of_piece(piece)).collect();

@@ -4,9 +4,9 @@ use std::cell::Cell;
 
 use super::sequence::START;
 
-/// Times that are kept, at the most; a power of two.
+/// Greatest number of cached durations; a power of two.
 const MOST_KEPT: usize = 1 << 20;
-/// Distance between rows if they do not all fit: 2^32 times the golden ratio, which spreads them (Knuth, *The art of computer
+/// Distance between rows if they do not all fit: 2^32 over the golden ratio, which spreads them (Knuth, *The art of computer
 /// programming* 6.4).
 const APART: usize = 0x9e37_79b1;
 
