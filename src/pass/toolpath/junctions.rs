@@ -5,10 +5,10 @@ use crate::geom::{Extent, Point, Vector, polyline};
 use crate::ir::Marker;
 use crate::machine::MachineProfile;
 
-/// Greatest distance of a chord from a junction that it passes, mm: the greatest distance between two edges of a band.
+/// Greatest distance of a chord from a junction that it passes, mm: the greatest merge tolerance.
 const REACH: f64 = 1.0;
-/// Longest stretch of a cut straight on past the corner of its own outline, in multiples of the band. A longer one leads a cut
-/// of another part over to an edge, and may begin at the same place.
+/// Longest stretch of a cut straight on past the corner of its own outline, in multiples of the merge tolerance. A longer one
+/// leads a cut of another part over to an edge, and may begin at the same place.
 const PAST: f64 = 4.0;
 /// Distance within which two places are the same, mm: rounding.
 const SAME_PLACE: f64 = 1e-6;

@@ -12,7 +12,7 @@ use crate::geom::budget::Budget;
 use crate::geom::{Point, cross, polyline};
 use crate::ir::list::{Joint, Segment};
 
-/// Greatest distance of a corner from the end of the other's edge, in multiples of the band.
+/// Greatest distance of a corner from the end of the other's edge, in multiples of the merge tolerance.
 const CORNER: f64 = std::f64::consts::SQRT_2;
 /// Length below which a stretch counts as empty, mm: rounding.
 const LEAST: f64 = 1e-6;
@@ -103,8 +103,8 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
             }
             faces |= is_by([theirs[0] - least, theirs[1] + least]);
         }
-        // A base within the band at the ends of two facing mouths does not count. Where the other's edge is missing, a
-        // protrusion of it or a third part may lie.
+        // A base within the band at the ends of two facing mouths does not count. A protrusion of the other part, or a third
+        // part, may lie where the other's edge is missing.
         let slack = if faces { least } else { least.min((to - from) / 2.0) };
         base > slack && covered >= to - from - slack
     };
@@ -229,8 +229,8 @@ impl Sharing<'_> {
         }
     }
 
-    /// End, 0 or 1, of a cut that must not be made; `None` if the cut is good. A cut no longer than the band is too short for
-    /// any blade, which would cut into its surroundings. An end of an `is_short` cut is bad if it deviates sideways by a
+    /// End, 0 or 1, of a cut that must not be made; `None` if the cut is good. A cut within the merge tolerance is too short
+    /// for any blade, which would cut into its surroundings. An end of an `is_short` cut is bad if it deviates sideways by a
     /// comparably short stretch, because the blade would only swing, or if it returns along itself, as at the tip of a wedge.
     fn short_end(&self, cut: &[Segment], is_short: bool) -> Option<usize> {
         if !cut.is_empty() && cut.iter().map(Segment::length).sum::<f64>() <= self.asked.near.distance {

@@ -54,7 +54,7 @@ impl Facing {
 /// Criteria for facing edges.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
-    /// Greatest distance, mm.
+    /// Greatest distance of two edges, mm: the merge tolerance.
     pub(super) distance: f64,
     /// Displacement of either end by rounding, mm.
     pub(super) slack: f64,

@@ -17,15 +17,16 @@ pub(super) const LEAST_SINE: f64 = 0.259;
 pub(super) const LEAST_COSINE: f64 = 0.966;
 /// Tangent of the greatest angle at which a cut is led over to an edge along which it runs (6 degrees).
 const SLOPE: f64 = 0.105;
-/// Length by which such a cut passes through the edge, in multiples of the band.
+/// Length by which such a cut passes through the edge, in multiples of the merge tolerance.
 const THROUGH: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Greatest depth of its end in a part, in multiples of the band: the diagonal of a band in X and Y, as for other cuts.
+/// Greatest depth of its end in a part, in multiples of the merge tolerance: the diagonal of that in X and Y, as for other
+/// cuts.
 const DEEPEST: f64 = std::f64::consts::SQRT_2;
 /// Number of times that the transition to a bent edge is halved.
 const HALVINGS: usize = 3;
 /// Number of places tested on such a transition.
 const PLACES: usize = 4;
-/// Radius around a place within which cuts that should meet there do meet, in multiples of the band.
+/// Radius around a place within which cuts that should meet there do meet, in multiples of the merge tolerance.
 const ABOUT: f64 = 3.0;
 /// Greatest number of cuts near a place that are tested for connection: no lay has more.
 const MOST_CUTS: usize = 200;
@@ -130,7 +131,7 @@ impl<'a> Leads<'a> {
     }
 
     /// True if a line of a ring along an edge of another passes through the outline of a third part, such as a protruding
-    /// notch, or lies in one deeper than the band.
+    /// notch, or lies in one deeper than the merge tolerance.
     fn enters_another(&self, own: usize, other: usize, [from, to]: [Point; 2]) -> bool {
         let known = [own, other].map(|ring| self.rings[ring].part);
         let Some(along) = polyline::direction(from, to) else { return false };
@@ -239,11 +240,11 @@ impl<'a> Leads<'a> {
         let Asked { near, beyond, width, .. } = self.asked;
         let edge = &self.rings[other];
         // Long enough, since both cuts may be off by the tolerance and cross at a small angle, but not so long that its end is
-        // too deep, or that the overlap past it, in the same direction, leaves the band.
+        // too deep, or that the overlap past it, in the same direction, exceeds the merge tolerance.
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
         // The cut ends on the far side of the edge, seen from its start. The side is undefined for a place on the edge, or one
-        // within half the band that is reached along the edge: there the stretch before it decides.
+        // within half the merge tolerance that is reached along the edge: there the stretch before it decides.
         let ahead = from + sign * 2.0 * near.distance;
         let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
         let behind = from - sign * 2.0 * near.distance;
@@ -259,8 +260,8 @@ impl<'a> Leads<'a> {
                 (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through.abs()
             });
             let is_cut = self.is_cut(other, [from, station(1.0)]);
-            // A blade plunged over the bend is a chord of both stretches. Its distance from the bend is split between the two,
-            // which may each be off by half of it. A stretch shorter than the blade is cut by plunges of its own.
+            // A blade plunged over the bend is a chord of both stretches, `off` mm away from the bend; each of the two may be
+            // off by half of that. A stretch shorter than the blade is cut by plunges of its own.
             let off = length * (width - length) / width * (1.0 - cosine * cosine).sqrt();
             let is_straight = length >= width || straight < width - length || off / 2.0 <= beyond;
             (cosine >= LEAST_COSINE && is_beside && is_cut && is_straight).then_some((cosine, end))
@@ -371,7 +372,7 @@ impl<'a> Leads<'a> {
         led
     }
 
-    /// Station of a ring nearest to a place within the band; `None` if there is none.
+    /// Station of a ring nearest to a place, within the merge tolerance; `None` if there is none.
     pub(super) fn foot(&self, ring: usize, at: Point) -> Option<f64> {
         let own = &self.rings[ring];
         let around = Extent::between(at, at).grown(self.asked.near.distance);

@@ -9,7 +9,7 @@ use crate::geom::{Point, angle, cross};
 /// Least length of a straight edge at such a corner, in blade widths: a shorter one may be cut by plunges with their ends
 /// elsewhere, or its corner may be due to rounding.
 const STRAIGHT: f64 = 2.0;
-/// Greatest distance beside the corner at which the open cut may pass, in multiples of the band.
+/// Greatest distance beside the corner at which the open cut may pass, in multiples of the merge tolerance.
 const BESIDE: f64 = std::f64::consts::SQRT_2;
 
 /// Two cuts that continue until they have crossed.

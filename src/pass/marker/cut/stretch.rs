@@ -3,7 +3,7 @@
 use super::facing::{Facing, Near};
 use super::ring::Ring;
 
-/// Greatest gap within a common stretch, in multiples of the band: at a corner the feet on one ring miss the other.
+/// Greatest gap within a common stretch, in multiples of the merge tolerance: at a corner the feet on one ring miss the other.
 pub(super) const BREAK: f64 = 2.0;
 /// Number of recently begun stretches that may be continued: few parts lie over each other.
 const OPEN: usize = 8;
