@@ -2,7 +2,7 @@
 //!
 //! Receives forms of [`ir`](crate::ir) and a machine. Answers questions: nesting of lines, depth of overlaps of parts, free way
 //! of a blade before it enters a part, position of the plunged blade, deviation of a curve from its chords, duration of moves
-//! with the knife up, estimated duration of cuts, dependencies of a piece. Never edits, and is never asked by `verify`, which
+//! with the knife up, estimated duration of cuts, dependencies of a piece. Never edits, and is never used by `verify`, which
 //! measures for itself.
 
 pub mod air;

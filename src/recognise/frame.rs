@@ -14,8 +14,8 @@ use crate::machine::plot::Frame;
 /// Least share of a frame that the closed lines in it fill; a rectangle with less is a part with cut-outs. A frame taken for a
 /// part is reported; a part taken for a frame would be cut inside.
 const LEAST_FILL: f64 = 0.5;
-/// Least share of a rectangle that the closed lines in it fill for the user to decide whether it is a frame: with less it is a
-/// part with cut-outs.
+/// Least share of a rectangle filled by the closed lines in it at which the user must decide whether it is a frame: with less
+/// it is a part with cut-outs.
 const LEAST_DOUBTFUL: f64 = 0.15;
 /// Greatest area outside of frames, as a share of theirs: title blocks and test squares. More may be parts, and the rectangle
 /// may then be one of them.

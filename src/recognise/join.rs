@@ -2,10 +2,10 @@
 //! direction, and outlines end a few units from their start.
 //!
 //! Ends of one pen at exactly the same coordinates are at one place, and so are two that are within reach of each other and of
-//! no third. Two ends that remain at a place without dead ends continue each other. Of more ends, a line that returns to the
-//! place closes; otherwise the two with the least turn continue each other. Two strokes of one notch drawn twice are not
-//! joined, and a slit between two strokes of an outline is skipped. A line that starts and ends on the edge of the frame, or
-//! runs past its start, is an outline of its own: its neighbours end in the same places.
+//! no third. If two ends are left at a place after the removal of dead ends, they continue each other. If more are left, a line
+//! that returns to the place closes; otherwise the two with the least turn continue each other. Two strokes of one notch drawn
+//! twice are not joined, and a slit between two strokes of an outline is skipped. A line that starts and ends on the edge of
+//! the frame, or runs past its start, is an outline of its own: its neighbours end in the same places.
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
@@ -379,7 +379,7 @@ impl<'a, 'b> Graph<'a, 'b> {
         Self { joining, nodes, node, chains, is_dead, on_edge: BTreeSet::new() }
     }
 
-    /// Finds the strokes with an end that meets no other, repeatedly.
+    /// Marks dead ends: strokes with an end that meets no other, then those that end only at such strokes.
     fn put_dead_ends_aside(&mut self) {
         let mut degree: Vec<usize> = self.nodes.iter().map(Vec::len).collect();
         let mut queue: Vec<usize> = (0..self.is_dead.len()).filter(|k| self.is_free(*k, &degree)).collect();
