@@ -1,13 +1,13 @@
-//! What is asked of a marker beside the profile.
+//! Options of flow planning that are not part of the profile.
 
-/// How fast the conveyor runs.
+/// Speed of the conveyor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Speed {
-    /// As the profile has it (`flow.speed_mm_s`).
+    /// The speed of the profile (`flow.speed_mm_s`).
     #[default]
     Profile,
-    /// So fast, mm/s.
+    /// A given speed, mm/s.
     Of(f64),
-    /// As fast as the heads can follow.
+    /// The greatest speed at which the heads can follow.
     Most,
 }

@@ -1,4 +1,4 @@
-//! A marker at one speed of the conveyor: a program, or what is missing.
+//! Planning of a marker at one speed of the conveyor: yields a program or the reason why there is none.
 
 use std::f64::consts::TAU;
 
@@ -22,48 +22,50 @@ use crate::pass::toolpath::Scene;
 use crate::units::MM_PER_M;
 use crate::units::number::up;
 
-/// What is cut, and on what.
+/// The cuts of a marker and the machine that makes them.
 #[derive(Clone, Copy)]
 pub(super) struct Work<'a> {
     pub(super) lines: &'a [Line],
     pub(super) scene: &'a Scene<'a>,
-    /// Greatest x of the marker, mm.
+    /// Maximum x of the marker, mm.
     pub(super) front: f64,
     pub(super) job: &'a Job,
 }
 
-/// What keeps a marker from being cut.
+/// Reason why a marker cannot be cut.
 #[derive(Debug)]
 pub(super) enum Missing {
-    /// The conveyor is as fast as the heads, or faster.
+    /// The conveyor is at least as fast as the heads.
     Axis,
-    /// Travel along the feed: so much is needed, for the chain that starts there.
+    /// A chain takes more travel along the feed than the heads have.
     Travel {
-        /// How much, mm.
+        /// Travel needed, mm.
         needed: f64,
-        /// Where.
+        /// Start point of the chain.
         at: Point,
     },
-    /// Heads or rows: so many are needed.
+    /// The strokes take more heads or rows than the machine has.
     Machine {
-        /// Heads.
+        /// Number of heads needed.
         heads: usize,
-        /// Rows.
+        /// Number of rows needed.
         rows: usize,
     },
-    /// Way to the first row: so much more is needed, mm.
+    /// The first row stands too near to the cloth, by this distance, mm.
     Way(f64),
-    /// A chain cannot be planned at all.
+    /// A chain cannot be planned at any pace; these are the findings of the planner.
     Plan(Vec<Diagnostic>),
 }
 
-/// Parts of the travel along the feed that a turn back may take within a chain, from the one that parts least.
+/// Lengths of the turns back allowed within a chain that are tried in turn, as fractions of the travel along the feed. The
+/// first one parts a line least.
 const BACKS: [f64; 3] = [f64::INFINITY, 0.25, 0.0625];
-/// Part of the travel that is left to a chain which turns back: what it takes makes the next one late.
+/// Fraction of the travel that a chain with turns back may use. What it uses beyond that would delay the next chain.
 const SHARE: f64 = 0.7;
-/// A chain that takes so much of the travel by its line as drawn is not tried: smoothed, it takes little less.
+/// Travel of the unsmoothed chain, as a fraction of the available travel, above which a speed is not tried. Smoothing reduces
+/// the travel only slightly.
 const HOPELESS: f64 = 1.1;
-/// A turn back of so many tolerances parts nothing.
+/// Minimum turn back that parts a line, in multiples of the tolerance.
 const WAVE: f64 = 3.0;
 
 /// Plans a marker at a speed of the conveyor.
@@ -88,7 +90,7 @@ pub(super) fn attempt(work: &Work, speed: f64, out: &mut Diagnostics) -> Result<
     work.program(strokes, moving)
 }
 
-/// Says where heads would leave the table across the feed.
+/// Reports the place where a head leaves the table across the feed by the greatest distance.
 fn off_table(strokes: &[Stroke], job: &Job, out: &mut Diagnostics) {
     let Some([least, most]) = job.profile.table.y_mm else { return };
     let ys = strokes.iter().flat_map(|stroke| stroke.poses().map(|(pose, _, _)| pose.centre));
@@ -101,7 +103,8 @@ fn off_table(strokes: &[Stroke], job: &Job, out: &mut Diagnostics) {
 }
 
 impl Work<'_> {
-    /// Whether not even the closed form allows a speed: some chain takes more travel, however its line is parted.
+    /// True if a speed can be ruled out in closed form: some chain exceeds the travel even if its line is parted at every turn
+    /// back.
     pub(super) fn is_hopeless(&self, speed: f64) -> bool {
         let profile = &self.job.profile;
         let bounds = Bounds::of(profile);
@@ -113,7 +116,7 @@ impl Work<'_> {
         speed >= bounds.speeds[0] || self.lines.par_iter().any(takes_more)
     }
 
-    /// How a line is parted that may turn back by so much, mm.
+    /// Parting of a line that allows turns back of up to `back` mm within a chain.
     fn parting(&self, line: &Line, back: f64) -> Parting {
         let profile = &self.job.profile;
         Parting {
@@ -125,7 +128,7 @@ impl Work<'_> {
         }
     }
 
-    /// The strokes of a line: in as few chains as the travel along the feed allows.
+    /// The strokes of a line, in as few chains as the travel along the feed allows.
     fn cut(&self, line: &Line, moving: &Moving) -> Result<(Vec<Stroke>, Diagnostics), Missing> {
         let bounds = Bounds::of(&self.job.profile);
         let mut parted = 0;
@@ -146,7 +149,7 @@ impl Work<'_> {
                 return Ok((strokes, found));
             }
         }
-        // Parted at every turn back: what does not fit now does not at all.
+        // The line is parted at every turn back here. If the chains do not fit now, they never will.
         let mut found = Diagnostics::default();
         let strokes = self.strokes(&line.chains(self.parting(line, 0.0)), moving, &mut found)?;
         Ok((strokes, found))
@@ -160,7 +163,7 @@ impl Work<'_> {
         chains.iter().map(stroke).collect()
     }
 
-    /// Heads and rows for the strokes.
+    /// Assigns the strokes to heads and rows.
     fn program(&self, strokes: Vec<Stroke>, moving: Moving) -> Result<Program, Missing> {
         let flow = &self.job.profile.flow;
         let tasks: Vec<Task> = strokes.iter().map(|stroke| task(stroke, &moving)).collect();
@@ -202,7 +205,7 @@ impl Work<'_> {
         Ok(program)
     }
 
-    /// The figures of a program; those of its layout are known.
+    /// The figures of a program. `layout` supplies those of the layout.
     fn figures(&self, program: &Program, layout: &Figures) -> Figures {
         let profile = &self.job.profile;
         let bounds = Bounds::of(profile);
@@ -211,7 +214,7 @@ impl Work<'_> {
         let (mut travel_bound, mut speed_bound) = (0.0_f64, flow.max_speed_mm_s.min(bounds.speeds[0]));
         for way in strokes.iter().map(|stroke| stroke.way(&profile.knife)) {
             travel_bound = travel_bound.max(bounds.lag(&way, moving.speed));
-            // Most strokes allow what those before them do.
+            // The bound of the earlier strokes holds for most others, so the bisection is rarely needed.
             if bounds.lag(&way, speed_bound) > flow.travel_mm {
                 speed_bound = bounds.fastest(&way, flow.travel_mm, speed_bound);
             }
@@ -234,32 +237,32 @@ impl Work<'_> {
     }
 }
 
-/// The fewest heads that can make tasks: the most that there are none of which can be made behind another. Two cannot where each
-/// must start before the other one, however early, is done and left behind.
+/// Lower bound on the number of heads: the largest set of tasks no two of which one head can do in sequence. One head cannot do
+/// two tasks if each must start before the other is finished and left, even at its earliest start.
 fn heads_at_least(tasks: &[Task], moving: &Moving) -> usize {
     let between = i64::from(Link::fewest(moving));
     let spans = tasks.iter().map(|task| [task.window[0] + task.ticks + between, task.window[1]]);
     bound::abreast(spans.filter(|[left, starts]| left > starts).map(|span| span.map(|tick| tick as f64))).max(1)
 }
 
-/// Least distance of two heads beyond the width of one, mm: places are looked at once in some periods.
+/// Extra distance between two heads beyond the width of a head, mm. Positions are compared block by block only.
 const WIDTH_MARGIN: f64 = 0.02;
 
-/// When a stroke may start, in ticks.
+/// Window of the start of a stroke and its duration, in ticks.
 fn task(stroke: &Stroke, moving: &Moving) -> Task {
     let [earliest, latest] = stroke.lag.window(moving).map(|time| time / moving.period);
     Task { window: [earliest.ceil() as i64, latest.floor() as i64], ticks: i64::from(stroke.ticks) }
 }
 
-/// The links between strokes.
+/// Links between the strokes.
 struct Linking<'a> {
     strokes: &'a [Stroke],
     moving: &'a Moving,
-    /// The least and the greatest y of each stroke, block of periods by block, mm.
+    /// Minimum and maximum y of each stroke in each block of periods, mm.
     blocks: Vec<Vec<[f64; 2]>>,
 }
 
-/// The least and the greatest y of strokes, block by block.
+/// Minimum and maximum y of each stroke in each block of periods, mm.
 fn blocks(strokes: &[Stroke]) -> Vec<Vec<[f64; 2]>> {
     let of = |stroke: &Stroke| {
         let mut track = Track::free([0, i64::from(stroke.ticks)]);
@@ -271,7 +274,7 @@ fn blocks(strokes: &[Stroke]) -> Vec<Vec<[f64; 2]>> {
 }
 
 impl Linking<'_> {
-    /// Whole turns of C by which each stroke is ahead of its motion where it then turns least, rad.
+    /// Whole turns of C, rad, added to the motion of each stroke so that C turns least between strokes.
     fn turns(&self, tasks: &[Start]) -> Vec<f64> {
         let mut turns = vec![0.0; tasks.len()];
         for i in 1..tasks.len() {
@@ -281,7 +284,7 @@ impl Linking<'_> {
         turns
     }
 
-    /// The whole turns nearest to an angle, rad; none where C has an end.
+    /// The whole number of turns nearest to an angle, rad; 0 where the range of C is limited.
     fn whole(&self, angle: f64) -> f64 {
         let is_free = self.moving.either.profile.c.range_deg.is_none();
         if is_free { (angle / TAU).round() * TAU } else { 0.0 }
@@ -311,7 +314,7 @@ impl Links for Linking<'_> {
         let width = self.moving.either.profile.flow.head_width_mm + WIDTH_MARGIN;
         let mut side: Option<f64> = None;
         for (i, a) in (0_i64..).zip(own) {
-            // A block of one stroke lies over two of the other.
+            // The blocks of two strokes are not aligned: a block of one overlaps two blocks of the other.
             let first = (of.tick + i * BLOCK - other.tick).div_euclid(BLOCK);
             for k in [first, first + 1] {
                 let Some(b) = usize::try_from(k).ok().and_then(|k| others.get(k)) else { continue };

@@ -1,26 +1,26 @@
-//! What heads and conveyor can do at the best, in closed form: bounds that no acceleration enters.
+//! Upper bounds on the performance of heads and conveyor in closed form, without accelerations.
 //!
-//! Along a chain the lag q of a head, how far it has been carried along the feed, grows by v t and falls by the way that
-//! the chain advances against the feed. A chord takes t = max(|dy|/Vy, L/Vcut, dx/(v + Vx) or -dx/(Vx - v), turn/Wc); a
-//! corner takes the time of lift, turn and plunge. A head that is early waits: q := max(0, q + v t - dx). A chain can be cut
-//! iff the greatest lag is no more than the travel of the head along the feed.
+//! The lag q of a head is the distance by which it has been carried along the feed. Along a chain it grows by v t and falls by
+//! the distance that the chain advances against the feed. A chord takes t = max(|dy|/Vy, L/Vcut, dx/(v + Vx) or -dx/(Vx - v),
+//! turn/Wc). A corner takes the time of lift, turn and plunge. A head that is early waits: q := max(0, q + v t - dx). A chain
+//! can be cut if and only if its maximum lag does not exceed the travel of the head along the feed.
 
 use crate::geom::{Point, Vector, polyline};
 use crate::machine::{Limits, MachineProfile};
 
-/// What bounds a head.
+/// Speed limits of a head.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds {
-    /// Speeds of x, y (mm/s) and c (rad/s).
+    /// Maximum speeds of x and y, mm/s, and of C, rad/s.
     pub speeds: [f64; 3],
-    /// Speed of the tip, mm/s.
+    /// Maximum speed of the tip, mm/s; infinite without a limit.
     pub feed: f64,
     /// Time of lift and plunge at a corner, s.
     pub lift: f64,
 }
 
 impl Bounds {
-    /// Those of a machine.
+    /// The limits of a machine.
     pub fn of(profile: &MachineProfile) -> Self {
         let speed = |limits: Limits| limits.speed;
         Self {
@@ -30,7 +30,7 @@ impl Bounds {
         }
     }
 
-    /// The greatest lag along a way at a speed of the conveyor, mm.
+    /// Maximum lag along a path at a speed of the conveyor, mm.
     pub fn lag(&self, way: &[Step], speed: f64) -> f64 {
         let [x, y, c] = self.speeds;
         let (mut lag, mut most) = (0.0_f64, 0.0_f64);
@@ -45,7 +45,7 @@ impl Bounds {
         most
     }
 
-    /// The greatest speed of the conveyor at which a way takes no more travel than that, up to `most`; mm and mm/s.
+    /// Maximum speed of the conveyor, at most `most`, at which a path stays within `travel` mm of travel, mm/s.
     pub fn fastest(&self, way: &[Step], travel: f64, most: f64) -> f64 {
         let fits = |speed: f64| self.lag(way, speed) <= travel;
         let [mut slow, mut fast] = [0.0, most.min(self.speeds[0])];
@@ -60,27 +60,27 @@ impl Bounds {
     }
 }
 
-/// Halvings of a range of speeds: far below what is printed of them.
+/// Bisection steps for a speed. The result is far more exact than its printed form.
 const BISECTIONS: u32 = 40;
 
-/// A step of a way: a chord, or a turn on the spot.
+/// A step of a path: a chord, or a turn on the spot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// How far the head goes over the cloth, mm.
+    /// Displacement of the head over the cloth, mm.
     pub along: Vector,
-    /// How far the tip goes, mm.
+    /// Distance covered by the tip, mm.
     pub tip: f64,
-    /// How much C turns, without sign, rad.
+    /// Absolute turn of C, rad.
     pub turned: f64,
-    /// Whether the knife is lifted for it and lowered again.
+    /// True if the knife is lifted for the step and lowered again.
     pub lifted: bool,
 }
 
-/// The way along a line as it is drawn; `is_corner` tells at which of its points the knife is lifted.
+/// The path along a polyline as drawn. `is_corner` is true for the points at which the knife is lifted.
 pub(super) fn drawn(points: &[Point], is_corner: impl Fn(usize) -> bool) -> Vec<Step> {
     let turn = |at: usize| polyline::turn_at(points[at - 1], points[at], points[at + 1]).abs();
     let inner = 1..points.len() - 1;
-    // Between two chords without a corner C turns along both.
+    // Without a corner between two chords, C makes half of the turn along each.
     let half = |at: usize| if inner.contains(&at) && !is_corner(at) { turn(at) / 2.0 } else { 0.0 };
     let mut way = Vec::with_capacity(points.len());
     for (i, ends) in points.windows(2).enumerate() {
@@ -93,10 +93,10 @@ pub(super) fn drawn(points: &[Point], is_corner: impl Fn(usize) -> bool) -> Vec<
     way
 }
 
-/// The most spans, of which each is an upper and a lower end, that one place is in.
+/// Maximum number of spans that share one place. A span is given as its upper and its lower end.
 pub(super) fn abreast(spans: impl Iterator<Item = [f64; 2]>) -> usize {
     let mut ends: Vec<(f64, bool)> = spans.flat_map(|[most, least]| [(least, true), (most, false)]).collect();
-    // Where one ends another may begin.
+    // Spans that only touch do not overlap.
     ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let (mut now, mut most) = (0_usize, 0);
     for (_, begins) in ends {
@@ -114,7 +114,7 @@ mod tests {
 
     const BOUNDS: Bounds = Bounds { speeds: [1000.0, 1000.0, 25.132_741_228_718_345], feed: f64::INFINITY, lift: 0.15 };
 
-    /// Turns of more than 20 degrees are corners.
+    /// The path along points, with a corner at each turn of more than 20 degrees.
     fn way(points: &[Point]) -> Vec<Step> {
         drawn(points, |at| {
             polyline::turn_at(points[at - 1], points[at], points[at + 1]).abs() > 0.349_065_850_398_865_9
@@ -136,13 +136,13 @@ mod tests {
 
     #[test]
     fn a_corner_takes_the_travel_of_its_lift_its_turn_and_its_plunge() {
-        // Both edges run straight against the feed, on which no head is late: what it lags behind at the corner is all.
+        // Both edges run straight against the feed, where no head lags. All of the lag comes from the corner.
         let (speed, turn) = (100.0, std::f64::consts::FRAC_PI_3);
         let chain = points(&[(200.0, 0.0), (100.0, 0.0), (50.0, 50.0 * 3.0_f64.sqrt())]);
         let free = Bounds { speeds: [1e9, 1e9, BOUNDS.speeds[2]], ..BOUNDS };
         let travel = free.lag(&way(&chain), speed);
         assert!((travel - speed * (0.15 + turn / BOUNDS.speeds[2])).abs() < 1e-5, "{travel}");
-        // Below the angle of a corner C turns as the blade goes.
+        // Without a corner, C turns while the blade moves.
         assert!(free.lag(&drawn(&chain, |_| false), speed) < 0.1 * travel);
     }
 
@@ -156,12 +156,12 @@ mod tests {
         assert!((travel - 100.0 * (1.04_f64.sqrt() - 1.0)).abs() < 2e-3, "{travel}");
     }
 
-    /// A diamond of 200 x 120 with its middle there: its two chains.
+    /// The two chains of a diamond of 200 x 120 mm with its centre at (x, y).
     fn diamond(x: f64, y: f64) -> [Vec<Point>; 2] {
         [60.0, -60.0].map(|side| points(&[(x + 100.0, y), (x, y + side), (x - 100.0, y)]))
     }
 
-    /// A change takes 0.3 s, and the way across the feed between the tasks, whose y these are (mm), at 1000 mm/s.
+    /// Links between tasks with these y, mm. A change takes 0.3 s and the travel across the feed at 1000 mm/s.
     struct Change(Vec<f64>);
 
     impl Links for Change {
@@ -176,7 +176,7 @@ mod tests {
         }
     }
 
-    /// Heads and rows of three diamonds, each chain at the moment at which it passes its station.
+    /// Number of heads and of rows for three diamonds. Each chain starts at the moment at which it passes its station.
     fn diamonds(speed: f64) -> [usize; 2] {
         let (overlap, width) = (2.0, 80.0);
         let chains: Vec<Vec<Point>> =

@@ -1,8 +1,9 @@
-//! Cuts to chains: stretches of a cut that one head makes, with x falling on the whole, since the cloth comes towards +X.
+//! Division of cuts into chains. A chain is a stretch of a cut that one head makes, with x falling overall because the cloth
+//! moves towards +X.
 //!
-//! A cut is parted at the local extrema of x. An edge across the feed goes to the chain before it where it starts one and
-//! behind it where it ends one, so that each of two chains of a rectangle has one. A turn back that is shorter than what a
-//! caller allows parts nothing: a head with some travel along the feed makes it by itself.
+//! A cut is parted at the local extrema of x. An edge across the feed at the start of a chain belongs to the chain before it,
+//! an edge at the end to the chain behind it, so that each of the two chains of a rectangle has one. A turn back up to the
+//! permitted length does not part the cut: a head with some travel along the feed makes it by itself.
 
 use super::bound;
 use super::join::Join;
@@ -10,48 +11,48 @@ use crate::geom::{Point, corner};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
 
-/// A cut of the marker as it is traced: one run.
+/// A traced cut of the marker: one run.
 #[derive(Debug, Clone)]
 pub(super) struct Line {
-    /// Its place among the cuts of the marker.
+    /// Index of the cut in the marker.
     pub(super) cut: u32,
-    /// Its toolpath, of which the run was taken.
+    /// Toolpath of the cut, without its run.
     pub(super) toolpath: Toolpath,
-    /// The whole of it.
+    /// The whole run.
     pub(super) run: Run,
 }
 
-/// How a line is parted.
+/// Parameters of the division of a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Parting {
-    /// Turns back that are no longer than that part nothing, mm.
+    /// Maximum turn back within a chain, mm.
     pub(super) back: f64,
-    /// How far a chain goes on along the line beyond an end at which another one goes on, mm.
+    /// Distance by which a chain continues along the line beyond an end at which another chain takes over, mm.
     pub(super) overlap: f64,
     /// Width of the blade, mm.
     pub(super) blade: f64,
-    /// A turn that is more is a corner, rad.
+    /// Maximum turn that is no corner, rad.
     pub(super) corner: f64,
-    /// What the points are rounded to, mm; 0 = nothing.
+    /// Rounding unit of the coordinates, mm; 0 if they are not rounded.
     pub(super) unit: f64,
 }
 
 /// A stretch of a cut that one head makes.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
-    /// The cut, by its place in the marker.
+    /// Index of the cut in the marker.
     pub(super) cut: u32,
-    /// One open run, raw.
+    /// Toolpath with one open run, before the passes.
     pub(super) toolpath: Toolpath,
-    /// Whether x falls all along it, but for what an overlap leads back.
+    /// True if x falls all along it, except where an overlap leads back.
     pub(super) falls: bool,
 }
 
-/// Equal x, mm: rounding of coordinates of some metres.
+/// Difference of x that counts as equal, mm: rounding of coordinates of some metres.
 const LEVEL: f64 = 1e-9;
 
 impl Line {
-    /// The line of a raw toolpath; `None` of what is no cut.
+    /// The line of a traced toolpath; `None` if its last step is not a run.
     pub(super) fn new(cut: u32, mut toolpath: Toolpath) -> Option<Self> {
         match toolpath.steps.pop() {
             Some(Step::Run(run)) => Some(Self { cut, toolpath, run }),
@@ -59,7 +60,7 @@ impl Line {
         }
     }
 
-    /// Its chains.
+    /// The chains of the line.
     pub(super) fn chains(&self, parting: Parting) -> Vec<Chain> {
         let ends = if self.is_closed() {
             round(&self.run.points, parting.back)
@@ -71,11 +72,12 @@ impl Line {
         ends.windows(2).zip(joins.windows(2)).map(chain).collect()
     }
 
-    /// How far behind the end of a chain, along the line, the next one takes over from it, mm.
+    /// Distance along the line from the end of a chain to the place where the next chain takes over, mm; negative before the
+    /// end.
     fn join(&self, ends: &[usize], i: usize, parting: Parting) -> f64 {
         let vertex = ends[i];
         let x = |end: usize| self.point(end).x;
-        // Blades are plunged where chains begin: at the greatest x.
+        // Blades plunge at the start of chains: at the greatest x.
         let is_top = [i.checked_sub(1), Some(i + 1)]
             .into_iter()
             .flatten()
@@ -94,23 +96,23 @@ impl Line {
         self.run.shape == Shape::Ring
     }
 
-    /// Number of its segments.
+    /// Number of segments.
     fn segments(&self) -> usize {
         self.run.spans.len()
     }
 
-    /// A vertex, counted round and round.
+    /// Position of a vertex. The index wraps around on a closed line.
     fn point(&self, vertex: usize) -> Point {
         let count = if self.is_closed() { self.segments() } else { self.run.points.len() };
         self.run.points[vertex % count]
     }
 
-    /// Whether another stretch goes on at a vertex.
+    /// True if the line continues at a vertex, as it does everywhere but at the ends of an open line.
     fn goes_on(&self, vertex: usize) -> bool {
         self.is_closed() || (vertex > 0 && vertex < self.segments())
     }
 
-    /// Whether the knife is lifted at a vertex, whatever comes behind it.
+    /// True if the knife is lifted at a vertex, with or without a chain that starts there.
     fn is_corner(&self, vertex: usize, parting: Parting) -> bool {
         let n = self.segments();
         if self.run.joints[vertex % n].lift {
@@ -123,7 +125,8 @@ impl Line {
         corner::is_corner(self.point(vertex), &before, &behind, parting.corner, parting.unit)
     }
 
-    /// The chain between two vertices, so far behind which it takes over and is taken over from, mm; turned round where x rises.
+    /// The chain between two vertices, reversed if x rises. `joins` are the distances along the line from each vertex to the
+    /// place where one chain takes over from the other, mm.
     fn chain(&self, [from, to]: [usize; 2], joins: [f64; 2], parting: Parting) -> Chain {
         let n = self.segments();
         let mut run = Run { shape: Shape::Open, points: vec![self.point(from)], ..self.empty() };
@@ -165,7 +168,7 @@ impl Line {
         Run { points: Vec::new(), spans: Vec::new(), joints: Vec::new(), feeds: Vec::new(), ..self.run.clone() }
     }
 
-    /// Adds a segment that ends at a point.
+    /// Appends a segment that ends at a point.
     fn push(&self, run: &mut Run, segment: usize, to: Point) {
         let n = self.segments();
         run.points.push(to);
@@ -175,8 +178,8 @@ impl Line {
         run.joints.push(self.run.joints[if closed { (segment + 1) % n } else { segment + 1 }]);
     }
 
-    /// Leads a stretch on along the line beyond its end, or before its start, up to the next corner at the farthest; no other
-    /// overlap goes there.
+    /// Extends a run along the line beyond its end or start by `parting.overlap`, but not beyond the next corner. Other
+    /// overlaps are disabled at that end.
     fn lead_on(&self, run: &mut Run, (vertex, is_end): (usize, bool), parting: Parting) {
         let n = self.segments();
         let (mut rest, mut at) = (parting.overlap, vertex);
@@ -211,7 +214,7 @@ impl Line {
     }
 }
 
-/// Takes a way off an end of a run, or off its start, mm: less than its segment there.
+/// Shortens a run at its end or start by a distance, mm, which must be less than the length of its segment there.
 fn shorten(run: &mut Run, is_end: bool, way: f64) {
     let last = run.points.len() - 1;
     let (end, next) = if is_end { (last, last - 1) } else { (0, 1) };
@@ -220,12 +223,12 @@ fn shorten(run: &mut Run, is_end: bool, way: f64) {
     run.joints[end] = Joint { no_overcut: is_end, full_advance: !is_end, lift: false };
 }
 
-/// A joint of a run that is turned round: what held at the plunge holds at the lift.
+/// Adapts a joint to a run in reverse: conditions of the plunge become conditions of the lift.
 fn turn(joint: &mut Joint) {
     std::mem::swap(&mut joint.full_advance, &mut joint.no_overcut);
 }
 
-/// Where x turns back along an open line, its ends included.
+/// Indices of the points at which x turns back along an open line, with both ends.
 fn along(points: &[Point], back: f64) -> Vec<usize> {
     let last = points.len() - 1;
     let [mut low, mut high] = [0; 2];
@@ -247,7 +250,8 @@ fn along(points: &[Point], back: f64) -> Vec<usize> {
     ends
 }
 
-/// The same round a closed one, from its greatest x to that again, counted on beyond its end.
+/// Indices of the points at which x turns back around a closed line. They run from the maximum of x to the same point one turn
+/// later, counted beyond the end.
 fn round(points: &[Point], back: f64) -> Vec<usize> {
     let n = points.len() - 1;
     let x = |i: usize| points[i % n].x;
@@ -257,14 +261,15 @@ fn round(points: &[Point], back: f64) -> Vec<usize> {
     let mut ends = vec![first];
     turns(first..=first + n, x, back, true, &mut ends);
     if ends.len() % 2 == 1 && ends.len() > 1 {
-        // The last turn was one at the top, and what is behind it falls no farther than what is allowed.
+        // The last turn is at the top, and x falls behind it by no more than allowed.
         ends.pop();
     }
     ends.push(first + n);
     ends
 }
 
-/// Where x turns back by more than what is allowed, the first of places alike; `is_down` says how it begins.
+/// Adds the points at which x turns back by more than allowed; of points with equal x, the first. `is_down` tells if x falls at
+/// the start.
 fn turns(
     places: std::ops::RangeInclusive<usize>,
     x: impl Fn(usize) -> f64,
@@ -285,7 +290,7 @@ fn turns(
 }
 
 impl Chain {
-    /// Its run as the line has it, without the overlaps of the blade.
+    /// Points of the run, without the overlaps of the blade.
     pub(super) fn points(&self) -> &[Point] {
         match &self.toolpath.steps[..] {
             [Step::Run(run), ..] => &run.points,
@@ -293,7 +298,7 @@ impl Chain {
         }
     }
 
-    /// The way along it, as it is drawn.
+    /// The path along the chain as drawn.
     pub(super) fn way(&self, parting: Parting) -> Vec<bound::Step> {
         let [Step::Run(run), ..] = &self.toolpath.steps[..] else { return Vec::new() };
         let is_corner = |at: usize| {
@@ -303,7 +308,7 @@ impl Chain {
         bound::drawn(&run.points, is_corner)
     }
 
-    /// Where it starts and where it ends along the feed, mm.
+    /// Maximum and minimum x, mm.
     pub(super) fn span(&self) -> [f64; 2] {
         let x = self.points().iter().map(|point| point.x);
         [x.clone().fold(f64::NEG_INFINITY, f64::max), x.fold(f64::INFINITY, f64::min)]

@@ -1,58 +1,57 @@
-//! Which head makes which chain, and when: interval scheduling with set-up times.
+//! Assignment of chains to heads and start times: interval scheduling with set-up times.
 //!
-//! Tasks are taken in the order in which they may start. Each goes to the head that is free in time and has the least way
-//! to it; a new head is taken where none is. Without set-up times and with tasks that start at one time only that is
-//! optimal (Kleinberg & Tardos, *Algorithm Design*, 2006, section 4.1); with them it is a heuristic, and what it gives is
-//! shown beside the lower bound. It takes as few heads as it can, and leaves it to others which stand in one row.
+//! Tasks are taken in the order of their earliest starts. Each goes to the nearest head that is free in time, or to a new head.
+//! Without set-up times and with fixed start times this is optimal (Kleinberg & Tardos, *Algorithm Design*, 2006, section 4.1);
+//! otherwise it is a heuristic, and its result is reported beside the lower bound. It uses as few heads as it can and leaves
+//! the rows to a later step.
 //!
-//! The other way is to give each task to a head of a row at once, one with whose neighbours it does not clash. That takes
-//! more heads now and then, and fewer rows where parts lie close.
+//! The alternative assigns each task at once to a head of a row, provided that it does not clash with the neighbours in that
+//! row. This sometimes takes more heads, but fewer rows where parts lie close.
 
-/// Something that a head has to do.
+/// A task of a head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Task {
-    /// The earliest and the latest tick at which it may start.
+    /// Earliest and latest tick of the start.
     pub(super) window: [i64; 2],
-    /// How many ticks it takes.
+    /// Duration in ticks.
     pub(super) ticks: i64,
 }
 
-/// What lies between two tasks of a head.
+/// Set-up times and conflicts between tasks.
 pub(super) trait Links {
-    /// Ticks from the end of one task, which started at a tick, to the start of another one at a tick.
+    /// Minimum ticks from the end of one task to the start of another, given the ticks at which both start.
     fn ticks(&self, from: Start, to: Start) -> i64;
-    /// How much rather another head should go there.
+    /// Cost of giving a head task `to` after task `from`. The head with the lowest cost is preferred.
     fn cost(&self, from: usize, to: usize) -> f64;
-    /// On which side of one task another one is while both are made: 1 above, -1 below; 0 where they come too near or pass
-    /// each other, `None` where they are not made at the same time.
+    /// Side of one task on which another lies while both are made: 1 above, -1 below, 0 if they come too near or pass each
+    /// other; `None` if they are not made at the same time.
     fn side(&self, of: Start, other: Start) -> Option<f64>;
 }
 
-/// A task that starts at a tick.
+/// A task with its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Start {
-    /// Which.
+    /// Index of the task.
     pub task: usize,
-    /// When.
+    /// Tick of the start.
     pub tick: i64,
 }
 
-/// Rounds in which the start of a task and the way to it are brought together: the later it starts, the shorter or longer
-/// that is.
+/// Maximum number of iterations to find a start. The set-up time depends on the start, and the start on the set-up time.
 const ROUNDS: usize = 4;
 
-/// Tasks, and what lies between them.
+/// A set of tasks and the links between them.
 pub(super) struct Schedule<'a, L> {
     pub(super) tasks: &'a [Task],
     pub(super) links: &'a L,
 }
 
-/// A head of a row that is being filled.
+/// A head of a row to which tasks are being assigned.
 #[derive(Debug, Clone)]
 struct Slot {
     row: usize,
     done: Vec<Start>,
-    /// On which side of each slot before it this one has been, as [`Links::side`] tells; 0 = of none yet.
+    /// Side of each earlier slot on which this one has been, as in [`Links::side`]; 0 if they have not met yet.
     sides: Vec<f64>,
 }
 
@@ -74,7 +73,7 @@ impl<L: Links> Schedule<'_, L> {
         heads
     }
 
-    /// The row and the tasks of each head, in order, where tasks go to rows in which they clash with none.
+    /// The row and the tasks of each head, in order. No task clashes with another task of its row.
     pub(super) fn heads_in_rows(&self) -> Vec<(usize, Vec<Start>)> {
         let mut slots: Vec<Slot> = Vec::new();
         for task in self.order() {
@@ -106,14 +105,14 @@ impl<L: Links> Schedule<'_, L> {
         slots.into_iter().map(|slot| (slot.row, slot.done)).collect()
     }
 
-    /// All tasks, in the order in which they may start.
+    /// Indices of all tasks, in the order of their earliest starts.
     fn order(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.tasks.len()).collect();
         order.sort_by_key(|&i| (self.tasks[i].window[0], self.tasks[i].window[1], i));
         order
     }
 
-    /// Heads by their last tasks, the one first that has the least way to another.
+    /// Heads by increasing cost of the task after their last one.
     fn nearest<'s>(&self, lasts: impl Iterator<Item = Option<&'s Start>>, task: usize) -> Vec<usize> {
         let cost = |(head, last): (usize, Option<&Start>)| Some((self.links.cost(last?.task, task), head));
         let mut heads: Vec<(f64, usize)> = lasts.enumerate().filter_map(cost).collect();
@@ -125,7 +124,7 @@ impl<L: Links> Schedule<'_, L> {
         Start { task, tick: self.tasks[task].window[0] }
     }
 
-    /// When a head that made one task can start another one; `None` when that is too late.
+    /// Earliest start of a task by a head that made another one last; `None` if that is too late.
     fn start(&self, last: Start, task: usize) -> Option<Start> {
         let end = last.tick + self.tasks[last.task].ticks;
         let [earliest, latest] = self.tasks[task].window;
@@ -143,8 +142,8 @@ impl<L: Links> Schedule<'_, L> {
         None
     }
 
-    /// The sides of the other heads of its row on which a head is that makes a task, of those that it meets; `None` where it
-    /// comes too near to one, or would pass it.
+    /// For each head of the row that a head meets during a task, the side of it on which the head is. `None` if it comes too
+    /// near to one or would pass it.
     fn sides(&self, slots: &[Slot], head: usize, start: Start) -> Option<Vec<(usize, f64)>> {
         let mut met = Vec::new();
         let row = slots[head].row;
@@ -159,7 +158,8 @@ impl<L: Links> Schedule<'_, L> {
         Some(met)
     }
 
-    /// On which side of a task those of another head are that are made at the same time; 0 where any comes too near.
+    /// Side of a task on which the simultaneous tasks of another head lie; 0 if one comes too near or they lie on both sides,
+    /// `None` if there are none.
     fn side_of(&self, start: Start, done: &[Start]) -> Option<f64> {
         let is_late = |other: &&Start| other.tick + self.tasks[other.task].ticks >= start.tick;
         let sides = done.iter().rev().take_while(is_late).filter_map(|&other| self.links.side(start, other));

@@ -1,16 +1,16 @@
-//! Where one chain takes over from another amid a line: off a bend over which no blade can be plunged.
+//! The place on a line where one chain takes over from another, away from bends over which a blade cannot be plunged.
 
 use crate::geom::{Point, Vector, polyline};
 
-/// Part of the tolerance by which a plunged blade may bow away from a bend.
+/// Fraction of the tolerance by which a plunged blade may deviate from a bend.
 const BOW_SHARE: f64 = 0.25;
 
-/// Two chains that begin at a vertex, each led on beyond it.
+/// Two chains that begin at a vertex and are both extended beyond it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Join {
-    /// The vertex, with the ones before and behind it.
+    /// The vertex, between its neighbours.
     pub(super) about: [Point; 3],
-    /// How far each is led on beyond where it takes over, mm.
+    /// Distance by which each chain is extended beyond the place where it takes over, mm.
     pub(super) overlap: f64,
     /// Width of the blade, mm.
     pub(super) blade: f64,
@@ -19,12 +19,12 @@ pub(super) struct Join {
 }
 
 impl Join {
-    /// How far behind the vertex they take over from each other, mm; negative: before it. There, on the straight way to one
-    /// side of a bend, both blades find room; of two such ways it is the one on which x falls less. At the vertex itself where
-    /// the blade passes the bend, or finds no such way.
+    /// Distance behind the vertex at which the chains take over from each other, mm; negative before it. The place lies on the
+    /// straight segment on one side of the bend where both blades find room; of two such segments, the one on which x changes
+    /// less per length. 0 if the blade passes the bend or neither segment is long enough.
     pub(super) fn place(self) -> f64 {
         let Self { about: [before, at, behind], overlap, blade, tolerance } = self;
-        // How far the vertex stands beside a blade whose heel is plunged an overlap before it.
+        // Distance of the vertex from a blade whose heel is plunged an overlap before it.
         let bow = overlap * (blade - overlap).max(0.0) / blade * polyline::turn_at(before, at, behind).sin().abs();
         if blade == 0.0 || bow <= BOW_SHARE * tolerance {
             return 0.0;

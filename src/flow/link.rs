@@ -1,40 +1,40 @@
-//! What a head does between two chains, and before the first and behind the last: from moving with the cloth to rest over
-//! the table, to where it is wanted, and back to the speed of the cloth. The knife is up all along.
+//! Motion of a head between two chains, before the first and after the last one: it slows down from the speed of the cloth to
+//! rest, travels over the table, and speeds up again. The knife is up throughout.
 
 use super::moving::Moving;
 use super::ramp::Ramp;
 use crate::machine::kinematics::Move;
 
-/// Where a head is: along the feed from its station and across, mm; C, rad.
+/// Position of a head: x and y, mm, and C, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
-    /// Along the feed, from the station.
+    /// Position along the feed from the station, mm.
     pub xi: f64,
-    /// Across the feed.
+    /// Position across the feed, mm.
     pub y: f64,
-    /// Position of C.
+    /// Position of C, rad.
     pub c: f64,
 }
 
-/// Where a head waits across the feed between two chains.
+/// Position across the feed in which a head waits between two chains.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Wait {
-    /// Where the next chain starts.
+    /// At the start of the next chain.
     #[default]
     There,
-    /// Where the last one ended.
+    /// At the end of the last chain.
     Here,
-    /// At another place, out of the way of others, mm.
+    /// At another place, out of the way of other heads, mm.
     At(f64),
 }
 
-/// An axis that goes from one place to another in its own time, and rests before and behind.
+/// Move of an axis from one position to another, at rest before and after it.
 #[derive(Debug, Clone, Copy)]
 struct Shift {
     from: f64,
     to: f64,
     way: Move,
-    /// The tick at which it begins, and how many it takes.
+    /// First tick of the move, and its duration in ticks.
     first: u32,
     ticks: u32,
 }
@@ -45,12 +45,12 @@ impl Shift {
         Self { from, to, way, first: 0, ticks: periods(way.duration(), moving.period) }
     }
 
-    /// The same that begins at a tick.
+    /// The move with its start at a tick.
     fn begun(self, first: u32) -> Self {
         Self { first, ..self }
     }
 
-    /// The same that ends at a tick.
+    /// The move with its end at a tick.
     fn ended(self, last: u32) -> Self {
         Self { first: last.saturating_sub(self.ticks), ..self }
     }
@@ -61,31 +61,31 @@ impl Shift {
     }
 }
 
-/// What lies between two chains.
+/// Boundary conditions of a link.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
     pub(super) ends: [State; 2],
-    /// Whether the head moves with the cloth at its start, and at its end.
+    /// True at the start and at the end, respectively, if the head moves with the cloth there.
     pub(super) moves: [bool; 2],
     pub(super) wait: Wait,
 }
 
-/// What a head does between two chains.
+/// Motion of a head between two chains.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     ramp: Ramp,
     ends: [State; 2],
-    /// Whether it moves with the cloth at its start, and at its end.
+    /// True at the start and at the end, respectively, if the head moves with the cloth there.
     moves: [bool; 2],
     pub(super) ticks: u32,
     x: Shift,
-    /// To where it waits, and on from there.
+    /// Moves to the waiting position and on from it.
     y: [Shift; 2],
     c: Shift,
 }
 
 impl Link {
-    /// The link over a gap that takes so many ticks.
+    /// The link over a gap of the given duration in ticks.
     pub(super) fn new(gap: &Gap, ticks: u32, moving: &Moving) -> Self {
         let (ramp, Gap { ends, moves, wait }) = (moving.ramp, *gap);
         let [from, to] = ends;
@@ -99,7 +99,7 @@ impl Link {
         Self { ramp, ends, moves, ticks, x, y, c: Shift::new([from.c, to.c], 2, moving) }
     }
 
-    /// The least ticks that a link between two states takes.
+    /// Minimum duration of a link between two states, in ticks.
     pub(super) fn least(ends: [State; 2], moves: [bool; 2], moving: &Moving) -> u32 {
         let [from, to] = ends;
         let taken = |ends: [f64; 2], axis: usize| Shift::new(ends, axis, moving).ticks;
@@ -110,22 +110,22 @@ impl Link {
         along.max(taken([from.y, to.y], 1)).max(taken([from.c, to.c], 2)).max(rising)
     }
 
-    /// The least ticks that any link between two chains takes.
+    /// Lower bound on the duration of any link between two chains, in ticks.
     pub(super) fn fewest(moving: &Moving) -> u32 {
         2 * moving.ramp.ticks
     }
 
-    /// Whether there is time to wait where it does.
+    /// True if both moves across the feed fit into the duration.
     pub(super) fn has_time(&self) -> bool {
         self.y[0].ticks + self.y[1].ticks <= self.ticks
     }
 
-    /// Where the head is across the feed at a tick of it, mm.
+    /// Position across the feed at a tick of the link, mm.
     pub(super) fn y(&self, tick: u32) -> f64 {
         if tick < self.y[1].first { self.y[0].at(tick) } else { self.y[1].at(tick) }
     }
 
-    /// Where the head is at a tick of it.
+    /// State of the head at a tick of the link.
     pub(super) fn at(&self, tick: u32) -> State {
         let ramp = &self.ramp;
         let [from, to] = &self.ends;
@@ -140,16 +140,16 @@ impl Link {
     }
 }
 
-/// Where the head rests along the feed behind its first ramp and before its last one.
+/// Positions along the feed at which the head rests after its first and before its last ramp, mm.
 fn rests([from, to]: [State; 2], moves: [bool; 2], ramp: &Ramp) -> [f64; 2] {
     let way = |is_moving: bool| if is_moving { ramp.way } else { 0.0 };
     [from.xi + way(moves[0]), to.xi - way(moves[1])]
 }
 
-/// Part of a period by which a duration may exceed a whole number of them: rounding.
+/// Excess over a whole number of periods, as a fraction of a period, that counts as rounding.
 const PERIOD_EPSILON: f64 = 1e-9;
 
-/// The least number of periods that last so long, s.
+/// Minimum number of periods that cover a duration, s.
 fn periods(duration: f64, period: f64) -> u32 {
     (duration / period - PERIOD_EPSILON).ceil().max(0.0) as u32
 }

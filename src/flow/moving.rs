@@ -1,14 +1,14 @@
-//! The frame in which heads cut: the cloth's, which moves at a steady speed under them.
+//! Frame in which heads cut: that of the cloth, which moves under them at constant speed.
 //!
 //! A head at `xi` over its station X meets the place x = X + xi - s of the cloth, s being the conveyor's position. At a
-//! steady speed v its accelerations and jerks are those over the cloth; its speed along the feed is v more. So what a head
-//! can do over the cloth are the limits of its axes, but for a speed from -(V + v) to V - v along the feed.
+//! constant speed v its accelerations and jerks are equal in both frames; its speed along the feed is greater by v over the
+//! table. The limits over the cloth are therefore those of its axes, except for a speed from -(V + v) to V - v along the feed.
 
 use super::ramp::Ramp;
 use crate::machine::{Job, Limits};
 
-/// Periods of travel that whole ones take: half a period at either end for the place of the cloth, and one because a chain
-/// starts no earlier than it may.
+/// Periods of travel that are lost to whole periods: half a period at either end because the position of the cloth is rounded,
+/// and one because a chain cannot start before its earliest time.
 const WHOLE_PERIODS: f64 = 2.0;
 
 /// Cloth that moves under heads.
@@ -18,20 +18,20 @@ pub(super) struct Moving {
     pub(super) speed: f64,
     /// Time between two setpoints, s.
     pub(super) period: f64,
-    /// How far a head travels along the feed, mm, less what rounding to whole periods takes.
+    /// Travel of a head along the feed, less the loss to whole periods, mm.
     pub(super) travel: f64,
-    /// From rest to the speed of the cloth.
+    /// Ramp between rest and the speed of the cloth.
     pub(super) ramp: Ramp,
-    /// The machine as a chain along which x falls sees it.
+    /// Job with the limit of x for a chain along which x falls.
     pub(super) falling: Job,
-    /// The same as any other sees it: the limit holds either way.
+    /// Job with the limit of x for any other chain: the stricter of both directions.
     pub(super) either: Job,
-    /// Limits of x, y and c with the knife up, over the table.
+    /// Limits of x, y and C over the table with the knife up.
     pub(super) rapid: [Limits; 3],
 }
 
 impl Moving {
-    /// The frame at a speed of the conveyor; `None` where no head can keep up with it.
+    /// The frame at a speed of the conveyor; `None` if the heads cannot keep up with it.
     pub(super) fn new(speed: f64, job: &Job) -> Option<Self> {
         let (cut, rapid) = (job.profile.axes.limits(), job.profile.axes.travel_limits());
         let period = job.profile.time.period();
@@ -56,12 +56,12 @@ impl Moving {
         Some(Self { speed, period, travel, ramp, falling: with(most), either: with(least), rapid })
     }
 
-    /// What is left of the travel at either end, mm: the place of the cloth at a station is rounded to half a period.
+    /// Reserve of the travel at either end, mm: the position of the cloth at a station is rounded to half a period.
     pub(super) fn reserve(&self) -> f64 {
         self.step() / 2.0
     }
 
-    /// How far the cloth moves in a period, mm.
+    /// Distance that the cloth moves in a period, mm.
     pub(super) fn step(&self) -> f64 {
         self.speed * self.period
     }

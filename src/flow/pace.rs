@@ -1,9 +1,9 @@
-//! A head that is too fast along the feed comes to the end of its travel and would have to wait with the knife down. It is
-//! slowed before that: chord by chord, to the speed at which it arrives where the cloth is.
+//! Speed of a head along a chain. A head that runs ahead of the cloth reaches the end of its travel and would have to wait with
+//! the knife down. Its speed is therefore capped in advance, chord by chord, so that it arrives together with the cloth.
 //!
-//! The fastest motion tells how long each chord takes at the least; what the lag before a chord leaves, how much sooner than
-//! the cloth the head may arrive. A motion under these caps speeds up and slows down and so is later than they say, never
-//! earlier: by how much is known when it is planned, and counts in the next round.
+//! The fastest motion gives the minimum time of each chord; the lag before a chord gives the permitted lead over the cloth. A
+//! motion under these caps has to accelerate and brake, so it is late against them, never early. Each round subtracts the delay
+//! measured in the round before.
 
 use super::chains::Chain;
 use super::moving::Moving;
@@ -14,27 +14,27 @@ use crate::ir::Toolpath;
 use crate::ir::motion::{Kind, Phase};
 use crate::ir::toolpath::{Run, Step};
 
-/// Rounds of slowing down.
+/// Maximum number of slowing rounds.
 const ROUNDS: usize = 3;
-/// A chain that takes no more of the travel needs no better pace.
+/// Fraction of the travel below which a chain needs no slower pace.
 const PLENTY: f64 = 0.5;
-/// Speeds that differ by less are alike.
+/// Relative difference below which two speeds are equal.
 const SAME: f64 = 1e-6;
 
-/// A chord of a run, or a time between two runs.
+/// A chord of a run, or the time between two runs.
 #[derive(Debug, Clone, Copy)]
 struct Leg {
-    /// The run among the steps, and the chord of it; `None` where no speed can be capped.
+    /// Index of the run among the steps, and of its chord; `None` if the speed cannot be capped.
     chord: Option<[usize; 2]>,
-    /// How long it takes, s.
+    /// Duration, s.
     time: f64,
-    /// How far x falls, mm.
+    /// Fall of x, mm.
     advance: f64,
-    /// Length of the way, mm.
+    /// Length of the tip's path, mm.
     way: f64,
 }
 
-/// The motion of a chain at a pace that takes as little travel along the feed as is found.
+/// The motion of a chain with the least travel along the feed that was found.
 pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Result<Stroke, Vec<Diagnostic>> {
     let mut best = stroke(chain, toolpath, moving)?;
     let travel = |stroke: &Stroke| stroke.lag.travel(moving.ramp.way);
@@ -50,7 +50,7 @@ pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Resu
         if !cap(&mut capped, toolpath, &fastest, &times) {
             break;
         }
-        // What cannot be planned so slowly is cut at the pace that was found before.
+        // If the slower motion cannot be planned, the best one so far stays.
         let Ok(slower) = stroke(chain, &capped, moving) else { break };
         let now = legs(&capped, &slower, moving);
         late = now.iter().zip(&times).map(|(leg, time)| (leg.time - time).max(0.0)).collect();
@@ -64,8 +64,8 @@ pub(super) fn paced(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Resu
     Ok(best)
 }
 
-/// How long each leg should take so that the head is never early, its lag never below that of its start, s; `late` is by how
-/// much a leg takes longer than it should.
+/// Target duration of each leg, s, at which the head never runs ahead of the cloth and its lag stays non-negative. `late` is
+/// the measured delay of each leg against its target, s.
 fn times(fastest: &[Leg], late: &[f64], speed: f64) -> Vec<f64> {
     let mut lag = 0.0;
     let time = |(leg, late): (&Leg, &f64)| {
@@ -76,13 +76,13 @@ fn times(fastest: &[Leg], late: &[f64], speed: f64) -> Vec<f64> {
     fastest.iter().zip(late).map(time).collect()
 }
 
-/// Caps the chords that should take longer than they do at their fastest; says whether any cap is another one than before.
+/// Caps the speed of the chords that must take longer than their minimum time. True if any cap changed.
 fn cap(capped: &mut Toolpath, plain: &Toolpath, fastest: &[Leg], times: &[f64]) -> bool {
     let mut is_other = false;
     for (leg, &time) in fastest.iter().zip(times) {
         let Some([step, chord]) = leg.chord else { continue };
         let (Step::Run(run), Step::Run(of)) = (&mut capped.steps[step], &plain.steps[step]) else { continue };
-        // A chord that is shorter than the way of a period goes by its neighbours.
+        // A chord shorter than the path of one period takes the speed of its neighbours.
         let is_slowed = time > leg.time && leg.way > 0.0;
         let feed = if is_slowed { of.feeds[chord].min(leg.way / time) } else { of.feeds[chord] };
         is_other |= (run.feeds[chord] / feed - 1.0).abs() > SAME;
@@ -120,27 +120,27 @@ fn legs(toolpath: &Toolpath, stroke: &Stroke, moving: &Moving) -> Vec<Leg> {
     legs
 }
 
-/// A run as it is cut.
+/// A run with its motion.
 struct Cut<'a> {
-    /// Its place among the steps.
+    /// Index of the run among the steps.
     step: usize,
     run: &'a Run,
     phase: &'a Phase,
-    /// From the C axis to the leading end of the blade, mm.
+    /// Distance from the C axis to the leading end of the blade, mm.
     lead: f64,
-    /// The place of the C axis along the feed where it ends, mm.
+    /// Position of the C axis along the feed at the end, mm.
     end: f64,
 }
 
 impl Cut<'_> {
-    /// Its legs, a chord each: where the tip is along the polyline is told by how far it still has to go.
+    /// The legs of the run, one per chord. The remaining path locates the tip on the polyline.
     fn legs(&self, moving: &Moving) -> Vec<Leg> {
         let Self { step, run, phase, end, .. } = *self;
         let way = self.way(moving);
         let stations = polyline::stations(&run.points);
         let whole = stations[stations.len() - 1] + run.front;
         let total = phase.length.max(way.last().copied().unwrap_or(0.0));
-        // The tick at which the tip is at a station, and the place of the centre then.
+        // First tick at which the tip has reached a station.
         let reach =
             |station: f64| way.partition_point(|&at| at < total - (whole - station)).min(phase.ticks as usize) as u32;
         let x = |tick: u32| if tick < phase.ticks { phase.pose(tick).centre.x } else { end };
@@ -161,7 +161,7 @@ impl Cut<'_> {
         (0..=last_chord).map(leg).collect()
     }
 
-    /// The way of the tip up to each tick, mm.
+    /// Length of the tip's path up to each tick, mm.
     fn way(&self, moving: &Moving) -> Vec<f64> {
         let Self { run, phase, lead, .. } = *self;
         let turn = run.edge.turn() + moving.either.profile.knife.yaw();

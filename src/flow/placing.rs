@@ -1,4 +1,4 @@
-//! Heads to rows: as few rows as the chains allow that are cut at the same time, and room in each for the heads that wait.
+//! Assignment of heads to rows: as few rows as the simultaneous chains allow, with room for the heads that wait.
 
 use rayon::prelude::*;
 
@@ -9,18 +9,18 @@ use super::track::Track;
 use super::yielding::{Mate, Room};
 use crate::machine::Job;
 
-/// Heads in rows.
+/// Heads assigned to rows.
 #[derive(Debug)]
 pub(super) struct Layout {
-    /// The heads, row by row, in each from the lowest y to the highest.
+    /// The heads, row by row, within a row by increasing y.
     pub(super) heads: Vec<Head>,
-    /// How many rows these take.
+    /// Number of rows.
     pub(super) rows: usize,
-    /// Whether there are provably no fewer for these heads.
+    /// True if this is provably the minimum number of rows for these heads.
     pub(super) exact: bool,
 }
 
-/// Rows for heads that cut the strokes of a program: those that they come with, or as few as are found.
+/// Assigns heads that cut the strokes of a program to rows: to the given rows, or to as few as are found.
 pub(super) fn place(program: &Program, (heads, rows): (&[Head], Option<Vec<usize>>), job: &Job) -> Layout {
     let flow = &job.profile.flow;
     let width = flow.head_width_mm;
@@ -63,7 +63,7 @@ pub(super) fn place(program: &Program, (heads, rows): (&[Head], Option<Vec<usize
     Layout { heads: placed, rows: filled.len(), exact }
 }
 
-/// All ticks at which heads do something, with some at rest before and behind.
+/// First and last tick at which any head does something, with some ticks at rest before and after.
 fn span(program: &Program, heads: &[Head]) -> [i64; 2] {
     let [first, last] = program.extent_of(heads);
     let origin = program.origin(0);
@@ -80,13 +80,14 @@ fn mate(program: &Program, head: &Head, span: [i64; 2]) -> Mate {
     Mate { busy, chains: (0..head.tasks.len()).map(|task| program.chain(head, task)).collect() }
 }
 
-/// The members of a row in order with one more head; `None` where there is no room for it.
+/// The members of a row, in order, with one head added; `None` if there is no room for it.
 fn joined(room: &Room, mates: &[Mate], members: &[usize], head: usize) -> Option<Vec<usize>> {
     let busy = &mates[head].busy;
     if members.iter().any(|&other| busy.is_near(&mates[other].busy, room.width)) {
         return None;
     }
-    // Above all that it must be above, and below the others: by the middle where it is free to be either.
+    // The head goes above those that it must be above and below the others. If several places remain, its middle y decides
+    // first.
     let above = members.iter().rposition(|&other| busy.side(&mates[other].busy) > 0.0).map_or(0, |i| i + 1);
     let below = members.iter().position(|&other| busy.side(&mates[other].busy) < 0.0).unwrap_or(members.len());
     let middle = busy.middle();

@@ -1,4 +1,4 @@
-//! What the heads do: every chain on a head, every head in a row, and where each head is at every tick.
+//! Program of all heads: the assignment of chains to heads and of heads to rows, and the position of each head at every tick.
 
 use super::heads::Start;
 use super::link::{Gap, Link, State, Wait};
@@ -7,51 +7,51 @@ use super::stroke::Stroke;
 use super::yielding::ends_of;
 use crate::machine::Job;
 
-/// A conveyor and heads that cut a marker.
+/// Program of a conveyor and its heads for a marker.
 #[derive(Debug)]
 pub struct Program {
-    /// The chains, with their motion.
+    /// The chains with their motion.
     pub strokes: Vec<Stroke>,
-    /// The heads, row by row, in each from the lowest y to the highest.
+    /// The heads, row by row, within a row by increasing y.
     pub heads: Vec<Head>,
     /// Speed of the conveyor, mm/s.
     pub speed: f64,
-    /// Where each row stands along the feed, mm from the origin of the marker.
+    /// Position of each row along the feed, mm from the origin of the marker.
     pub stations: Vec<f64>,
-    /// Ticks that every head's program has.
+    /// Number of setpoints of each head.
     pub ticks: u64,
-    /// What was found about the job.
+    /// Figures of the job.
     pub figures: super::Figures,
     pub(super) moving: Moving,
 }
 
-/// A head.
+/// A head and its chains.
 #[derive(Debug, Clone)]
 pub struct Head {
-    /// The row that it stands in, from 0.
+    /// Index of the row, from 0.
     pub row: usize,
-    /// What it cuts, in order; ticks count from where the place x = 0 of the cloth meets the station.
+    /// Tasks in order. Ticks count from the moment at which x = 0 of the cloth meets the station.
     pub tasks: Vec<Start>,
-    /// Whole turns by which C is ahead of the motion of each stroke, rad.
+    /// Whole turns of C added to the motion of each stroke, rad.
     pub(super) turns: Vec<f64>,
-    /// Where it waits before, between and behind its chains.
+    /// Waiting positions before, between and after the chains.
     pub(super) waits: Vec<Wait>,
 }
 
-/// A row of a head's program.
+/// A setpoint of a head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setpoint {
-    /// Which, from 0.
+    /// Index of the setpoint, from 0.
     pub tick: u64,
-    /// Where the head is.
+    /// Position of the head.
     pub state: State,
-    /// Whether the knife is commanded down.
+    /// True if the knife is commanded down.
     pub knife: bool,
-    /// The block that is cut; 0 = none.
+    /// Block that is cut; 0 if none.
     pub block: u32,
 }
 
-/// Periods at rest before the first and behind the last thing that a head does.
+/// Periods at rest before the first and after the last motion of a head.
 const REST: i64 = 3;
 
 impl Program {
@@ -60,17 +60,17 @@ impl Program {
         self.moving.period
     }
 
-    /// How far a head may travel along the feed, mm.
+    /// Available travel of a head along the feed, mm.
     pub(super) fn travel(&self) -> f64 {
         self.moving.either.profile.flow.travel_mm
     }
 
-    /// Room that a head takes across the feed, mm.
+    /// Space that a head takes across the feed, mm.
     pub(super) fn room(&self) -> f64 {
         self.moving.either.profile.flow.head_width_mm
     }
 
-    /// From the C axis to the tip of the blade, and its width, mm.
+    /// Distance from the C axis to the tip of the blade, and width of the blade, mm.
     pub(super) fn knife(&self) -> [f64; 2] {
         let knife = &self.moving.either.profile.knife;
         [knife.radius(), knife.width_mm]
@@ -81,12 +81,12 @@ impl Program {
         self.speed * (tick as f64 * self.moving.period)
     }
 
-    /// The tick at which the place x = 0 of the cloth meets the station of a row, rounded.
+    /// Tick at which x = 0 of the cloth meets the station of a row, rounded.
     pub(super) fn origin(&self, row: usize) -> i64 {
         (self.stations[row] / self.moving.step()).round() as i64
     }
 
-    /// The ticks from the start of a chain of a head to its end, and where the head is then.
+    /// First and end tick of a chain of a head, and the states of the head at both.
     pub(super) fn chain(&self, head: &Head, task: usize) -> ([i64; 2], [State; 2]) {
         let Start { task: stroke, tick } = head.tasks[task];
         let stroke = &self.strokes[stroke];
@@ -99,13 +99,13 @@ impl Program {
         (ticks, [state(0), state(1)])
     }
 
-    /// Position of the conveyor beyond where the cloth's zero is under the station of a row, mm.
+    /// Distance that x = 0 of the cloth has moved beyond the station of a row, mm.
     fn away(&self, row: usize, tick: i64) -> f64 {
         let conveyor = self.speed * ((tick + self.origin(row)) as f64 * self.moving.period);
         conveyor - self.stations[row]
     }
 
-    /// All that a head does, tick by tick from the start of the program to its end.
+    /// All setpoints of a head, from the start of the program to its end.
     pub fn setpoints<'a>(&'a self, head: &'a Head) -> impl Iterator<Item = Setpoint> + 'a {
         let parts = (0..=2 * head.tasks.len()).flat_map(move |part| -> Box<dyn Iterator<Item = (State, bool, u32)>> {
             if part % 2 == 0 { Box::new(self.gap(head, part / 2)) } else { Box::new(self.stroke(head, part / 2)) }
@@ -113,7 +113,7 @@ impl Program {
         parts.zip(0..).map(|((state, knife, block), tick)| Setpoint { tick, state, knife, block })
     }
 
-    /// What a head does before, between or behind its chains.
+    /// Setpoints of a head before, between or after its chains.
     fn gap(&self, head: &Head, gap: usize) -> impl Iterator<Item = (State, bool, u32)> + use<> {
         let origin = self.origin(head.row);
         let before = gap.checked_sub(1).map(|task| self.chain(head, task));
@@ -125,7 +125,7 @@ impl Program {
         let wait = head.waits[gap];
         let ramp = self.moving.ramp.way;
         let link = ends_of(ends, wait).map(|[mut first, mut last]| {
-            // At the ends of the program it rests where its ramp begins or ends.
+            // At the ends of the program the head rests where its ramp begins or ends.
             if ends[0].is_none() {
                 first.xi -= ramp;
             }
@@ -138,7 +138,7 @@ impl Program {
         (0..ticks).filter_map(move |tick| link.map(|link| (link.at(tick), false, 0)))
     }
 
-    /// What a head does along a chain.
+    /// Setpoints of a head along a chain.
     fn stroke<'a>(&'a self, head: &'a Head, task: usize) -> impl Iterator<Item = (State, bool, u32)> + 'a {
         let Start { task: stroke, tick } = head.tasks[task];
         let turn = head.turns[task];
@@ -148,13 +148,13 @@ impl Program {
         })
     }
 
-    /// The first and the last tick at which any head does something: the first is below 0 where the first row stands too
-    /// near to the cloth.
+    /// First and last tick at which any head does something. The first is negative if the first row stands too near to the
+    /// cloth.
     pub(super) fn extent(&self) -> [i64; 2] {
         self.extent_of(&self.heads)
     }
 
-    /// The same of heads that cut its strokes.
+    /// First and last tick at which any of the given heads does something.
     pub(super) fn extent_of(&self, heads: &[Head]) -> [i64; 2] {
         let ramp = i64::from(self.moving.ramp.ticks) + REST;
         let ends = heads.iter().flat_map(|head| {
@@ -167,7 +167,7 @@ impl Program {
     }
 }
 
-/// Where the rows of a machine stand over a marker whose greatest x is `front`, mm.
+/// Positions of the rows of a machine along the feed, mm, for a marker with the maximum x `front`.
 pub(super) fn stations(front: f64, job: &Job) -> Vec<f64> {
     let flow = &job.profile.flow;
     (0..flow.rows).map(|row| front + flow.first_row_mm + f64::from(row) * flow.row_pitch_mm).collect()

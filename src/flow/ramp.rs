@@ -1,23 +1,23 @@
-//! From standing over the conveyor to moving with the cloth, and back: the ends of every stretch that a head cuts.
+//! Ramps between rest over the conveyor and the speed of the cloth, at both ends of every stretch that a head cuts.
 //!
-//! A blade is plunged and lifted at rest in the cloth, so the head must have its speed before, and lose it behind.
+//! A blade is plunged and lifted at rest in the cloth. The head must reach the speed of the cloth before and lose it after.
 
 use crate::machine::Limits;
 use crate::machine::kinematics::Move;
 
-/// A ramp between rest and the speed of the cloth, jerk-limited, over whole periods.
+/// A ramp between rest and the speed of the cloth, limited in jerk, over whole periods.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ramp {
-    /// Up to the speed and down again.
+    /// Acceleration to the speed and deceleration from it, as one move.
     both: Move,
-    /// Periods of one of them.
+    /// Periods of one ramp.
     pub(super) ticks: u32,
-    /// Way of one of them along the feed, mm.
+    /// Distance along the feed of one ramp, mm.
     pub(super) way: f64,
 }
 
 impl Ramp {
-    /// The fastest one within limits, stretched to whole periods (s).
+    /// The fastest ramp within limits, stretched to whole periods (s).
     pub(super) fn new(speed: f64, limits: Limits, period: f64) -> Self {
         let Limits { acceleration, jerk, .. } = limits;
         let time = if speed * jerk < acceleration * acceleration {
@@ -26,19 +26,19 @@ impl Ramp {
             speed / acceleration + acceleration / jerk
         };
         let ticks = ((time / period).ceil() as u32).max(1);
-        // Stretched by k, a ramp to the same speed has k times less acceleration and k squared times less jerk.
+        // A ramp to the same speed that is stretched by k has 1/k of the acceleration and 1/k^2 of the jerk.
         let k = f64::from(ticks) * period / time;
         let gentler = Limits { speed, acceleration: acceleration / k, jerk: jerk / (k * k) };
         let whole = speed * f64::from(ticks) * period;
         Self { both: Move::new(whole, gentler), ticks, way: whole / 2.0 }
     }
 
-    /// Way at a tick of speeding up, mm.
+    /// Distance covered at a tick of speeding up, mm.
     pub(super) fn up(&self, tick: u32) -> f64 {
         self.both.at(f64::from(tick), 2.0 * f64::from(self.ticks))
     }
 
-    /// Way at a tick of slowing down, mm.
+    /// Distance covered at a tick of slowing down, mm.
     pub(super) fn down(&self, tick: u32) -> f64 {
         self.up(self.ticks + tick) - self.way
     }

@@ -1,9 +1,9 @@
-//! Which heads stand in one row: colouring of the heads that come too near to each other.
+//! Assignment of heads to rows: graph colouring of the heads that come too near to each other.
 //!
-//! Few heads are coloured exactly, by branch and bound over the order of DSATUR; of more the order alone decides (Brelaz,
-//! *New methods to color the vertices of a graph*, CACM 22, 1979).
+//! Up to a number of heads the colouring is exact, by branch and bound in the order of DSATUR; beyond that the greedy colouring
+//! in this order is used (Brelaz, *New methods to color the vertices of a graph*, CACM 22, 1979).
 
-/// Heads that cannot stand in one row.
+/// Pairs of heads that cannot stand in one row.
 #[derive(Debug, Clone)]
 pub(super) struct Conflicts {
     count: usize,
@@ -11,7 +11,7 @@ pub(super) struct Conflicts {
 }
 
 impl Conflicts {
-    /// The conflicts among so many heads.
+    /// The conflicts among `count` heads.
     pub(super) fn new(count: usize, conflict: impl Fn(usize, usize) -> bool) -> Self {
         let mut pairs = vec![false; count * count];
         for a in 0..count {
@@ -29,12 +29,12 @@ impl Conflicts {
     }
 }
 
-/// More heads are coloured in the order of DSATUR without going back.
+/// Maximum number of heads for exact colouring. More heads are coloured greedily.
 const EXACT: usize = 16;
-/// Steps of the search: it is left with the best that it has.
+/// Maximum number of search steps. The search then returns the best colouring so far.
 const STEPS: usize = 200_000;
 
-/// The row of each head, from 0, and whether there are provably no fewer.
+/// Row of each head, from 0; and true if this is provably the minimum number of rows.
 pub(super) fn colour(conflicts: &Conflicts) -> (Vec<usize>, bool) {
     let greedy = greedy(conflicts);
     let count = |rows: &[usize]| rows.iter().max().map_or(0, |most| most + 1);
@@ -46,7 +46,7 @@ pub(super) fn colour(conflicts: &Conflicts) -> (Vec<usize>, bool) {
     (search.best, search.steps < STEPS)
 }
 
-/// The head without a row that has the most rows forbidden, then the most conflicts.
+/// The head without a row that has the most forbidden rows; of several, the one with the most conflicts.
 fn next(conflicts: &Conflicts, rows: &[usize]) -> Option<usize> {
     let free = (0..conflicts.count).filter(|&head| rows[head] == usize::MAX);
     free.max_by_key(|&head| {
@@ -67,7 +67,7 @@ fn allowed(conflicts: &Conflicts, rows: &[usize], head: usize, row: usize) -> bo
 fn greedy(conflicts: &Conflicts) -> Vec<usize> {
     let mut rows = vec![usize::MAX; conflicts.count];
     while let Some(head) = next(conflicts, &rows) {
-        // So many rows as there are heads are always enough.
+        // As many rows as heads are always enough.
         rows[head] = (0..conflicts.count).find(|&row| allowed(conflicts, &rows, head, row)).unwrap_or(0);
     }
     rows
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn few_heads_are_coloured_with_as_few_rows_as_there_can_be() {
-        // A crown graph in the order in which it fools a greedy colouring: two rows are enough.
+        // Heads of a crown graph in an order that misleads greedy colouring: two rows are enough.
         let crown = Conflicts::new(8, |a, b| a % 2 != b % 2 && a / 2 != b / 2);
         let (rows, exact) = colour(&crown);
         assert!(exact && rows.iter().all(|&row| row < 2), "{rows:?}");

@@ -1,4 +1,5 @@
-//! The speed of the conveyor: as asked, or the greatest one at which a marker can be cut; and what is said where it cannot.
+//! Search for the speed of the conveyor: the requested one, or the greatest one at which a marker can be cut. Explains why if
+//! there is none.
 
 use super::asked::Speed;
 use super::attempt::{Missing, Work, attempt};
@@ -11,7 +12,7 @@ use crate::machine::Job;
 use crate::pass::toolpath::{Scene, trace};
 use crate::units::number::{counted, fixed, up};
 
-/// Plans how a marker is cut while it moves; `None` where it cannot, and the diagnostics say why.
+/// Plans how a marker is cut while it moves. `None` if it cannot be cut; the diagnostics tell why.
 pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> Option<Program> {
     let lines = lines(marker, job, out);
     if lines.is_empty() {
@@ -44,7 +45,7 @@ pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> 
     }
 }
 
-/// The cuts of a marker; says what no head can do.
+/// The cuts of a marker. Reports the drills and events that heads cannot make.
 fn lines(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Vec<Line> {
     let (mut lines, mut drills, mut events) = (Vec::new(), Vec::new(), 0);
     for toolpath in trace(marker, job) {
@@ -70,20 +71,19 @@ fn lines(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Vec<Line> {
     lines
 }
 
-/// Speeds that are nearer to each other are not told apart, mm/s: where the greatest one is asked for, and where one is
-/// only mentioned.
+/// Accuracies of a speed search, mm/s: for a requested maximum, and for a speed that is only mentioned.
 const SPEED_ACCURACY: f64 = 0.5;
 const MENTIONED_ACCURACY: f64 = 4.0;
-/// The slowest conveyor that is looked at, mm/s.
+/// Lowest speed of the conveyor to try, mm/s.
 const SLOWEST: f64 = 1.0;
 
-/// The greatest speed that is looked at, mm/s.
+/// Highest speed to try, mm/s.
 fn limit(work: &Work) -> f64 {
     let profile = &work.job.profile;
     profile.flow.max_speed_mm_s.min(profile.axes.limits()[0].speed)
 }
 
-/// The program at the greatest speed that is found, or what is missing at the slowest.
+/// The program at the greatest speed found. Otherwise the reason why the lowest speed fails.
 fn fastest(work: &Work, out: &mut Diagnostics) -> Result<Program, (Missing, f64)> {
     let mut found = Diagnostics::default();
     let best = match tried(work, limit(work), &mut found) {
@@ -99,8 +99,7 @@ fn fastest(work: &Work, out: &mut Diagnostics) -> Result<Program, (Missing, f64)
     }
 }
 
-/// The program at the greatest speed below another one that is found, to an accuracy, mm/s; `None` where even the slowest is
-/// too fast.
+/// The program at the greatest speed found below `speed`, to an accuracy, mm/s; `None` if even the lowest speed fails.
 fn below(work: &Work, speed: f64, accuracy: f64) -> Option<(Program, Diagnostics)> {
     let [mut slow, mut fast] = [SLOWEST, speed];
     let mut best = None;
@@ -119,12 +118,12 @@ fn below(work: &Work, speed: f64, accuracy: f64) -> Option<(Program, Diagnostics
     })
 }
 
-/// The program at a speed, if there is one: what not even the closed form allows is not planned.
+/// The program at a speed, if it can be planned. Speeds that the closed form rules out are not tried.
 fn tried(work: &Work, speed: f64, out: &mut Diagnostics) -> Option<Program> {
     if work.is_hopeless(speed) { None } else { attempt(work, speed, out).ok() }
 }
 
-/// Says what is missing, and what each remedy takes.
+/// Reports why a marker cannot be cut, with the remedies and their cost.
 fn refuse(work: &Work, missing: &Missing, speed: f64, out: &mut Diagnostics) {
     let flow = &work.job.profile.flow;
     let shown = fixed(speed, 1);
@@ -170,10 +169,10 @@ fn refuse(work: &Work, missing: &Missing, speed: f64, out: &mut Diagnostics) {
     out.push(found);
 }
 
-/// Travels that are tried in place of what a machine has, in parts of it.
+/// Travels to try, as multiples of the travel of the machine.
 const TRAVELS: [f64; 3] = [1.5, 2.0, 3.0];
 
-/// What would help: a longer travel, more heads, a slower conveyor.
+/// Remedies: a longer travel, more heads, a slower conveyor.
 fn hints(work: &Work, missing: &Missing, speed: f64) -> Vec<String> {
     let mut hints = Vec::new();
     match missing {
@@ -211,7 +210,7 @@ fn hints(work: &Work, missing: &Missing, speed: f64) -> Vec<String> {
     hints
 }
 
-/// The keys that make the travel so long, mm: rows stand no nearer to each other than that.
+/// The profile keys of a travel, mm. The pitch of the rows must not be shorter than the travel.
 fn travel_key(work: &Work, travel: f64) -> String {
     let flow = &work.job.profile.flow;
     let pitch = if flow.rows > 1 && flow.row_pitch_mm < travel {
@@ -222,12 +221,12 @@ fn travel_key(work: &Work, travel: f64) -> String {
     format!("`flow.travel_mm` = {travel}{pitch}")
 }
 
-/// Heads and rows in words.
+/// Numbers of heads and rows in words.
 fn told([heads, rows]: [usize; 2]) -> String {
     format!("{} in {}", counted(heads, "head"), counted(rows, "row"))
 }
 
-/// Heads and rows that it takes with another travel along the feed; `None` where that is still too short.
+/// Numbers of heads and rows needed with another travel along the feed; `None` if it is still too short.
 fn with_travel(work: &Work, travel: f64, speed: f64) -> Option<[usize; 2]> {
     let mut job = work.job.clone();
     let flow = &mut job.profile.flow;

@@ -1,4 +1,4 @@
-//! A chain as a head cuts it: its motion over the cloth, and how far along the feed it drifts meanwhile.
+//! Motion of a head over the cloth along a chain, and its drift along the feed meanwhile.
 
 use super::bound::Step;
 use super::chains::Chain;
@@ -15,50 +15,50 @@ use crate::plan::{self, Planner};
 /// A chain with its motion.
 #[derive(Debug, Clone)]
 pub struct Stroke {
-    /// The cut, by its place in the marker.
+    /// Index of the cut in the marker.
     pub cut: u32,
-    /// The piece and its place in the marker.
+    /// Number of the piece, and its index in the marker.
     pub piece: [u32; 2],
-    /// What it cuts, as the line has it, mm.
+    /// Points of the cut stretch of the line, mm.
     pub points: Vec<Point>,
-    /// From the first plunge to the last lift, over the cloth.
+    /// Phases over the cloth, from the first plunge to the last lift.
     pub(super) phases: Vec<Phase>,
     /// Periods of all phases.
     pub ticks: u32,
-    /// Where the head is over the cloth at the first plunge and at the last lift.
+    /// Poses over the cloth at the first plunge and at the last lift.
     pub(super) ends: [Pose; 2],
-    /// Greatest and least place of the line along the feed, mm.
+    /// Maximum and minimum x of the line, mm.
     pub span: [f64; 2],
-    /// Its lag.
+    /// Lag of the head along the feed.
     pub lag: Lag,
 }
 
-/// How far a head is behind along the feed while it cuts: x + v t, mm, from its start on.
+/// Lag of a head along the feed while it cuts: x + v t, mm, t counted from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lag {
-    /// At the first plunge.
+    /// Lag at the first plunge.
     pub first: f64,
-    /// At the last lift.
+    /// Lag at the last lift.
     pub last: f64,
-    /// The least.
+    /// Minimum lag.
     pub least: f64,
-    /// The greatest.
+    /// Maximum lag.
     pub most: f64,
 }
 
 impl Lag {
-    /// The greatest and the least lag that its ramps reach, too, mm.
+    /// Maximum and minimum lag including both ramps of length `ramp`, mm.
     fn reach(&self, ramp: f64) -> [f64; 2] {
         [self.most.max(self.last + ramp), self.least.min(self.first - ramp)]
     }
 
-    /// The travel along the feed that it takes, with a ramp of such a way at either end, mm.
+    /// Travel along the feed that the chain takes, with a ramp of length `ramp` at either end, mm.
     pub fn travel(&self, ramp: f64) -> f64 {
         let [most, least] = self.reach(ramp);
         most - least
     }
 
-    /// When it may start, in s before the place x = 0 of the cloth meets the station: the earliest and the latest.
+    /// Earliest and latest start, s after x = 0 of the cloth meets the station.
     pub(super) fn window(&self, moving: &Moving) -> [f64; 2] {
         let [most, least] = self.reach(moving.ramp.way);
         let reserve = moving.reserve();
@@ -75,7 +75,7 @@ pub(super) fn toolpath(chain: &Chain, scene: &Scene, out: &mut Diagnostics) -> T
     toolpath
 }
 
-/// The motion of a chain, or why there is none.
+/// Plans the motion of a chain. The error holds the findings of the planner.
 pub(super) fn stroke(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Result<Stroke, Vec<Diagnostic>> {
     if chain.falls {
         let stroke = Stroke::of(chain, joined(toolpath, &moving.falling)?, moving);
@@ -86,7 +86,7 @@ pub(super) fn stroke(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Res
     Ok(Stroke::of(chain, joined(toolpath, &moving.either)?, moving))
 }
 
-/// Whether a head nowhere runs farther ahead along the feed than its axis can, at the speed of the cloth.
+/// True if the head never moves along the feed faster than its axis can at the speed of the cloth.
 fn keeps_up(stroke: &Stroke, moving: &Moving) -> bool {
     let most = moving.either.profile.axes.x.speed_mm_s * moving.period;
     let mut last = stroke.ends[0].centre.x;
@@ -97,7 +97,7 @@ fn keeps_up(stroke: &Stroke, moving: &Moving) -> bool {
     })
 }
 
-/// The motion along a toolpath, from its first plunge on: how the head comes to that is for those who know where it was before.
+/// The motion along a toolpath from its first plunge on. The approach depends on the previous chain and is left out.
 fn joined(toolpath: &Toolpath, job: &Job) -> Result<Vec<Phase>, Vec<Diagnostic>> {
     let cuts = plan::solve(toolpath, job)?;
     let motion = Planner::new(job).join(toolpath, cuts);
@@ -126,10 +126,10 @@ impl Stroke {
         stroke
     }
 
-    /// The way of its motion, tick by tick, but for the first plunge and the last lift: what it takes without accelerations is
-    /// less than what is planned.
+    /// The path of the motion, tick by tick, without the first plunge and the last lift. Its time without accelerations is a
+    /// lower bound on the planned time.
     pub(super) fn way(&self, knife: &Knife) -> Vec<Step> {
-        // With two edges either end of the blade may lead: then no feed counts.
+        // With two edges either end of the blade may lead, so the speed of the tip does not count.
         let lead = if knife.edges == 1 { knife.radius() } else { 0.0 };
         let tip = |pose: &Pose| pose.centre + Rotation(pose.c.0 - knife.yaw()).unit() * lead;
         let mut way: Vec<Step> = Vec::with_capacity(self.ticks as usize);
@@ -148,8 +148,8 @@ impl Stroke {
         way
     }
 
-    /// The pose over the cloth, whether the knife is down, and the block, tick by tick; the last tick is that at which the
-    /// next thing begins, and is not among them.
+    /// Pose over the cloth, knife down or not, and block at each tick. The end tick belongs to the following motion and is not
+    /// included.
     pub(super) fn poses(&self) -> impl Iterator<Item = (Pose, bool, u32)> + '_ {
         self.phases.iter().flat_map(|phase| {
             let down = phase.kind.knife_down();
@@ -169,7 +169,7 @@ impl Stroke {
         lag
     }
 
-    /// Length of the line that it cuts, mm.
+    /// Length of the cut line, mm.
     pub fn length(&self) -> f64 {
         crate::geom::polyline::length(&self.points)
     }

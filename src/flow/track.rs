@@ -1,44 +1,44 @@
-//! Where heads are across the feed over the time of a program, as far as it takes to tell whether two come too near.
+//! Positions of heads across the feed over time, block by block, to detect heads that come too near to each other.
 
-/// Periods of a block.
+/// Periods per block.
 pub(super) const BLOCK: i64 = 8;
 
-/// The least and the greatest y of a head in each block of periods, mm; no range where it may be anywhere.
+/// Minimum and maximum y of a head in each block of periods, mm. The range is empty while the head is free.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
     first: i64,
     blocks: Vec<[f64; 2]>,
 }
 
-/// A head that may be anywhere.
+/// Empty range: the head is free and may be anywhere.
 const FREE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 impl Track {
-    /// A head that may be anywhere from one tick to another.
+    /// Track of a head that is free between two ticks.
     pub(super) fn free([first, last]: [i64; 2]) -> Self {
         Self { first, blocks: vec![FREE; ((last - first) / BLOCK + 1).max(0) as usize] }
     }
 
-    /// Puts a head at a place at a tick.
+    /// Records the position of a head at a tick.
     pub(super) fn put(&mut self, tick: i64, y: f64) {
         let [least, most] = &mut self.blocks[((tick - self.first) / BLOCK) as usize];
         *least = least.min(y);
         *most = most.max(y);
     }
 
-    /// The blocks from one tick to another.
+    /// The blocks that contain the ticks from one to another.
     pub(super) fn between(&self, [from, to]: [i64; 2]) -> &[[f64; 2]] {
         let block = |tick: i64| ((tick - self.first) / BLOCK).max(0) as usize;
         let end = (block(to) + 1).min(self.blocks.len());
         &self.blocks[block(from).min(end)..end]
     }
 
-    /// The tick at which the block of a tick begins.
+    /// First tick of the block that contains a tick.
     pub(super) fn begin(&self, tick: i64) -> i64 {
         tick - (tick - self.first).rem_euclid(BLOCK)
     }
 
-    /// Whether two heads come nearer to each other than `width` mm while neither is free, or pass each other.
+    /// True if two heads come nearer to each other than `width` mm while neither is free, or pass each other.
     pub(super) fn is_near(&self, other: &Self, width: f64) -> bool {
         let mut side = 0.0;
         self.blocks.iter().zip(&other.blocks).any(|(a, b)| {
@@ -58,14 +58,14 @@ impl Track {
         })
     }
 
-    /// On which side of another head it is while neither is free: 1 above, -1 below, 0 where that never is.
+    /// Side of another head on which it is while neither is free: 1 above, -1 below, 0 if they never meet.
     pub(super) fn side(&self, other: &Self) -> f64 {
         let pairs = self.blocks.iter().zip(&other.blocks);
         let met = pairs.into_iter().find(|(a, b)| a[0] <= a[1] && b[0] <= b[1]);
         met.map_or(0.0, |(a, b)| (a[0] - b[0]).signum())
     }
 
-    /// The middle of where it is while it is not free, mm.
+    /// Mean y while it is not free, mm.
     pub(super) fn middle(&self) -> f64 {
         let (sum, count) = self
             .blocks

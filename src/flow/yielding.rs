@@ -1,48 +1,49 @@
-//! Heads of one row between their chains: they cannot pass each other, and make room for those that cut.
+//! Waiting positions of the heads of one row between their chains. Heads cannot pass each other and make room for those that
+//! cut.
 //!
-//! From the lowest to the highest, each head waits between two chains where the next one starts, or where the last one
-//! ended, or at a third place: the first of these that keeps it a head's width above the head below, and as many widths
-//! below each head above that cuts as there are heads up to it.
+//! Heads are handled from the lowest to the highest. Between two chains a head waits at the start of the next one, at the end
+//! of the last one, or at a third place. It takes the first of these that keeps one head width from the head below and, for
+//! each cutting head n places above, n head widths from that head.
 
 use super::link::{Gap, Link, State, Wait};
 use super::moving::Moving;
 use super::track::{BLOCK, Track};
 
-/// A head of a row: its chains in time.
+/// A head of a row with its chains.
 #[derive(Debug, Clone)]
 pub(super) struct Mate {
-    /// Where it is while it cuts; free between.
+    /// Track of the head while it cuts; free otherwise.
     pub(super) busy: Track,
-    /// Of each chain the ticks from its start to its end, and the states there.
+    /// First and end tick of each chain, and the states at both.
     pub(super) chains: Vec<([i64; 2], [State; 2])>,
 }
 
-/// A row of heads.
+/// Common data of a row of heads.
 pub(super) struct Room<'a> {
     pub(super) moving: &'a Moving,
-    /// Least distance of two heads, mm.
+    /// Minimum distance of two heads, mm.
     pub(super) width: f64,
-    /// The first and the last tick of all.
+    /// First and last tick of the program.
     pub(super) span: [i64; 2],
-    /// Where a head may be across the feed, mm.
+    /// Permitted positions across the feed, mm.
     pub(super) table: [f64; 2],
 }
 
-/// A head with those of its row.
+/// A head and its neighbours in the row.
 struct Between<'a> {
     mate: &'a Mate,
-    /// Where the one below it is all along.
+    /// Track of the head below, with its waits.
     below: Option<&'a Track>,
-    /// Where those above it cut, and how many heads there are up to each.
+    /// Tracks of the heads above while they cut, each with the number of places between it and this head.
     above: Vec<(&'a Track, f64)>,
 }
 
-/// Least distance beyond the width of a head, mm: places are looked at once in some periods.
+/// Extra distance beyond the width of a head, mm: positions are recorded only at some periods.
 const MARGIN: f64 = 0.01;
 
 impl Room<'_> {
-    /// Where each head of a row waits before, between and behind its chains; `None` where they have no room. Heads come from
-    /// the lowest to the highest.
+    /// Waiting positions of each head of a row before, between and after its chains; `None` if there is no room. `mates` are
+    /// sorted from the lowest to the highest.
     pub(super) fn waits(&self, mates: &[&Mate]) -> Option<Vec<Vec<Wait>>> {
         let mut below: Option<Track> = None;
         let mut all = Vec::with_capacity(mates.len());
@@ -58,7 +59,7 @@ impl Room<'_> {
         Some(all)
     }
 
-    /// Where a head waits in a gap between its chains; puts it there.
+    /// Finds the waiting position of a head in a gap between its chains, and records the motion in its track.
     fn wait(&self, between: &Between, gap: usize, track: &mut Track) -> Option<Wait> {
         let Between { mate, below, above } = between;
         let before = gap.checked_sub(1).map(|i| mate.chains[i]);
@@ -93,7 +94,7 @@ impl Room<'_> {
         Some(wait)
     }
 
-    /// The places where a head might wait, the simplest first.
+    /// Candidates for the waiting position, the simplest first.
     fn candidates(&self, ends: [Option<State>; 2], corridor: &[[f64; 2]]) -> Vec<Wait> {
         let mut waits = vec![Wait::There, Wait::Here];
         let [low, high] = corridor.iter().fold(self.table, |[low, high], room| [low.max(room[0]), high.min(room[1])]);
@@ -105,7 +106,7 @@ impl Room<'_> {
         waits
     }
 
-    /// The link in a gap; at an end of the program a head is where it waits.
+    /// The link in a gap. At an end of the program the head is at its waiting position.
     fn link(&self, ends: [Option<State>; 2], [from, to]: [i64; 2], wait: Wait) -> Option<Link> {
         let states = ends_of(ends, wait)?;
         let ticks = u32::try_from(to - from).ok()?;
@@ -113,7 +114,7 @@ impl Room<'_> {
     }
 }
 
-/// Where a head is at both ends of a gap: at an end of the program where it waits.
+/// States of a head at both ends of a gap; at an end of the program it is at its waiting position.
 pub(super) fn ends_of(ends: [Option<State>; 2], wait: Wait) -> Option<[State; 2]> {
     let own = ends[0].or(ends[1])?;
     let y = match wait {
@@ -123,7 +124,7 @@ pub(super) fn ends_of(ends: [Option<State>; 2], wait: Wait) -> Option<[State; 2]
     Some(ends.map(|end| end.unwrap_or(State { y, ..own })))
 }
 
-/// Whether a link keeps within a corridor of blocks, the first of which begins at a tick.
+/// True if a link stays within a corridor, given as one range per block, from the tick `begin` on.
 fn keeps(link: &Link, [from, _]: [i64; 2], corridor: &[[f64; 2]], begin: i64) -> bool {
     corridor.iter().zip(0..).all(|(&[low, high], block)| {
         let ticks = [begin + block * BLOCK, begin + (block + 1) * BLOCK];

@@ -1,4 +1,4 @@
-//! The few things that pictures ask of numbers, and the colours of heads.
+//! Formatting of numbers for pictures, and the colours of heads.
 
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
@@ -6,17 +6,17 @@ use crate::units::number;
 
 /// Decimals of coordinates, mm or px.
 const DECIMALS: u32 = 2;
-/// Hues of heads follow each other by the golden angle, degrees: neighbours differ, however many there are.
+/// Step between the hues of consecutive heads, degrees: the golden angle, so that neighbours differ for any number of heads.
 const HUE_STEP: f64 = 137.507_764;
-/// A whole turn of hues, degrees.
+/// Full turn of hues, degrees.
 const TURN_DEG: f64 = 360.0;
 
-/// A coordinate or length.
+/// A formatted coordinate or length.
 pub(super) fn mm(value: f64) -> String {
     number::fixed(value, DECIMALS)
 }
 
-/// A polyline's data.
+/// SVG path data of a polyline.
 pub(super) fn path(points: impl IntoIterator<Item = Point>) -> String {
     let mut data = String::new();
     for point in points {
@@ -26,12 +26,12 @@ pub(super) fn path(points: impl IntoIterator<Item = Point>) -> String {
     data
 }
 
-/// The colour of a head, by its place in the plan.
+/// Colour of a head, by its index in the plan.
 pub(super) fn color(head: usize) -> String {
     format!("hsl({},70%,40%)", number::fixed((head as f64 * HUE_STEP) % TURN_DEG, 0))
 }
 
-/// The box around all cuts; a point where there are none.
+/// Bounding box of all cuts; the origin if there are none.
 pub(super) fn extent(marker: &Marker) -> Extent {
     let mut extent = Extent::EMPTY;
     for cut in &marker.cuts {

@@ -1,4 +1,4 @@
-//! The plan: which head stands in which row and cuts what, when, at which speed of the conveyor.
+//! The plan file: rows of the heads, their chains with times, and the speed of the conveyor.
 
 use serde::Serialize;
 
@@ -8,18 +8,18 @@ use crate::ir::Marker;
 use crate::machine::MachineProfile;
 use crate::units::MS_PER_S;
 
-/// A plan.
+/// Contents of the plan file.
 #[derive(Debug, Serialize)]
 pub struct Plan {
     /// Speed of the conveyor.
     pub speed_mm_s: f64,
     /// Time between two setpoints.
     pub period_ms: f64,
-    /// Rows of setpoints that every head has.
+    /// Number of setpoints of each head.
     pub rows_of_setpoints: u64,
-    /// What the machine can do, as it was planned with.
+    /// Limits of the machine that the plan was made for.
     pub limits: Limits,
-    /// What is known of the plan.
+    /// Figures of the plan.
     pub figures: Figures,
     /// The heads.
     pub heads: Vec<PlanHead>,
@@ -27,67 +27,67 @@ pub struct Plan {
     pub pictures: Vec<File>,
 }
 
-/// What the machine can do.
+/// Limits of the machine.
 #[derive(Debug, Serialize)]
 pub struct Limits {
-    /// Of a head along the feed.
+    /// Travel of a head along the feed.
     pub travel_mm: f64,
-    /// Room of a head across the feed.
+    /// Space that a head takes across the feed.
     pub head_width_mm: f64,
-    /// Of each head where another takes over.
+    /// Overlap of each chain where another takes over.
     pub overlap_mm: f64,
-    /// Heads that there are.
+    /// Number of heads available.
     pub heads: u32,
-    /// Rows that there are.
+    /// Number of rows available.
     pub rows: u32,
 }
 
-/// A head in a plan.
+/// A head in the plan.
 #[derive(Debug, Serialize)]
 pub struct PlanHead {
-    /// Its number, from 1.
+    /// Number, from 1.
     pub head: usize,
-    /// Its row, from 1.
+    /// Row, from 1.
     pub row: usize,
-    /// Where that stands, from the origin of the marker.
+    /// Position of the row along the feed, from the origin of the marker.
     pub station_mm: f64,
-    /// The files with its program.
+    /// Program files of the head.
     pub files: Vec<File>,
-    /// What it cuts, in order.
+    /// Chains in the order of cutting.
     pub chains: Vec<Planned>,
 }
 
-/// A file of a plan.
+/// A file of the plan.
 #[derive(Debug, Serialize)]
 pub struct File {
-    /// Its name.
+    /// File name.
     pub file: String,
-    /// Digest of its bytes.
+    /// BLAKE3 digest of its bytes.
     pub blake3: String,
 }
 
-/// A chain in a plan.
+/// A chain in the plan.
 #[derive(Debug, Serialize)]
 pub struct Planned {
-    /// The number of the piece.
+    /// Number of the piece.
     pub piece: u32,
-    /// The cut, from 1, in the order of the marker.
+    /// Number of the cut, from 1, in the order of the marker.
     pub cut: u32,
-    /// Its first and its last block.
+    /// First and last block.
     pub blocks: [u32; 2],
-    /// Greatest and least place along the feed.
+    /// Maximum and minimum place along the feed.
     pub x_mm: [f64; 2],
-    /// Length.
+    /// Length of the chain.
     pub length_mm: f64,
-    /// When the knife goes down first and comes up last.
+    /// Time of the first plunge and of the last lift.
     pub time_s: [f64; 2],
-    /// Where the head is along the feed at these times, from its station.
+    /// Positions of the head along the feed at these times, from its station.
     pub along_mm: [f64; 2],
-    /// Travel along the feed that it takes, its ramps included.
+    /// Travel along the feed that it takes, including its ramps.
     pub travel_mm: f64,
 }
 
-/// The plan of a program whose heads have no files yet.
+/// The plan of a program, without the files of the heads and the pictures.
 pub fn describe(program: &Program, marker: &Marker, profile: &MachineProfile) -> Plan {
     let flow = &profile.flow;
     let head = |(i, head): (usize, &crate::flow::Head)| PlanHead {
