@@ -1,37 +1,37 @@
-//! The curves that chords stand for: how far they turn about each vertex, and their curvature there.
+//! Bends of the curves that chords stand for: their turn about each vertex, and their curvature.
 
 use super::edge::Ring;
 
-/// A chord that is longer than the next by more than this factor is straight, and no chord of the curve that begins there.
+/// Ratio of neighbouring chords above which the longer one is straight and not part of the curve that begins at their vertex.
 const SAME_CURVE: f64 = 4.0;
-/// How far to both sides of a vertex its curvature is the mean of, mm: about what a jet covers at once.
+/// Length to either side of a vertex over which the curvature is averaged, mm: roughly what a jet covers at once.
 const MEAN_WAY: f64 = 15.0;
-/// Share of a chord by which what is left between two bends is rounding.
+/// Gap between two bends, as a fraction of the chord, that counts as rounding.
 const JOINED_EPSILON: f64 = 1e-6;
-/// Ways that are shorter are none, mm.
+/// Length below which a path is empty, mm.
 const WAY_EPSILON: f64 = 1e-7;
 
-/// The part of a curve about a vertex, over which its direction turns evenly. A curve that ends or begins at a corner has
-/// half of one there: its own direction at the corner is half a turn off that of its chord.
+/// The part of a curve about a vertex, on which the direction turns uniformly. A curve that begins or ends at a corner has half
+/// a bend there: its direction at the corner differs from that of its chord by half the turn of a bend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bend {
-    /// The direction across the curve, to the inside, where the bend begins, rad.
+    /// Inward normal of the curve at the start of the bend, rad.
     pub(super) start: f64,
-    /// How far it turns, rad: to the left is positive.
+    /// Turn, rad; positive to the left.
     pub(super) turn: f64,
-    /// How far it reaches along the chords before and behind the vertex, mm.
+    /// Lengths of the bend along the chords before and behind the vertex, mm.
     pub(super) reach: [f64; 2],
-    /// Its curvature, 1/mm.
+    /// Curvature, 1/mm.
     pub(super) curvature: f64,
 }
 
 impl Bend {
-    /// The way of a head at a distance through the bend, mm.
+    /// Length of the head's path through the bend at a distance from the edge, mm.
     pub(super) fn way(&self, distance: f64) -> f64 {
         self.reach[0] + distance * self.turn + self.reach[1]
     }
 
-    /// The direction across the curve, rad, when a head at a distance is so far into the bend, mm.
+    /// Inward normal of the curve, rad, at a length of the head's path through the bend, mm.
     pub(super) fn aim(&self, way: f64, distance: f64) -> f64 {
         let all = self.way(distance);
         let share = if all > WAY_EPSILON { (way / all).clamp(0.0, 1.0) } else { 0.5 };
@@ -40,7 +40,7 @@ impl Bend {
 }
 
 impl Ring {
-    /// How the curve turns that comes to a vertex, and that which leaves it: but at a corner the same.
+    /// The bends of the curves that arrive at a vertex and leave it; both are the same unless the vertex is a corner.
     pub(super) fn bends(&self, vertex: usize) -> [Bend; 2] {
         if !self.is_corner(vertex) {
             let start = self.inwards(self.before(vertex));
@@ -49,18 +49,18 @@ impl Ring {
             return [bend; 2];
         }
         let halves = [0, 1].map(|side| self.half(vertex, side));
-        // What turns as little as the curves themselves, or inwards, gives the head no way around the corner.
+        // A corner that turns inwards, or less than the two half bends, leaves the head no path around it.
         let has_room = halves[0].turn + halves[1].turn <= self.turns[vertex];
         if has_room { halves } else { [self.before(vertex), vertex].map(|chord| self.straight(chord)) }
     }
 
-    /// No bend at an end of a chord.
+    /// An empty bend at an end of a chord.
     fn straight(&self, chord: usize) -> Bend {
         Bend { start: self.inwards(chord), turn: 0.0, reach: [0.0; 2], curvature: 0.0 }
     }
 
-    /// The half bend of a curve that ends at a corner (`side` 0), or begins there (1). Only of a curve outwards: to the
-    /// start of one inwards the head comes straight along its chord.
+    /// The half bend of a curve that ends at a corner (`side` 0) or begins there (1). Only curves that turn outwards have one;
+    /// the head reaches the start of an inward curve straight along its chord.
     fn half(&self, corner: usize, side: usize) -> Bend {
         let before = self.before(corner);
         let [chord, other] = if side == 0 { [before, before] } else { [corner, self.behind(corner)] };
@@ -75,8 +75,8 @@ impl Ring {
         bend
     }
 
-    /// How far the curve through a vertex reaches before and behind it, mm: half of each chord, as far as the other is one of
-    /// the same curve; nothing at a corner.
+    /// Lengths of the curve through a vertex before and behind it, mm: half of each chord, limited by the length of the other
+    /// one; 0 at a corner.
     fn reach(&self, vertex: usize) -> [f64; 2] {
         if self.is_corner(vertex) {
             return [0.0; 2];
@@ -85,8 +85,8 @@ impl Ring {
         [before.min(SAME_CURVE * behind), behind.min(SAME_CURVE * before)].map(|length| 0.5 * length)
     }
 
-    /// The curvature about a vertex, 1/mm: the mean over the bends to both sides that go on in each other, not across a corner.
-    /// Of one bend alone it would carry the rounding of three vertices.
+    /// Curvature about a vertex, 1/mm: the mean over adjoining bends on both sides, up to the next corner. The curvature of a
+    /// single bend would carry the rounding of three vertices.
     fn curvature(&self, vertex: usize) -> f64 {
         let n = self.points.len();
         let (mut turn, mut way) = (self.turns[vertex], self.reach(vertex).iter().sum::<f64>());

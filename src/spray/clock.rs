@@ -1,26 +1,26 @@
-//! When the head is where: its course with the speeds that the edge asks for, gathered and lost at a steady rate.
+//! Timing of the head along its course: it follows the speeds that the edge asks for, with constant acceleration between them.
 
 use super::course::{Leg, Node, Pace};
 use crate::machine::{Job, Limits};
 
-/// Longest step of time at which the way is known, s.
+/// Maximum time step of the tabulated path, s.
 const STEP_S: f64 = 1e-3;
-/// Longest step between two places at which the speed is known, mm.
+/// Maximum distance between two places with a known speed, mm.
 const STEP: f64 = 1.0;
-/// Share of what the axes can do that the clock asks of them: polynomials between its places ask for more.
+/// Fraction of the axis limits that the clock uses. Polynomials between its places need more.
 const SHARE: f64 = 0.5;
 
-/// What the axes can do, and how often they are told where to be.
+/// Limits of the axes and the period of the controller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Drives {
-    /// X, Y and C.
+    /// Limits of X, Y and C.
     pub(super) limits: [Limits; 3],
-    /// s.
+    /// Time between two setpoints, s.
     pub(super) period: f64,
 }
 
 impl Drives {
-    /// Those of a job.
+    /// The limits and the period of a job.
     pub(super) fn of(job: &Job) -> Self {
         Self { limits: job.profile.axes.limits(), period: job.profile.time.period() }
     }
@@ -29,33 +29,33 @@ impl Drives {
 /// The head at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Timed {
-    /// s from the start of the pass.
+    /// Time from the start of the pass, s.
     pub(super) time: f64,
-    /// Where it is, and looks.
+    /// Position and direction of the head.
     pub(super) node: Node,
-    /// Its leg.
+    /// Index of the leg.
     pub(super) leg: usize,
 }
 
-/// The course of a pass in time.
+/// Timing of a pass.
 #[derive(Debug)]
 pub(super) struct Clock<'a> {
     pass: &'a [Leg],
-    /// Way at equal steps of time, mm.
+    /// Path lengths at equal time steps, mm.
     ways: Vec<f64>,
-    /// That step, s.
+    /// Time step, s.
     step: f64,
-    /// Way to the start of each leg, and to the end of the last.
+    /// Path lengths up to the start of each leg and to the end of the last one, mm.
     stations: Vec<f64>,
-    /// How often the axes are told, s.
+    /// Time between two setpoints, s.
     period: f64,
 }
 
 impl<'a> Clock<'a> {
-    /// The clock of a pass from rest to rest that lasts a whole number of periods, s.
+    /// The clock of a pass from rest to rest. It lasts a whole number of periods.
     ///
-    /// The speed is gathered and lost at a steady rate, so that no cap is passed; then the way is the mean over the time in
-    /// which the axes come to that rate, which takes the steps out of the acceleration.
+    /// The speed changes at a constant rate, so that it stays below every cap. The path is then averaged over the rise time of
+    /// the acceleration, which removes the steps of the acceleration.
     pub(super) fn new(pass: &'a [Leg], pace: &Pace, drives: &Drives) -> Self {
         let Drives { limits, period } = *drives;
         let mut stations = vec![0.0];
@@ -71,7 +71,7 @@ impl<'a> Clock<'a> {
         let stretch = whole(lasts) * period / lasts;
         let (steps, mean) = ((whole(lasts) * shares) as usize, (whole(rise) * shares) as usize);
         let way = |i: usize| way_at(&steady, i as f64 * step / stretch);
-        // Before the start the head rests there, behind the end likewise.
+        // The head rests before the start and after the end.
         let (mut sum, mut ways) = (0.0, vec![0.0]);
         for i in 1..=steps + mean {
             sum += way(i.min(steps)) - way(i.saturating_sub(mean));
@@ -80,22 +80,22 @@ impl<'a> Clock<'a> {
         Self { pass, ways, step, stations, period }
     }
 
-    /// How long the pass takes, s.
+    /// Duration of the pass, s.
     pub(super) fn duration(&self) -> f64 {
         (self.ways.len() - 1) as f64 * self.step
     }
 
-    /// How many periods that is.
+    /// Duration of the pass in periods.
     pub(super) fn periods(&self) -> usize {
         (self.duration() / self.period).round() as usize
     }
 
-    /// The time at a tick, s.
+    /// Time at a tick, s.
     pub(super) fn at_tick(&self, tick: usize) -> f64 {
         tick as f64 * self.period
     }
 
-    /// When the head is at the start of a leg, or with one more than there are at the end of the last, s.
+    /// Time at which the head reaches the start of a leg, s; for the number of legs, the end of the last one.
     pub(super) fn at_leg(&self, leg: usize) -> f64 {
         if leg == self.pass.len() {
             return self.duration();
@@ -108,7 +108,7 @@ impl<'a> Clock<'a> {
         ((next - 1) as f64 + (self.stations[leg] - from) / (to - from)) * self.step
     }
 
-    /// Where the head is at a time.
+    /// Position of the head at a time, s.
     pub(super) fn at(&self, time: f64) -> Timed {
         let last = self.ways.len() - 1;
         let before = ((time / self.step) as usize).min(last - 1);
@@ -120,7 +120,8 @@ impl<'a> Clock<'a> {
     }
 }
 
-/// Way, time and speed at close places: as fast as the caps between stations allow, with a steady rate between.
+/// Path length, time and speed at close places, for the fastest motion under the caps with constant acceleration between
+/// stations.
 fn steady(stations: &[f64], caps: &[f64], acceleration: f64) -> Vec<[f64; 3]> {
     let mut places: Vec<[f64; 3]> = vec![[0.0; 3]];
     for (ends, &cap) in stations.windows(2).zip(caps) {
@@ -152,7 +153,7 @@ fn steady(stations: &[f64], caps: &[f64], acceleration: f64) -> Vec<[f64; 3]> {
     places
 }
 
-/// The way at a time, at a steady rate of change between places.
+/// Path length at a time, with constant acceleration between places.
 fn way_at(places: &[[f64; 3]], time: f64) -> f64 {
     let next = places.partition_point(|place| place[1] <= time).clamp(1, places.len() - 1);
     let ([from, begins, before], [to, ends, after]) = (places[next - 1], places[next]);
@@ -161,7 +162,7 @@ fn way_at(places: &[[f64; 3]], time: f64) -> f64 {
     (from + mean * share * (ends - begins)).clamp(from, to)
 }
 
-/// The greatest speed of the head on a leg, mm/s: what the edge asks for, and what the turn of the head and its axes allow.
+/// Maximum speed of the head on a leg, mm/s: limited by the edge, the turn of the head and the axes.
 fn cap(leg: &Leg, limits: &[Limits; 3]) -> f64 {
     let [x, y, c] = limits;
     let rate = ((leg.ends[1].aim - leg.ends[0].aim) / leg.length()).abs();

@@ -1,27 +1,27 @@
-//! The course of the head: where it runs, which way it looks and how fast it may be, leg by leg.
+//! Course of the head: its position, direction and speed, leg by leg.
 
 use std::f64::consts::TAU;
 
 use crate::geom::{Point, angle};
 use crate::machine::Job;
 
-/// Legs that are shorter are none, mm.
+/// Length below which a leg is dropped, mm.
 pub(super) const LEG_EPSILON: f64 = 1e-7;
-/// What the head does on a leg.
+/// Task of the head on a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
-    /// The jet goes along an edge.
+    /// The jet moves along an edge.
     Edge,
-    /// The jet stands on a corner of the part, around which the head goes.
+    /// The jet stays at a corner of the part, around which the head moves.
     Corner,
-    /// The head gathers speed or comes to rest, without a jet.
+    /// The head speeds up or slows down with the jet off.
     Air,
 }
 
-/// Where the head is, and which way it looks.
+/// Position and direction of the head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Node {
-    /// The head, mm.
+    /// Position of the head, mm.
     pub(super) at: Point,
     /// Direction to the edge, rad, unwrapped along a pass.
     pub(super) aim: f64,
@@ -30,56 +30,56 @@ pub(super) struct Node {
 /// A short straight part of the course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
-    /// Its ends.
+    /// Start and end.
     pub(super) ends: [Node; 2],
-    /// The speed of the head at which the jet has its own, or that of a corner, mm/s.
+    /// Target speed of the head, mm/s: at an edge, the one at which the jet has its own speed; at a corner, that of corners.
     pub(super) speed: f64,
-    /// What the head does there.
+    /// Task of the head.
     pub(super) role: Role,
-    /// The block of the file that drew the edge.
+    /// Block of the file that drew the edge.
     pub(super) block: u32,
 }
 
 impl Leg {
-    /// Its length, mm.
+    /// Length, mm.
     pub(super) fn length(&self) -> f64 {
         (self.ends[1].at - self.ends[0].at).norm()
     }
 
-    /// The node at a share of it.
+    /// The node at a fraction of the leg.
     pub(super) fn at(&self, share: f64) -> Node {
         let [from, to] = self.ends;
         Node { at: from.at + (to.at - from.at) * share, aim: from.aim + (to.aim - from.aim) * share }
     }
 
-    /// The part of it between two shares.
+    /// The part of the leg between two fractions.
     fn part(&self, from: f64, to: f64) -> Self {
         Self { ends: [self.at(from), self.at(to)], ..*self }
     }
 }
 
-/// What the head does from rest to rest.
+/// Legs from rest to rest.
 pub(super) type Pass = Vec<Leg>;
 
 /// Distance and speeds of the head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pace {
-    /// The least turn of a corner, rad.
+    /// Minimum turn of a corner, rad.
     pub(super) corner: f64,
-    /// How far the head may look askew, rad.
+    /// Permitted error of the direction of the head, rad.
     pub(super) askew: f64,
-    /// To the edge, mm.
+    /// Distance from the head to the edge, mm.
     pub(super) distance: f64,
-    /// Of the jet along the edge, mm/s.
+    /// Speed of the jet along the edge, mm/s.
     pub(super) edge_speed: f64,
-    /// Of the head around a corner, mm/s.
+    /// Speed of the head around a corner, mm/s.
     pub(super) corner_speed: f64,
-    /// What its axes can do.
+    /// Limits of the axes along any direction.
     pub(super) reach: Reach,
 }
 
 impl Pace {
-    /// That of a job.
+    /// The distance and the speeds of a job.
     pub(super) fn of(job: &Job) -> Self {
         let tool = &job.profile.tool;
         let [x, y, _] = job.profile.axes.limits();
@@ -94,37 +94,38 @@ impl Pace {
     }
 }
 
-/// What the axes can do along any direction.
+/// Limits of the axes along any direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
-    /// mm/s2.
+    /// Maximum acceleration, mm/s2.
     pub(super) acceleration: f64,
-    /// mm/s3.
+    /// Maximum jerk, mm/s3.
     pub(super) jerk: f64,
 }
 
-/// How much longer a run-up is than its closed form asks: the way may bend, and axes share it.
+/// Ratio of a run-up to its closed form. The path may bend, and the axes share it.
 const RUN_UP_FACTOR: f64 = 1.5;
 
 impl Reach {
-    /// The way on which a head comes from rest to a speed, mm: half of it for the time that acceleration and jerk take.
+    /// Length of path over which a head reaches a speed from rest, mm: half the speed times the time that acceleration and jerk
+    /// take.
     pub(super) fn run_up(&self, speed: f64) -> f64 {
         RUN_UP_FACTOR * 0.5 * speed * (speed / self.acceleration + self.acceleration / self.jerk)
     }
 }
 
-/// All that a head does, and how near to it a planner stays.
+/// All passes of a head, and the tolerance of their planner.
 #[derive(Debug)]
 pub(super) struct Course {
-    /// In order.
+    /// Passes in order.
     pub(super) passes: Vec<Pass>,
-    /// Its distance and speeds.
+    /// Distance and speeds.
     pub(super) pace: Pace,
-    /// How far from the course a planner may be, mm.
+    /// Permitted deviation of a planner from the course, mm.
     pub(super) tolerance: f64,
 }
 
-/// The passes along the legs of closed ways, the one that starts at the least x and y first.
+/// The passes along the legs of closed paths. The path with the start nearest to the origin, by x + y, comes first.
 pub(super) fn passes(mut ways: Vec<Vec<Leg>>, pace: &Pace) -> Vec<Pass> {
     for way in &mut ways {
         let first = (0..way.len()).min_by(|&a, &b| from_origin(&way[a]).total_cmp(&from_origin(&way[b])));
@@ -134,12 +135,13 @@ pub(super) fn passes(mut ways: Vec<Vec<Leg>>, pace: &Pace) -> Vec<Pass> {
     ways.iter().flat_map(|way| parted(way, pace)).collect()
 }
 
-/// What a start has least: the sum of its coordinates, mm.
+/// Sum of the coordinates of the start, mm. The path with the least sum comes first.
 fn from_origin(leg: &Leg) -> f64 {
     leg.ends[0].at.x + leg.ends[0].at.y
 }
 
-/// A closed way from rest to rest: parted where it has a corner itself, and led up to and away from where it starts.
+/// The passes of a closed path, each from rest to rest. The path is parted at its own corners; its start gets a lead-in and a
+/// lead-out.
 fn parted(way: &[Leg], pace: &Pace) -> Vec<Pass> {
     let n = way.len();
     let stops: Vec<usize> = (0..n).filter(|&i| is_stop(&way[(i + n - 1) % n], &way[i], pace)).collect();
@@ -152,7 +154,7 @@ fn parted(way: &[Leg], pace: &Pace) -> Vec<Pass> {
     if stops.first() != Some(&0) {
         let last = passes.len() - 1;
         let [up, out] = [way[0].speed, way[n - 1].speed].map(|speed| pace.reach.run_up(speed));
-        // On a way without stops both may lead around it; else each ends at the nearest stop.
+        // On a path without stops both may run all the way round. Otherwise each ends at the nearest stop.
         let behind = stops.first().map_or(n, |&stop| stop);
         let before = stops.last().map_or(n, |&stop| n - stop);
         let lead_in = air(way[n - before..].iter().rev().copied().map(turned), up);
@@ -166,12 +168,12 @@ fn parted(way: &[Leg], pace: &Pace) -> Vec<Pass> {
     passes
 }
 
-/// A leg the other way round.
+/// A leg in reverse.
 fn turned(leg: Leg) -> Leg {
     Leg { ends: [leg.ends[1], leg.ends[0]], ..leg }
 }
 
-/// The first legs that are so long together, without a jet.
+/// The first `length` mm of legs, with the jet off.
 fn air(legs: impl Iterator<Item = Leg>, length: f64) -> Vec<Leg> {
     let mut left = length;
     let mut taken = Vec::new();
@@ -186,14 +188,14 @@ fn air(legs: impl Iterator<Item = Leg>, length: f64) -> Vec<Leg> {
     taken
 }
 
-/// Whether the head must stop between two legs: its way has a corner, or it looks elsewhere all at once.
+/// True if the head must stop between two legs: its path has a corner, or its direction jumps.
 fn is_stop(before: &Leg, behind: &Leg, pace: &Pace) -> bool {
     let [a, b] = [before, behind].map(|leg| leg.ends[1].at - leg.ends[0].at);
     let jump = angle::wrap(behind.ends[0].aim - before.ends[1].aim);
     angle::turn(a, b).abs() >= pace.corner || jump.abs() >= pace.askew
 }
 
-/// Makes the directions of a pass go on from leg to leg.
+/// Makes the directions of a pass continuous from leg to leg.
 fn unwrap(pass: &mut Pass) {
     let mut last = pass[0].ends[0].aim;
     for leg in pass {
@@ -204,12 +206,12 @@ fn unwrap(pass: &mut Pass) {
     }
 }
 
-/// Legs in a row on which the head does the same.
+/// Consecutive legs with the same task.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Stretch {
-    /// The first, and the one behind the last.
+    /// Range of the legs.
     pub(super) legs: std::ops::Range<usize>,
-    /// What it does.
+    /// Task of the head.
     pub(super) role: Role,
 }
 

@@ -1,9 +1,9 @@
-//! The curves that chords stand for, drawn anew in chords so short that the head runs as smoothly as on the curve.
+//! Reconstruction of the curves that chords stand for, in chords so short that the head runs as smoothly as on the curve.
 //!
-//! A CAD system flattens a curve to chords that leave it by some hundredths of a millimetre, or by some tenths. At a
-//! distance each vertex of them is an arc and each chord a line: a head that followed these would swing from one to the
-//! other. So between vertices a cubic is drawn through both ends of a chord, in the directions that the chords around give,
-//! as far as it bulges by no more than a chord may (`path.chord_sag_max_mm`).
+//! A CAD system flattens a curve to chords that deviate from it by some hundredths of a millimetre, or by some tenths. At a
+//! distance each vertex becomes an arc and each chord a line, and a head that followed these would swing from one to the other.
+//! Therefore each chord is replaced by a cubic through its ends, in the directions that the neighbouring chords give, provided
+//! that it bulges by no more than permitted (`path.chord_sag_max_mm`).
 
 use super::edge::Ring;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -11,17 +11,17 @@ use crate::geom::{Point, left};
 use crate::machine::path::{Fit, Path};
 use crate::units::number::fixed;
 
-/// A chord that is longer than both beside it by more than this factor is a straight side, and no chord of a curve.
+/// Length ratio to both neighbours above which a chord is a straight side and not part of a curve.
 const ALIKE: f64 = 4.0;
-/// How far the new chords may be from the curve, mm: far below any tolerance.
+/// Permitted deviation of the new chords from the curve, mm; far below any tolerance.
 const ACCURACY: f64 = 1e-3;
 
-/// What chords turn by that are followed as straight lines is a corner from here on, rad (half a degree).
+/// Turn above which a vertex between chords that are followed as straight lines is a corner, rad (half a degree).
 const CORNER: f64 = 0.008_726_646_259_971_648;
-/// What bulges more is a polygon for sure, mm: no export of curves is as coarse.
+/// Sagitta above which chords certainly form a polygon, mm. No export of curves is as coarse.
 const POLYGON: f64 = 3.0;
 
-/// Rings as the curves that they stand for, if they stand for any. Those that are too coarse for that are said.
+/// Replaces the chords of rings by the curves that they stand for. Reports the chords that are too coarse.
 pub(super) fn drawn(rings: Vec<Ring>, path: &Path, out: &mut Diagnostics) -> Vec<Ring> {
     match path.fit {
         Fit::Curve => {
@@ -34,7 +34,7 @@ pub(super) fn drawn(rings: Vec<Ring>, path: &Path, out: &mut Diagnostics) -> Vec
     }
 }
 
-/// Says when chords look like those of a curve that they leave by more than they may, mm.
+/// Reports chords that look like those of a curve but bulge by more than `most`, mm.
 fn report(ring: &Ring, most: f64, out: &mut Diagnostics) {
     let bulge = |chord: usize| circle(ring, chord).unwrap_or(0.0);
     let coarse: Vec<usize> = (0..ring.points.len()).filter(|&i| (most..POLYGON).contains(&bulge(i))).collect();
@@ -52,7 +52,7 @@ fn report(ring: &Ring, most: f64, out: &mut Diagnostics) {
     out.push(finding.at(ring.spans[worst]).on_cloth(ring.points[worst]));
 }
 
-/// A ring with shorter chords on its curves, which bulge by no more than `most`, mm.
+/// The ring with its curves in shorter chords. Curves bulge by at most `most` mm.
 fn smooth(ring: &Ring, most: f64) -> Ring {
     let n = ring.points.len();
     let curved: Vec<bool> = (0..n).map(|chord| circle(ring, chord).is_some_and(|bulge| bulge <= most)).collect();
@@ -76,46 +76,46 @@ fn smooth(ring: &Ring, most: f64) -> Ring {
     Ring::with_corners(points, spans, corners)
 }
 
-/// How far a cubic bulges beyond its chord, mm, whose directions at the ends differ from it by so much, rad.
+/// Bulge of a cubic over its chord, mm. `from` and `to` are the angles between its directions at the ends and the chord, rad.
 fn bulge(length: f64, [from, to]: [f64; 2]) -> f64 {
     length * (from.abs() + to.abs()) / 8.0
 }
 
-/// The share of the turn at a vertex by which a circle through it and its neighbours turns on a chord.
+/// Fraction of the turn at a vertex that falls on a chord, on the circle through the vertex and its neighbours.
 fn share(ring: &Ring, chord: usize, other: usize) -> f64 {
     ring.length(chord) / (ring.length(chord) + ring.length(other))
 }
 
-/// The two sides of a chord: the vertex there, and the chord beyond it.
+/// Both sides of a chord: its vertex there, and the chord beyond it.
 fn sides(ring: &Ring, chord: usize) -> [(usize, usize); 2] {
     [(chord, ring.before(chord)), (ring.behind(chord), ring.behind(chord))]
 }
 
-/// How far circles through the ends of a chord bulge beyond it, mm; `None` where no chord beside it is of its size.
+/// Bulge over a chord of the circles through its ends, mm; `None` if no neighbouring chord is similar in length.
 fn circle(ring: &Ring, chord: usize) -> Option<f64> {
     let sides = sides(ring, chord).map(|(vertex, other)| {
         let is_alike = !ring.is_corner(vertex) && ring.length(chord) <= ALIKE * ring.length(other);
         is_alike.then(|| ring.turns[vertex] * share(ring, chord, other))
     });
-    // At a corner a curve is as bent as at the other end of its chord.
+    // At a corner the curve is bent as at the other end of its chord.
     let ends = [sides[0].or(sides[1])?, sides[1].or(sides[0])?];
     Some(bulge(ring.length(chord), ends))
 }
 
-/// By how much the curve of a chord turns from its direction at the start to the chord, and from there to that at its end,
-/// rad; to the left is positive.
+/// Turn of a curve from its direction at the start to its chord, and from the chord to its direction at the end, rad; positive
+/// to the left.
 fn directions(ring: &Ring, chord: usize, curved: &[bool]) -> [f64; 2] {
     let at = |(vertex, other): (usize, usize)| {
-        // A straight side goes on in its curve.
+        // A straight side continues tangentially in its curve.
         let share = if curved[other] { share(ring, chord, other) } else { 1.0 };
         (!ring.is_corner(vertex)).then(|| ring.turns[vertex] * share)
     };
     let [from, to] = sides(ring, chord).map(at);
-    // At a corner a curve is as bent as at the other end of its chord.
+    // At a corner the curve is bent as at the other end of its chord.
     [from.or(to), to.or(from)].map(Option::unwrap_or_default)
 }
 
-/// The place at a share of the cubic between two points (Hermite's form over the chord).
+/// Point at a fraction of the cubic between two points (Hermite's form over the chord).
 fn on_cubic([from, to]: [Point; 2], ends: [f64; 2], t: f64) -> Point {
     let slopes = [-ends[0].tan(), ends[1].tan()];
     let height = slopes[0] * t * (1.0 - t).powi(2) - slopes[1] * t * t * (1.0 - t);

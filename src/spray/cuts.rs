@@ -1,5 +1,5 @@
-//! Passes as the cutter's planner takes them: the head is a point whose C axis stands a quarter turn ahead of its way, since
-//! the edge is on its left. Travels between passes, and the last check of every limit, are that planner's.
+//! Translation of passes for the cutter's planner. The head becomes a point whose C axis stands a quarter turn ahead of its
+//! path, since the edge is on its left. That planner adds the travels between passes and checks every limit at the end.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,7 +12,7 @@ use crate::machine::{Fit, Job, Knife};
 use crate::source::Span;
 use crate::units::deg;
 
-/// The job by which the cutter's planner moves the head: no plunges, no lifts, the quarter turn of C as a yaw.
+/// The job with which the cutter's planner moves the head: no plunges, no lifts, and the quarter turn of C as a yaw.
 pub(super) fn job_of_head(job: &Job) -> Job {
     let mut job = job.clone();
     let knife = &mut job.profile.knife;
@@ -25,27 +25,27 @@ pub(super) fn job_of_head(job: &Job) -> Job {
         yaw_deg: deg(FRAC_PI_2),
         ..knife.clone()
     };
-    // The course is the line itself, not chords of one.
+    // The course is the exact path, not chords of a curve.
     job.profile.path.fit = Fit::Polygon;
     job
 }
 
-/// The pose of the axes at a node of the course, without the yaw.
+/// Pose of the axes at an end of a leg, without the yaw.
 fn pose(leg: &Leg, end: usize) -> Pose {
     let node = leg.ends[end];
     Pose { centre: node.at, c: Rotation(node.aim - FRAC_PI_2) }
 }
 
-/// Share of what a head may look askew that the curves of its planner use.
+/// Fraction of the permitted direction error that the curves of the planner use.
 const SHARE: f64 = 0.9;
 
-/// How near to its course the head stays, mm: where a line meets an arc of a radius a curve that leaves them by so much is
-/// turned by up to the root of its share of the radius.
+/// Permitted deviation of the head from its course, mm. Where a line meets an arc of radius r, a curve within e mm of them may
+/// differ in direction by up to sqrt(e / r).
 fn tolerance(course: &Course) -> f64 {
     course.tolerance.min(course.pace.distance * (SHARE * course.pace.askew).powi(2))
 }
 
-/// All passes, a run each. Its blocks are numbers of legs, the first being 1, counted through all passes.
+/// The toolpath of all passes, one run per pass. Its blocks are the numbers of the legs, counted from 1 through all passes.
 pub(super) fn toolpath(course: &Course) -> Toolpath {
     let mut toolpath = Toolpath { tolerance: tolerance(course), ..Toolpath::default() };
     let mut first = 1;
@@ -60,7 +60,7 @@ pub(super) fn toolpath(course: &Course) -> Toolpath {
     toolpath
 }
 
-/// A pass as a run, whose first leg has that number.
+/// The run of a pass. `first` is the number of its first leg.
 fn run(pass: &[Leg], first: u32) -> Run {
     let mut points = vec![pass[0].ends[0].at];
     points.extend(pass.iter().map(|leg| leg.ends[1].at));
@@ -83,7 +83,7 @@ fn run(pass: &[Leg], first: u32) -> Run {
     }
 }
 
-/// The spells of legs at each tick of a pass whose first leg has that number; the last tick begins nothing.
+/// The spells of the legs at each tick of a pass. `first` is the number of its first leg. The last tick starts no spell.
 pub(super) fn spells(legs: &[usize], first: u32) -> Vec<Spell> {
     let mut spells: Vec<Spell> = Vec::new();
     for (tick, &leg) in (0..).zip(&legs[..legs.len() - 1]) {

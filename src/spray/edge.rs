@@ -1,28 +1,29 @@
-//! The edges of parts: closed rings with the material on their left.
+//! Edges of parts: closed rings with the material on their left.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Vector, polyline, ring};
 use crate::ir::Marker;
 use crate::source::Span;
 
-/// Points nearer to each other than that are one, mm: far below what a file resolves.
+/// Distance below which two points are the same, mm; far below the resolution of a file.
 const SAME_EPSILON: f64 = 1e-6;
 
-/// A closed edge, with the material on the left of each chord: around a part against the clock, around a hole with it.
+/// A closed edge with the material on the left of each chord: counter-clockwise around a part, clockwise around a hole.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ring {
-    /// Its vertices, mm; the last is joined to the first.
+    /// Vertices, mm. The last one is joined to the first.
     pub(super) points: Vec<Point>,
-    /// The block of the chord behind each vertex.
+    /// Source block of the chord behind each vertex.
     pub(super) spans: Vec<Span>,
-    /// How far the direction turns at each vertex, rad: to the left is positive, there the part has a corner outwards.
+    /// Turn of the direction at each vertex, rad. It is positive to the left, at an outward corner of the part.
     pub(super) turns: Vec<f64>,
-    /// Whether each vertex is a corner, where edges end; else the chords on both sides stand for a curve.
+    /// True for the vertices that are corners, at which edges end. At other vertices the chords on both sides stand for a
+    /// curve.
     corners: Vec<bool>,
 }
 
 impl Ring {
-    /// A ring of these vertices, in this order; those that turn by `corner` or more are corners, rad.
+    /// The ring of these vertices, in this order. Turns of at least `corner` rad are corners.
     pub(super) fn new(points: Vec<Point>, spans: Vec<Span>, corner: f64) -> Self {
         let n = points.len();
         let mut ring = Self::with_corners(points, spans, vec![false; n]);
@@ -30,7 +31,7 @@ impl Ring {
         ring
     }
 
-    /// A ring whose corners are known.
+    /// The ring of these vertices with known corners.
     pub(super) fn with_corners(points: Vec<Point>, spans: Vec<Span>, corners: Vec<bool>) -> Self {
         let n = points.len();
         let turns =
@@ -38,12 +39,12 @@ impl Ring {
         Self { points, spans, turns, corners }
     }
 
-    /// The ends of a chord.
+    /// Start and end of a chord.
     pub(super) fn chord(&self, chord: usize) -> [Point; 2] {
         [self.points[chord], self.points[self.behind(chord)]]
     }
 
-    /// The unit vector along a chord.
+    /// Unit vector along a chord.
     pub(super) fn along(&self, chord: usize) -> Vector {
         let [from, to] = self.chord(chord);
         (to - from).normalize()
@@ -55,28 +56,28 @@ impl Ring {
         (to - from).norm()
     }
 
-    /// The direction from outside to a chord, across it, rad.
+    /// Inward normal of a chord, as an angle, rad.
     pub(super) fn inwards(&self, chord: usize) -> f64 {
         Heading::of(self.along(chord)).radians() + std::f64::consts::FRAC_PI_2
     }
 
-    /// The chord before a vertex.
+    /// Index of the chord before a vertex.
     pub(super) fn before(&self, vertex: usize) -> usize {
         (vertex + self.points.len() - 1) % self.points.len()
     }
 
-    /// The vertex behind a chord or another vertex.
+    /// Index of the vertex behind a chord or another vertex.
     pub(super) fn behind(&self, vertex: usize) -> usize {
         (vertex + 1) % self.points.len()
     }
 
-    /// Whether a vertex is a corner.
+    /// True if the vertex is a corner.
     pub(super) fn is_corner(&self, vertex: usize) -> bool {
         self.corners[vertex]
     }
 }
 
-/// The edges of everything in a marker. What is no edge is said.
+/// The edges of all closed contours of a marker. Reports lines that are not edges.
 pub(super) fn rings(marker: &Marker, corner: f64, out: &mut Diagnostics) -> Vec<Ring> {
     let mut closed = Vec::new();
     let mut open = 0;
@@ -101,7 +102,7 @@ pub(super) fn rings(marker: &Marker, corner: f64, out: &mut Diagnostics) -> Vec<
     (0..closed.len()).map(|i| turned(i, &closed, corner)).collect()
 }
 
-/// A contour without points that stand twice; `None` when too few are left.
+/// The contour without consecutive duplicate points; `None` if fewer than three are left.
 fn distinct(points: &[Point], spans: &[Span]) -> Option<(Vec<Point>, Vec<Span>)> {
     let mut kept: (Vec<Point>, Vec<Span>) = (Vec::new(), Vec::new());
     for (&point, &span) in points.iter().zip(spans) {
@@ -117,13 +118,13 @@ fn distinct(points: &[Point], spans: &[Span]) -> Option<(Vec<Point>, Vec<Span>)>
     (kept.0.len() > 2).then_some(kept)
 }
 
-/// A contour as a ring: against the clock unless it lies in an odd number of others.
+/// A contour as a ring: clockwise if it lies in an odd number of other contours, otherwise counter-clockwise.
 fn turned(i: usize, closed: &[(Vec<Point>, Vec<Span>)], corner: f64) -> Ring {
     let (mut points, mut spans) = closed[i].clone();
     let around = closed.iter().enumerate().filter(|&(j, (ring, _))| j != i && ring::contains(ring, points[0])).count();
     if (ring::area(&points) > 0.0) == (around % 2 == 1) {
         points.reverse();
-        // Chord i goes from point i: what was before the first point is behind the last.
+        // Chord i goes from point i, so the blocks move by one.
         spans.reverse();
         spans.rotate_left(1);
     }

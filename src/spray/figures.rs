@@ -1,4 +1,4 @@
-//! The figures of each edge: the table that studies of this method print.
+//! Figures of each edge: the table that studies of this method print.
 
 use serde::Serialize;
 
@@ -8,35 +8,35 @@ use super::rows::Row;
 use crate::geom::{Vector, polyline};
 use crate::units::deg;
 
-/// An edge between two corners, and how the head follows it.
+/// An edge between two corners and its figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Edge {
-    /// The first and the last block that draws it.
+    /// First and last block that draws it.
     pub blocks: [u32; 2],
-    /// Way of the head, mm.
+    /// Length of the head's path, mm.
     pub length_mm: f64,
-    /// How long it takes, s.
+    /// Duration, s.
     pub time_s: f64,
-    /// How far the head is from its line at the most, mm.
+    /// Maximum deviation of the head from its path, mm.
     pub deviation_mm: f64,
-    /// Least, mean and greatest speed of the head, mm/s.
+    /// Minimum, mean and maximum speed of the head, mm/s.
     pub speed_mm_s: [f64; 3],
-    /// Polynomials; none with another planner.
+    /// Polynomials of the edge; empty with another planner.
     pub pieces: Vec<Piece>,
 }
 
-/// A polynomial of order 5, or several that follow each other.
+/// A polynomial of order 5. An edge may consist of several.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Piece {
-    /// From when to when in its pass, s.
+    /// Start and end in its pass, s.
     pub time_s: [f64; 2],
-    /// How far it is from the places of the head at their times, mm and degrees.
+    /// Maximum deviation from the timed positions of the head, mm.
     pub deviation_mm: f64,
-    /// The same of its direction.
+    /// Maximum deviation from the timed directions of the head, degrees.
     pub deviation_deg: f64,
-    /// Condition of the normal matrix.
+    /// Condition number of the normal matrix.
     pub condition: f64,
-    /// Coefficients of X (mm), Y (mm) and C (rad), from the constant term on.
+    /// Coefficients of X (mm), Y (mm) and C (rad), beginning with the constant term.
     pub coefficients: [[f64; 3]; 6],
 }
 
@@ -55,25 +55,25 @@ impl Piece {
 /// A course and the rows that follow it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Followed<'a> {
-    /// The course.
+    /// Passes of the course.
     pub(super) passes: &'a [Pass],
-    /// A row a period.
+    /// One row per period.
     pub(super) rows: &'a [Row],
     /// The period, s.
     pub(super) period: f64,
 }
 
-/// An edge of a course.
+/// An edge of a course with its rows.
 pub(super) struct OnEdge<'a> {
-    /// Its pass, and which of the stretches of that it is.
+    /// Index of the pass, and of the stretch in it.
     place: [usize; 2],
-    /// Its legs.
+    /// Legs of the edge.
     pub(super) legs: &'a [Leg],
-    /// The rows on them.
+    /// Rows on these legs.
     pub(super) rows: &'a [Row],
 }
 
-/// The edges of a course on which a row falls.
+/// The edges of a course that have at least one row.
 pub(super) fn on_edges(followed: Followed) -> Vec<OnEdge> {
     let Followed { passes, rows, .. } = followed;
     let mut edges = Vec::new();
@@ -81,7 +81,7 @@ pub(super) fn on_edges(followed: Followed) -> Vec<OnEdge> {
     for (i, pass) in passes.iter().enumerate() {
         for (j, stretch) in stretches(pass).into_iter().enumerate() {
             let [start, end] = [stretch.legs.start, stretch.legs.end].map(|leg| first + leg);
-            // Rows come in the order of legs.
+            // Rows are in the order of the legs.
             let is_before = |row: &&Row| row.leg.is_none_or(|leg| leg < start);
             let from = at + rows[at..].iter().take_while(is_before).count();
             at = from + rows[from..].iter().take_while(|row| row.leg.is_some_and(|leg| leg < end)).count();
@@ -94,7 +94,7 @@ pub(super) fn on_edges(followed: Followed) -> Vec<OnEdge> {
     edges
 }
 
-/// The figures of all edges of a course; `fits` has those of each stretch of each pass, or nothing.
+/// The figures of all edges of a course. `fits` holds the fits of each stretch of each pass, or is empty.
 pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
     let figures = |OnEdge { place: [pass, stretch], legs, rows }| {
         let fits = fits.get(pass).map_or(&[][..], |fits| &fits[stretch]);
@@ -103,7 +103,7 @@ pub(super) fn edges(followed: Followed, fits: &[Vec<Vec<Fit>>]) -> Vec<Edge> {
     on_edges(followed).into_iter().map(figures).collect()
 }
 
-/// One edge: its legs and the rows on them.
+/// The figures of one edge, without its polynomials.
 fn edge(legs: &[Leg], rows: &[Row], period: f64) -> Edge {
     let speeds = rows.iter().map(|row| row.velocity[0].hypot(row.velocity[1]));
     let (least, sum, most) = speeds.fold((f64::INFINITY, 0.0, 0.0), |(least, sum, most): (f64, f64, f64), speed| {
@@ -119,9 +119,9 @@ fn edge(legs: &[Leg], rows: &[Row], period: f64) -> Edge {
     }
 }
 
-/// How far each row is from the line of legs, mm. Both go on: the nearest leg is looked for from the last one on.
+/// Vector from the nearest point of the legs to each row, mm. The search for the nearest leg starts at that of the last row.
 pub(super) fn deviations(legs: &[Leg], rows: &[Row]) -> Vec<Vector> {
-    /// Legs that are looked at, to both sides of the last nearest.
+    /// Legs to search on either side of the last nearest one.
     const LOOKED: usize = 200;
     let mut near: usize = 0;
     let mut found = Vec::with_capacity(rows.len());

@@ -1,10 +1,10 @@
-//! The frame of a course: once around its box with the jet off, to see where the head will be.
+//! Frame of a course: once around its bounding box with the jet off, to show where the head will move.
 
 use super::course::Course;
 use crate::geom::{Extent, Point};
 use crate::ir::toolpath::{Air, Pose, Step, Toolpath};
 
-/// From `home` around everything where the head runs, and back; C does not turn.
+/// The toolpath from `home` around the bounding box of the course and back. C does not turn.
 pub(super) fn toolpath(course: &Course, home: Pose) -> Toolpath {
     let places: Vec<Point> = course.passes.iter().flatten().flat_map(|leg| leg.ends).map(|node| node.at).collect();
     let Extent { min, max } = Extent::of(&places);

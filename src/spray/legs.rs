@@ -1,4 +1,4 @@
-//! Legs along the way of the head: beside chords, through the bends of curves, around corners.
+//! Legs along the path of the head: beside chords, through the bends of curves, around corners.
 
 use std::f64::consts::PI;
 
@@ -8,15 +8,15 @@ use super::edge::Ring;
 use super::offset::{Beside, Element};
 use crate::geom::{Heading, Point, Vector, angle};
 
-/// How far legs on an arc may be from it, mm: far below any tolerance.
+/// Permitted deviation of legs from an arc, mm; far below any tolerance.
 const ARC_ACCURACY: f64 = 1e-3;
-/// The first step of a straight stretch from either end, mm, and how much farther the next ones reach.
+/// First step of a straight stretch from either end, mm, and the ratio of the distances that consecutive steps reach.
 const FIRST_STEP: f64 = 10.0;
 const STEP_GROWTH: f64 = 1.6;
-/// The least speed of a head in a bay that is nearly as tight as its distance, as a share of that of the jet.
+/// Minimum speed of a head in a bay almost as tight as its distance, as a fraction of that of the jet.
 const LEAST_SHARE: f64 = 0.05;
 
-/// The legs along a closed way.
+/// The legs along a closed path.
 pub(super) fn legs(way: &[Element], rings: &[Ring], pace: &Pace) -> Vec<Leg> {
     let mut legs = Vec::new();
     for element in way {
@@ -31,14 +31,14 @@ pub(super) fn legs(way: &[Element], rings: &[Ring], pace: &Pace) -> Vec<Leg> {
     legs
 }
 
-/// Goes beside a ring and makes legs.
+/// State of a walk beside a ring that collects legs.
 struct Walk<'a> {
     ring: &'a Ring,
     pace: &'a Pace,
     legs: &'a mut Vec<Leg>,
 }
 
-/// What is the same on all legs of an arc.
+/// Properties common to all legs of an arc.
 #[derive(Clone, Copy)]
 struct Stretch {
     role: Role,
@@ -47,12 +47,12 @@ struct Stretch {
 }
 
 impl Walk<'_> {
-    /// The speed of the head in a bend, mm/s: that of the jet times 1 + distance x curvature.
+    /// Speed of the head in a bend, mm/s: that of the jet times 1 + distance x curvature.
     fn speed_in(&self, bend: &Bend) -> f64 {
         self.pace.edge_speed * (1.0 + self.pace.distance * bend.curvature).max(LEAST_SHARE)
     }
 
-    /// Along a chord: a bend at its start, what is straight, a bend at its end.
+    /// Adds the legs beside a chord: a bend at its start, the straight part, a bend at its end.
     fn beside_chord(&mut self, chord: usize, ends: [Point; 2]) {
         let (ring, distance) = (self.ring, self.pace.distance);
         let [from, _] = ring.chord(chord);
@@ -80,11 +80,11 @@ impl Walk<'_> {
         }
     }
 
-    /// Around a vertex: in the middle of a curve, or around a corner from the end of a curve to the start of another.
+    /// Adds the legs around a vertex: amid a curve, or around a corner from the end of one curve to the start of the next.
     fn around_vertex(&mut self, vertex: usize, ends: [Point; 2]) {
         let (ring, distance) = (self.ring, self.pace.distance);
         let (centre, turn, before) = (ring.points[vertex], ring.turns[vertex], ring.before(vertex));
-        // Angles count from where the head stands beside the end of the chord before.
+        // Angles count from the position of the head beside the end of the previous chord.
         let outwards = ring.inwards(before) + PI;
         let [from, to] = ends.map(|end| {
             let middle = outwards + 0.5 * turn;
@@ -113,7 +113,7 @@ impl Walk<'_> {
         self.arc([first, to], curve, &in_bend(begun, begins));
     }
 
-    /// From one angle to another.
+    /// Adds the legs of an arc between two angles.
     fn arc(&mut self, [from, to]: [f64; 2], stretch: Stretch, node: &dyn Fn(f64) -> Node) {
         let Stretch { role, speed, block } = stretch;
         let step = 2.0 * (1.0 - ARC_ACCURACY / self.pace.distance).clamp(-1.0, 1.0).acos();
@@ -123,7 +123,8 @@ impl Walk<'_> {
     }
 }
 
-/// A straight stretch in steps that grow from both ends to its middle: what a planner lowers near its ends is short.
+/// Divides a straight stretch into steps that grow from both ends to the middle. Short steps at the ends confine a lowered
+/// speed.
 fn steps([from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let half = 0.5 * (to - from);
     let growing = std::iter::successors(Some(FIRST_STEP), |reach| Some(reach * STEP_GROWTH));

@@ -1,7 +1,7 @@
-//! The way of a head at a distance from the edges: offsets of all rings together, as exact arcs and lines.
+//! Path of a head at a distance from the edges: the common offset of all rings, as exact arcs and lines.
 //!
-//! The offset is `cavalier_contours`'; the manual has how it compares. Collisions of the way with itself, and with that
-//! around another part, are resolved there: what is nearer than the distance to any edge is left out.
+//! The offset is computed by `cavalier_contours`; the manual has a comparison. The library also resolves collisions of the path
+//! with itself and with paths around other parts: it drops whatever comes nearer to an edge than the distance.
 
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline, seg_arc_radius_and_center};
 use cavalier_contours::shape_algorithms::{Shape, ShapeOffsetOptions};
@@ -10,43 +10,43 @@ use super::edge::Ring;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, polyline};
 
-/// How far from the offset its pieces may be found from their chord, mm: the library joins pieces at 1e-4.
+/// Search radius of the chord or vertex of an element, mm. The library joins pieces at 1e-4.
 const FOUND_EPSILON: f64 = 1e-2;
-/// Pieces of the way that are shorter do not count, mm: rounding.
+/// Length below which pieces of the path are rounding, mm.
 const LENGTH_EPSILON: f64 = 1e-6;
 
-/// Closed ways that are smaller are none, as a share of the distance: in them the head stands and turns.
+/// Size below which a closed path is dropped, as a fraction of the distance. The head would turn on the spot there.
 const SMALL_SHARE: f64 = 0.01;
 
-/// What an element of the way runs beside.
+/// Origin of an element of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Beside {
-    /// A chord of a ring: a straight line.
+    /// A straight line, parallel to a chord.
     Chord {
-        /// The ring.
+        /// Index of the ring.
         ring: usize,
-        /// Its chord.
+        /// Index of the chord.
         chord: usize,
     },
-    /// A vertex of a ring: an arc around it.
+    /// An arc around a vertex.
     Vertex {
-        /// The ring.
+        /// Index of the ring.
         ring: usize,
-        /// Its vertex.
+        /// Index of the vertex.
         vertex: usize,
     },
 }
 
-/// A straight line or an arc of the way.
+/// A straight line or an arc of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Element {
-    /// Where it begins and ends, mm.
+    /// Start and end point, mm.
     pub(super) ends: [Point; 2],
-    /// What it runs beside.
+    /// Origin of the element.
     pub(super) beside: Beside,
 }
 
-/// The closed ways at a distance from all rings, each with the part on its left.
+/// The closed paths at a distance from all rings, each with the part on its left.
 pub(super) fn loops(rings: &[Ring], distance: f64) -> Vec<Vec<Element>> {
     let lines = rings.iter().map(|ring| {
         let mut line = Polyline::new_closed();
@@ -62,14 +62,14 @@ pub(super) fn loops(rings: &[Ring], distance: f64) -> Vec<Vec<Element>> {
     ways.filter(|way| !is_small(way, distance)).collect()
 }
 
-/// Whether a closed way is no more than a place: what a hole as wide as twice the distance leaves of it.
+/// True if a closed path is hardly more than a point, such as that of a hole as wide as twice the distance.
 fn is_small(way: &[Element], distance: f64) -> bool {
     let places: Vec<Point> = way.iter().flat_map(|element| element.ends).collect();
     let Extent { min, max } = Extent::of(&places);
     way.is_empty() || (max - min).norm() < SMALL_SHARE * distance
 }
 
-/// The elements of one way.
+/// The elements of one path.
 fn elements(way: &Polyline<f64>, rings: &[Ring], places: &Places, distance: f64) -> Vec<Element> {
     let mut elements = Vec::new();
     for (from, to) in way.iter_segments() {
@@ -88,7 +88,7 @@ fn elements(way: &Polyline<f64>, rings: &[Ring], places: &Places, distance: f64)
     elements
 }
 
-/// Finds chords and vertices by place.
+/// Index of chords and vertices by position.
 struct Places {
     boxes: Boxes,
     chords: Vec<(usize, usize)>,
@@ -108,13 +108,13 @@ impl Places {
         Self { boxes: Boxes::new(chords.iter().map(extent).collect()), chords }
     }
 
-    /// The chord beside which a line runs: its foot is the middle of the line, put back by the distance.
+    /// The chord beside which a line runs. It contains the middle of the line, moved back by the distance.
     fn chord(&self, rings: &[Ring], ends: [Point; 2], distance: f64) -> Option<Beside> {
         let along = (ends[1] - ends[0]).normalize();
         let foot = ends[0] + (ends[1] - ends[0]) * 0.5 + Vector::new(-along.y, along.x) * distance;
         let off = |&(ring, chord): &(usize, usize)| {
             let [from, to] = rings[ring].chord(chord);
-            // Of chords that meet in the foot it is the one along the line.
+            // Of chords that meet at the foot, the one parallel to the line is right.
             polyline::distance_to_segment(foot, from, to) + (rings[ring].along(chord) - along).norm()
         };
         let near = self.boxes.near(Extent::between(foot, foot).grown(FOUND_EPSILON)).map(|i| self.chords[i]);

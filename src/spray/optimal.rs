@@ -7,7 +7,7 @@ use crate::ir::toolpath::{Step, Toolpath};
 use crate::machine::Job;
 use crate::plan::{self, Cut};
 
-/// Rounds of lowering; what is left then the verifier judges.
+/// Maximum number of rounds that lower the feed. The verifier judges any excess that remains.
 const ROUNDS: usize = 6;
 
 /// The cuts of all passes.

@@ -1,4 +1,4 @@
-//! A program: what the controller is given at each tick, and what is known of it.
+//! Program of a head: the setpoints of the controller and the figures of the edges.
 
 use super::course::Pass;
 use super::figures::Edge;
@@ -8,24 +8,24 @@ use crate::geom::Point;
 /// The program of a head at a distance.
 #[derive(Debug)]
 pub struct Program {
-    /// The edges of the parts, closed, mm.
+    /// Edges of the parts, closed, mm.
     pub edges: Vec<Vec<Point>>,
-    /// The course.
+    /// Passes of the course.
     pub(super) passes: Vec<Pass>,
-    /// A row a period.
+    /// One row per period.
     pub rows: Vec<Row>,
     /// The period, s.
     pub period: f64,
     /// Figures of each edge, in order.
     pub figures: Vec<Edge>,
-    /// Head to edge, mm.
+    /// Distance from the head to the edge, mm.
     pub distance: f64,
-    /// The same by the other planner, to show it beside.
+    /// Program by the other planner, for comparison.
     pub(super) beside: Option<Box<Program>>,
 }
 
 impl Program {
-    /// How long it takes, s.
+    /// Duration, s.
     pub fn duration(&self) -> f64 {
         (self.rows.len() - 1) as f64 * self.period
     }

@@ -1,4 +1,4 @@
-//! What of the edges the head cannot come to: where a slot or a bay is narrower than twice its distance.
+//! Stretches of edges that the head cannot reach, as where a slot or a bay is narrower than twice its distance.
 
 use super::edge::Ring;
 use super::offset::{Beside, Element};
@@ -6,22 +6,22 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::units::number::fixed;
 
-/// Stretches that are shorter are rounding, mm.
+/// Length below which a stretch is rounding, mm.
 const SHORT: f64 = 0.1;
 
-/// A part of a ring that no head comes to.
+/// A stretch of a ring that the head cannot reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Gap {
-    /// Where on the ring it begins and ends, mm from its first vertex.
+    /// Start and end on the ring, mm from its first vertex.
     from: f64,
     to: f64,
-    /// Where that is.
+    /// Start point.
     at: Point,
-    /// The block there.
+    /// Index of the chord at the start.
     block: usize,
 }
 
-/// Says of each ring what the ways do not come to.
+/// Reports for each ring the stretches that the head cannot reach.
 pub(super) fn report(ways: &[Vec<Element>], rings: &[Ring], distance: f64, out: &mut Diagnostics) {
     for (number, ring) in rings.iter().enumerate() {
         let gaps = gaps(ways, ring, number, distance);
@@ -43,7 +43,7 @@ pub(super) fn report(ways: &[Vec<Element>], rings: &[Ring], distance: f64, out: 
     }
 }
 
-/// What of a ring no way runs beside, joined where it goes on.
+/// Stretches of a ring that no path runs beside. Adjoining ones are joined.
 fn gaps(ways: &[Vec<Element>], ring: &Ring, number: usize, distance: f64) -> Vec<Gap> {
     let mut covered: Vec<Vec<[f64; 2]>> = vec![Vec::new(); ring.points.len()];
     for element in ways.iter().flatten() {
@@ -59,7 +59,7 @@ fn gaps(ways: &[Vec<Element>], ring: &Ring, number: usize, distance: f64) -> Vec
     for (chord, covered) in covered.iter_mut().enumerate() {
         covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let (length, end) = (ring.length(chord), (chord + 1) % ring.points.len());
-        // In a bay the ways beside two chords meet before they come to their vertex: the curve there is followed all the same.
+        // In a bay the paths beside two chords meet before their vertex. The curve there is followed nevertheless.
         let bay = |vertex: usize| {
             if ring.is_corner(vertex) { 0.0 } else { distance * (-0.5 * ring.turns[vertex]).max(0.0).tan() }
         };
@@ -79,7 +79,7 @@ fn gaps(ways: &[Vec<Element>], ring: &Ring, number: usize, distance: f64) -> Vec
     joined(gaps)
 }
 
-/// Gaps that go on in the next are one.
+/// Joins adjoining gaps.
 fn joined(gaps: Vec<Gap>) -> Vec<Gap> {
     let mut joined: Vec<Gap> = Vec::new();
     for gap in gaps {

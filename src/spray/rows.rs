@@ -1,4 +1,4 @@
-//! What the controller is given at each tick.
+//! Setpoints of the controller.
 
 use super::course::{Leg, Pass, Role};
 use crate::ir::Motion;
@@ -8,27 +8,27 @@ use crate::machine::Job;
 /// The head at a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Where the axes are.
+    /// Pose of the axes.
     pub pose: Pose,
     /// Speeds of X and Y, mm/s.
     pub velocity: [f64; 2],
-    /// Whether the jet is on.
+    /// True if the jet is on.
     pub jet: bool,
-    /// The leg of the course, counted through all passes; `None` between them.
+    /// Index of the leg, counted through all passes; `None` between passes.
     pub leg: Option<usize>,
 }
 
-/// What the rows are made of.
+/// Data from which the rows are made.
 pub(super) struct Moved<'a> {
-    /// All of it, in order; the blocks of a cut are numbers of legs, the first being 1, counted through all passes.
+    /// All motions in order. Blocks of a cut are the numbers of the legs, counted from 1 through all passes.
     pub(super) motions: &'a [Motion],
-    /// What they follow.
+    /// Passes that the motions follow.
     pub(super) passes: &'a [Pass],
-    /// Speeds of X and Y of each pass at its ticks, mm/s, where they are known.
+    /// Known speeds of X and Y of each pass at its ticks, mm/s.
     pub(super) velocities: &'a [Vec<[f64; 2]>],
 }
 
-/// The rows of motions. Speeds that are not known are the mean of those before and behind a tick.
+/// The rows of motions. Unknown speeds are central differences of the positions.
 pub(super) fn rows(moved: &Moved, job: &Job) -> Vec<Row> {
     let (sprays, period) = (job.mode.cuts(), job.profile.time.period());
     let legs: Vec<&Leg> = moved.passes.iter().flatten().collect();

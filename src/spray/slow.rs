@@ -1,4 +1,4 @@
-//! Edges that the jet passes more slowly than it should: their coat is too thick.
+//! Edges that the jet passes too slowly, so that their coat is too thick.
 
 use super::course::Pace;
 use super::figures::{Followed, OnEdge, on_edges};
@@ -7,23 +7,23 @@ use crate::geom::Point;
 use crate::machine::Job;
 use crate::units::number::fixed;
 
-/// Way of the jet over which its speed is measured, and the least that is said, mm.
+/// Length of the jet's path over which its speed is measured, and minimum length to report, mm.
 const WAY: f64 = 10.0;
 
-/// How many times as slow as it may be fast the jet is told to be: planners go round bends a little below what they may.
+/// Slowness to report, as a multiple of the permitted excess of speed. Planners pass bends at a little less than their limit.
 const SLOWER: f64 = 2.0;
 
-/// What of an edge is passed slowly.
+/// Slow stretches of an edge.
 struct Slow {
-    /// How much of it, mm.
+    /// Total length, mm.
     length: f64,
-    /// The least speed of the jet, mm/s, and where the head is then.
+    /// Minimum speed of the jet, mm/s, and the position of the head there.
     least: f64,
     at: Point,
 }
 
-/// Says how much of the edges is passed more slowly than by twice `tool.edge_speed_percent`, but near their two ends, where the head
-/// comes from rest or from a corner.
+/// Reports the length of edges on which the jet is slower than its speed by more than twice `tool.edge_speed_percent`. The ends
+/// of each edge, where the head comes from rest or from a corner, are left out.
 pub(super) fn report(followed: Followed, job: &Job, out: &mut Diagnostics) {
     let tool = &job.profile.tool;
     let least = tool.edge_speed_mm_s * (1.0 - SLOWER * tool.edge_speed_percent / 100.0);
@@ -41,7 +41,7 @@ pub(super) fn report(followed: Followed, job: &Job, out: &mut Diagnostics) {
     out.push(Diagnostic::new(&code::SPRAY_SLOW, message).hint(hint).on_cloth(worst.at));
 }
 
-/// What of an edge is passed more slowly than at `least`, mm/s; `None` where that is no more than its ends.
+/// The stretches of an edge, apart from its ends, on which the jet is slower than `least`, mm/s; `None` if they are negligible.
 fn slow(edge: &OnEdge, period: f64, least: f64, job: &Job) -> Option<Slow> {
     let OnEdge { legs, rows, .. } = edge;
     let distance = job.profile.tool.distance_mm;

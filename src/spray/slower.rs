@@ -1,7 +1,7 @@
-//! Where the jet of a planned cut is too fast for its edge, and by what share its head must be slower there.
+//! Places of a planned cut at which the jet is too fast for its edge, and the factors by which the head must be slower there.
 //!
-//! Curves that a planner makes of the course swing a little about its curvature where a line meets an arc: there the jet is
-//! faster than the speed of the head says. So it is measured on what was planned.
+//! The curve of a planner swings a little about the curvature of the course where a line meets an arc. The jet is then faster
+//! than the speed of the head suggests, so its speed is measured on the planned motion.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,16 +10,16 @@ use crate::geom::{Heading, Point};
 use crate::machine::Job;
 use crate::plan::Cut;
 
-/// Way of the jet over which its speed is measured, mm.
+/// Length of the jet's path over which its speed is measured, mm.
 const WAY: f64 = 5.0;
-/// Share of how much faster the jet may be that is used.
+/// Fraction of the permitted excess of speed that is used.
 const SHARE: f64 = 0.8;
-/// How far below what is allowed it is brought.
+/// Ratio of a lowered speed to the permitted one.
 const LOWERED: f64 = 0.99;
-/// How far before and behind a place where the jet is too fast the head is slowed down, mm.
+/// Length before and behind a place with a too fast jet over which the head is slowed down, mm.
 const AROUND: f64 = 10.0;
 
-/// The share of its speed on each leg that the head of a cut must not pass; `None` where the jet is nowhere too fast.
+/// Factors that lower the speed on each leg of a cut so that the jet is not too fast; `None` if it never is.
 pub(super) fn shares(cut: &Cut, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
     let tool = &job.profile.tool;
     let most = tool.edge_speed_mm_s * (1.0 + SHARE * tool.edge_speed_percent / 100.0);
@@ -39,7 +39,7 @@ pub(super) fn shares(cut: &Cut, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
         }
         let speed = way / ((i - from) as f64 * period);
         if way >= WAY && speed > most && pass[legs[i]].role != Role::Air {
-            // Where it is slow enough on its way so far is not why.
+            // Ticks that are slow enough themselves are not the cause.
             for tick in (from + 1..=i).filter(|&tick| step(tick) > most * period) {
                 for leg in [legs[tick - 1], legs[tick]] {
                     shares[leg] = shares[leg].min(LOWERED * most / speed);
@@ -64,7 +64,7 @@ fn legs_at(cut: &Cut, ticks: usize) -> Vec<usize> {
     legs
 }
 
-/// Lowers what is near a lowered leg as much; but no edge for a corner, on which the jet stands.
+/// Lowers the legs near a lowered leg by the same factor. A corner, at which the jet stays, does not lower edges.
 pub(super) fn spread(shares: &mut [f64], pass: &[Leg]) {
     let known = shares.to_vec();
     let mut lower = |from: usize, legs: &mut dyn Iterator<Item = usize>| {

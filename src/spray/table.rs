@@ -1,4 +1,4 @@
-//! Whether the head stays over the table, which it needs its distance more of than the marker.
+//! Check that the head stays over the table. It needs more space than the marker by its distance on each side.
 
 use super::course::{Leg, Pass};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -6,7 +6,7 @@ use crate::geom::{Extent, Point};
 use crate::machine::{Job, Table};
 use crate::units::number::fixed;
 
-/// Says how far the head leaves the table, and how to move the marker; `None` when it does.
+/// Reports the distance by which the head leaves the table, and how to move the marker. `None` if it leaves the table.
 pub(super) fn report(passes: &[Pass], job: &Job, out: &mut Diagnostics) -> Option<()> {
     let table = &job.profile.table;
     let off = |leg: &Leg| table.off(leg.ends[0].at.into());
@@ -33,10 +33,10 @@ pub(super) fn report(passes: &[Pass], job: &Job, out: &mut Diagnostics) -> Optio
     None
 }
 
-/// The least way along an axis that brings what lies between two places between the ends of the table, mm, with a tenth to
-/// spare; `None` when it is longer.
+/// Shortest move along an axis that brings an interval onto the table, mm, rounded up to a tenth; `None` if the interval is
+/// longer than the table.
 fn way([least, most]: [f64; 2], table: Option<[f64; 2]>) -> Option<f64> {
-    /// What is said is rounded to a tenth of a millimetre.
+    /// Reported moves are rounded to a tenth of a millimetre.
     const STEP: f64 = 0.1;
     let Some([from, to]) = table else { return Some(0.0) };
     if most - least > to - from {

@@ -1,4 +1,5 @@
-//! Edges that cross, touch or run back upon each other: nobody can tell outside from inside there, and no offset is defined.
+//! Check for edges that cross, touch or run back upon each other. Inside and outside are ambiguous there, and no offset is
+//! defined.
 
 use super::edge::Ring;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -6,15 +7,15 @@ use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, polyline};
 
-/// Edges that are no farther apart meet, mm: no file resolves that.
+/// Distance below which edges meet, mm; finer than the resolution of any file.
 const MEET_EPSILON: f64 = 1e-6;
-/// Cosine of a turn by which a chord runs back upon the one before it: but for rounding a half turn.
+/// Cosine of the turn at which a chord runs back upon the previous one: a half turn, except for rounding.
 const BACK: f64 = -1.0 + 1e-9;
 
-/// A chord, by its ring and its place in that.
+/// A chord: the index of its ring, and its index in the ring.
 type Chord = [usize; 2];
 
-/// Says where edges meet: the first place of them.
+/// Reports the first place at which edges meet.
 pub(super) fn report(rings: &[Ring], out: &mut Diagnostics) {
     let Some([ring, chord]) = first(rings) else { return };
     let message =
@@ -26,7 +27,7 @@ pub(super) fn report(rings: &[Ring], out: &mut Diagnostics) {
     );
 }
 
-/// The first chord that meets one before it, or that is not looked at since no work is left.
+/// The first chord that meets an earlier one, or at which the work budget is exhausted.
 fn first(rings: &[Ring]) -> Option<Chord> {
     let chords: Vec<Chord> =
         rings.iter().enumerate().flat_map(|(i, ring)| (0..ring.points.len()).map(move |chord| [i, chord])).collect();

@@ -1,10 +1,10 @@
 //! The planner `quintic`: least-squares polynomials of order 5 for X, Y and C, edge by edge, joined by transitions.
 //!
-//! The method is that of Cink and Kosucki (control of a two-axis mechanism on a planar trajectory): the places of the head
-//! have times by the speed that the edge asks for; between singular points (corners) each coordinate is the polynomial of
-//! order 5 with the least squares; transitions join neighbouring edges; the controller gets position and velocity at equal
-//! periods. C is a third coordinate here. Unless `quintic.split` is false edges are split in halves until the whole motion,
-//! transitions included, keeps the tolerance at its time; corners are then fitted like edges.
+//! The method is that of Cink and Kosucki (control of a two-axis mechanism on a planar trajectory). Positions of the head get
+//! times from the speed that the edge asks for. Between singular points (corners) each coordinate is the polynomial of order 5
+//! with the least squares. Transitions join neighbouring edges. The controller gets position and velocity at equal periods.
+//! Here C is a third coordinate. Unless `quintic.split` is false, edges are halved until the whole motion with its transitions
+//! stays within the tolerance at its times; corners are then fitted like edges.
 
 mod pass;
 mod polynomial;

@@ -1,4 +1,4 @@
-//! The motion of a pass: what is fitted to its stretches, and what that makes of it at each tick.
+//! Motion of a pass: the polynomials of its stretches, and the setpoint at each tick.
 
 use super::split::{self, Allowed, Fit};
 use super::timeline::Timeline;
@@ -8,34 +8,34 @@ use crate::machine::{Limits, Quintic};
 use crate::spray::clock::{Clock, Drives, Timed};
 use crate::spray::course::{Role, Stretch};
 
-/// How often the course is sampled to be fitted, s.
+/// Sampling interval of the course for fitting, s.
 const SAMPLE: f64 = 1e-3;
-/// The fewest samples of a stretch.
+/// Minimum number of samples of a stretch.
 const LEAST_SAMPLES: usize = 24;
-/// By how much less than the tolerance pieces are fitted to when transitions miss it.
+/// Factor by which the tolerance of the pieces shrinks when transitions exceed the tolerance.
 const LESS: f64 = 0.6;
-/// Rounds of that.
+/// Maximum number of rounds with a smaller tolerance.
 const ROUNDS: usize = 8;
-/// How far below what the axes can do a leg is slowed down, and the least share of its speed at once.
+/// Ratio of a lowered speed to the limit of the axes, and the minimum ratio by which a speed is lowered at once.
 const LOWERED: f64 = 0.97;
 const LEAST_SHARE: f64 = 0.5;
 
 /// The motion of a pass.
 #[derive(Debug)]
 pub(super) struct Planned {
-    /// X, Y and C of the axes at each tick, the last one included.
+    /// Poses of the axes at each tick, with the last one.
     pub(super) poses: Vec<Pose>,
-    /// Speeds of X and Y there, mm/s.
+    /// Speeds of X and Y at each tick, mm/s.
     pub(super) velocities: Vec<[f64; 2]>,
-    /// The leg at each tick.
+    /// Index of the leg at each tick.
     pub(super) legs: Vec<usize>,
-    /// What was fitted to each stretch of the pass, in order; none to a corner without splitting.
+    /// Fits of each stretch of the pass, in order; empty for a corner without splitting.
     pub(super) fits: Vec<Vec<Fit>>,
 }
 
 impl Planned {
-    /// By what share the head must be slower on each leg so that the differences of the poses keep the limits of the axes,
-    /// which rest before and behind; `None` where they do.
+    /// Factors of the speed on each leg with which the differences of the poses stay within the limits of the axes, which rest
+    /// before and after; `None` if they already do.
     pub(super) fn strain(&self, legs: usize, drives: &Drives) -> Option<Vec<f64>> {
         let last = self.poses.len() - 1;
         let tick = |i: usize| i.saturating_sub(3).min(last);
@@ -56,8 +56,8 @@ impl Planned {
     }
 }
 
-/// How many times too fast four places in a row are for the axes: a motion that is slower by so much keeps each order of
-/// difference.
+/// Factor by which four consecutive positions are too fast for the axes. A motion that is slower by it keeps the limit of every
+/// order of difference.
 fn strain([a, b, c, d]: [[f64; 3]; 4], drives: &Drives) -> f64 {
     let Drives { limits, period } = *drives;
     let of_axis = |axis: usize| {
@@ -71,14 +71,14 @@ fn strain([a, b, c, d]: [[f64; 3]; 4], drives: &Drives) -> f64 {
     (0..3).map(of_axis).fold(0.0, f64::max)
 }
 
-/// What polynomials could not be found for.
+/// Failure of the polynomials to follow the course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unfit {
-    /// How far from the course they stay, mm and rad.
+    /// Deviation from the course, mm and rad.
     pub(super) worst: [f64; 2],
 }
 
-/// What is asked of the polynomials of a pass.
+/// Requirements on the polynomials of a pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asked<'a> {
     pub(super) quintic: &'a Quintic,
@@ -86,7 +86,7 @@ pub(super) struct Asked<'a> {
     pub(super) limits: &'a [Limits; 3],
 }
 
-/// A stretch of a pass and its places in time.
+/// A stretch of a pass with its timed positions.
 struct Sampled {
     role: Role,
     samples: Vec<Timed>,
@@ -112,7 +112,7 @@ pub(super) fn plan(clock: &Clock, stretches: &[Stretch], asked: &Asked) -> Resul
     Err(Unfit { worst })
 }
 
-/// Places in time along a stretch, its ends included.
+/// Timed positions along a stretch, with its ends.
 fn sampled(clock: &Clock, stretch: &Stretch) -> Sampled {
     let [from, to] = [stretch.legs.start, stretch.legs.end].map(|leg| clock.at_leg(leg));
     let count = (((to - from) / SAMPLE) as usize).max(LEAST_SAMPLES);
@@ -120,7 +120,7 @@ fn sampled(clock: &Clock, stretch: &Stretch) -> Sampled {
     Sampled { role: stretch.role, samples }
 }
 
-/// What is fitted to each stretch.
+/// The fits of each stretch; `None` if a fit cannot be solved.
 fn fitted(stretches: &[Sampled], quintic: &Quintic, within: Allowed) -> Option<Vec<Vec<Fit>>> {
     let Quintic { basis, split } = *quintic;
     let fit = |Sampled { role, samples }: &Sampled| match (split, role) {

@@ -1,34 +1,34 @@
-//! Polynomials of order 5 for X, Y and C, and how they are found: least squares, or the states at both ends.
+//! Polynomials of order 5 for X, Y and C, found by least squares or from the states at both ends.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::machine::Basis;
 use crate::spray::clock::Timed;
 
-/// Coefficients of a polynomial of order 5.
+/// Number of coefficients of a polynomial of order 5.
 pub(super) const TERMS: usize = 6;
 
-/// Place, speed and acceleration of X, Y (mm) and C (rad).
+/// Position, speed and acceleration of X, Y (mm) and C (rad).
 pub(super) type State = [[f64; 3]; 3];
 
-/// X, Y and C over a stretch of time, each a polynomial of order 5.
+/// X, Y and C over a time interval, each a polynomial of order 5.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::spray) struct Polynomial {
     basis: Basis,
-    /// From when to when it was fitted, s.
+    /// Time interval of the fit, s.
     pub(in crate::spray) ends: [f64; 2],
     /// Coefficients of X, Y and C, term by term.
     pub(in crate::spray) coefficients: [[f64; 3]; TERMS],
 }
 
-/// The terms at a time, each with its first and second derivative, and the power of time that the normal matrix sees.
+/// Values of the terms at a time, each with its first and second derivative.
 fn terms(basis: Basis, [from, to]: [f64; 2], time: f64) -> [[f64; 3]; TERMS] {
     let (u, rate) = match basis {
         Basis::Monomial => (time, 1.0),
         Basis::Chebyshev => ((2.0 * time - from - to) / (to - from), 2.0 / (to - from)),
     };
     let mut terms = [[1.0, 0.0, 0.0], [u, 1.0, 0.0], [0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]];
-    // Powers by u^n = u u^(n-1); Chebyshev's by T_n = 2 u T_(n-1) - T_(n-2). Derivatives by the product rule.
+    // Powers by u^n = u u^(n-1), Chebyshev polynomials by T_n = 2 u T_(n-1) - T_(n-2), derivatives by the product rule.
     let (factor, back) = match basis {
         Basis::Monomial => (1.0, 0.0),
         Basis::Chebyshev => (2.0, 1.0),
@@ -45,7 +45,7 @@ fn terms(basis: Basis, [from, to]: [f64; 2], time: f64) -> [[f64; 3]; TERMS] {
 }
 
 impl Polynomial {
-    /// The least squares of the deviations from places in time, and the condition of its normal matrix; `None` when that
+    /// The polynomial of least squares through timed positions, and the condition number of its normal matrix; `None` if that
     /// cannot be solved. (Cink, Kosucki: T a = b with `T_st = sum t_i^(s+t)`, `b_s = sum x_i t_i^s`.)
     pub(super) fn fitted(samples: &[Timed], basis: Basis) -> Option<(Self, f64)> {
         let ends = [samples[0].time, samples[samples.len() - 1].time];
@@ -62,7 +62,7 @@ impl Polynomial {
         Some((Self { basis, ends, coefficients }, values.max() / values.min()))
     }
 
-    /// The one polynomial of order 5 that goes from one state to another.
+    /// The polynomial of order 5 that leads from one state to another.
     pub(super) fn between(ends: [f64; 2], states: [State; 2]) -> Option<Self> {
         let basis = Basis::Chebyshev;
         let mut rows = SMatrix::<f64, TERMS, TERMS>::zeros();
@@ -82,7 +82,7 @@ impl Polynomial {
         Some(Self { basis, ends, coefficients: std::array::from_fn(|i| std::array::from_fn(|j| solved[(i, j)])) })
     }
 
-    /// Place, speed and acceleration at a time.
+    /// Position, speed and acceleration at a time.
     pub(super) fn at(&self, time: f64) -> State {
         let terms = terms(self.basis, self.ends, time);
         std::array::from_fn(|axis| {

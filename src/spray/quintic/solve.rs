@@ -1,4 +1,4 @@
-//! Every pass by polynomials, at a speed that the axes can follow.
+//! Planning of all passes by polynomials, at a speed that the axes can follow.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,38 +13,39 @@ use crate::spray::{cuts, slower};
 use crate::units::deg;
 use crate::units::number::fixed;
 
-/// Share of what the verifier allows a direction to be off that polynomials use.
+/// Fraction of the direction error permitted by the verifier that polynomials use.
 const SHARE: f64 = 0.9;
-/// Shares of what the axes can do that the clock of polynomials asks of them, one after the other.
+/// Fractions of the axis limits that the clock of polynomials uses, tried in turn.
 const GENTLER: [f64; 4] = [1.0, 0.6, 0.35, 0.2];
 
-/// Rounds of slowing down where the jet is too fast, or the axes are; what is left then certify and the verifier judge.
+/// Maximum number of rounds that lower the speed where the jet is too fast or the axes cannot follow. The certificate and the
+/// verifier judge any excess that remains.
 const ROUNDS: usize = 12;
 
-/// The least share of its speed that a leg is brought to.
+/// Minimum ratio of a lowered speed of a leg to its original speed.
 const LEAST_SHARE: f64 = 0.1;
 
-/// What of the head's motion is planned before passes are joined.
+/// Motion of the head before passes are joined.
 #[derive(Debug, Default)]
 pub(in crate::spray) struct Solved {
-    /// Each pass.
+    /// Cut of each pass.
     pub(in crate::spray) cuts: Vec<Cut>,
-    /// Speeds of X and Y of each pass at its ticks, mm/s; none with another planner.
+    /// Speeds of X and Y of each pass at its ticks, mm/s; empty with another planner.
     pub(in crate::spray) velocities: Vec<Vec<[f64; 2]>>,
-    /// What was fitted to each stretch of each pass; none with another planner.
+    /// Fits of each stretch of each pass; empty with another planner.
     pub(in crate::spray) fits: Vec<Vec<Vec<Fit>>>,
 }
 
-/// A pass as it is cut.
+/// A planned pass.
 struct Driven {
     cut: Cut,
     velocities: Vec<[f64; 2]>,
     fits: Vec<Vec<Fit>>,
-    /// The share of its speed on each leg that the axes can follow; `None` where they can everywhere.
+    /// Factors of the speed on each leg that the axes can follow; `None` if they can follow everywhere.
     strain: Option<Vec<f64>>,
 }
 
-/// All passes of a course; why there are no polynomials for one is a diagnostic.
+/// Solves all passes of a course. The error tells why a pass cannot be fitted.
 pub(in crate::spray) fn solve(course: &Course, job: &Job) -> Result<Solved, Diagnostic> {
     let mut solved = Solved::default();
     let mut first = 1;
@@ -65,11 +66,11 @@ pub(in crate::spray) fn solve(course: &Course, job: &Job) -> Result<Solved, Diag
             for shares in slower {
                 slowed.iter_mut().zip(&shares).for_each(|(leg, share)| leg.speed *= share);
             }
-            // Where so much is asked the axes cannot follow polynomials: certify says so.
+            // If the speed would drop this far, the axes cannot follow polynomials. The certificate reports it.
             if slowed.iter().zip(pass).any(|(slowed, leg)| slowed.speed < LEAST_SHARE * leg.speed) {
                 break;
             }
-            // What the clock of slower legs cannot be fitted to is left as it was: then the verifier judges.
+            // If the slower legs cannot be fitted, the last motion stays and the verifier judges it.
             let Ok(next) = driven(&slowed) else { break };
             last = next;
         }
@@ -82,14 +83,14 @@ pub(in crate::spray) fn solve(course: &Course, job: &Job) -> Result<Solved, Diag
     Ok(solved)
 }
 
-/// By what share the head must be slower on each leg, and on those near it, so that the axes can follow what was planned.
+/// Factors of the speed on each leg, applied to its surroundings as well, with which the axes can follow the plan.
 fn strain(planned: &Planned, pass: &[Leg], job: &Job) -> Option<Vec<f64>> {
     let mut shares = planned.strain(pass.len(), &Drives::of(job))?;
     slower::spread(&mut shares, pass);
     Some(shares)
 }
 
-/// What was planned for a pass whose first leg has that number, as a cut.
+/// A planned pass as a cut. `first` is the number of its first leg.
 fn driven(planned: Planned, first: u32, job: &Job) -> Driven {
     let Planned { mut poses, velocities, legs, fits } = planned;
     for pose in &mut poses {
@@ -99,7 +100,7 @@ fn driven(planned: Planned, first: u32, job: &Job) -> Driven {
     Driven { cut, velocities, fits, strain: None }
 }
 
-/// A pass: polynomials ask more of the axes than its clock does, so where they ask too much it goes more gently.
+/// Plans a pass. Polynomials need more of the axes than their clock does, so the clock is slowed until they can follow.
 fn gentle(pass: &[Leg], course: &Course, job: &Job) -> Result<Planned, Unfit> {
     let (pace, drives) = (&course.pace, Drives::of(job));
     let turn = SHARE * job.profile.verify.max_heading_deg.to_radians();
@@ -120,7 +121,7 @@ fn gentle(pass: &[Leg], course: &Course, job: &Job) -> Result<Planned, Unfit> {
     planned
 }
 
-/// What is said where polynomials stay too far from the course.
+/// Diagnostic for polynomials that deviate too far from the course.
 fn unfit(Unfit { worst: [distance, turn] }: Unfit) -> Diagnostic {
     let (distance, turn) = (fixed(distance, 3), fixed(deg(turn), 3));
     let message = format!("polynomials stay {distance} mm and {turn} degrees from the way of the head");

@@ -1,34 +1,34 @@
-//! Splitting: a stretch is halved until a polynomial keeps each part of it.
+//! Splitting of a stretch: it is halved until a polynomial fits each part within the tolerance.
 
 use super::polynomial::{Polynomial, State};
 use crate::machine::Basis;
 use crate::spray::clock::Timed;
 
-/// The fewest samples that a polynomial is fitted to: twice as many as it has coefficients.
+/// Minimum number of samples of a polynomial: twice the number of its coefficients.
 const LEAST: usize = 12;
 
-/// How far a motion may be from the course at its time.
+/// Permitted deviation of a motion from the course at its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Allowed {
-    /// The head, mm.
+    /// Deviation of the position, mm.
     pub(super) distance: f64,
-    /// Its direction, rad.
+    /// Deviation of the direction, rad.
     pub(super) turn: f64,
 }
 
-/// A polynomial that was fitted to samples.
+/// A polynomial fitted to samples.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::spray) struct Fit {
-    /// X, Y and C.
+    /// Polynomial of X, Y and C.
     pub(in crate::spray) polynomial: Polynomial,
-    /// The condition of its normal matrix.
+    /// Condition number of the normal matrix.
     pub(in crate::spray) condition: f64,
-    /// How far it is from the samples at their times, mm and rad.
+    /// Maximum deviation from the samples at their times, mm and rad.
     pub(in crate::spray) worst: [f64; 2],
 }
 
 impl Fit {
-    /// The least squares.
+    /// Fits samples by least squares; `None` if that cannot be solved.
     pub(super) fn of(samples: &[Timed], basis: Basis) -> Option<Self> {
         let (polynomial, condition) = Polynomial::fitted(samples, basis)?;
         let worst = worst(|time| polynomial.at(time), samples);
@@ -36,7 +36,7 @@ impl Fit {
     }
 }
 
-/// How far a motion is from samples at their times, mm and rad. What is no number is the worst.
+/// Maximum deviation of a motion from samples at their times, mm and rad. NaN counts as infinite.
 pub(super) fn worst<'a>(motion: impl Fn(f64) -> State, samples: impl IntoIterator<Item = &'a Timed>) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     for Timed { time, node, .. } in samples {
@@ -49,7 +49,8 @@ pub(super) fn worst<'a>(motion: impl Fn(f64) -> State, samples: impl IntoIterato
     worst
 }
 
-/// As few halves of halves as keep what is allowed; where samples are too few to halve them, the best there is.
+/// Fits samples with as few repeated halvings as the tolerance allows. Where the samples are too few to be halved, the best fit
+/// stays.
 pub(super) fn split(samples: &[Timed], basis: Basis, within: Allowed) -> Option<Vec<Fit>> {
     let whole = Fit::of(samples, basis)?;
     let keeps = whole.worst[0] <= within.distance && whole.worst[1] <= within.turn;
@@ -57,7 +58,7 @@ pub(super) fn split(samples: &[Timed], basis: Basis, within: Allowed) -> Option<
     if keeps || middle < LEAST {
         return Some(vec![whole]);
     }
-    // Both have the sample in the middle.
+    // Both halves contain the middle sample.
     let mut fits = split(&samples[..=middle], basis, within)?;
     fits.extend(split(&samples[middle..], basis, within)?);
     Some(fits)

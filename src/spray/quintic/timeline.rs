@@ -1,29 +1,29 @@
-//! The motion of a pass in time: what was fitted, with transitions of order 5 between, which keep place, speed and
-//! acceleration at both ends.
+//! Motion of a pass over time: the fits, joined by transitions of order 5 that keep position, speed and acceleration at both
+//! ends.
 
 use super::polynomial::{Polynomial, State};
 use super::split::{Fit, worst};
 use crate::machine::Limits;
 use crate::spray::clock::Timed;
 
-/// Shares of the shorter of two pieces that meet which the transition between them may take on either side: the first that
-/// the axes can follow.
+/// Fractions of the shorter of two adjoining pieces that a transition may replace on either side. The first one that the axes
+/// can follow is used.
 const WINDOWS: [f64; 5] = [0.1, 0.16, 0.25, 0.36, 0.5];
-/// Share of their limits that transitions may take.
+/// Fraction of the axis limits that transitions may use.
 const SHARE: f64 = 0.8;
-/// Places at which a transition is looked at.
+/// Number of steps at which a transition is checked.
 const PLACES: usize = 24;
-/// Pieces nearer to each other in time meet, s.
+/// Time below which two pieces adjoin, s.
 const MEETING_EPSILON: f64 = 1e-9;
 
 /// A motion from rest to rest.
 #[derive(Debug)]
 pub(super) struct Timeline {
-    /// Each piece with the time until which it holds.
+    /// Each piece with its end time, s.
     pieces: Vec<(f64, Polynomial)>,
 }
 
-/// What is joined: a fit, or rest at an end.
+/// An anchor of transitions: a fit, or rest at an end.
 enum Anchor<'a> {
     Rest(Timed),
     Fit(&'a Polynomial),
@@ -37,7 +37,7 @@ impl Anchor<'_> {
         }
     }
 
-    /// How long it is, s; rest gives no room.
+    /// Duration, s; 0 for rest.
     fn room(&self) -> f64 {
         match self {
             Self::Rest(_) => 0.0,
@@ -54,7 +54,7 @@ impl Anchor<'_> {
 }
 
 impl Timeline {
-    /// Joins fits that follow each other, from rest at the first of two places to rest at the last.
+    /// Joins consecutive fits, from rest at the first place to rest at the last. `None` if a transition cannot be solved.
     pub(super) fn new<'a>(
         fits: impl Iterator<Item = &'a Fit>,
         [first, last]: [Timed; 2],
@@ -75,20 +75,20 @@ impl Timeline {
         Some(Self { pieces })
     }
 
-    /// The state at a time.
+    /// State at a time.
     pub(super) fn at(&self, time: f64) -> State {
         let piece = self.pieces.partition_point(|(until, _)| *until < time).min(self.pieces.len() - 1);
         self.pieces[piece].1.at(time)
     }
 
-    /// How far it is from samples at their times, mm and rad.
+    /// Maximum deviation from samples at their times, mm and rad.
     pub(super) fn worst<'a>(&self, samples: impl Iterator<Item = &'a Timed>) -> [f64; 2] {
         worst(|time| self.at(time), samples)
     }
 }
 
-/// The transition between two that follow each other: over the time between them, or where they meet over the shortest share of
-/// both that the axes can follow.
+/// The transition between two anchors. It fills the time between them; if they adjoin, it replaces the smallest fraction of
+/// both with which the axes can follow.
 fn transition(before: &Anchor, behind: &Anchor, limits: &[Limits; 3]) -> Option<Polynomial> {
     let between = |ends: [f64; 2]| Polynomial::between(ends, [before.at(ends[0]), behind.at(ends[1])]);
     let (end, start) = (before.ends()[1], behind.ends()[0]);
@@ -107,7 +107,7 @@ fn transition(before: &Anchor, behind: &Anchor, limits: &[Limits; 3]) -> Option<
     transition
 }
 
-/// Whether the axes can follow a polynomial.
+/// True if the axes can follow a polynomial.
 fn is_gentle(polynomial: &Polynomial, limits: &[Limits; 3]) -> bool {
     let [from, to] = polynomial.ends;
     let step = (to - from) / PLACES as f64;
