@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use cutc::cli;
 
-/// A marker is millions of small things: this allocator takes large pages for them and is quick on both cores.
+/// A marker consists of millions of small objects. This allocator uses large pages for them and is fast with several threads.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
@@ -13,11 +13,11 @@ fn main() -> ExitCode {
     #[cfg(unix)]
     signals::obey();
     let finished = cli::run(std::env::args_os(), &mut cli::Console { out: &mut io::stdout(), err: &mut io::stderr() });
-    // Who closed standard error does not want to read it.
+    // Ignore errors on standard error: the reader has closed it.
     let _ = io::stderr().lock().write_all(finished.stderr.as_bytes());
     match finished.stdout.copy_to(&mut io::stdout().lock()) {
         Ok(()) => ExitCode::from(finished.code),
-        // The reader has seen enough, as `head` does: no error.
+        // The reader, such as `head`, has closed the pipe: no error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::from(finished.code),
         Err(error) => {
             let _ = writeln!(io::stderr(), "error: cannot write to standard output: {error}");
@@ -28,7 +28,7 @@ fn main() -> ExitCode {
 
 #[cfg(unix)]
 mod signals {
-    //! Who is stopped leaves nothing half-made.
+    //! Signals that stop the program leave no unfinished files.
 
     use std::io::{self, Write as _};
 
@@ -36,12 +36,12 @@ mod signals {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
-    /// Ends the program as `cli` says when a signal asks for it. What its parent had it ignore, as `nohup` does, it still
-    /// ignores.
+    /// Ends the program as `cli` requires when a signal arrives. Signals that the parent process ignored, as `nohup` does, stay
+    /// ignored.
     pub(super) fn obey() {
         let ignored = ignored();
         let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
-        // Without them the next process has more to sweep: no reason not to begin.
+        // Without handlers the next process has more to clean up. That is no reason not to begin.
         let Ok(mut signals) = Signals::new(heeded) else { return };
         std::thread::spawn(move || {
             for signal in signals.forever() {
@@ -53,7 +53,7 @@ mod signals {
         });
     }
 
-    /// The signals that this process ignores, a bit each, where the system tells.
+    /// Mask of the signals that this process ignores, one bit each; 0 if the system does not tell.
     fn ignored() -> u64 {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
