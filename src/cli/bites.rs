@@ -1,4 +1,4 @@
-//! The table of the windows of a conveyor.
+//! Table of the windows of a conveyor.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use super::options::counted;
 use crate::pipeline::Bite;
 use crate::units::number::fixed;
 
-/// The rows of all windows.
+/// The table with one row per window.
 pub(super) fn table(bites: &[Bite]) -> String {
     // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
     let mut out = String::new();
@@ -22,7 +22,7 @@ pub(super) fn table(bites: &[Bite]) -> String {
     out
 }
 
-/// The windows in a line.
+/// The windows in one line; `None` if there are none.
 pub(super) fn line(bites: &[Bite]) -> Option<String> {
     let [first, last] = [bites.first()?, bites.last()?];
     let windows = counted(bites.len(), "window");

@@ -1,4 +1,4 @@
-//! `cutc completions` and `cutc man`: what shells and manuals know of the command line, made from it.
+//! `cutc completions` and `cutc man`: shell completions and manual pages, generated from the command line.
 
 use std::io::{self, Write as _};
 
@@ -29,7 +29,7 @@ pub(super) struct Page {
     command: Vec<String>,
 }
 
-/// The page of the program or of one command; each names those below it as `cutc-compile(1)`.
+/// Prints the manual page of the program or of one command. It refers to the pages of its subcommands as `cutc-compile(1)`.
 pub(super) fn man(page: &Page, root: Command) -> anyhow::Result<Finished> {
     let mut root = root.disable_help_subcommand(true);
     root.build();
@@ -61,12 +61,12 @@ pub(super) fn man(page: &Page, root: Command) -> anyhow::Result<Finished> {
     Ok(printed(&out))
 }
 
-/// A section whose lines stay as they are.
+/// Writes a section whose lines are not reflowed.
 fn verbatim(title: &str, text: &str, out: &mut Vec<u8>) -> io::Result<()> {
     writeln!(out, ".SH {title}\n.nf")?;
     for line in text.lines() {
         let line = line.replace('\\', "\\e").replace('-', "\\-");
-        // What begins with a point or an apostrophe would be a command.
+        // A line that begins with a full stop or an apostrophe would be a roff request.
         let guard = if line.starts_with(['.', '\'']) { "\\&" } else { "" };
         writeln!(out, "{guard}{line}")?;
     }

@@ -1,14 +1,14 @@
-//! What the lines of a plot were taken for, for people.
+//! Table of the lines of a plot by class.
 
 use std::fmt::Write as _;
 
 use crate::pipeline::Report;
 use crate::units::number::fixed;
 
-/// Layers that are listed for people.
+/// Maximum number of layers in the table.
 const SHOWN_LAYERS: usize = 40;
 
-/// A line a class, and the way of the pen; empty for files that say themselves what is cut.
+/// The table with one row per class, and the length drawn with the pen down; empty for files that state themselves what is cut.
 pub(super) fn text(report: &Report) -> String {
     let Some(drawn) = &report.drawn else { return String::new() };
     let mut out = String::from("\n  lines taken for   count      length mm\n");

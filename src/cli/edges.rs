@@ -1,14 +1,14 @@
-//! The table of a head at a distance: a row for each edge that it follows.
+//! Table of a head at a distance: one row per edge that it follows.
 
 use std::fmt::Write as _;
 
 use crate::pipeline::{Edge, Piece};
 use crate::units::number::fixed;
 
-/// From this condition on it is shown as a power of ten.
+/// Condition number from which the exponential form is used.
 const POWERS_FROM: f64 = 1e5;
 
-/// The rows of all edges, with what was fitted where polynomials were.
+/// The table with one row per edge, and the figures of its polynomials if there are any.
 pub(super) fn table(edges: &[Edge]) -> String {
     let fits = edges.iter().any(|edge| !edge.pieces.is_empty());
     // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
@@ -35,7 +35,7 @@ pub(super) fn table(edges: &[Edge]) -> String {
     out
 }
 
-/// The worst condition of some polynomials.
+/// The largest condition number of some polynomials, formatted.
 fn condition(pieces: &[Piece]) -> String {
     let worst = pieces.iter().map(|piece| piece.condition).fold(0.0, f64::max);
     if worst >= POWERS_FROM { format!("{worst:.1e}") } else { fixed(worst, 1) }

@@ -1,4 +1,4 @@
-//! What a cutter file asks for beyond its outlines: notches by kind and depth, speeds, events.
+//! Requests of a cutter file beyond its outlines: notches by kind and depth, speeds, events.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,16 +12,16 @@ use crate::pipeline::significant;
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
-/// Depths are told apart by tenths of a millimetre: finer ones are rounding of the file.
+/// Resolution of notch depths: a tenth of a millimetre. Finer differences are rounding of the file.
 const DEPTHS_PER_MM: f64 = 10.0;
-/// Digits that are kept of lengths and speeds: far below what a machine resolves.
+/// Significant digits of lengths and speeds, far below the resolution of a machine.
 const DIGITS: i32 = 9;
-/// Speed of what nothing slows down, percent.
+/// Speed of a cut that is not slowed, percent.
 const FULL: u8 = 100;
-/// The most columns that a list of piece numbers takes: the line then stays within 80.
+/// Maximum columns of a list of piece numbers, so that its line stays within 80.
 const LIST_COLUMNS: usize = 42;
 
-/// The facts, as JSON has them.
+/// The facts of a marker. Fields are keys of the JSON output.
 #[derive(Debug, Serialize)]
 pub(super) struct Facts {
     notch_depths: Vec<Alike>,
@@ -37,12 +37,12 @@ struct Alike {
     count: usize,
 }
 
-/// What is cut at one speed.
+/// Cuts at one speed.
 #[derive(Debug, Serialize)]
 struct Speed {
-    /// The speed that the file asks for; `None` = that of the profile.
+    /// The speed that the file asks for; `None` for that of the profile.
     feed_mm_s: Option<f64>,
-    /// What is left of it where the file slows the cut.
+    /// Percentage of that speed where the file slows the cut.
     percent: u8,
     cut_m: f64,
     pieces: Vec<u32>,
@@ -52,7 +52,7 @@ struct Speed {
 #[derive(Debug, Serialize)]
 struct Event {
     kind: &'static str,
-    /// The piece behind it; `None` at the end of the file.
+    /// Number of the piece that follows; `None` at the end of the file.
     before_piece: Option<u32>,
     block: u32,
 }
@@ -63,7 +63,7 @@ impl Facts {
         Self { notch_depths: depths(marker), speeds: speeds(marker), events: events(marker) }
     }
 
-    /// A table for each that the file says anything about.
+    /// A table of notches, of speeds and of events, each only if the file has any.
     pub(super) fn text(&self) -> String {
         let mut out = String::new();
         // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
@@ -114,9 +114,9 @@ fn depths(marker: &Marker) -> Vec<Alike> {
     counts.into_iter().map(depth).collect()
 }
 
-/// Those at the speed of the profile first, then the faster before the slower.
+/// Cuts by speed: those at the speed of the profile first, then the others from fast to slow.
 fn speeds(marker: &Marker) -> Vec<Speed> {
-    // By the bits of the feed, which for positive numbers have its order, and percent.
+    // The key consists of the bits of the feed, which for positive numbers are ordered like the numbers, and the percentage.
     let mut speeds: BTreeMap<(u64, u8), Speed> = BTreeMap::new();
     for piece in &marker.pieces {
         let feed_mm_s = piece.feed.map(|feed| significant(feed, DIGITS));
@@ -148,8 +148,8 @@ fn name(event: toolpath::Event) -> &'static str {
     }
 }
 
-/// Piece numbers with ranges for those that follow each other, `None` as the end of the file: `2, 7-9, end`. What does
-/// not fit the line is left out.
+/// Piece numbers with consecutive ones as ranges and `None` as the end of the file: `2, 7-9, end`. Numbers that do not fit the
+/// line are dropped.
 fn list(numbers: impl Iterator<Item = Option<u32>>) -> String {
     let mut ranges: Vec<[Option<u32>; 2]> = Vec::new();
     for number in numbers {

@@ -1,4 +1,4 @@
-//! What a command leaves: what is to be printed and its exit code, or why it could not be done.
+//! Result of a command: its output and exit code, or the reason why it failed.
 
 use std::fmt::Write as _;
 use std::io::{self, Read as _, Seek as _, Write};
@@ -6,14 +6,14 @@ use std::io::{self, Read as _, Seek as _, Write};
 use tempfile::SpooledTempFile;
 use thiserror::Error;
 
-/// Exit code: done.
+/// Exit code: success.
 pub const DONE: u8 = 0;
-/// Exit code: the data has errors, or a program is not what it should be.
+/// Exit code: the data has errors, or a program failed its verification.
 pub const FAULTY: u8 = 1;
 /// Exit code: the arguments are wrong, or a file cannot be read or written.
 pub const USAGE: u8 = 2;
 
-/// Where a command that takes long says what it has found so far.
+/// Output streams on which a long command reports while it runs.
 pub struct Console<'a> {
     /// Standard output.
     pub out: &'a mut dyn Write,
@@ -21,28 +21,28 @@ pub struct Console<'a> {
     pub err: &'a mut dyn Write,
 }
 
-/// What a command leaves to print, and its exit code.
+/// Output of a command, and its exit code.
 #[derive(Debug)]
 pub struct Finished {
-    /// For standard output.
+    /// Text or program for standard output.
     pub stdout: Stdout,
-    /// For standard error.
+    /// Text for standard error.
     pub stderr: String,
-    /// [`DONE`], [`FAULTY`] or [`USAGE`]; of who was asked to end by a signal what shells make of that.
+    /// [`DONE`], [`FAULTY`] or [`USAGE`]; after a signal 128 plus its number, as in shells.
     pub code: u8,
 }
 
-/// What goes to standard output.
+/// Content for standard output.
 #[derive(Debug)]
 pub enum Stdout {
     /// Text; may be empty.
     Text(String),
-    /// A whole program, from its start.
+    /// A whole program, to be copied from its start.
     Program(SpooledTempFile),
 }
 
 impl Stdout {
-    /// Copies it to a writer.
+    /// Copies the content to a writer.
     pub fn copy_to(self, out: &mut impl Write) -> io::Result<()> {
         match self {
             Self::Text(text) => out.write_all(text.as_bytes())?,
@@ -62,13 +62,13 @@ impl Stdout {
 }
 
 impl Finished {
-    /// Text alone.
+    /// A result that consists of text.
     pub(super) fn text(stdout: String, stderr: String, code: u8) -> Self {
         Self { stdout: Stdout::Text(stdout), stderr, code }
     }
 }
 
-/// Something about arguments or files that ends the command: what, and what to do about it.
+/// A fault of arguments or files that ends the command, with a hint.
 #[derive(Debug, Error)]
 #[error("{message}\n  = hint: {hint}")]
 struct Failure {
@@ -81,7 +81,7 @@ pub(super) fn failure(message: impl Into<String>, hint: impl Into<String>) -> an
     Failure { message: message.into(), hint: hint.into() }.into()
 }
 
-/// Adds a line to what is said.
+/// Appends a line to a text.
 pub(super) fn say(said: &mut String, line: std::fmt::Arguments<'_>) {
     // Writing into a `String` cannot fail.
     let _ = writeln!(said, "{line}");

@@ -1,11 +1,11 @@
-//! The long help: examples, dialects, targets, and where the profile is explained.
+//! Long help: examples, dialects, targets, and a reference to the explanation of the profile.
 
 use std::fmt::Write as _;
 
 use crate::back::TARGETS;
 use crate::front::DIALECTS;
 
-/// Commands to begin with.
+/// Examples of commands.
 pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                     writes marker.csv, prints a summary
   cutc compile marker.cut -p machine.toml     for the machine that machine.toml describes
   cutc compile marker.cut --set knife.width_mm=7.2 -o out/
@@ -31,12 +31,12 @@ pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                    
   cutc profile show -p machine.toml           the values in effect
 ";
 
-/// What stands below the list of commands.
+/// Text below the list of commands.
 pub(super) fn overview() -> String {
     format!("Examples:\n{EXAMPLES}\n{}", reference())
 }
 
-/// Dialects, targets, where the profile is explained, exit codes.
+/// Dialects, targets, a reference to the profile, and exit codes.
 pub(super) fn reference() -> String {
     let mut out = String::new();
     let dialects: Vec<_> = DIALECTS.iter().map(|dialect| (dialect.name, dialect.about)).collect();

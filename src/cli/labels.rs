@@ -1,4 +1,4 @@
-//! The labels of a cutter file, piece by piece: where each stands, what it says, and the fields of the list behind M0.
+//! Labels of a cutter file, piece by piece: position and text of each, and the fields of the list behind M0.
 
 use std::fmt::Write as _;
 
@@ -12,14 +12,14 @@ use crate::source::{Source, Span};
 use crate::units::deg;
 use crate::units::number::fixed;
 
-/// Digits that are kept of places and angles: far below what a file resolves.
+/// Significant digits of positions and angles, far below the resolution of a file.
 const DIGITS: i32 = 9;
 
-/// What the file says of one piece, as JSON has it.
+/// Labels and fields of one piece. Fields are keys of the JSON output.
 #[derive(Debug, Serialize)]
 pub(super) struct Labelled {
     piece: u32,
-    /// Not there where there is but one.
+    /// Absent if there is only one copy.
     #[serde(skip_serializing_if = "Option::is_none")]
     copy: Option<u32>,
     #[serde(skip)]
@@ -67,7 +67,7 @@ pub(super) fn of(marker: &Marker, source: &Source, job: &Job) -> Vec<Labelled> {
     labelled.filter(|piece| !(piece.labels.is_empty() && piece.fields.is_empty())).collect()
 }
 
-/// A table of labels and one of fields; a hyphen stands for what the file does not give.
+/// A table of labels and one of fields. Missing values are shown as a hyphen.
 pub(super) fn text(pieces: &[Labelled]) -> String {
     let mut out = String::new();
     // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.

@@ -1,4 +1,4 @@
-//! `cutc manual`: pages on a topic, at length.
+//! `cutc manual`: prints the pages of the manual.
 
 use std::fmt::Write as _;
 
@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &Arguments) -> Finished {
     Finished::text(text, String::new(), DONE)
 }
 
-/// A line a page.
+/// The list of pages, one per line.
 fn list() -> String {
     let width = PAGES.iter().map(|page| page.name.len()).max().unwrap_or(0);
     let mut out = String::new();

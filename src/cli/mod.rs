@@ -1,7 +1,7 @@
-//! The command line: arguments as typed to a job as meant, one file a subcommand.
+//! Command line: translation of the arguments to jobs, with one file per subcommand.
 //!
-//! Receives parsed arguments, reads and writes files, and hands back what is to be printed: only `main.rs` prints and
-//! exits. Help texts, flag values and names come from the tables of the stages.
+//! Receives parsed arguments, reads and writes files, and returns the output: only `main.rs` prints and exits. Help texts, flag
+//! values and names come from the tables of the stages.
 
 mod batch;
 mod bites;
@@ -91,13 +91,13 @@ enum Command {
     Man(completions::Page),
 }
 
-/// Runs a command line, the name of the program first, to its end. What takes long is told on `console` meanwhile.
+/// Runs a command line that begins with the name of the program. Long commands report on `console` while they run.
 pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> Finished {
     let words: Vec<OsString> = words.into_iter().collect();
     let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(misuse) if misuse.use_stderr() => return Finished::text(String::new(), misuse.render().to_string(), USAGE),
-        // Help and version come this way too.
+        // Requests for help and for the version arrive here, too.
         Err(asked) => return Finished::text(asked.render().to_string(), String::new(), DONE),
     };
     let finished = match &arguments.command {

@@ -19,7 +19,7 @@ use crate::track;
 pub(super) use crate::units::number::counted;
 use crate::units::number::exact;
 
-/// For an option behind those that stand under a heading of their own: it belongs to the command itself.
+/// Heading of an option that follows a group with a heading but belongs to the command itself.
 pub(super) const NO_HEADING: Option<&str> = None;
 
 /// Which machine.
@@ -53,7 +53,7 @@ pub(super) struct Messages {
 }
 
 impl Messages {
-    /// What is told on standard error; beside JSON, which holds every finding, only how many there are.
+    /// Detail of the messages on standard error. JSON holds every finding, so only their number is printed beside it.
     pub(super) fn detail(self, format: Format) -> Detail {
         match (self, format) {
             (Self { all: true, .. }, _) => Detail::All,
@@ -127,13 +127,13 @@ pub(super) struct Patterned {
     quantity: Option<choices::Quantity>,
 }
 
-/// Reads sizes.
+/// Parses sizes.
 fn sizes(text: &str) -> anyhow::Result<Sizes> {
     Sizes::parse(text).ok_or_else(|| anyhow::anyhow!("expected names of sizes, as in S,M, or `all`"))
 }
 
 impl Patterned {
-    /// The job with these patterns.
+    /// The job with this choice of patterns.
     pub(super) fn of(&self, job: Job) -> Job {
         let patterns = Patterns { sizes: self.sizes.clone(), quantity: self.quantity.map(Into::into) };
         Job { patterns, ..job }
@@ -141,12 +141,13 @@ impl Patterned {
 }
 
 impl Reading {
-    /// The job on this machine with these lines, or what is wrong with its profile.
+    /// The job on this machine with these lines, or the faults of its profile.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         self.job_with(&[])
     }
 
-    /// The same, with more `key=value` behind those that are typed.
+    /// The job on this machine with these lines and `more` settings as `key=value` after those of the command line, or the
+    /// faults of its profile.
     pub(super) fn job_with(&self, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
         let Plotted { cut_pens, layers, inner, cut_all } = &self.lines;
         let lines =
@@ -231,12 +232,12 @@ fn start(text: &str) -> Result<Start, NotStart> {
     Start::parse(text)
 }
 
-/// Reads uses of layers.
+/// Parses uses of layers.
 fn layers(text: &str) -> Result<LayerUses, NotLayers> {
     LayerUses::parse(text)
 }
 
-/// Numbers of pens: any but 0, which stands for none.
+/// Parses numbers of pens. 0 is refused: it stands for no pen.
 fn pens(text: &str) -> anyhow::Result<Numbers> {
     let numbers = numbers(text)?;
     anyhow::ensure!(!numbers.has(0), "pen 0 stands for none: nothing is drawn with it; give others, as in 1,3-4");
@@ -244,17 +245,18 @@ fn pens(text: &str) -> anyhow::Result<Numbers> {
 }
 
 impl Choice {
-    /// The files beside the source, as typed: that of the centre line and that of the marks.
+    /// Paths of the files beside the source, as typed: the centre line and the marks.
     pub(super) fn beside(&self) -> [Option<&Path>; 2] {
         [self.centre.as_deref(), self.map.as_deref()]
     }
 
-    /// The job as it is read, with this choice; or what is wrong with its profile, its centre line or its marks.
+    /// The job of `reading` with this choice, or the faults of its profile, its centre line or its marks.
     pub(super) fn job(&self, reading: &Reading) -> anyhow::Result<Result<Job, Finished>> {
         self.job_with(reading, &[])
     }
 
-    /// The same, with more `key=value` behind those that are typed.
+    /// The job of `reading` with this choice and `more` settings as `key=value` after those of the command line, or the faults
+    /// of its files.
     pub(super) fn job_with(&self, reading: &Reading, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
         match reading.job_with(more)? {
             Ok(job) => self.of(job),
@@ -262,7 +264,7 @@ impl Choice {
         }
     }
 
-    /// The job, with this choice; or what is wrong with its centre line or its marks.
+    /// The job with this choice, or the faults of its centre line or its marks.
     fn of(&self, job: Job) -> anyhow::Result<Result<Job, Finished>> {
         let job = self.left_out.of(job);
         let mut centre = None;
@@ -294,7 +296,7 @@ impl Choice {
     }
 }
 
-/// Message on a faulty file beside the source; `noun` names the kind of file.
+/// Message on a faulty file beside the source. `noun` names the kind of file.
 fn unfit(found: &Diagnostics, source: &Source, noun: &str) -> Finished {
     let mut said = render_with(found, source, Detail::All);
     let errors = counted(found.count(Severity::Error), "error");
@@ -302,7 +304,7 @@ fn unfit(found: &Diagnostics, source: &Source, noun: &str) -> Finished {
     Finished::text(String::new(), said, FAULTY)
 }
 
-/// The choice of a job as it is typed; empty when all is cut.
+/// The choice of a job as options of the command line; empty if everything is cut.
 pub(super) fn typed(job: &Job) -> String {
     let Selection { pieces, skip, resume_from, bites } = &job.selection;
     let mut words = Vec::new();
@@ -339,7 +341,7 @@ pub(super) fn typed(job: &Job) -> String {
     words.join(" ")
 }
 
-/// Remarks that a page prints beside a job, as they are typed; empty when none are.
+/// The remarks of a page as options of the command line; empty if there are none.
 pub(super) fn remarks(job: &Job) -> String {
     let Remarks { date, price } = &job.remarks;
     let mut words = Vec::new();
@@ -355,13 +357,14 @@ pub(super) fn file_name(source: &Source) -> String {
 }
 
 impl Machine {
-    /// The job on this machine, or what is wrong with its profile: [`FAULTY`] when the file is, [`USAGE`] when only
-    /// arguments are.
+    /// The job on this machine, or the faults of its profile: with the code [`FAULTY`] if the file has some, [`USAGE`] if only
+    /// arguments do.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         self.job_with(&[])
     }
 
-    /// The same, with more `key=value` behind those that are typed.
+    /// The job on this machine with `more` settings as `key=value` after those of the command line, or the faults of its
+    /// profile.
     fn job_with(&self, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
         let file = self.file()?;
         let loaded = load_given(file.as_ref(), &[&self.set[..], more].concat());
@@ -385,7 +388,7 @@ impl Machine {
     }
 }
 
-/// What is said about a faulty profile.
+/// The result of a command with a faulty profile.
 pub(super) fn refuse(faults: &Faults, file: Option<&Source>) -> Finished {
     let mut said = String::new();
     if let Some(file) = file {

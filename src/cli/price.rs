@@ -1,4 +1,4 @@
-//! What a marker costs: the time of the machine at its rate, shared by plies and parts. Money has no currency here.
+//! Costs of a marker: machine time at an hourly rate, shared by plies and parts. Amounts have no currency.
 
 use clap::Args;
 
@@ -21,15 +21,15 @@ pub(super) struct Pricing {
     plies: Option<u32>,
 }
 
-/// What a machine costs.
+/// Rate of a machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rate {
-    /// Money a second.
+    /// Money per second.
     per_s: f64,
 }
 
 impl Rate {
-    /// Reads `45/h`.
+    /// Parses `45/h`.
     fn parse(text: &str) -> Result<Self, String> {
         let rate = text.split_once('/').and_then(|(money, time)| {
             let seconds = match time.trim() {
@@ -45,27 +45,27 @@ impl Rate {
     }
 }
 
-/// What cutting costs.
+/// Rate of the machine and number of plies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Price {
     rate: Rate,
-    /// Cut at once, at least one.
+    /// Number of plies cut at once, at least 1.
     pub(super) plies: u32,
 }
 
-/// The costs of some parts, money.
+/// Costs of a marker, as amounts of money.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Costs {
-    /// Of all plies.
+    /// Cost of all plies.
     pub(super) marker: f64,
-    /// Of one ply.
+    /// Cost of one ply.
     pub(super) ply: f64,
-    /// Of one part of one ply; `None` when there are none.
+    /// Cost of one part in one ply; `None` if there are no parts.
     pub(super) part: Option<f64>,
 }
 
 impl Pricing {
-    /// The price, if costs are asked for.
+    /// The price, if costs are requested.
     pub(super) fn price(self) -> Option<Price> {
         self.rate.map(|rate| Price { rate, plies: self.plies.unwrap_or(1) })
     }
@@ -78,13 +78,13 @@ impl From<Price> for machine::Price {
 }
 
 impl Price {
-    /// A price by money an hour, for tests of what it does.
+    /// A price by an hourly rate, for tests.
     #[cfg(test)]
     pub(super) fn of(per_h: f64, plies: u32) -> Self {
         Self { rate: Rate { per_s: per_h / S_PER_HOUR }, plies }
     }
 
-    /// The costs of so many pieces whose program takes `time_s` s.
+    /// The costs of `pieces` pieces whose program takes `time_s` s.
     pub(super) fn costs(&self, time_s: f64, pieces: usize) -> Costs {
         let marker = time_s * self.rate.per_s;
         let ply = marker / f64::from(self.plies);

@@ -1,4 +1,4 @@
-//! `cutc profile`: show, begin, describe or check a machine profile.
+//! `cutc profile`: prints, creates, describes or checks a machine profile.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use super::options::{Machine, refuse};
 use super::report::pretty;
 use crate::machine::{Comments, MachineProfile, load, schema};
 
-/// What stands above the keys of a new profile.
+/// Comment above the keys of a new profile.
 const HEAD: &str = "\
 # Machine profile of cutc. Every key is here with its default: change what differs on your machine and
 # delete the rest. `cutc profile check FILE` says what is wrong, `cutc profile show -p FILE` what holds.

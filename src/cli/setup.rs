@@ -1,4 +1,4 @@
-//! Which machine and which knife the figures of a run are for: a line each for people, an object each for programs.
+//! Machine and knife that the figures of a run refer to, as text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -8,18 +8,18 @@ use super::explain::wrapped;
 use crate::machine::{Axis, Job, MachineProfile, Planner, Sheet, Tool, ToolKind};
 use crate::units::number::short;
 
-/// Columns that the text of a line may take.
+/// Maximum columns of the text of a line.
 const WIDTH: usize = 66;
 
-/// Machine and knife as JSON.
+/// Machine and knife. Fields are keys of the JSON output.
 #[derive(Debug, Serialize)]
 pub(super) struct Setup {
     profile: Profile,
     knife: Knife,
-    /// How the marker lies on the table; not there where it lies as the file has it.
+    /// Position of the marker on the table; absent if it is that of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     sheet: Option<Sheet>,
-    /// The map by registration marks; not there where none were given.
+    /// Map by registration marks; absent without marks.
     #[serde(skip_serializing_if = "Option::is_none")]
     map: Option<Map>,
 }
@@ -28,26 +28,26 @@ pub(super) struct Setup {
 #[derive(Debug, Serialize)]
 struct Map {
     marks: usize,
-    /// Greatest distance of a mark from its place by the map of the others.
+    /// Maximum distance of a mark from its position by the map of the other marks.
     worst_mm: f64,
     turned_deg: f64,
     skewed_deg: f64,
     stretch: [f64; 2],
 }
 
-/// Where the values came from.
+/// Origin of the values.
 #[derive(Debug, Serialize)]
 pub(super) struct Profile {
-    /// Name of the file, without its directory; null = none was given, the default machine was used.
+    /// File name without its directory; null for the default machine.
     file: Option<String>,
-    /// Of the values in effect, as the provenance of a program has it.
+    /// Digest of the values in effect, as in the provenance of a program.
     sha256: String,
-    /// Keys that `--set` changed.
+    /// Keys changed by `--set`.
     set: Vec<String>,
 }
 
 impl Profile {
-    /// That of a job.
+    /// The profile of a job.
     pub(super) fn of(job: &Job) -> Self {
         Self {
             file: job.origin.file.clone(),
@@ -61,11 +61,11 @@ impl Profile {
 #[derive(Debug, Serialize)]
 struct Knife {
     width_mm: f64,
-    /// From the C axis back to the heel.
+    /// Distance from the C axis back to the heel.
     back_mm: f64,
-    /// From the C axis forward to the tip.
+    /// Distance from the C axis forward to the tip.
     radius_mm: f64,
-    /// "told", or "assumed" where only a width was given.
+    /// "told", or "assumed" if only a width was given.
     axis: &'static str,
 }
 
@@ -93,12 +93,12 @@ impl Setup {
     }
 }
 
-/// Rounds to 1e-9: errors of computation are smaller.
+/// The value rounded to 1e-9, which hides errors of computation.
 fn rounded(value: f64) -> f64 {
     (value * 1e9).round() / 1e9
 }
 
-/// A line on the machine and one on its knife, for the summary of a program.
+/// Lines on the machine, its knife and the position of the marker, for the summary of a program.
 pub(super) fn text(job: &Job) -> String {
     let mut out = String::from("\n");
     let mut line = |label: &str, text: &str| {
@@ -118,7 +118,7 @@ pub(super) fn text(job: &Job) -> String {
     out + &sheet(job)
 }
 
-/// The head at a distance.
+/// Description of a head at a distance.
 fn head(tool: &Tool) -> String {
     let planner = match tool.planner {
         Planner::Optimal => "optimal",
@@ -133,7 +133,7 @@ fn head(tool: &Tool) -> String {
     )
 }
 
-/// The blade, and where it turns.
+/// Description of the blade and of the position of the C axis.
 fn knife(job: &Job) -> String {
     let (knife, origin) = (&job.profile.knife, &job.origin);
     let place = format!("{} mm wide, C axis {} mm behind the tip", short(knife.width_mm), short(knife.radius()));
@@ -147,7 +147,7 @@ fn knife(job: &Job) -> String {
     format!("{place}{why}")
 }
 
-/// A line on how the marker lies on the table; empty where it lies as the file has it.
+/// Lines on the position of the marker on the table; empty if it is that of the file.
 pub(super) fn sheet(job: &Job) -> String {
     let sheet = Some(&job.profile.sheet).filter(|sheet| !sheet.is_plain()).map(|sheet| ("sheet", sheet.to_string()));
     let map = job.marks.as_ref().map(|marks| ("map", marks.to_string()));

@@ -1,21 +1,21 @@
-//! What is done about a signal that ends the program: at once, or, in a hot folder, behind the file in hand.
+//! Reaction to a signal that ends the program: it exits at once, or in a hot folder after the current file.
 
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 
 use super::draft;
 
-/// Set by who would rather finish the file in hand.
+/// True if the first signal waits for the current file.
 static FINISHES: AtomicBool = AtomicBool::new(false);
-/// The signal that asked for the end; 0 = none yet.
+/// The first signal received; 0 if there was none.
 static ASKED: AtomicI32 = AtomicI32::new(0);
-/// What shells add to the number of the signal that ended a program.
+/// Offset that shells add to a signal number to form an exit code.
 const BY_SIGNAL: i32 = 128;
 
-/// What is said of that.
+/// Message after a signal.
 pub const STOPPED: &str = "stopped: nothing is left half-written";
 
-/// Takes note of a signal. With an exit code the program must end at once, and all that it had in the making is gone;
-/// without one it ends by itself, soon. A second signal never waits.
+/// Handles a signal. `Some` holds the exit code with which the program must end at once; its unfinished files are already
+/// removed. `None` means that it will soon end by itself. A second signal never waits.
 pub fn stop(signal: i32) -> Option<u8> {
     let first = ASKED.swap(signal, Ordering::SeqCst) == 0;
     if first && FINISHES.load(Ordering::SeqCst) {
@@ -25,12 +25,12 @@ pub fn stop(signal: i32) -> Option<u8> {
     Some(code(signal))
 }
 
-/// From now on the first signal waits for the file in hand.
+/// Makes the first signal wait for the current file.
 pub(super) fn finish_first() {
     FINISHES.store(true, Ordering::SeqCst);
 }
 
-/// The exit code of who was asked to end.
+/// The exit code after a signal; `None` if there was none.
 pub(super) fn asked() -> Option<u8> {
     let signal = ASKED.load(Ordering::SeqCst);
     (signal != 0).then(|| code(signal))

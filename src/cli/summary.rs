@@ -1,4 +1,4 @@
-//! The figures of a file for people: calm, aligned, with units, within 80 columns.
+//! Summary of a file as text: aligned, with units, within 80 columns.
 
 use std::fmt::Write as _;
 
@@ -13,17 +13,17 @@ use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, 
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
-/// The heading of the table of the axes, which ends a summary.
+/// Heading of the table of the axes at the end of a summary.
 pub(super) const AXES: &str = "\n  greatest value of limit\n";
-/// Columns that a line of shares may take.
+/// Maximum columns of a line of shares.
 const SHARES_WIDTH: usize = 66;
-/// Part of the time of a program that is worth telling that it could be saved: less may be lost again, since estimates leave
-/// out what cuts of another length take.
+/// Minimum saving to report, as a fraction of the time of the program. Smaller ones are uncertain, because estimates ignore the
+/// effect of changed cut lengths.
 const TELLING_SHARE: f64 = 0.02;
-/// Below this limit two decimals are shown, else none.
+/// Limit from which values have no decimals. Below it they have two.
 const WHOLE_FROM: f64 = 100.0;
 
-/// The summary of a report; lines that only planning knows are left out where it did not run.
+/// The summary of a report. Lines on planning are left out if it did not run.
 pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> String {
     let mut out = format!("{name}\n");
     // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
@@ -39,7 +39,7 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     line("contours", format!("{} ({} closed, {open} open)", report.contours, report.closed_contours));
     let notches = report.notches;
     let all: usize = notches.by_kind().iter().map(|(_, count)| count).sum();
-    // Of the rarer kinds those that are there.
+    // Rarer kinds are listed only if there are any.
     let said = notches.by_kind().into_iter().filter(|&(kind, count)| count > 0 || matches!(kind, "slit" | "v"));
     let said: Vec<String> = said.map(|(kind, count)| format!("{count} {kind}")).collect();
     let style = match report.program.notch_style {
@@ -78,7 +78,7 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     out
 }
 
-/// The lines on what planning knows.
+/// The lines on the planned program.
 fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     let program = &report.program;
     if let Some(travel) = program.travel_m {
@@ -127,7 +127,7 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     }
 }
 
-/// How far the order of the cuts is from the best, and what else could save a part of the time worth telling.
+/// Compares the order of the cuts with the best one, and names other changes that would save a relevant part of the time.
 fn could_save(spent: &Spent, savings: &Savings, line: &mut impl FnMut(&str, String)) {
     let &Savings { least_travel_s, steady_s, clear_s } = savings;
     let is_worth_telling = |saved: &f64| *saved >= TELLING_SHARE * spent.total();
@@ -143,12 +143,12 @@ fn could_save(spent: &Spent, savings: &Savings, line: &mut impl FnMut(&str, Stri
     }
 }
 
-/// What the program does beside the drawing, a line a kind.
+/// Actions of the program that are not in the drawing, one line per kind.
 fn declared(declared: &[Total]) -> String {
     declared.iter().map(ToString::to_string).collect::<Vec<String>>().join("\n             ")
 }
 
-/// What was done so that no overlap harms a part.
+/// Measures that keep overlaps from harming a part.
 fn overlaps(sides: &Sides) -> String {
     let Sides { inside, shortened, turned, backwards, rejoined, .. } = *sides;
     let mut out = format!("{} inside parts, {shortened} shortened", counted(inside, "end"));
@@ -172,7 +172,7 @@ fn overlaps(sides: &Sides) -> String {
     out
 }
 
-/// What was chosen beside the whole marker and the knife; empty when nothing was.
+/// Description of the choice of lines, pieces and mode; empty for the whole marker with the knife down.
 pub(super) fn choice(job: &Job) -> String {
     let mut out = String::new();
     if !job.selection.is_all() {
@@ -201,7 +201,7 @@ pub(super) fn choice(job: &Job) -> String {
     out
 }
 
-/// One line on what the program is worth.
+/// Summary of the verdict on a program.
 pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
         return "\n  verified   no: --no-verify was given, nobody has read the program back\n".to_owned();
@@ -211,7 +211,7 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     let on_path = verdict.under(&rules::ON_PATH);
     if let Some((worst, limit)) = on_path.and_then(|finding| Some((finding.worst, finding.limit?))) {
         let _ = write!(out, "; tip at most {} mm off the path ({} allowed)", fixed(worst, 3), fixed(limit, 3));
-        // On a curve the body of a blade cuts beside the line, whatever lies there.
+        // On a curve the body of a blade cuts beside the line.
         if let Some(body) = verdict.under(&rules::BODY).filter(|body| body.worst > limit) {
             let block = body.place.map_or_else(String::new, |place| format!(", block {}", place.block));
             let _ =
@@ -231,7 +231,7 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     out + "\n"
 }
 
-/// Shares of a whole in percent, the greatest first, those that round to nothing left out; in lines that fit.
+/// Shares of a whole in percent, from the largest, wrapped to the line. Shares that round to 0 are left out.
 fn shares<T: AsRef<str>>(parts: &[(T, f64)], whole: f64) -> String {
     let percent = |time: f64| (100.0 * time / whole).round();
     let mut parts: Vec<(&str, f64)> = parts.iter().map(|(name, time)| (name.as_ref(), percent(*time))).collect();
@@ -255,18 +255,18 @@ fn shares<T: AsRef<str>>(parts: &[(T, f64)], whole: f64) -> String {
     out
 }
 
-/// A duration as people say it.
+/// A duration in seconds, or in minutes and seconds.
 fn duration(seconds: f64) -> String {
     if seconds < S_PER_MIN {
         return format!("{} s", fixed(seconds, 2));
     }
-    // Rounded first: 119.96 s are 2 min, not 1 min 60.0 s.
+    // Round first: 119.96 s are 2 min, not 1 min 60.0 s.
     let rounded = (seconds * 10.0).round() / 10.0;
     let minutes = (rounded / S_PER_MIN).floor();
     format!("{} min {} s", fixed(minutes, 0), fixed(rounded - minutes * S_PER_MIN, 1))
 }
 
-/// The greatest values of each axis beside its limit.
+/// Appends the table of the greatest values of each axis beside its limits.
 fn peaks(out: &mut String, axes: &Axes) {
     let cells = |peaks: &Peaks| [peaks.speed, peaks.acceleration, peaks.jerk].map(cell);
     let rows = [("x mm", cells(&axes.x)), ("y mm", cells(&axes.y)), ("c degrees", cells(&axes.c))];

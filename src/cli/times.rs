@@ -1,4 +1,4 @@
-//! What each piece of a program takes, and what keeps it from being faster.
+//! Time of each piece of a program, and its limiting factor.
 
 use std::fmt::Write as _;
 
@@ -12,30 +12,30 @@ use crate::pipeline::{Program, Spent, Waits, significant, waits, word};
 use crate::units::number::fixed;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
 
-/// Digits that are kept of times: far below a control period.
+/// Significant digits of times, far below a control period.
 const DIGITS: i32 = 9;
 
-/// The time of one piece, as JSON has it.
+/// The time of one piece. Fields are keys of the JSON output.
 #[derive(Debug, Serialize)]
 pub(super) struct Timed {
     piece: u32,
-    /// Not there where there is but one.
+    /// Absent if there is only one copy.
     #[serde(skip_serializing_if = "Option::is_none")]
     copy: Option<u32>,
     #[serde(skip)]
     name: String,
-    /// The names of the pieces that lie in it and come before it.
+    /// Names of the pieces inside this one, which are cut before it.
     waits_for: Vec<String>,
-    /// What is asked before it.
+    /// Events before the piece.
     asked: Vec<&'static str>,
     time_s: f64,
     spent: Spent,
 }
 
-/// Pieces that one waits for that are named in its row, at the most; JSON has all.
+/// Maximum number of inner pieces to name in a row. JSON has all.
 const NAMED: usize = 3;
 
-/// The pieces of a program, in cut order. The way to a piece counts as its own.
+/// The pieces of a program in cut order. The travel to a piece counts as its own.
 pub(super) fn of(program: &Program, marker: &Marker, profile: &MachineProfile) -> Vec<Timed> {
     let waits = waits(marker, profile);
     let timed = |([piece, part], spent): &([u32; 2], Spent)| {
@@ -54,7 +54,7 @@ pub(super) fn of(program: &Program, marker: &Marker, profile: &MachineProfile) -
     program.by_piece.iter().map(timed).collect()
 }
 
-/// A time as people say it of a long job: hours, minutes and seconds, as in `1:02:05`.
+/// A long duration in hours, minutes and seconds, as in `1:02:05`.
 pub(super) fn clock(seconds: f64) -> String {
     let all = seconds.round() as u64;
     let (hour, minute) = (S_PER_HOUR as u64, S_PER_MIN as u64);
@@ -62,7 +62,7 @@ pub(super) fn clock(seconds: f64) -> String {
     if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
 }
 
-/// A row for each piece: its time, what the machine does in it, and what bounds most of its cutting.
+/// A table with one row per piece: its time, the time by activity, and the main limit of its cutting.
 pub(super) fn text(pieces: &[Timed]) -> String {
     let mut out = String::from("\n  piece    time s     cut  travel    turn  plunge    lift   other  limited by\n");
     for Timed { name, time_s, spent, waits_for, asked, .. } in pieces {
@@ -88,7 +88,7 @@ pub(super) fn text(pieces: &[Timed]) -> String {
     out
 }
 
-/// What is asked of the operator or the conveyor, in a word.
+/// A request to the operator or the conveyor, in a word.
 fn asked_for(event: Event) -> &'static str {
     match event {
         Event::Stop => "stop",

@@ -1,4 +1,4 @@
-//! A verdict as a table for people and as JSON for programs.
+//! Verdict as a table for people and as JSON for programs.
 
 use std::path::Path;
 
@@ -17,27 +17,27 @@ use crate::units::number::fixed;
 
 /// Significant digits of worst values and limits in JSON.
 const DIGITS: i32 = 9;
-/// The columns of numbers, which stand at the right.
+/// Numeric columns, which are aligned to the right.
 const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
 
-/// Pieces that are named; more are counted.
+/// Maximum number of pieces to name; the rest are counted.
 const MOST_PIECES: usize = 5;
-/// Columns of what is told of a broken rule, and what they are indented by.
+/// Maximum columns of the text on a broken rule, and its indentation.
 const COLUMNS: usize = 94;
 const INDENT: &str = "      ";
-/// Rules that are not judged, so many a line.
+/// Number of unjudged rules per line.
 const RULES_A_LINE: usize = 4;
 
 /// A verdict as JSON.
 #[derive(Serialize)]
 struct Judged {
     verdict: Word,
-    /// In the order of reports; none when the source has errors.
+    /// Rules in the order of reports; empty if the source has errors.
     rules: Vec<UnderRule>,
-    /// Which rows cannot be read; not there when all can.
+    /// Rows that cannot be read; absent if all can.
     #[serde(skip_serializing_if = "Option::is_none")]
     unread: Option<String>,
-    /// Rules on times, of a program that tells none; not there when all are judged.
+    /// Rules on times that a program without times leaves unjudged; absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     untimed: Vec<&'static str>,
 }
@@ -53,20 +53,20 @@ enum Word {
 #[derive(Serialize)]
 struct UnderRule {
     code: &'static str,
-    /// Null when no number says how bad it is, as for a hole that is missing.
+    /// Null if no number measures the fault, as for a missing hole.
     worst: Option<f64>,
-    /// Null when the value is only reported.
+    /// Null if the value is only reported.
     limit: Option<f64>,
     unit: &'static str,
     r#where: Option<Where>,
     holds: bool,
-    /// Of a broken rule: the piece that the worst value was seen at; not there when it was at none.
+    /// For a broken rule, the piece at the worst value; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     piece: Option<Named>,
-    /// Of a broken rule: the pieces of which nothing is cut; not there when there are none.
+    /// For a broken rule, the pieces that are not cut at all; absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     uncut: Vec<Named>,
-    /// Of a broken rule: what stands on the line of the program; not there when that has no lines.
+    /// For a broken rule, the text of the line of the program; absent if the program has no lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     text: Option<String>,
 }
@@ -75,7 +75,7 @@ struct UnderRule {
 #[derive(Serialize)]
 struct Named {
     number: u32,
-    /// Not there where there is but one.
+    /// Absent if there is only one copy.
     #[serde(skip_serializing_if = "Option::is_none")]
     copy: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,29 +89,29 @@ impl Named {
     }
 }
 
-/// Where the worst value was seen.
+/// Place of the worst value.
 #[derive(Serialize)]
 struct Where {
-    /// Null for what is missing from the program.
+    /// Null for something that is missing from the program.
     time_s: Option<f64>,
-    /// The head, from 1; not there where a program has no heads.
+    /// Number of the head, from 1; absent in a program without heads.
     #[serde(skip_serializing_if = "Option::is_none")]
     head: Option<u32>,
-    /// The line of the program, from 1, or the record, from 0, where it has no lines; the row of a head or the entry of a
-    /// program that is sewn, from 1; null for what is on none.
+    /// Line of the program, from 1. Programs without lines have the record, from 0; those of heads the row, from 1; those that
+    /// are sewn the entry, from 1. Null if the value is at none of these.
     line: Option<u64>,
     x_mm: f64,
     y_mm: f64,
-    /// Number of the source block; 0 = none.
+    /// Number of the source block; 0 if there is none.
     block: u32,
 }
 
-/// The verdict as JSON; a program whose source has errors is proven by nothing: it fails, without rules.
+/// The verdict as JSON. Without a verdict, as when the source has errors, the program fails and no rules are listed.
 pub(super) fn json(explained: Option<&Explained>) -> String {
     pretty(&Judged::of(explained))
 }
 
-/// The same as one of a list of JSON objects.
+/// The verdict on one program as an element of a list of JSON objects.
 pub(super) fn json_of(program: &Path, explained: Option<&Explained>) -> String {
     #[derive(Serialize)]
     struct OfProgram {
@@ -156,10 +156,10 @@ impl Judged {
     }
 }
 
-/// A row of the table: mark, rule, worst, limit, unit, time, x, y, block.
+/// Cells of a row of the table: mark, rule, worst, limit, unit, time, x, y, block.
 type Cells = [String; 9];
 
-/// A verdict, and what it is about.
+/// A verdict and its subject.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Judgement<'a> {
     pub(super) explained: &'a Explained,
@@ -172,7 +172,7 @@ pub(super) struct Judgement<'a> {
     pub(super) source: &'a str,
 }
 
-/// The verdict as a table: what holds, then what is broken, then one line that says it all.
+/// The verdict as a table: rules that hold, then broken ones, then a line with the result.
 pub(super) fn text(judgement: &Judgement) -> String {
     let Judgement { explained: Explained { verdict, told }, mode, works, program, source } = *judgement;
     let broken: Vec<_> = verdict.broken().collect();
@@ -218,7 +218,7 @@ pub(super) fn text(judgement: &Judgement) -> String {
     out
 }
 
-/// What is said of a broken rule below its row: what it is, where it is broken, and what to do.
+/// Appends the explanation of a broken rule: its meaning, its place, and the remedy.
 fn explain(rule: &Rule, told: &Told, out: &mut String) {
     let mut lines = vec![format!("the rule: {}", rule.about)];
     if !told.uncut.is_empty() {
@@ -252,7 +252,7 @@ fn cells(finding: &Finding) -> Cells {
         (true, Some(_)) => "ok",
         (true, None) => "info",
     };
-    // The place of a zero is of no use to anybody.
+    // The place of a zero is of no use.
     let place = finding.place.filter(|_| worst != "0");
     [
         mark.to_owned(),

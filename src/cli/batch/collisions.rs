@@ -1,4 +1,4 @@
-//! Programs of many files that would take each other's place.
+//! Check for programs of a batch that would overwrite each other.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use super::inputs::Input;
 use crate::cli::finished::failure;
 
-/// Collisions that are told; more are counted.
+/// Maximum number of collisions to list; the rest are counted.
 const MOST_TOLD: usize = 10;
 
-/// Refuses files of which two would be written to one place, or one over an input.
+/// Refuses a batch in which two programs would be written to one place, or a program over an input.
 pub(in crate::cli) fn refuse_collisions(inputs: &[Input], places: &[Vec<PathBuf>]) -> anyhow::Result<()> {
     let mut wanted: BTreeMap<&Path, Vec<&Input>> = BTreeMap::new();
     for (input, paths) in inputs.iter().zip(places) {

@@ -1,44 +1,44 @@
-//! What is known of a file beyond its row in every table: notches, the area of its parts, the cloth that they lie on, and
-//! what cutting them costs.
+//! Figures of a file beyond the columns common to all tables: notches, the area of its parts, the cloth used, and the costs of
+//! cutting.
 
 use crate::units::{MM_PER_M, MM2_PER_M2};
 
-/// Hundredths in a whole.
+/// Percent per unit.
 const PERCENT: f64 = 100.0;
 
-/// Figures of a file, or of several.
+/// Figures of a file or of several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::cli) struct Figures {
     pub(in crate::cli) notches: usize,
-    /// Of the parts, less their cut-outs, m2; `None` when it is not known.
+    /// Area of the parts without their cut-outs, m2; `None` if unknown.
     pub(in crate::cli) area_m2: Option<f64>,
     pub(in crate::cli) cloth: Cloth,
 }
 
-/// What a marker lies on.
+/// Size of the cloth under a marker.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::cli) struct Cloth {
-    /// Along X, mm.
+    /// Length along X, mm.
     pub(in crate::cli) length_mm: f64,
-    /// Along Y, mm; of several the mean by length.
+    /// Width along Y, mm; for several files the mean weighted by length.
     pub(in crate::cli) width_mm: f64,
 }
 
 impl Cloth {
-    /// m2.
+    /// Area, m2.
     fn area_m2(self) -> f64 {
         self.length_mm * self.width_mm / MM2_PER_M2
     }
 }
 
 impl Figures {
-    /// How much of the cloth the parts take, percent; `None` of no cloth, or of parts of no known area.
+    /// Share of the cloth that the parts take, percent; `None` without cloth or if the area of the parts is unknown.
     pub(in crate::cli) fn utilisation_percent(&self) -> Option<f64> {
         let cloth = self.cloth.area_m2();
         self.area_m2.filter(|_| cloth > 0.0).map(|area| PERCENT * area / cloth)
     }
 
-    /// Those of several files, their cloths one behind the other; `None` of none.
+    /// Sum of the figures of several files, with their cloths laid end to end; `None` for no files.
     pub(super) fn sum<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
         let (mut sum, mut cloth_m2) = (None::<Self>, 0.0);
         for figures in all {

@@ -1,4 +1,4 @@
-//! Files in folders that are passed over, so that nobody takes a marker for compiled that was not seen.
+//! Note on files in folders that a batch skips, so that no marker is missed by mistake.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,17 +9,17 @@ use crate::cli::files::{is_meta, meta};
 use crate::cli::finished::Console;
 use crate::cli::options::counted;
 
-/// The end of a name that a program which is out of date has.
+/// File extension of outdated programs.
 const STALE: &str = "stale";
 
-/// Tells on standard error what [`passed_over`] finds.
+/// Prints the note of [`passed_over`] on standard error.
 pub(in crate::cli) fn tell_passed_over(arguments: &[PathBuf], console: &mut Console) {
     // Ignore errors on standard error: the reader has closed it.
     let _ = console.err.write_all(passed_over(arguments).as_bytes());
 }
 
-/// A note on the files in folders that are no cutter files by their extension; empty when there are none. Programs of ours and
-/// what stands beside them are not told.
+/// Note on the files in folders that do not have the extension of a cutter file; empty if there are none. Programs written by
+/// `cutc` and the files beside them are not mentioned.
 fn passed_over(arguments: &[PathBuf]) -> String {
     let folders = arguments.iter().filter(|argument| argument.is_dir());
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
@@ -40,7 +40,7 @@ fn passed_over(arguments: &[PathBuf]) -> String {
     )
 }
 
-/// Whether a file is neither a cutter file nor made by a compile.
+/// True if a file is neither a cutter file nor the output of a compile.
 fn is_foreign(path: &Path) -> bool {
     let is_stale = path.extension().is_some_and(|extension| extension == STALE);
     path.is_file() && !is_cutter_file(path) && !is_meta(path) && !is_manifest(path) && !is_stale && !meta(path).exists()

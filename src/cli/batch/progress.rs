@@ -1,13 +1,14 @@
-//! How far a batch is, for whoever watches a terminal.
+//! Progress of a batch, shown on a terminal.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Times a second that the line is drawn.
+/// Updates of the line per second.
 const RATE_HZ: u8 = 4;
 
-/// A line on standard error with what is done, what failed, the rate and the time left; nothing where that is no terminal.
+/// A line on standard error with the files done and failed, the rate and the time left. Hidden if standard error is not a
+/// terminal.
 #[derive(Debug)]
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -23,7 +24,7 @@ impl Progress {
         Self { bar, failed: AtomicUsize::new(0) }
     }
 
-    /// Counts a file.
+    /// Counts a finished file.
     pub(super) fn step(&self, is_failed: bool) {
         if is_failed {
             let failed = self.failed.fetch_add(1, Ordering::Relaxed) + 1;
@@ -32,12 +33,12 @@ impl Progress {
         self.bar.inc(1);
     }
 
-    /// Takes the line away while something else is printed.
+    /// Hides the line while `print` runs.
     pub(super) fn aside(&self, print: impl FnOnce()) {
         self.bar.suspend(print);
     }
 
-    /// Takes the line away for good.
+    /// Removes the line.
     pub(super) fn end(self) {
         self.bar.finish_and_clear();
     }

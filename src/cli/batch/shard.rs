@@ -1,20 +1,20 @@
-//! A part of many files: which belong to it is told by their content, so that any machine finds the same.
+//! Division of a batch into shards. The content of a file determines its shard, so that every machine gets the same division.
 
 use std::fmt;
 
-/// Hexadecimal digits of a digest that say where a file belongs: as many as fit 64 bits.
+/// Leading hexadecimal digits of a digest that determine the shard: 64 bits.
 const DIGITS: usize = 16;
 
-/// One of so many parts.
+/// One shard of a batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) struct Shard {
-    /// From 1.
+    /// Number of the shard, from 1.
     index: u64,
     count: u64,
 }
 
 impl Shard {
-    /// Reads `3/16`.
+    /// Parses `3/16`.
     pub(in crate::cli) fn parse(text: &str) -> Result<Self, String> {
         let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
         match numbers {
@@ -23,7 +23,7 @@ impl Shard {
         }
     }
 
-    /// Whether bytes of this digest belong to the part.
+    /// True if content with this digest belongs to the shard.
     pub(in crate::cli) fn has(self, sha256: &str) -> bool {
         let number = sha256.get(..DIGITS).and_then(|digits| u64::from_str_radix(digits, 16).ok());
         number.expect("a digest is hexadecimal digits") % self.count == self.index - 1
@@ -31,7 +31,7 @@ impl Shard {
 }
 
 impl fmt::Display for Shard {
-    /// As part of a file name.
+    /// The form used in file names.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}-of-{}", self.index, self.count)
     }

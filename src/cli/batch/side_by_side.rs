@@ -1,4 +1,4 @@
-//! Work on many files at once: small ones side by side, a core each, large ones one after the other, each on all cores.
+//! Parallel work on many files: small ones concurrently, one core each; large ones in sequence, each on all cores.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,22 +7,21 @@ use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
-/// A file of so many bytes keeps all cores busy by itself.
+/// Minimum size of a file that keeps all cores busy by itself, bytes.
 const LARGE_BYTES: u64 = 1 << 20;
 
-/// Files that wait for a disk, at most, for each thread: what they hold in memory stays bounded.
+/// Maximum number of files per thread that wait for the disk. It bounds the memory that they hold.
 const WAITING: usize = 4;
 
-/// What is done with a file: the work, and what waits for a disk, so that no core waits with it.
+/// The two stages of a file: the computation, and the disk access, so that no core waits for the disk.
 pub(in crate::cli) struct Stages<W, S> {
-    /// On a thread of its own, or on all.
+    /// Computation, on one thread or on all.
     pub(in crate::cli) work: W,
-    /// Beside that, one file after the other.
+    /// Disk access, one file at a time, concurrently with the computation.
     pub(in crate::cli) settle: S,
 }
 
-/// Does the work on each file, given by their sizes, on so many threads, and hands each result to `each` in the order of
-/// the files.
+/// Processes files, given by their sizes, on a number of threads, and passes each result to `each` in the order of the files.
 pub(in crate::cli) fn run<D: Send, T: Send>(
     sizes: &[u64],
     threads: usize,
@@ -31,7 +30,7 @@ pub(in crate::cli) fn run<D: Send, T: Send>(
 ) {
     let Stages { work, settle } = stages;
     let (large, small): (Vec<usize>, Vec<usize>) = (0..sizes.len()).partition(|&i| sizes[i] >= LARGE_BYTES);
-    // Fewer files than cores: alone each has all of them.
+    // With fewer small files than threads, each file gets all cores in turn.
     let (large, small) = if small.len() < threads { ((0..sizes.len()).collect(), Vec::new()) } else { (large, small) };
     let mut in_order = InOrder { next: 0, waiting: BTreeMap::new(), each: &mut each };
     for i in large {
@@ -51,7 +50,7 @@ pub(in crate::cli) fn run<D: Send, T: Send>(
                         }
                     }
                 };
-                // All that would be shared out stays on one thread. Without such a pool it is only slower.
+                // A pool of one thread keeps nested parallel work on this thread. Without the pool the work is only slower.
                 match ThreadPoolBuilder::new().num_threads(1).build() {
                     Ok(alone) => alone.install(work_on_all),
                     Err(_) => work_on_all(),
@@ -72,7 +71,7 @@ pub(in crate::cli) fn run<D: Send, T: Send>(
     });
 }
 
-/// Results wait for those before them.
+/// Results in the order of the files. A result waits for all those before it.
 struct InOrder<'e, T, E: FnMut(usize, T)> {
     next: usize,
     waiting: BTreeMap<usize, T>,

@@ -1,4 +1,4 @@
-//! The table that ends a batch: a row a file, what failed last, and a sum.
+//! Table at the end of a batch: one row per file with failures last, and a sum.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -9,52 +9,52 @@ use crate::cli::price::{Costs, Price};
 use crate::cli::times::clock;
 use crate::units::number::fixed;
 
-/// Columns that the name of a file may take: of longer ones the end is shown.
+/// Maximum columns of a file name. Longer names are cut at the start.
 const NAME_COLUMNS: usize = 40;
 
-/// How a file ended.
+/// Outcome of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) enum State {
-    /// As it should.
+    /// Success.
     Done,
-    /// There was nothing to do: what was made of it before still stands.
+    /// Nothing to do: the earlier output is still valid.
     Unchanged,
-    /// It has errors, or could not be read, or nothing could be written.
+    /// The file has errors or cannot be read, or its output cannot be written.
     Failed,
 }
 
-/// What there is to tell of a file.
+/// Outcome and figures of a file.
 #[derive(Debug, Clone)]
 pub(in crate::cli) struct Row {
     pub(in crate::cli) file: String,
     pub(in crate::cli) state: State,
     pub(in crate::cli) pieces: Option<usize>,
-    /// Length of what is cut, m.
+    /// Length of the cuts, m.
     pub(in crate::cli) cut_m: Option<f64>,
-    /// Of what is sewn.
+    /// Number of stitches.
     pub(in crate::cli) stitches: Option<usize>,
-    /// Length of these, m.
+    /// Length of the stitches, m.
     pub(in crate::cli) thread_m: Option<f64>,
-    /// What the program takes, s.
+    /// Duration of the program, s.
     pub(in crate::cli) time_s: Option<f64>,
-    /// Where they were asked for.
+    /// Further figures, if requested.
     pub(in crate::cli) figures: Option<Figures>,
-    /// The worst of what was found, or the verdict; empty when there is nothing to say.
+    /// The worst finding or the verdict; empty if there is none.
     pub(in crate::cli) worst: String,
 }
 
 impl Row {
-    /// What the file costs, as far as its time is known.
+    /// Costs of the file; `None` if its time or its number of pieces is unknown.
     pub(in crate::cli) fn costs(&self, price: Price) -> Option<Costs> {
         Some(price.costs(self.time_s?, self.pieces?))
     }
 
-    /// The row of a file over which the program itself broke down.
+    /// The row of a file on which the program panicked.
     pub(in crate::cli) fn broken(file: &Path) -> Self {
         Self { worst: super::BROKEN.to_owned(), ..Self::new(file, State::Failed) }
     }
 
-    /// A row of which no more is known.
+    /// A row without figures.
     pub(in crate::cli) fn new(file: &Path, state: State) -> Self {
         let file = file.display().to_string();
         Self {
@@ -71,33 +71,33 @@ impl Row {
     }
 }
 
-/// Which figures the rows have.
+/// Columns of the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::cli) enum Columns {
-    /// Pieces and metres: what is known of a file that is read.
+    /// Pieces and metres: the figures of a file that was read.
     Read,
-    /// The time, too, of a program.
+    /// The figures of a file that was read, and the time of its program.
     Planned,
-    /// All that is known of a file, with what it costs at a price.
+    /// All figures of a file, with its costs if there is a price.
     Counted(Option<Price>),
-    /// Stitches, their length and time.
+    /// Number of stitches, their length, and the time.
     Sewn,
-    /// None but the verdict.
+    /// The verdict only.
     Judged,
 }
 
-/// How a batch is told.
+/// Form of the report on a batch.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::cli) struct Telling {
-    /// What its table has.
+    /// Columns of the table.
     pub(in crate::cli) columns: Columns,
-    /// Whether only what failed is told.
+    /// True if only failures are reported.
     pub(in crate::cli) quiet: bool,
-    /// Whether there is a list of JSON objects on standard output.
+    /// True if a list of JSON objects goes to standard output.
     pub(in crate::cli) json: bool,
 }
 
-/// The table of some rows; with `quiet` only of those that failed.
+/// The table of some rows. With `quiet` it holds only the failed ones.
 pub(in crate::cli) fn text(rows: &[Row], Telling { columns, quiet, .. }: Telling) -> String {
     let mut shown = failed_last(rows);
     shown.retain(|row| !quiet || row.state == State::Failed);
@@ -123,13 +123,13 @@ pub(in crate::cli) fn text(rows: &[Row], Telling { columns, quiet, .. }: Telling
     out + &counts(rows)
 }
 
-/// The rows in their order, those of what failed behind the others.
+/// The rows in their order, with the failed ones last.
 pub(in crate::cli) fn failed_last(rows: &[Row]) -> Vec<&Row> {
     let (failed, well): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.state == State::Failed);
     [well, failed].concat()
 }
 
-/// A line on how many files ended how.
+/// A line with the number of files by outcome.
 pub(in crate::cli) fn counts(rows: &[Row]) -> String {
     let count = |state: State| rows.iter().filter(|row| row.state == state).count();
     let (done, unchanged, failed) = (count(State::Done), count(State::Unchanged), count(State::Failed));
@@ -155,7 +155,7 @@ fn titles(columns: Columns) -> Vec<String> {
     std::iter::once("file").chain(titles.concat()).map(str::to_owned).collect()
 }
 
-/// All rows as one.
+/// The sum of all rows.
 pub(in crate::cli) fn sum(rows: &[Row]) -> Row {
     Row {
         file: "all".to_owned(),
@@ -210,7 +210,7 @@ impl Row {
     }
 }
 
-/// Notches, area, cloth and how much of it is used.
+/// Cells of notches, area, cloth and utilisation.
 fn known(figures: &Figures) -> [String; 4] {
     let Figures { notches, area_m2, cloth } = figures;
     let cloth = format!("{} x {}", fixed(cloth.length_mm, 0), fixed(cloth.width_mm, 0));
@@ -218,7 +218,7 @@ fn known(figures: &Figures) -> [String; 4] {
     [notches.to_string(), area_m2.map_or_else(String::new, |area| fixed(area, 3)), cloth, used]
 }
 
-/// The cost of all, of a ply and of a part; of the last some more digits, for there are many.
+/// Cells of the costs of the marker, of a ply and of a part. The latter have more decimals, because they are small.
 fn shares(costs: &Costs) -> [String; 3] {
     [fixed(costs.marker, 2), fixed(costs.ply, 3), costs.part.map_or_else(String::new, |part| fixed(part, 4))]
 }

@@ -1,4 +1,4 @@
-//! The overview of a folder of pages: a table with a row a file, each with a link to its page.
+//! Overview of a folder of pages: a table with one row per file, each with a link to its page.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,12 +13,12 @@ use crate::cli::times::clock;
 use crate::picture::{Columns, Markup, Page, Script};
 use crate::units::number::{counted, fixed};
 
-/// Name of its file.
+/// File name of the overview.
 const NAME: &str = "index.html";
-/// Opening of what stands in an overview and in no other page.
+/// Markup that identifies an overview among other pages.
 const MARK: &str = "<main id=\"overview\">";
 
-/// A row of the table, and the place of its page.
+/// A row of the table, and the path of its page.
 pub(in crate::cli) type Seen<'a> = (&'a Row, &'a Path);
 
 /// The overview of a folder.
@@ -29,7 +29,7 @@ pub(in crate::cli) struct Overview<'a> {
 }
 
 impl<'a> Overview<'a> {
-    /// The overview of a folder of programs; none where they have no pages, and where a page has its name.
+    /// The overview of a folder of programs; `None` if the programs have no pages, or if a page has the name of the overview.
     pub(in crate::cli) fn of<'p>(
         out: &'a Path,
         targets: &[&'static Target],
@@ -41,11 +41,11 @@ impl<'a> Overview<'a> {
         (!is_taken).then_some(Self { path, out })
     }
 
-    /// Permission to write in its place.
+    /// Checks that the overview may be written.
     ///
     /// # Errors
     ///
-    /// A file stands there that is no overview.
+    /// Another file that is not an overview stands in its place.
     pub(in crate::cli) fn may_be_written(&self) -> anyhow::Result<()> {
         let is_ours =
             fs::read(&self.path).map_or(true, |bytes| bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes()));
@@ -59,7 +59,7 @@ impl<'a> Overview<'a> {
         ))
     }
 
-    /// Writes the overview of what became of the inputs, and tells its place.
+    /// Writes the overview of the outcomes of the inputs, and returns its path.
     ///
     /// # Errors
     ///
@@ -127,12 +127,12 @@ impl<'a> Overview<'a> {
     }
 }
 
-/// Place of the page among the targets of a file.
+/// Index of the page among the targets of a file; `None` if no target is a page.
 pub(in crate::cli) fn page_of(targets: &[&'static Target]) -> Option<usize> {
     targets.iter().position(|target| matches!(target.emit, Emit::Page(_)))
 }
 
-/// A relative path as a link: what is no plain letter of an address is told by its bytes.
+/// A relative path as a link. Bytes that are not unreserved in a URL are percent-encoded.
 fn link(path: &Path) -> String {
     let mut link = String::from(".");
     for part in path.components() {

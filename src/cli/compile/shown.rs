@@ -1,4 +1,4 @@
-//! A line on a terminal that shows how far a compile is.
+//! Progress of a compile, shown on a terminal.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -7,10 +7,10 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::pipeline::Advance;
 
-/// How often the line is drawn: short jobs end before that and show none.
+/// Interval between updates of the line. Shorter jobs show none.
 const PERIOD: Duration = Duration::from_millis(700);
 
-/// The line, on standard error; nothing where that is no terminal. It goes when this is dropped.
+/// The line on standard error, hidden if that is not a terminal. Dropping it removes the line.
 pub(super) struct Shown {
     advance: Arc<Advance>,
     bar: ProgressBar,
@@ -23,7 +23,7 @@ impl Shown {
         let of = Arc::clone(&advance);
         let style = ProgressStyle::with_template("{spinner} {advance}, {elapsed}").expect("the template is sound");
         let style = style.with_key("advance", move |_: &ProgressState, out: &mut dyn std::fmt::Write| {
-            // A line that cannot be drawn is not worth a job.
+            // Ignore errors: a line that cannot be drawn must not stop the job.
             let _ = write!(out, "{of}");
         });
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
@@ -31,7 +31,7 @@ impl Shown {
         Self { advance, bar }
     }
 
-    /// Where the compile notes how far it is.
+    /// The progress that the compile updates.
     pub(super) fn advance(&self) -> &Advance {
         &self.advance
     }

@@ -1,4 +1,4 @@
-//! What is said of a marker that is cut while it moves: heads, rows, travel, times, the verdict.
+//! Summary of a marker that is cut while it moves: heads, rows, travel, times, the verdict.
 
 use std::fmt::Write as _;
 
@@ -19,12 +19,12 @@ pub(super) struct Figures {
     #[serde(flatten)]
     plan: flow::Figures,
     verified: Vec<Verified>,
-    /// Programs that are written.
+    /// Number of programs written.
     #[serde(skip)]
     programs: usize,
 }
 
-/// What the programs of a target are worth.
+/// Verdict on the programs of a target.
 #[derive(Debug, Serialize)]
 struct Verified {
     target: &'static str,
@@ -51,10 +51,10 @@ pub(super) fn nothing() -> serde_json::Value {
     report::nothing(&Figures { speed_mm_s: 0.0, plan: flow::Figures::default(), verified: Vec::new(), programs: 0 })
 }
 
-/// Parts in percent.
+/// Percent per unit.
 const PERCENT: f64 = 100.0;
 
-/// The figures for people.
+/// The figures as text.
 pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     let mut out = String::new();
     if quiet {

@@ -1,4 +1,4 @@
-//! The arguments of `cutc info`, and what they ask of a file.
+//! Arguments of `cutc info`, and the figures that they select.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ use crate::pipeline::{self, Report, significant};
 use crate::units::MM2_PER_M2;
 use crate::units::quantity::value_in;
 
-/// Digits that are kept of areas and costs: far below what anybody measures or pays.
+/// Significant digits of areas and costs, far below anything that is measured or paid.
 pub(super) const DIGITS: i32 = 9;
 
 /// Arguments of `cutc info`.
@@ -72,7 +72,7 @@ pub(in crate::cli) struct Arguments {
     pub(super) format: Sheet,
 }
 
-/// Reads a width: a number is mm, else it has a unit.
+/// Parses a width. A plain number is in mm; other units are written out.
 fn width(text: &str) -> Result<f64, String> {
     let mm = text.parse().ok().or_else(|| value_in(text, "mm").ok());
     mm.filter(|mm: &f64| mm.is_finite() && *mm > 0.0)
@@ -80,12 +80,12 @@ fn width(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// The job, or what is wrong with its profile.
+    /// The job, or the faults of its profile.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         Ok(self.reading.job()?.map(|job| self.left_out.of(job)))
     }
 
-    /// What is known of a marker beyond its report; of one with errors no area.
+    /// Figures of a marker beyond its report. A marker with errors has no area.
     pub(super) fn figures(&self, marker: Option<&Marker>, report: &Report, job: &Job) -> Figures {
         let [length_mm, height_mm] = report.extent_mm;
         Figures {
@@ -95,7 +95,7 @@ impl Arguments {
         }
     }
 
-    /// A warning when a file needs more cloth than there is.
+    /// A warning if a file needs more cloth than there is; otherwise empty.
     pub(super) fn doubts(&self, name: &str, report: &Report) -> String {
         let [_, height] = report.extent_mm;
         let Some(width) = self.cloth_width.filter(|width| height > *width) else { return String::new() };

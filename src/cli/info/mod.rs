@@ -1,4 +1,4 @@
-//! `cutc info`: what is in cutter files.
+//! `cutc info`: reports the contents of cutter files.
 
 mod arguments;
 mod many;

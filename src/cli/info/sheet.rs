@@ -1,4 +1,4 @@
-//! Rows of files for other programs: as JSON with their sum, or as CSV. Units stand in the names.
+//! Rows of files for other programs: as JSON with their sum, or as CSV. Names contain the units.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -10,15 +10,15 @@ use crate::cli::report::pretty;
 use crate::pipeline::significant;
 use crate::units::number::{exact, fixed};
 
-/// The names of all figures, in the order of a row of CSV.
+/// Names of all figures, in the order of the CSV columns.
 const FIGURES: [&str; 8] =
     ["pieces", "cut_m", "time_s", "notches", "area_m2", "length_mm", "width_mm", "utilisation_percent"];
-/// Those of what it costs, where that was asked for.
+/// Names of the cost figures, which are present on request.
 const COSTS: [&str; 3] = ["cost", "cost_per_ply", "cost_per_part"];
-/// What makes a cell of CSV need quotes.
+/// Characters that require quotes around a CSV cell.
 const QUOTED: [char; 4] = [',', '"', '\n', '\r'];
 
-/// The figures of a file or of all; null is what is not known.
+/// The figures of a file or of all. Unknown ones are null.
 #[derive(Serialize)]
 pub(super) struct Figures {
     pieces: Option<usize>,
@@ -29,12 +29,12 @@ pub(super) struct Figures {
     length_mm: Option<f64>,
     width_mm: Option<f64>,
     utilisation_percent: Option<f64>,
-    /// Not there when nobody asked.
+    /// Present only on request.
     #[serde(flatten)]
     costs: Option<Costs>,
 }
 
-/// Money without a currency.
+/// Costs, without a currency.
 #[derive(Debug, Serialize)]
 pub(super) struct Costs {
     plies: u32,
@@ -43,18 +43,18 @@ pub(super) struct Costs {
     cost_per_part: Option<f64>,
 }
 
-/// What is known of a file.
+/// State and figures of a file.
 #[derive(Serialize)]
 struct OfFile<'a> {
     file: &'a str,
     state: &'static str,
     #[serde(flatten)]
     figures: Figures,
-    /// The code of the worst finding, or why the file cannot be read.
+    /// Code of the worst finding, or the reason why the file cannot be read.
     worst: Option<&'a str>,
 }
 
-/// What is known of all files; the figures are of those that are done.
+/// Totals of all files. The figures are those of the files that succeeded.
 #[derive(Serialize)]
 struct Sum {
     files: usize,
@@ -82,7 +82,7 @@ impl Figures {
 }
 
 impl Costs {
-    /// The costs of a row; null while its time is not known.
+    /// The costs of a row; null while its time is unknown.
     pub(super) fn of(row: &Row, price: Price) -> Self {
         let rounded = |value| significant(value, DIGITS);
         let costs = row.costs(price);
@@ -94,7 +94,7 @@ impl Costs {
         }
     }
 
-    /// Lines for people; none while the time is not known.
+    /// The costs as a line of text; empty while the time is unknown.
     pub(super) fn text(&self) -> String {
         let Self { plies, cost: Some(cost), cost_per_ply: Some(ply), cost_per_part } = self else {
             return String::new();
@@ -116,7 +116,7 @@ impl<'a> OfFile<'a> {
     }
 }
 
-/// All files, those that failed last, and their sum.
+/// All files, with the failed ones last, and their sum.
 pub(super) fn json(rows: &[Row], price: Option<Price>) -> String {
     #[derive(Serialize)]
     struct All<'a> {
@@ -129,7 +129,7 @@ pub(super) fn json(rows: &[Row], price: Option<Price>) -> String {
     pretty(&All { files, sum })
 }
 
-/// A header, and a row a file, those that failed last; what is not known is empty.
+/// A header and one row per file, with the failed ones last. Unknown values are empty.
 pub(super) fn csv(rows: &[Row], price: Option<Price>) -> String {
     let costs: &[&str] = if price.is_some() { &COSTS } else { &[] };
     let keys = [&["file", "state"], &FIGURES[..], costs, &["worst"]].concat();
@@ -142,7 +142,7 @@ pub(super) fn csv(rows: &[Row], price: Option<Price>) -> String {
     out
 }
 
-/// A value as a cell of CSV, quoted as RFC 4180 says where it must be.
+/// A value as a CSV cell, quoted as in RFC 4180 if necessary.
 fn cell(value: &Value) -> String {
     match value {
         Value::String(text) if text.contains(QUOTED) => format!("\"{}\"", text.replace('"', "\"\"")),

@@ -1,4 +1,4 @@
-//! What is said of a sewn pattern: stitches, speeds, times, the queue, the verdict.
+//! Summary of a sewn pattern: stitches, speeds, times, the queue, the verdict.
 
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ use crate::units::number::{exact, fixed};
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Figures {
     format: &'static str,
-    /// What its records are called.
+    /// Word for the records of the format.
     #[serde(skip)]
     record_word: &'static str,
     estimate: Estimate,
@@ -24,31 +24,31 @@ pub(super) struct Figures {
     verified: Vec<Verified>,
 }
 
-/// A run.
+/// A run of stitches.
 #[derive(Debug, Serialize)]
 struct Run {
     stitches: usize,
     rpm: f64,
-    /// "machine", "user" or "stitch".
+    /// Cause of the limit: "machine", "user" or "stitch".
     limit: &'static str,
-    /// The record of the stitch that limits it, where one does.
+    /// Record of the limiting stitch; null if no stitch limits the run.
     record: Option<u32>,
-    /// Its length.
+    /// Length of that stitch.
     pitch_mm: Option<f64>,
     cost_s: f64,
 }
 
-/// What a program is worth.
+/// Verdict on a program.
 #[derive(Debug, Serialize)]
 struct Verified {
     target: &'static str,
-    /// The target whose bytes were judged: another of the same program where the target is a picture.
+    /// The target whose bytes were judged. It differs from `target` if that is a picture.
     judged: &'static str,
     rules: Vec<WorstOf>,
 }
 
 impl Figures {
-    /// Those of a program that was written as some targets, of which some were judged.
+    /// The figures of a program that was written for some targets. Some of these were judged.
     pub(super) fn of(
         Made { program, job, .. }: Made,
         queue: Fifo,
@@ -93,7 +93,7 @@ impl Figures {
     }
 }
 
-/// The figures for people.
+/// The figures as text.
 pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     let mut out = String::new();
     if quiet {

@@ -1,4 +1,4 @@
-//! What is said of a log or a scenario: statuses, speeds, and how well the cloth is followed.
+//! Summary of a log or a scenario: statuses, speeds, and the quality of the tracking.
 
 use std::fmt::Write as _;
 
@@ -16,24 +16,24 @@ use crate::units::number::fixed;
 pub(super) struct Figures {
     samples: usize,
     duration_s: f64,
-    /// How many samples had each status.
+    /// Number of samples with each status.
     statuses: Vec<Counted>,
-    /// The fastest that the carriage is driven.
+    /// Maximum speed of the carriage.
     max_speed_mm_s: f64,
-    /// Where the centre of the cloth was least and most, mm; null where it is not known.
+    /// Minimum and maximum position of the centre of the cloth, mm; null if unknown.
     centre_mm: Option<[f64; 2]>,
-    /// What followed the cloth of a scenario; empty for a log.
+    /// Followers of the cloth in a scenario; empty for a log.
     followers: Vec<Follower>,
 }
 
-/// How often something is.
+/// Number of samples with a status.
 #[derive(Debug, Serialize)]
 struct Counted {
     status: &'static str,
     samples: usize,
 }
 
-/// How well something follows a cloth.
+/// Quality with which a follower tracks the cloth.
 #[derive(Debug, Serialize)]
 struct Follower {
     name: String,
@@ -41,7 +41,7 @@ struct Follower {
     measures: Measures,
 }
 
-/// Every status, in the order in which they are told.
+/// Every status, in the order of the summary.
 const STATUSES: [Status; 6] =
     [Status::Centred, Status::Waiting, Status::Driving, Status::LostCovered, Status::LostOpen, Status::Width];
 
@@ -73,7 +73,7 @@ pub(super) fn nothing() -> serde_json::Value {
     report::nothing(&Figures::default())
 }
 
-/// The figures for people.
+/// The figures as text.
 pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     let mut out = String::new();
     if quiet {
@@ -93,7 +93,7 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     out
 }
 
-/// A row for each that followed the cloth.
+/// The table with one row per follower.
 fn table(followers: &[Follower]) -> String {
     let width = followers.iter().map(|follower| follower.name.len()).max().unwrap_or(0);
     let columns = ["settling", "overshoot", "reversals", "residual", "worst", "rms"];

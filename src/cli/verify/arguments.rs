@@ -1,4 +1,4 @@
-//! The arguments of `cutc verify`.
+//! Arguments of `cutc verify`.
 
 use std::path::PathBuf;
 
@@ -69,17 +69,17 @@ pub(in crate::cli) struct Arguments {
     pub(super) choice: Choice,
 }
 
-/// Heading of the options of programs that were sewn.
+/// Heading of the options of sewn programs.
 const SEWN: &str = "Programs of cutc sew";
 
 impl Arguments {
-    /// Options with which a file was sewn.
+    /// The options with which a file was sewn.
     pub(super) fn asked(&self) -> Asked {
         let from = self.reading.from.map(|dialect| dialect.name.to_owned());
         Asked { from, line: self.line.clone(), inset: self.inset.unwrap_or(0.0) }
     }
 
-    /// The job that programs were made by, or what is wrong with its profile or its centre line.
+    /// The job that the programs were made with, or the faults of its profile, its centre line or its marks.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         self.choice.job(&self.reading)
     }

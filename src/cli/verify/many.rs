@@ -1,4 +1,4 @@
-//! Many programs, each against the file that it was made from, or all against one.
+//! Verification of many programs, each against its own source or all against one.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -14,21 +14,21 @@ use crate::machine::Job;
 use crate::pipeline::{Explained, Verdict};
 use crate::source::Source;
 
-/// Broken rules that a row names; more are counted.
+/// Maximum number of broken rules to name in a row; the rest are counted.
 const MOST_RULES: usize = 3;
 
-/// What programs are judged by.
+/// Sources of the programs.
 enum Sources<'a> {
-    /// All by one file.
+    /// One file for all programs.
     File(Source),
-    /// Each by its own, somewhere in a folder.
+    /// A file in a folder for each program.
     Folder(SourceFolder<'a>),
 }
 
 /// A folder of cutter files.
 struct SourceFolder<'a> {
     folder: &'a Path,
-    /// Its cutter files.
+    /// Cutter files in the folder.
     files: Vec<Input>,
 }
 
@@ -36,13 +36,13 @@ impl SourceFolder<'_> {
     fn of(folder: &Path) -> SourceFolder<'_> {
         let files = match batch::find(&[folder.to_owned()], batch::is_cutter_file, "") {
             Ok(Inputs::Many(files)) => files,
-            // A folder without cutter files: each program tells what it lacks.
+            // A folder without cutter files is no error here: each program reports its missing source.
             Ok(Inputs::One(_)) | Err(_) => Vec::new(),
         };
         SourceFolder { folder, files }
     }
 
-    /// The cutter files that none of some programs was made from.
+    /// The cutter files from which no program was made.
     fn without_program(&self, programs: &[Input]) -> Vec<Input> {
         let is_of = |path: PathBuf| path.canonicalize().unwrap_or(path);
         let made: BTreeSet<PathBuf> =
@@ -50,7 +50,7 @@ impl SourceFolder<'_> {
         self.files.iter().filter(|file| !made.contains(&is_of(file.path.clone()))).cloned().collect()
     }
 
-    /// Refuses a program that was made from one file and has the name of another one's program.
+    /// Refuses a program that was made from one file but has the name of the program of another.
     fn refuse_exchanged(&self, program: &Input, source: &Path) -> anyhow::Result<()> {
         if files::is_plan(&program.path) {
             return Ok(());
@@ -73,7 +73,7 @@ impl SourceFolder<'_> {
     }
 }
 
-/// A source that is owned only when no other program has it.
+/// A source: borrowed if all programs share it, otherwise owned.
 enum Shared<'a> {
     All(&'a Source),
     Own(Source),
@@ -123,7 +123,7 @@ pub(super) fn run(
     };
     let is_json = *format == Format::Json;
     let telling = Telling { columns: Columns::Judged, quiet: messages.quiet, json: is_json };
-    // A folder holds all programs of the other one; a pattern may name some of them.
+    // With a folder all its programs are given, so a source without one is an error. A pattern may select some programs.
     let missing = match &sources {
         Sources::Folder(sources) if arguments.programs.iter().any(|named| named.is_dir()) => {
             sources.without_program(programs)
@@ -146,14 +146,14 @@ pub(super) fn run(
     };
     let mut finished = Batch { inputs: &inputs, threads, telling }.run(console, work).finished(telling);
     if !is_json {
-        // The verdicts are what is asked for.
+        // The verdicts are the requested output.
         finished.stdout = Stdout::Text(std::mem::take(&mut finished.stderr));
     }
     Ok(finished)
 }
 
-/// Where the source of a program stands in a folder: below it as the program below its own folder, under the name that its
-/// provenance tells.
+/// Path of the source of a program in a folder. It has the same place below the folder as the program below its own, and the
+/// name from the provenance of the program.
 pub(super) fn source_in(folder: &Path, program: &Input) -> anyhow::Result<PathBuf> {
     if !program.path.exists() {
         return Err(failure(
@@ -162,7 +162,7 @@ pub(super) fn source_in(folder: &Path, program: &Input) -> anyhow::Result<PathBu
         ));
     }
     let name = provenance::source_of(&program.path);
-    // A name is none of another place.
+    // A name must not lead to another folder.
     let name = name.as_deref().map(Path::new).and_then(Path::file_name).ok_or_else(|| {
         failure(
             format!(
@@ -177,7 +177,7 @@ pub(super) fn source_in(folder: &Path, program: &Input) -> anyhow::Result<PathBu
 }
 
 impl Arguments {
-    /// What becomes of one of many programs.
+    /// The outcome of one of many programs.
     fn outcome(&self, input: &Input, sources: &Sources, job: &Job) -> anyhow::Result<Outcome> {
         let mut program = Program::open(&input.path)??;
         let source = sources.of(input)?;
@@ -201,7 +201,7 @@ impl Arguments {
     }
 }
 
-/// The first of the rules that are broken.
+/// The names of the first broken rules.
 fn broken(verdict: &Verdict) -> String {
     let mut rules: Vec<String> = verdict.broken().map(|finding| finding.rule.name.to_owned()).collect();
     let more = rules.len().saturating_sub(MOST_RULES);

@@ -1,4 +1,4 @@
-//! `cutc verify`: do programs cut what their cutter files say?
+//! `cutc verify`: checks that programs cut what their cutter files say.
 
 mod arguments;
 mod many;
@@ -10,7 +10,7 @@ use super::batch::{self, Input, Inputs};
 use super::files::is_plan;
 use super::finished::{Console, Finished};
 
-/// Whether the only program among some is a plan.
+/// True if the only program is a plan.
 fn is_only_a_plan(programs: &[Input]) -> bool {
     programs.len() == 1 && is_plan(&programs[0].path)
 }
@@ -23,7 +23,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
             one::run(arguments, &program, &source)
         }
         Inputs::One(program) => one::run(arguments, &program, &arguments.source),
-        // The folder of a plan is named for its programs, which are judged together.
+        // A plan alone may be named by its folder. Its programs are judged together.
         Inputs::Many(programs) if is_only_a_plan(&programs) && !arguments.source.is_dir() => {
             one::run(arguments, &programs[0].path, &arguments.source)
         }

@@ -1,4 +1,4 @@
-//! The arguments of `cutc watch`.
+//! Arguments of `cutc watch`.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What a file system tells of a folder. Where it tells nothing, as of disks in the network, looking will do.
+//! File system events of a folder. Where there are none, as on network disks, polling takes their place.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
@@ -7,24 +7,24 @@ use std::time::Duration;
 use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
 use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 
-/// A folder that is listened to.
+/// A watched folder.
 pub(super) struct Events {
-    /// Listens for as long as it is there; `None` where the system does not tell.
+    /// Watches as long as it lives; `None` if the system has no events.
     _watcher: Option<RecommendedWatcher>,
     told: Receiver<notify::Result<Event>>,
 }
 
-/// What was told of a file.
+/// An event on a file.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Told {
-    /// It was closed by who wrote it, or renamed: it is whole.
+    /// The writer closed the file, or it was renamed: it is complete.
     Closed(PathBuf),
-    /// Something else.
+    /// Any other event.
     Changed(PathBuf),
 }
 
 impl Events {
-    /// Begins to listen to a folder and those below it.
+    /// Watches a folder and its subfolders.
     pub(super) fn of(folder: &Path) -> Self {
         let (sender, told) = mpsc::channel();
         let watcher = notify::recommended_watcher(sender).and_then(|mut watcher| {
@@ -34,13 +34,13 @@ impl Events {
         Self { _watcher: watcher.ok(), told }
     }
 
-    /// What was told up to now; waits so long at most for the first.
+    /// Events since the last call. Waits for the first one for at most `at_most`.
     pub(super) fn wait(&self, at_most: Duration) -> Vec<Told> {
         let first = self.told.recv_timeout(at_most);
         if matches!(first, Err(mpsc::RecvTimeoutError::Disconnected)) {
             std::thread::sleep(at_most);
         }
-        // What it failed to tell is found by looking.
+        // Errors of the watcher are dropped: polling finds the files.
         first.into_iter().chain(self.told.try_iter()).flatten().flat_map(files).collect()
     }
 }

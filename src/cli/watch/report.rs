@@ -1,4 +1,4 @@
-//! What stands beside the programs of a hot folder for each file of which there is none: `NAME.report.txt`.
+//! Report on a file of a hot folder that has no program: `NAME.report.txt`.
 
 use std::fs;
 use std::io::Write as _;
@@ -7,16 +7,16 @@ use std::path::{Path, PathBuf};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::cannot_write;
 
-/// The report on an input, by the input's name below its folder.
+/// Path of the report on an input, from the name of the input below its folder.
 pub(super) fn path(out: &Path, name: &Path) -> PathBuf {
     let mut path = out.join(name).into_os_string();
     path.push(".report.txt");
     path.into()
 }
 
-/// Writes a report, whole.
+/// Writes a whole report.
 pub(super) fn write(path: &Path, said: &str) -> anyhow::Result<()> {
-    // What is tried again and again writes it once.
+    // Repeated attempts with the same report write it once.
     if fs::read(path).is_ok_and(|there| there == said.as_bytes()) {
         return Ok(());
     }
@@ -25,7 +25,7 @@ pub(super) fn write(path: &Path, said: &str) -> anyhow::Result<()> {
     draft::publish(vec![draft], || Ok(()))
 }
 
-/// Takes a report away, if there is one.
+/// Removes a report, if there is one.
 pub(super) fn remove(path: &Path) {
     let _ = fs::remove_file(path); // there rarely is one
 }

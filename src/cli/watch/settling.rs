@@ -1,27 +1,27 @@
-//! Which files are finished: renamed in, closed by who wrote them, or of the same size and time for a while.
+//! Detection of finished files: renamed into the folder, closed by their writer, or unchanged in size and time for a while.
 
 use std::collections::BTreeMap;
 use std::fs::Metadata;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// How long a file that nobody was seen to close must stay as it is.
+/// Time for which a file must stay unchanged if no event reports that it was closed.
 pub(super) const STEADY: Duration = Duration::from_secs(1);
-/// How long a file waits that could not be read or whose program could not be written: a disk may have room again.
+/// Delay before another attempt at a file that could not be read or whose program could not be written, such as on a full disk.
 const AGAIN: Duration = Duration::from_secs(5);
 
-/// What tells that a file was changed.
+/// State of a file by which changes are detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Stamp {
     bytes: u64,
     changed: Option<SystemTime>,
-    /// Which file it is, and when its bytes or name were changed, whatever time it was given: seconds, nanoseconds.
+    /// Inode and time of the last status change (seconds, nanoseconds), which no program can set.
     #[cfg(unix)]
     file: (u64, i64, i64),
 }
 
 impl Stamp {
-    /// That of a file as its file system knows it.
+    /// The stamp of a file from its metadata.
     pub(super) fn of(known: &Metadata) -> Self {
         #[cfg(unix)]
         use std::os::unix::fs::MetadataExt as _;
@@ -33,13 +33,13 @@ impl Stamp {
         }
     }
 
-    /// That of the file at a path; `None` when there is none.
+    /// The stamp of the file at a path; `None` if there is no file.
     pub(super) fn at(path: &Path) -> Option<Self> {
         path.metadata().ok().map(|known| Self::of(&known))
     }
 }
 
-/// The files of a folder, as they were last seen.
+/// The files of a folder as last seen.
 #[derive(Debug, Default)]
 pub(super) struct Settling {
     files: BTreeMap<PathBuf, Seen>,
@@ -53,14 +53,14 @@ struct Seen {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum State {
-    /// It may be finished from then on.
+    /// Waiting; the file may be finished from this time on.
     From(Instant),
-    /// It is dealt with.
+    /// Processed.
     Done,
 }
 
 impl Settling {
-    /// A file was seen. One that was not changed since stays what it is.
+    /// Records a file that was seen. An unchanged file keeps its state.
     pub(super) fn see(&mut self, path: &Path, stamp: Stamp, now: Instant) {
         match self.files.get_mut(path) {
             Some(seen) if seen.stamp == stamp => {}
@@ -70,7 +70,7 @@ impl Settling {
         }
     }
 
-    /// A file was closed by who wrote it, or renamed: it is finished as it is now.
+    /// Records a file that was closed by its writer or renamed. It is finished in its current state.
     pub(super) fn close(&mut self, path: &Path, stamp: Stamp, now: Instant) {
         let is_done = self.files.get(path).is_some_and(|seen| seen.stamp == stamp && seen.state == State::Done);
         if !is_done {
@@ -78,38 +78,38 @@ impl Settling {
         }
     }
 
-    /// The files that are finished, in order, with what they looked like then.
+    /// The finished files, in order, with their stamps.
     pub(super) fn ready(&self, now: Instant) -> Vec<(PathBuf, Stamp)> {
         let is_ready = |seen: &Seen| matches!(seen.state, State::From(then) if then <= now);
         let ready = self.files.iter().filter(|(_, seen)| is_ready(seen));
         ready.map(|(path, seen)| (path.clone(), seen.stamp)).collect()
     }
 
-    /// A file was dealt with as it looked then.
+    /// Marks a file as processed if it still has the given stamp.
     pub(super) fn done(&mut self, path: &Path, stamp: Stamp) {
         self.set(path, stamp, State::Done);
     }
 
-    /// A file is looked at again later, even if nobody changes it.
+    /// Schedules another attempt at a file, even if it does not change.
     pub(super) fn again(&mut self, path: &Path, stamp: Stamp, now: Instant) {
         self.set(path, stamp, State::From(now + AGAIN));
     }
 
     fn set(&mut self, path: &Path, stamp: Stamp, state: State) {
-        // Changed since, it is another file.
+        // A file that changed since counts as another one.
         if let Some(seen) = self.files.get_mut(path).filter(|seen| seen.stamp == stamp) {
             seen.state = state;
         }
     }
 
-    /// All files are to be dealt with anew.
+    /// Marks all files for processing.
     pub(super) fn renew(&mut self, now: Instant) {
         for seen in self.files.values_mut().filter(|seen| seen.state == State::Done) {
             seen.state = State::From(now);
         }
     }
 
-    /// Forgets the files that are not there any more, and gives them.
+    /// Drops the files that no longer exist, and returns their paths.
     pub(super) fn keep(&mut self, is_there: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
         let gone: Vec<_> = self.files.keys().filter(|path| !is_there(path)).cloned().collect();
         for path in &gone {
@@ -144,11 +144,11 @@ mod tests {
         files.close(closed, stamp(9), start);
         assert_eq!(names(&files, Duration::ZERO), [closed]);
         files.done(closed, stamp(9));
-        // It grows: the time begins anew.
+        // The file grows, so its time begins anew.
         files.see(slow, stamp(2), start + STEADY / 2);
         assert!(names(&files, STEADY).is_empty());
         assert_eq!(names(&files, STEADY * 3 / 2), [slow]);
-        // What was dealt with is not again, unless it is changed.
+        // A processed file is not processed again unless it changes.
         files.done(slow, stamp(2));
         files.see(slow, stamp(2), start + STEADY * 2);
         files.close(slow, stamp(2), start + STEADY * 2);
