@@ -1,9 +1,9 @@
 //! Division of cuts into chains. A chain is a stretch of a cut that one head makes, with x falling overall because the cloth
 //! moves towards +X.
 //!
-//! A cut is parted at the local extrema of x. An edge across the feed at the start of a chain belongs to the chain before it,
-//! an edge at the end to the chain behind it, so that each of the two chains of a rectangle has one. A turn back up to the
-//! permitted length does not part the cut: a head with some travel along the feed makes it by itself.
+//! A cut is parted at the local extrema of x. An edge across the feed at such an extremum belongs to the chain that goes on
+//! behind it along the line, so that each of the two chains of a rectangle has one. A turn back up to the permitted length does
+//! not part the cut: a head with some travel along the feed makes it by itself.
 
 use super::bound;
 use super::join::Join;
