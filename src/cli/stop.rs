@@ -6,7 +6,7 @@ use super::draft;
 
 /// True if the first signal waits for the current file.
 static FINISHES: AtomicBool = AtomicBool::new(false);
-/// The first signal received; 0 if there was none.
+/// The latest signal received; 0 if there was none.
 static ASKED: AtomicI32 = AtomicI32::new(0);
 /// Offset that shells add to a signal number to form an exit code.
 const BY_SIGNAL: i32 = 128;

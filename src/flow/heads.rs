@@ -51,7 +51,7 @@ pub(super) struct Schedule<'a, L> {
 struct Slot {
     row: usize,
     done: Vec<Start>,
-    /// Side of each earlier slot on which this one has been, as in [`Links::side`]; 0 if they have not met yet.
+    /// Side of this slot on which each earlier one has been, as in [`Links::side`]; 0 if they have not met yet.
     sides: Vec<f64>,
 }
 
@@ -142,8 +142,8 @@ impl<L: Links> Schedule<'_, L> {
         None
     }
 
-    /// For each head of the row that a head meets during a task, the side of it on which the head is. `None` if it comes too
-    /// near to one or would pass it.
+    /// The heads of the row that a head meets during a task, each with its side of that head. `None` if one comes too near or
+    /// would be passed.
     fn sides(&self, slots: &[Slot], head: usize, start: Start) -> Option<Vec<(usize, f64)>> {
         let mut met = Vec::new();
         let row = slots[head].row;

@@ -22,7 +22,7 @@ pub enum Wait {
     /// At the start of the next chain.
     #[default]
     There,
-    /// At the end of the last chain.
+    /// At the end of the previous chain.
     Here,
     /// At another place, out of the way of other heads, mm.
     At(f64),
