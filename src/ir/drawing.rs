@@ -17,6 +17,8 @@ pub struct Drawing {
     pub texts: Vec<Label>,
     /// What else is drawn, and is of kinds that are not read: no stroke stands for it.
     pub unread: Vec<Unread>,
+    /// Encoded polylines in the order of the file.
+    pub encoded: Vec<Encoded>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
     pub unit: f64,
     /// How the file ends.
@@ -54,6 +56,17 @@ pub struct Unread {
     pub pen: u16,
     /// Where it begins.
     pub span: Span,
+}
+
+/// An encoded polyline: each place hangs on the one before, and each number on all of its bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encoded {
+    /// Where it stands.
+    pub span: Span,
+    /// Bits of a number that one byte holds.
+    pub digit_bits: u32,
+    /// What one step of a number stands for, mm.
+    pub step: f64,
 }
 
 /// A pen of a plotter, or a layer.

@@ -15,6 +15,7 @@ pub const CLOSE_MOST_MM: f64 = 10.0;
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "drawing.close_mm", takes: Takes::Number(from(0.0, CLOSE_MOST_MM)), about: "Outlines of a plot whose ends are this far apart at the most are closed, and so are those\nwhose ends lie this near to the edge of the frame. 0 = only rounding is closed." },
+    Key { name: "drawing.beside", takes: Takes::Word(words::<Beside>), about: "What open lines stand for that run beside some of a closed line from outside: \"outline\" = what is\nleft of its outline, so that it may be a seam line and is refused; \"guide\" = lines for a worker." },
     Key { name: "drawing.layers.<layer>", takes: Takes::Word(words::<PenUse>), about: "What a layer of a drawing (DXF, SVG) stands for, by its name or a pattern: its lines are cut\n(\"knife\"), drawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Where\none is a knife, layers without a key are pens; words of their names may say otherwise." },
 ];
 
@@ -24,12 +25,24 @@ pub(super) const KEYS: &[Key] = &[
 pub struct Drawings {
     /// Widest gap of an outline that is closed, mm.
     pub close_mm: f64,
+    /// Open lines beside closed ones.
+    pub beside: Beside,
     /// Layers by their names, or by patterns of them.
     pub layers: BTreeMap<String, PenUse>,
 }
 
 impl Default for Drawings {
     fn default() -> Self {
-        Self { close_mm: 1.5, layers: BTreeMap::new() }
+        Self { close_mm: 1.5, beside: Beside::Outline, layers: BTreeMap::new() }
     }
+}
+
+/// Meaning of open lines that run beside some of a closed line from outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Beside {
+    /// They are left of an outline, and the closed line may be its seam line.
+    Outline,
+    /// They guide a worker, and the closed line is a part.
+    Guide,
 }

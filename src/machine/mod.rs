@@ -57,7 +57,7 @@ use std::sync::Arc;
 pub use centre::{Centre, CentreLine};
 pub use common::{Common, CommonLines, Lines};
 pub use digest::{blake3_of, sha256_hex, sha256_of};
-pub use drawings::{CLOSE_MOST_MM, Drawings};
+pub use drawings::{Beside, CLOSE_MOST_MM, Drawings};
 pub use flow::Flow;
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, Spare, TightCurves};

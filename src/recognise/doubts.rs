@@ -8,14 +8,12 @@ use super::marks::{EdgeLine, Lie};
 use super::pens::Use;
 use super::piece::owners;
 use super::remains::Remains;
-use super::sheet::Sheet;
+use super::sheet::{Sheet, are_many};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
 use crate::geom::Point;
-use crate::machine::{CLOSE_MOST_MM, Job};
+use crate::machine::{Beside, CLOSE_MOST_MM, Job};
 use crate::units::number::fixed;
 
-/// Parts with a seam line for each part without one, at least, and in all: fewer say nothing about the others.
-const MANY: usize = 3;
 /// Shortest open line outside of parts that is named, mm: marks and letters are shorter.
 pub(super) const SHORTEST_NAMED: f64 = 100.0;
 /// Decimals of lengths, mm.
@@ -28,7 +26,7 @@ const CLOSE_EPSILON: f64 = 1e-6;
 pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let owners = owners(sheet);
     open_parts(sheet, out);
-    maybe_seams(sheet, &owners, out);
+    maybe_seams(sheet, &owners, job, out);
     without_seam(sheet, &owners, out);
     closed(sheet, &owners, out);
     from_edges(sheet, &owners, job, out);
@@ -100,12 +98,8 @@ fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
     }
     let open = open_outlines(sheet);
     let Some((&first, _)) = open.first_key_value() else { return };
-    let gap = |&i: &usize| {
-        let drawn = sheet.lines[i].as_drawn(&sheet.vertices);
-        (drawn[drawn.len() - 1].at - drawn[0].at).norm()
-    };
     let lines: usize = open.values().sum();
-    let widest = open.keys().map(gap).fold(0.0, f64::max);
+    let widest = open.keys().map(|&i| gap(i, sheet)).fold(0.0, f64::max);
     let shown = fixed(widest, DECIMALS);
     let (outlines, around) = match open.len() {
         1 => (format!("an outline has a gap of {shown} mm"), "in it"),
@@ -127,37 +121,44 @@ pub(super) fn how_to_close(gap: f64) -> Option<String> {
     Some(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={close}`"))
 }
 
-/// Parts that open lines run beside from outside: each may be the seam line of an outline that is not whole.
-fn maybe_seams(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
+/// Parts that open lines run beside from outside: each may be the seam line of an outline that is not whole, and too small.
+/// Nothing is cut until somebody says what those lines are, or leaves the parts out.
+fn maybe_seams(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
     let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
     let doubtful = sheet.remains.iter().filter(|remains| !remains.is_sure && sheet.lines[remains.inner].is_cut);
-    let doubtful = doubtful.filter_map(|remains| Some((remains.inner, remains.lines.iter().copied().find(is_left)?)));
-    let doubtful: Vec<(usize, usize)> = doubtful.collect();
-    let Some(&(_, first)) = doubtful.first() else { return };
-    let parts: Vec<usize> = doubtful.iter().map(|(inner, _)| *inner).collect();
-    let numbers = numbers(owners, &parts);
-    let (may_be, it) = match doubtful.len() {
-        1 => ("may be a seam line".to_owned(), "it"),
-        _ => ("may be seam lines".to_owned(), "them"),
-    };
-    let message = format!("{} {may_be}: open lines run beside {it} from outside", pieces::listed(&numbers));
-    let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first], sheet);
-    let found =
-        found.about(numbers).hint("if those lines are the outline, let the CAD close it: the part is cut too small");
-    out.push(found.hint("if those lines are guides, leave their pen out: `--cut-pens`"));
+    for remains in doubtful.filter(|_| job.profile.drawing.beside == Beside::Outline) {
+        let lines: Vec<usize> = remains.lines.iter().copied().filter(is_left).collect();
+        let numbers = numbers(owners, &[remains.inner]);
+        let is_chosen = numbers.iter().any(|&number| job.selection.has(number));
+        let Some(&first) = lines.first().filter(|_| is_chosen) else { continue };
+        let beside = match lines.len() {
+            1 => format!("an open outline, gap {} mm", fixed(gap(first, sheet), DECIMALS)),
+            n => format!("{n} open lines of an outline"),
+        };
+        let message = format!("{} may be a seam line beside {beside}", pieces::listed(&numbers));
+        let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first], sheet);
+        let found = found.on_cloth(sheet.lines[first].vertices(&sheet.vertices)[0].at);
+        let skip = numbers.first().map_or(0, |number| *number);
+        out.push(
+            found
+                .about(numbers)
+                .hint(format!("if those lines are its outline, let the CAD close it; `--skip {skip}` leaves it out"))
+                .hint("if those lines are guides, say so: `--set drawing.beside=guide`"),
+        );
+    }
+}
+
+/// Distance between the ends of a line as it is drawn, mm.
+fn gap(line: usize, sheet: &Sheet) -> f64 {
+    let drawn = sheet.lines[line].as_drawn(&sheet.vertices);
+    (drawn[drawn.len() - 1].at - drawn[0].at).norm()
 }
 
 /// Parts without a seam line where many have one.
 fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
-    let mut has_seam = vec![false; sheet.lines.len()];
-    for i in sheet.indices(|line| line.class == Class::Seam) {
-        if let Some(part) = sheet.nest.outermost(i) {
-            has_seam[part] = true;
-        }
-    }
-    let parts = sheet.indices(|line| line.class == Class::Part && line.is_cut);
-    let (with, without): (Vec<usize>, Vec<usize>) = parts.into_iter().partition(|&part| has_seam[part]);
-    if let Some(&first) = without.first().filter(|_| with.len() >= MANY * without.len().max(1)) {
+    let cut = |parts: Vec<usize>| parts.into_iter().filter(|&part| sheet.lines[part].is_cut).collect::<Vec<_>>();
+    let [with, without] = sheet.parts_by_seam().map(cut);
+    if let Some(&first) = without.first().filter(|_| are_many(&with, &without)) {
         let (parts, verb) = match without.len() {
             1 => ("a part".to_owned(), "has"),
             n => (format!("{n} parts"), "have"),
@@ -167,9 +168,9 @@ fn without_seam(sheet: &Sheet, owners: &[usize], out: &mut Diagnostics) {
             format!("{parts} {verb} no seam line, {}, while {} parts have one", pieces::listed(&numbers), with.len());
         let found = finding(&code::DRAWING_NO_SEAM, message, &sheet.lines[first], sheet);
         out.push(
-            found.about(numbers).hint(
-                "if the outline is missing in the file, this is the seam line: leave the piece out with `--skip`",
-            ),
+            found
+                .about(numbers)
+                .hint("if its outline is missing, this is the seam line: leave the piece out with `--skip`"),
         );
     }
 }

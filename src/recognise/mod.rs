@@ -13,7 +13,8 @@
 //! lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `remains`
 //! the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them, `letters` and
 //! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for, `layers`
-//! says it of layers, `shared` refuses parts that are lost. `piece` makes the marker, `say` names what is doubtful, `doubts` that
+//! says it of layers, `shared` refuses parts that are lost. `torn` finds outlines whose numbers have
+//! lost a byte, `parts` says what lies in parts; `piece` makes the marker, `say` names what is doubtful, `doubts` that
 //! about pieces.
 
 mod again;
@@ -31,6 +32,7 @@ mod marks;
 mod meeting;
 mod nest;
 mod nodes;
+mod parts;
 mod pens;
 mod piece;
 mod remains;
@@ -43,6 +45,7 @@ mod slits;
 mod strokes;
 mod succession;
 mod tails;
+mod torn;
 mod twins;
 
 use self::line::Class;
@@ -76,7 +79,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     (moved.doubled, moved.repeated) = (in_order.doubled, in_order.repeated);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     twins::mark(&mut lines, &drawing.vertices, sheet::band(drawing.unit), &mut work);
-    let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
+    let Drawing { vertices, pens, texts, encoded, unit, ending, .. } = drawing;
     let mut sheet = Sheet {
         vertices,
         lines,
@@ -88,6 +91,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
         frame_doubt: None,
         pens,
         texts,
+        encoded,
         unit,
         ending,
         moved,

@@ -14,6 +14,8 @@ use crate::ir::drawing::Vertex;
 const BESIDE: f64 = 0.45;
 /// Share of a closed line that open ones run beside where one doubts whether it is a part.
 const DOUBTFUL: f64 = 0.15;
+/// The same of one that lacks a seam line where most parts have one.
+const DOUBTFUL_BARE: f64 = 0.08;
 /// Share of a closed line that open lines must run beside where some of them go far beyond it, as two outlines drawn
 /// without a lift do.
 const SURELY: f64 = 0.75;
@@ -33,8 +35,8 @@ const EVEN: f64 = 0.75;
 const SAME_OFF: f64 = 0.3;
 /// Seam lines of other parts that are measured to know the usual distance.
 const MEASURED: usize = 32;
-/// Share of its length that lines must have around a closed one to be looked at.
-const LEAST_DRAWN: f64 = 0.1;
+/// Length that lines must have around a closed one to be looked at, as a multiple of what they must run beside.
+const LEAST_DRAWN: f64 = 2.0 / 3.0;
 
 /// Open lines, and the closed line that they go around.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,9 +83,7 @@ struct Beside {
 /// Finds the parts that open lines go around. A part that the budget leaves unsearched counts as a seam line: a part
 /// that is too small cannot be mended.
 pub(super) fn find(all: Drawn, work: &mut Budget) -> Vec<Remains> {
-    let of = |is: &dyn Fn(&Line) -> bool| (0..all.lines.len()).filter(|&i| is(&all.lines[i])).collect::<Vec<_>>();
-    let open = of(&|line| !line.is_closed && line.is_open_question());
-    let parts = of(&|line| line.class == Class::Part);
+    let (open, parts) = (all.of(|line| !line.is_closed && line.is_open_question()), all.parts());
     if open.is_empty() || parts.is_empty() {
         return Vec::new();
     }
@@ -92,29 +92,62 @@ pub(super) fn find(all: Drawn, work: &mut Budget) -> Vec<Remains> {
     for remains in &found {
         is_found[remains.inner] = true;
     }
-    let extents = |lines: &[usize]| Boxes::new(lines.iter().map(|&i| all.lines[i].extent).collect());
-    let mut cloth = Extent::EMPTY;
-    for &i in &open {
-        cloth.join(&all.lines[i].extent);
-    }
-    let near = Near { cloth, open: &open, open_boxes: extents(&open), parts: &parts, part_boxes: extents(&parts) };
-    for &part in parts.iter().filter(|&&part| !is_found[part]) {
+    let near = all.near(open, parts, false);
+    for &part in near.parts.iter().filter(|&&part| !is_found[part]) {
         found.extend(all.several(part, &near, work));
     }
     found
 }
 
+/// Finds stretches of outlines beside parts that lack a seam line where most have one, but for lines that are `known` to be
+/// what is left of other outlines.
+pub(super) fn beside_bare(all: Drawn, bare: &[usize], known: &[Remains], work: &mut Budget) -> Vec<Remains> {
+    let mut is_known = vec![false; all.lines.len()];
+    for remains in known {
+        is_known[remains.inner] = true;
+        remains.lines.iter().filter(|_| remains.is_sure).for_each(|&i| is_known[i] = true);
+    }
+    let mut open = all.of(|line| !line.is_closed && line.is_open_question());
+    open.retain(|&i| !is_known[i]);
+    let near = all.near(open, all.parts(), true);
+    bare.iter().filter(|&&part| !is_known[part]).filter_map(|&part| all.several(part, &near, work)).collect()
+}
+
 /// Open and closed lines by their boxes.
-struct Near<'a> {
+struct Near {
     /// The box around all open lines: beyond it nothing is searched.
     cloth: Extent,
-    open: &'a [usize],
+    open: Vec<usize>,
     open_boxes: Boxes,
-    parts: &'a [usize],
+    parts: Vec<usize>,
     part_boxes: Boxes,
+    /// Whether the parts that are looked at lack a seam line where most have one.
+    are_bare: bool,
+}
+
+/// Share of a closed line that lines must run beside to be told.
+fn least(is_bare: bool) -> f64 {
+    if is_bare { DOUBTFUL_BARE } else { DOUBTFUL }
 }
 
 impl Drawn<'_> {
+    fn of(&self, is: impl Fn(&Line) -> bool) -> Vec<usize> {
+        (0..self.lines.len()).filter(|&i| is(&self.lines[i])).collect()
+    }
+
+    fn parts(&self) -> Vec<usize> {
+        self.of(|line| line.class == Class::Part)
+    }
+
+    fn near(&self, open: Vec<usize>, parts: Vec<usize>, are_bare: bool) -> Near {
+        let extents = |lines: &[usize]| Boxes::new(lines.iter().map(|&i| self.lines[i].extent).collect());
+        let mut cloth = Extent::EMPTY;
+        for &i in &open {
+            cloth.join(&self.lines[i].extent);
+        }
+        Near { cloth, open_boxes: extents(&open), part_boxes: extents(&parts), open, parts, are_bare }
+    }
+
     fn points(&self, line: usize) -> Vec<Point> {
         self.lines[line].points(self.vertices)
     }
@@ -155,7 +188,9 @@ impl Drawn<'_> {
         let is_beside = |&open: &usize| {
             let line = &self.lines[open];
             let may_be = line.size() > LETTER || is_straight(line.vertices(self.vertices));
-            may_be && !extent.covers(&line.extent) && !self.is_named_knife(part, open)
+            // What lies in the box of a part mostly lies in the part; a slanted side may not.
+            let may_lie_beside = near.are_bare || !extent.covers(&line.extent);
+            may_be && may_lie_beside && !self.is_named_knife(part, open)
         };
         if !near.cloth.meets(&reach) {
             return None;
@@ -164,12 +199,12 @@ impl Drawn<'_> {
         let open = near.open_boxes.near(reach).map(|k| near.open[k]);
         let mut open: Vec<usize> = open.filter(is_beside).collect();
         let drawn = open.iter().fold(0.0, |sum, &open| sum + self.lines[open].length);
-        if drawn < LEAST_DRAWN * self.lines[part].length {
+        if drawn < LEAST_DRAWN * least(near.are_bare) * self.lines[part].length {
             return None;
         }
         open.sort_unstable();
         let places = self.points(part);
-        let mut edges = Edges::new(self.edges(part, &places, &open, work));
+        let mut edges = Edges::new(self.edges(part, &places, &open, work), near.are_bare);
         let unsearched = |lines| Remains { lines, inner: part, is_sure: true };
         match edges.around(&places, work) {
             Cover::Unsearched => return Some(unsearched(open)),
@@ -313,25 +348,28 @@ struct Edges {
     list: Vec<Edge>,
     boxes: Boxes,
     walls: Walls,
+    /// Whether the closed line lacks a seam line where most parts have one.
+    is_bare: bool,
 }
 
 impl Edges {
-    fn new(list: Vec<Edge>) -> Self {
+    fn new(list: Vec<Edge>, is_bare: bool) -> Self {
         let boxes = Boxes::new(list.iter().map(Edge::extent).collect());
-        Self { list, boxes, walls: Walls::default() }
+        Self { list, boxes, walls: Walls::default(), is_bare }
     }
 
     /// The lines that go around a closed line.
     fn around(&self, places: &[Point], work: &mut Budget) -> Cover {
         let Some(any) = self.beside(places, false, work) else { return Cover::Unsearched };
-        if any.share < DOUBTFUL {
+        if any.share < least(self.is_bare) {
             return Cover::Little; // the usual case
         }
         let Some(own) = self.beside(places, true, work) else { return Cover::Unsearched };
         match (any, own) {
             (_, own) if own.share >= BESIDE => Cover::Most(own.lines),
             (any, _) if any.share >= SURELY && any.sides >= LEAST_SIDES => Cover::Most(any.lines),
-            (_, own) if own.share >= DOUBTFUL && own.met > 1 => Cover::Partial(own.lines),
+            // A line along one side of a part that lacks its seam line is no guide.
+            (_, own) if own.share >= least(self.is_bare) && (own.met > 1 || self.is_bare) => Cover::Partial(own.lines),
             // A line along one side is a fold, a grain line or the edge of the cloth, or runs as far off as outlines do.
             (_, own) if own.share >= DOUBTFUL && own.sides == 1 => match own.lines[..] {
                 [line] => Cover::Side(line),
@@ -351,7 +389,7 @@ impl Edges {
         let mut beside = 0_usize;
         for (k, (at, way)) in samples.iter().enumerate() {
             // The samples that are left are too few to reach the share.
-            if ((beside + samples.len() - k) as f64) < DOUBTFUL * samples.len() as f64 {
+            if ((beside + samples.len() - k) as f64) < least(self.is_bare) * samples.len() as f64 {
                 break;
             }
             let outward = -left(*way) * (turn / way.norm());
@@ -395,6 +433,7 @@ impl Edges {
         // The edges come in no order.
         let (distance, line) = off.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
         let mut walls = self.walls.boxes.near(around).filter_map(|k| ahead(self.walls.ends[k]));
-        (!walls.any(|wall| wall <= distance)).then_some(line)
+        // The outline of a neighbour may lie in this one.
+        (!walls.any(|wall| wall < distance - SAME_OFF)).then_some(line)
     }
 }

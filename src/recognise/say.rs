@@ -1,6 +1,6 @@
 //! Doubts about a drawing, in words: each once, with how many lines it concerns and what to type.
 
-use std::cell::{LazyCell, RefCell};
+use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::doubts::{self, SHORTEST_NAMED, finding};
@@ -8,12 +8,14 @@ use super::frame;
 use super::line::{Class, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
 use super::marks::{EdgeLine, Lie};
 use super::nest::middle;
+use super::parts::Parts;
 use super::pens::Use;
 use super::sheet::{self, Sheet};
+use super::torn;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, polyline, ring};
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Ending;
 use crate::ir::marker::Notch;
 use crate::machine::Job;
@@ -54,6 +56,13 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding.hint("split the plot, or leave texts out"));
     }
     if let Some(finding) = cut_short(sheet) {
+        out.push(finding);
+        return;
+    }
+    if !job.lines.all
+        && !sheet.encoded.is_empty()
+        && let Some(finding) = torn::first(sheet)
+    {
         out.push(finding);
         return;
     }
@@ -383,47 +392,6 @@ fn frames(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         let found = finding(&code::DRAWING_FRAME, message, frame, sheet);
         let hint = if job.lines.all { "to cut it too" } else { "if it is a part" };
         out.push(found.hint(format!("{hint}, `--set hpgl.frame=none`")));
-    }
-}
-
-/// Parts by their place.
-struct Parts<'a> {
-    sheet: &'a Sheet,
-    lines: Vec<usize>,
-    boxes: Boxes,
-    /// What may still be looked at: then lines count as lying in parts, and nothing is said of them.
-    work: RefCell<Budget>,
-}
-
-/// Places of a line that are looked at, and parts that are looked at for each.
-const PROBES: usize = 5;
-const MOST_PARTS: usize = 16;
-
-impl<'a> Parts<'a> {
-    fn of(sheet: &'a Sheet) -> Self {
-        let lines = sheet.indices(|line| line.class == Class::Part);
-        let boxes = Boxes::new(lines.iter().map(|&i| sheet.lines[i].extent).collect());
-        Self { sheet, lines, boxes, work: RefCell::new(Budget::of_a_marker()) }
-    }
-
-    /// Whether most of a line lies in parts.
-    fn hold(&self, line: &Line) -> bool {
-        let vertices = line.vertices(&self.sheet.vertices);
-        let probe = |k: usize| {
-            let place = k * (vertices.len() - 1) / PROBES;
-            let share = (k as f64 + 0.5) / PROBES as f64 * (vertices.len() - 1) as f64 - place as f64;
-            vertices[place].at + (vertices[place + 1].at - vertices[place].at) * share.clamp(0.0, 1.0)
-        };
-        let is_in = |k: &usize| {
-            let at = probe(*k);
-            let mut around = self.boxes.at(at).take(MOST_PARTS);
-            around.any(|part| {
-                let part = &self.sheet.lines[self.lines[part]];
-                let cost = (part.end - part.first) as usize;
-                !self.work.borrow_mut().spend(cost) || ring::contains(&part.points(&self.sheet.vertices), at)
-            })
-        };
-        2 * (0..PROBES).filter(is_in).count() > PROBES
     }
 }
 

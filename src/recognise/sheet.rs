@@ -10,7 +10,7 @@ use super::strokes::{self, Stroke};
 use super::{close, frame, letters, marks, nest, remains, seam, signs};
 use crate::analysis::nesting::Nesting;
 use crate::geom::budget::Budget;
-use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
+use crate::ir::drawing::{Encoded, Ending, Moved, Pen, Vertex};
 use crate::ir::marker::Label;
 use crate::machine::Job;
 use crate::machine::plot::Inner;
@@ -23,6 +23,9 @@ const HOLE_RATIO: f64 = 1.1;
 const HOLE_FILL: f64 = 0.7;
 /// Share of its part that an inner line takes at most to be cut: more is the part itself, drawn once more.
 const LARGEST_INNER: f64 = 0.5;
+
+/// Parts with a seam line for each part without one, at least, and in all: fewer say nothing about the others.
+const MANY: usize = 3;
 
 /// Distance within which lines are at one place in a file with that unit, mm.
 pub(super) fn band(unit: f64) -> f64 {
@@ -47,11 +50,18 @@ pub(super) struct Sheet {
     /// The pens that draw them.
     pub(super) pens: Vec<Pen>,
     pub(super) texts: Vec<Label>,
+    /// What was drawn by encoded polylines.
+    pub(super) encoded: Vec<Encoded>,
     pub(super) unit: f64,
     pub(super) ending: Ending,
     pub(super) moved: Moved,
     /// Whether a search ended before its time.
     pub(super) is_cut_short: bool,
+}
+
+/// Whether parts with a seam line are so many that one doubts those without.
+pub(super) fn are_many(with: &[usize], without: &[usize]) -> bool {
+    with.len() >= MANY * without.len().max(1)
 }
 
 /// Whether a closed line is a square or a circle.
@@ -83,6 +93,7 @@ impl Sheet {
         letters::mark(&mut self.lines, &self.vertices, &mut work);
         self.find_holes(job);
         self.find_seams(&mut work);
+        self.find_stretches(&mut remains);
         for i in 0..self.lines.len() {
             let line = &mut self.lines[i];
             if line.is_outline() && line.is_open_question() {
@@ -146,6 +157,29 @@ impl Sheet {
         for remains in self.remains.iter().filter(|remains| remains.is_sure) {
             self.lines[remains.inner].class = Class::Seam;
         }
+    }
+
+    /// Finds open lines beside those few parts that lack a seam line.
+    fn find_stretches(&mut self, work: &mut Budget) {
+        let [with, without] = self.parts_by_seam();
+        if !without.is_empty() && are_many(&with, &without) {
+            let all = remains::Drawn { lines: &self.lines, vertices: &self.vertices, nest: &self.nest };
+            let found = remains::beside_bare(all, &without, &self.remains, work);
+            self.remains.extend(found);
+        }
+    }
+
+    /// The parts with a seam line, and those without.
+    pub(super) fn parts_by_seam(&self) -> [Vec<usize>; 2] {
+        let mut has_seam = vec![false; self.lines.len()];
+        for i in self.indices(|line| line.class == Class::Seam) {
+            if let Some(part) = self.nest.outermost(i) {
+                has_seam[part] = true;
+            }
+        }
+        let (with, without) =
+            self.indices(|line| line.class == Class::Part).into_iter().partition(|&part| has_seam[part]);
+        [with, without]
     }
 
     /// Finds the notches that are strokes, on the edges of parts.

@@ -46,7 +46,9 @@ struct Mode {
     last: u8,
 }
 
-const EIGHT_BIT: Mode = Mode { bits: 6, digit: 63, last: 191 };
+/// Least byte of a last digit of eight bits.
+pub(super) const LAST_DIGIT: u8 = 191;
+const EIGHT_BIT: Mode = Mode { bits: 6, digit: 63, last: LAST_DIGIT };
 const SEVEN_BIT: Mode = Mode { bits: 5, digit: 63, last: 95 };
 /// A byte that is no digit of either mode, and none that a body may hold.
 const NO_DIGIT: u8 = u8::MAX;
@@ -57,6 +59,10 @@ const MOST_BITS: u32 = 60;
 #[derive(Debug)]
 pub(super) struct Body<'a> {
     bytes: &'a [u8],
+    /// Its first byte.
+    pub(super) start: usize,
+    /// What one step of a number stands for, units.
+    pub(super) step: f64,
     /// The next byte.
     pub(super) at: usize,
     mode: Mode,
@@ -70,7 +76,13 @@ pub(super) struct Body<'a> {
 impl<'a> Body<'a> {
     /// The body that starts at `at`; `paired` when the whole file is text in UTF-8.
     pub(super) fn new(bytes: &'a [u8], at: usize, paired: bool) -> Self {
-        Self { bytes, at, mode: EIGHT_BIT, paired, repaired: false, ending: Ending::More }
+        let (start, mode, ending) = (at, EIGHT_BIT, Ending::More);
+        Self { bytes, start, step: 1.0, at, mode, paired, repaired: false, ending }
+    }
+
+    /// Bits of a number that one byte holds.
+    pub(super) fn digit_bits(&self) -> u32 {
+        self.mode.bits
     }
 
     /// The next item; `None` at the end, and then [`Body::ending`] says which.

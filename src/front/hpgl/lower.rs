@@ -391,7 +391,7 @@ impl Lowering<'_> {
     /// PE.
     fn encoded(&mut self) {
         let mut body = self.reader.body();
-        let (mut factor, mut is_absolute, mut is_up) = (1.0, false, false);
+        let (mut is_absolute, mut is_up) = (false, false);
         // What the next number is, and the first of two coordinates with its place.
         let mut flag = None;
         let mut first: Option<(f64, usize)> = None;
@@ -414,13 +414,13 @@ impl Lowering<'_> {
             };
             match flag.take() {
                 Some(Item::Pen) => self.take_pen(number as f64),
-                Some(_) if FRACTION_BITS.contains(&number) => factor = 2.0_f64.powi(-number as i32),
+                Some(_) if FRACTION_BITS.contains(&number) => body.step = 2.0_f64.powi(-number as i32),
                 Some(_) => {
                     body.ending = Ending::Damaged;
                     break;
                 }
                 None => {
-                    let value = number as f64 * factor;
+                    let value = number as f64 * body.step;
                     let Some((x, start)) = first.take() else {
                         first = Some((value, start));
                         continue;
@@ -449,6 +449,7 @@ impl Lowering<'_> {
             body.ending = Ending::Damaged;
         }
         self.end_encoded(&body, self.reader.within(start, body.at));
+        self.plotter.encoded(self.reader.within(body.start, body.at), body.digit_bits(), body.step);
     }
 
     /// Diagnostics about the end of an encoded polyline, or about a fault before it.

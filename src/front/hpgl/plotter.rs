@@ -5,6 +5,7 @@ use super::scale::{Frame, Pair};
 use super::syntax::VALUE_MAX;
 use crate::geom::Point;
 use crate::ir::Drawing;
+use crate::ir::drawing::Encoded;
 use crate::source::Span;
 
 /// The pen that draws when the file takes none: many files do.
@@ -163,6 +164,13 @@ impl Plotter {
     pub(super) fn trust_pen(&mut self) {
         if let Some(span) = self.torn.take() {
             self.lost.add(span);
+        }
+    }
+
+    /// What was drawn by the encoded polyline that stands there, its numbers in steps of so many units.
+    pub(super) fn encoded(&mut self, span: Span, digit_bits: u32, step: f64) {
+        if self.frame.is_plain() {
+            self.drawing.encoded.push(Encoded { span, digit_bits, step: step * self.unit });
         }
     }
 

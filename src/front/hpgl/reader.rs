@@ -63,6 +63,10 @@ const NUMBERS_OF_A_LINE: usize = 6;
 const ESCAPE: u8 = 0x1b;
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// Bytes behind a torn mnemonic that are looked at, and how many last digits of numbers are among them at the least.
+const LOOKED_AT: usize = 12;
+const LAST_DIGITS: usize = 3;
+
 impl<'a> Reader<'a> {
     /// At the first statement.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
@@ -297,11 +301,20 @@ impl<'a> Reader<'a> {
         matches!(self.bytes[span.start as usize].to_ascii_uppercase(), b'P' | b'U' | b'D')
     }
 
-    /// Whether some bytes are what is left of an encoded polyline whose mnemonic has lost a letter: flags stand behind it.
+    /// Whether some bytes are what is left of an encoded polyline whose mnemonic has lost a letter: flags stand behind it, or
+    /// numbers of eight bits.
     pub(super) fn is_torn_encoded(&self, span: Span) -> bool {
         let bytes = &self.bytes[span.start as usize..span.end as usize];
         matches!(bytes, [b'P' | b'p' | b'E' | b'e', b'<' | b'=' | b'>' | b':' | b'7', ..])
+            || matches!(bytes, [b'P' | b'p' | b'E' | b'e', ..]) && self.is_encoded_behind(span)
             || memchr::memmem::find(bytes, b"<=").is_some()
+    }
+
+    /// Whether numbers in the encoding of eight bits begin within some bytes: no text has so many bytes of theirs.
+    fn is_encoded_behind(&self, span: Span) -> bool {
+        let bytes = &self.bytes[span.start as usize + 1..];
+        let body = bytes.iter().take(LOOKED_AT).take_while(|byte| **byte != b';');
+        body.filter(|byte| **byte >= encoded::LAST_DIGIT).count() >= LAST_DIGITS
     }
 
     /// Passes over what stands behind a mnemonic; a fault in it.

@@ -5,6 +5,7 @@ use cutc::front::by_name;
 use cutc::machine::Job;
 use cutc::pipeline;
 
+use super::closing::areas;
 use super::{as_read, outlines, source};
 
 /// The same outlines in the spellings of several drivers.
@@ -102,4 +103,74 @@ fn what_drivers_write_between_outlines_is_no_error() {
         pipeline::read(&source(plot), by_name("hpgl"), &Job::default(), &mut found);
         assert!(!found.has_errors(), "{junk:?}");
     }
+}
+
+/// A number in the encoding of PE, so many bits a byte.
+fn encoded(number: i64, bits: u32) -> Vec<u8> {
+    let mut left = number.unsigned_abs() << 1 | u64::from(number < 0);
+    let mut bytes = Vec::new();
+    while left >> bits > 0 {
+        bytes.push(63 + (left & ((1 << bits) - 1)) as u8);
+        left >>= bits;
+    }
+    bytes.push(if bits == 5 { 95 } else { 191 } + left as u8);
+    bytes
+}
+
+/// A ring of some places about another one, units.
+fn ring(random: &mut fastrand::Rng, [x, y]: [i64; 2]) -> Vec<[i64; 2]> {
+    let count = random.usize(4..20);
+    let place = |k: usize| {
+        let (angle, radius) = (k as f64 / count as f64 * std::f64::consts::TAU, 3000.0 + 1000.0 * random.f64());
+        [x + (radius * angle.cos()) as i64, y + (radius * angle.sin()) as i64]
+    };
+    let mut ring: Vec<[i64; 2]> = (0..count).map(place).collect();
+    ring.push(ring[0]);
+    ring
+}
+
+/// Rings, each in an encoded polyline, and the bytes that may be lost: all but those of where a ring starts. A ring that starts
+/// elsewhere is the same ring.
+fn plot(rings: &[Vec<[i64; 2]>], bits: u32) -> (Vec<u8>, Vec<usize>) {
+    let (mut bytes, mut may_be_lost) = (b"IN;SP1;".to_vec(), Vec::new());
+    for ring in rings {
+        bytes.extend(if bits == 5 { &b"PE7<="[..] } else { b"PE<=" });
+        may_be_lost.extend(bytes.len() - 2..bytes.len() - 1);
+        bytes.extend(ring[0].iter().flat_map(|&value| encoded(value, bits)));
+        let first = bytes.len();
+        for ends in ring.windows(2) {
+            bytes.extend((0..2).flat_map(|axis| encoded(ends[1][axis] - ends[0][axis], bits)));
+        }
+        bytes.push(b';');
+        may_be_lost.extend(first..bytes.len());
+    }
+    bytes.extend(b"PU;SP0;");
+    (bytes, may_be_lost)
+}
+
+#[test]
+fn a_byte_that_an_encoded_outline_loses_is_an_error_or_changes_nothing() {
+    let job = Job::default();
+    let (mut refused, mut same) = (0, 0);
+    for seed in 0..24 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let rings = [[5000, 5000], [25_000, 5000]].map(|at| ring(&mut random, at));
+        let (bytes, may_be_lost) = plot(&rings, if seed % 2 == 0 { 5 } else { 6 });
+        let of = |bytes: Vec<u8>| cutc::source::Source::new("a.plt", bytes).expect("small");
+        let whole = areas(&as_read(&of(bytes.clone()), &job));
+        assert_eq!(whole.len(), 2, "seed {seed}");
+        for at in may_be_lost {
+            let damaged = [&bytes[..at], &bytes[at + 1..]].concat();
+            let mut found = Diagnostics::default();
+            let read = pipeline::read(&of(damaged.clone()), by_name("hpgl"), &job, &mut found);
+            if read.is_none() || found.has_errors() {
+                refused += 1;
+                continue;
+            }
+            same += 1;
+            let left = areas(&as_read(&of(damaged.clone()), &job));
+            assert_eq!(left, whole, "seed {seed}, byte {at} of {}", damaged.escape_ascii());
+        }
+    }
+    assert!(refused > 1000, "{refused} refused, {same} the same");
 }

@@ -8,8 +8,8 @@ use cutc::front::by_name;
 use cutc::geom::ring;
 use cutc::ir::Marker;
 use cutc::ir::marker::OutlineNotch;
-use cutc::machine::Job;
 use cutc::machine::plot::{Inner, Lines, PenUse};
+use cutc::machine::{Beside, Job, Numbers};
 use cutc::pipeline;
 
 use super::closing::{areas, found, missed};
@@ -309,14 +309,28 @@ fn a_line_that_begins_at_the_foot_of_a_notch_is_none_of_it() {
     }
 }
 
+/// A job in which lines beside parts guide a worker.
+fn guided() -> Job {
+    let mut job = Job::default();
+    job.profile.drawing.beside = Beside::Guide;
+    job
+}
+
 #[test]
-fn a_part_beside_less_than_half_an_outline_is_cut_and_doubted() {
+fn a_part_beside_less_than_half_an_outline_is_refused_unless_somebody_says_what_that_is() {
     let seam = rectangle(800, 800, 6800, 2800);
     let corners = "PU400,1200;PD400,400,1200,400;PU7200,400;PD8000,400,8000,1200;PU8000,3200;PD8000,4000,7200,4000;";
     let sides = "PU400,400;PD400,4000;PU8000,400;PD8000,4000;";
+    let mut left_out = Job::default();
+    left_out.selection.skip = Numbers::parse("1").ok();
+    let other = rectangle(20_400, 400, 8000, 8000);
     for lines in [corners, sides] {
-        let (marker, codes) = found(&format!("{seam}{lines}"), &Job::default());
-        assert_eq!((areas(&marker), codes), (vec![11_900.0], vec!["drawing/may-be-seam-line"]), "{lines}");
+        let text = format!("{seam}{lines}{other}");
+        assert_eq!(found(&text, &Job::default()).1, ["drawing/may-be-seam-line"], "{lines}");
+        for (job, cut) in [(guided(), &[11_900.0, 40_000.0][..]), (left_out.clone(), &[40_000.0])] {
+            let (marker, codes) = found(&text, &job);
+            assert_eq!((&areas(&marker)[..], codes), (cut, vec![]), "{lines}");
+        }
     }
     // A line along one side is a fold, a grain line or the edge of the cloth.
     for (line, codes) in
@@ -328,7 +342,7 @@ fn a_part_beside_less_than_half_an_outline_is_cut_and_doubted() {
 }
 
 #[test]
-fn a_line_along_one_side_is_doubted_where_it_runs_as_far_off_as_other_outlines_do() {
+fn a_line_along_one_side_is_refused_where_it_runs_as_far_off_as_other_outlines_do() {
     let other = rectangle(10_000, 400, 7600, 3600) + &rectangle(10_400, 800, 6800, 2800);
     let seam = rectangle(800, 800, 6800, 2800);
     let doubted = ["drawing/may-be-seam-line", "drawing/open-outlines"];
@@ -340,6 +354,65 @@ fn a_line_along_one_side_is_doubted_where_it_runs_as_far_off_as_other_outlines_d
         let (marker, mut found) = found(&format!("{other}{seam}{line}"), &Job::default());
         found.sort_unstable();
         assert_eq!((areas(&marker), &found[..]), (vec![17_100.0, 11_900.0], codes), "{line}");
+    }
+}
+
+/// What is left of a rectangle of 8400 by 6000 units when so many units of its edge are missing from a place on.
+fn remains(x: i64, from: i64, missing: i64) -> String {
+    let corners = [[x, 400], [x + 8400, 400], [x + 8400, 6400], [x, 6400]];
+    let lengths = [8400, 6000, 8400, 6000];
+    let round = 28_800;
+    let at = |mut station: i64| {
+        station %= round;
+        let mut side = 0;
+        while station > lengths[side] {
+            station -= lengths[side];
+            side += 1;
+        }
+        let ([ax, ay], [bx, by]) = (corners[side], corners[(side + 1) % 4]);
+        let way = [(bx - ax).signum(), (by - ay).signum()];
+        [ax + way[0] * station, ay + way[1] * station]
+    };
+    let [first, end] = [from + missing, from + round];
+    let stations =
+        [0, 8400, 14_400, 22_800].into_iter().flat_map(|corner| [corner, corner + round, corner + 2 * round]);
+    let mut inner: Vec<i64> = stations.filter(|station| (first + 1..end).contains(station)).collect();
+    inner.sort_unstable();
+    let [sx, sy] = at(first);
+    inner.iter().chain([&end]).fold(format!("PU{sx},{sy};"), |text, &station| {
+        let [x, y] = at(station);
+        text + &format!("PD{x},{y};")
+    })
+}
+
+#[test]
+fn no_seam_line_is_cut_for_an_outline_of_which_any_stretch_is_missing() {
+    for seed in 0..200 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        // Three whole parts beside each other, and one that touches them and lacks some of its outline.
+        let whole = (0..3).fold(String::new(), |text, i| {
+            text + &rectangle(400 + i * 8400, 400, 8400, 6000) + &rectangle(800 + i * 8400, 800, 7600, 5200)
+        });
+        let seam = rectangle(26_000, 800, 7600, 5200);
+        let open = remains(25_600, random.i64(0..28_800), random.i64(100..24_000));
+        let mut strokes = [whole, seam, open];
+        random.shuffle(&mut strokes);
+        let (marker, codes) = found(&strokes.concat(), &Job::default());
+        let is_refused = codes.contains(&"drawing/may-be-seam-line");
+        assert!(is_refused || areas(&marker) == [31_500.0; 3], "seed {seed}: {codes:?} {}", strokes.concat());
+        let is_named = codes.contains(&"drawing/open-part");
+        assert!(is_refused || is_named, "seed {seed}: {codes:?}");
+    }
+}
+
+#[test]
+fn a_reader_that_cuts_a_seam_line_in_what_is_left_of_an_outline_is_caught() {
+    for seed in 0..50 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let open = remains(25_600, random.i64(0..28_800), random.i64(100..4000));
+        let (seam, other) = (rectangle(26_000, 800, 7600, 5200), rectangle(400, 400, 8400, 6000));
+        let text = format!("{seam}{other}");
+        assert_eq!(missed(&text, &format!("{text}{open}")), ["source/outermost"], "seed {seed}");
     }
 }
 
