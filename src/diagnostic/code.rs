@@ -304,6 +304,8 @@ codes! {
     DXF_ARRAY = error(Shape, "dxf/array", "An INSERT of a DXF file puts copies in rows or columns (groups 70 and 71).", "Sets of patterns place each piece by an INSERT of its own. Read without its rows and columns the INSERT would stand for one piece where many are wanted: let the CAD system explode it.");
     /// A block in a block.
     DXF_NESTED = error(Shape, "dxf/nested-block", "A block of a DXF file inserts another block that holds something to cut.", "A piece is drawn in one block. What another block holds, perhaps a cut-out or a notch, would be missing in the cut part: let the CAD system explode the INSERTs that stand inside blocks.");
+    /// A piece far from the others.
+    DXF_FAR_PIECE = warning(Spares, Shape, "dxf/far-piece", "A piece of a DXF file lies more than 20 m from the others.", "No marker leaves so much cloth empty: a digit of the place of its INSERT is doubled or wrong, or it was drawn aside by mistake. Put it beside the others in the CAD system, or leave it out.\n  cutc compile patterns.dxf --skip 3");
     /// Two pieces at one place.
     DXF_ON_ANOTHER = error(Shape, "dxf/on-another", "INSERTs of a DXF file put a piece on another one.", "One cloth cannot be both: the second cut would go through the first part. A set of patterns, whose pieces are drawn over each other, has no INSERTs or has them all at the origin, and is laid in a row. A marker needs a place for each piece.");
     /// Another plane than the cloth.
@@ -353,7 +355,7 @@ codes! {
     /// An outline with an overcut of other software.
     MARKER_OVERRUN = warning(Spares, Shape, "marker/overrun", "Outlines run past their own start, as overcuts of other software do; they are closed where they start, and cut once.", "Other software draws the overcut of its own knife into the file. The knife lays its own overlap at the start of every outline, so the drawn one is left out, and the area of the part counts once. Leave the overcut out of the export and the line goes.");
     /// An outline with several rounds.
-    MARKER_ROUND_AGAIN = warning(Spares, Shape, "marker/round-again", "Outlines go round two times or more in one stroke, or there and back, and so do lines; they are cut once.", "Some plots draw an outline twice to make the line bold, some go back along it, and some cutters go twice through thick cloth. A second cut frays the edge and may shift the part, which is free by then. Draw each outline once in the CAD system.");
+    MARKER_ROUND_AGAIN = warning(Spares, Shape, "marker/round-again", "Outlines go round two times or more in one stroke, there and back, or stand twice in a drawing, and so do lines; they are cut once.", "Some plots draw an outline twice to make the line bold, some go back along it, and some cutters go twice through thick cloth. A second cut frays the edge and may shift the part, which is free by then. Draw each outline once in the CAD system.");
     /// The same contour twice.
     MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "A contour stands twice in the file, or runs within `nest.band_mm` of another one all the way, and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.

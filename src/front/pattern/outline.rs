@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use super::chain::Chain;
+use super::chain::{Chain, REACH};
 use crate::geom::budget::Budget;
 use crate::geom::shape::Shape;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -27,10 +27,11 @@ impl Outline {
         Self { edge, inner: Vec::new(), points, extent }
     }
 
-    /// Those inside it that take more than half of it.
+    /// Those inside it that take more than half of it, but for the outline itself drawn again.
     pub(super) fn large_inner(&self) -> impl Iterator<Item = &Chain> {
         let most = ring::area(&self.points).abs() / 2.0;
-        self.inner.iter().filter(move |line| ring::area(&line.points()).abs() > most)
+        let large = self.inner.iter().filter(move |line| ring::area(&line.points()).abs() > most);
+        large.filter(|line| !run_along_each_other([&line.points(), &self.points]))
     }
 
     /// Whether it lies in a closed line, and not just beside it.
@@ -45,6 +46,12 @@ impl Outline {
             && work.spend(2 * self.points.len())
             && (ring::contains(&self.points, at) || polyline::distance(at, &self.points) <= BESIDE)
     }
+}
+
+/// Whether each of two rings runs along all of the other.
+fn run_along_each_other([one, other]: [&[Point]; 2]) -> bool {
+    let along = |ring: &[Point], other: &[Point]| ring.iter().all(|&at| polyline::distance(at, other) <= REACH);
+    along(one, other) && along(other, one)
 }
 
 /// The outlines that lie in no other, in the order of the file.

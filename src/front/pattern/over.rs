@@ -1,4 +1,4 @@
-//! Pieces that the file puts on others: no cloth has room for both.
+//! Pieces that the file puts on others, where no cloth has room for both, or far from them.
 
 use super::chain::Chain;
 use super::lay::Laid;
@@ -67,4 +67,23 @@ pub(super) fn on_others(laid: &[Laid], work: &mut Budget) -> OnOthers {
         }
     }
     OnOthers { spans, count: is_met.iter().filter(|is_met| **is_met).count() }
+}
+
+/// Longest stretch of cloth without a piece, mm: no marker leaves so much, and a table is hardly as long.
+const LONGEST_EMPTY: f64 = 20_000.0;
+
+/// A piece that lies far from all others or, with some, from most: where its block begins and how far that is, mm.
+pub(super) fn far_off(laid: &[Laid]) -> Option<(Span, f64)> {
+    let places = laid.iter().filter_map(|laid| {
+        let first = laid.piece.plain.vertices.first()?;
+        Some((laid.motion.place(first.at), laid.piece.span))
+    });
+    let mut places: Vec<(Point, Span)> = places.collect();
+    (0..2).find_map(|axis| {
+        places.sort_by(|a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
+        let gap = |k: usize| places[k + 1].0[axis] - places[k].0[axis];
+        let wide = (0..places.len().saturating_sub(1)).find(|&k| gap(k) > LONGEST_EMPTY)?;
+        let far = if 2 * (wide + 1) <= places.len() { wide } else { wide + 1 };
+        Some((places[far].1, gap(wide)))
+    })
 }

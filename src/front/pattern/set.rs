@@ -31,6 +31,7 @@ use crate::machine::Job;
 use crate::machine::letters::Letters;
 use crate::machine::patterns::{Dxf, Quantity};
 use crate::source::{Source, Span};
+use crate::units::MM_PER_M;
 
 /// The pieces of a file.
 #[derive(Debug, Default)]
@@ -412,7 +413,16 @@ impl Set {
             out.push(finding.hint("see in the picture (-t svg) how they lie on the cloth"));
         }
         let sizes = self.pieces.iter().filter(|piece| !piece.is_at_fault());
+        self.say_far_off(out);
         doubt(sizes.map(|piece| Extent::of(&piece.plain.points()).size()), self.pieces.len() == 1, asked, out);
+    }
+
+    /// Says which piece lies far from the others.
+    fn say_far_off(&self, out: &mut Diagnostics) {
+        let Some((span, off)) = over::far_off(&self.laid()) else { return };
+        let message = format!("a piece lies {:.0} m from the others", off / MM_PER_M);
+        let finding = Diagnostic::new(&code::DXF_FAR_PIECE, message).at(span);
+        out.push(finding.hint("a digit of its INSERT may be doubled; put it beside the others in the CAD system"));
     }
 
     /// Says which notches are left out or cut in another way, with the numbers of their pieces.

@@ -1,4 +1,5 @@
-//! Inspect: warns of contours that are probably not what was meant. Changes nothing.
+//! Inspect: warns of contours that are probably not what was meant. Changes nothing but closed contours of a drawing that stand
+//! twice in a piece.
 //!
 //! Needs: welded contours. Rules:
 //!
@@ -11,6 +12,8 @@
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
+//!
+//! A drawing does not say how often it is cut: what it repeats within a piece is cut once.
 
 use std::collections::BTreeSet;
 
@@ -25,10 +28,14 @@ use crate::geom::{Extent, Point, bits, polyline, ring};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
+use crate::source::Span;
 use crate::units::number;
 
-pub(super) const PASS: MarkerPass =
-    MarkerPass { name: "inspect", about: "warns of contours that do not close or stand twice", run };
+pub(super) const PASS: MarkerPass = MarkerPass {
+    name: "inspect",
+    about: "warns of contours that do not close or stand twice; drawings cut these once",
+    run,
+};
 
 /// A gap below this share of the contour's length looks like a contour that was meant to close.
 const GAP_SHARE: f64 = 0.05;
@@ -52,6 +59,8 @@ const GAP_DECIMALS: u32 = 3;
 const MOST_COMPARED: usize = 16;
 /// Decimals of how far a contour runs beside another one, mm.
 const BESIDE_DECIMALS: u32 = 2;
+/// Distance within which a contour lies on another one, mm: what a drawing rounds.
+const ON_IT: f64 = 0.1;
 /// The smallest gap that these decimals show, mm.
 const GAP_SHOWN: f64 = 0.001;
 
@@ -68,8 +77,25 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
     far_points(marker, diagnostics);
     let boxed = Boxed::of(marker);
-    let repeats = twice(marker, &boxed, diagnostics);
-    beside(marker, &boxed, &repeats, job.profile.band(marker.unit), diagnostics);
+    let mut repeats = twice(marker, &boxed, diagnostics);
+    repeats.spared.extend(beside(marker, &boxed, &repeats.all, job.profile.band(marker.unit), diagnostics));
+    // The last first, so that the places of the others stay.
+    for &[piece, contour] in repeats.spared.iter().rev() {
+        marker.pieces[piece as usize].contours.remove(contour as usize);
+    }
+}
+
+/// Contours that stand again.
+struct Repeats {
+    all: BTreeSet<ContourPlace>,
+    /// Those that a drawing repeats within a piece: they are cut once. Cut files say themselves how often they cut.
+    spared: BTreeSet<ContourPlace>,
+}
+
+/// Says that a drawing has a contour of a piece twice.
+fn say_once(piece: u32, span: Span, diagnostics: &mut Diagnostics) {
+    let message = format!("a contour of piece {piece} stands twice: cut once");
+    diagnostics.push(Diagnostic::new(&code::MARKER_ROUND_AGAIN, message).at(span));
 }
 
 /// Says how many contours have a point far off between two that lie near each other, and which is the farthest.
@@ -252,7 +278,7 @@ impl Boxed {
 }
 
 /// Tells contours that stand again: which they are.
-fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> BTreeSet<ContourPlace> {
+fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> Repeats {
     let piece = |[piece, _]: ContourPlace| &marker.pieces[piece as usize];
     let range = |contour: ContourPlace| piece(contour).contours[contour[1] as usize].range;
     let print = |extent: &Extent| {
@@ -272,8 +298,16 @@ fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> BTree
         }
     }
     repeats.sort_unstable();
+    let is_spared = |&(later, earlier): &(ContourPlace, ContourPlace)| {
+        marker.drawing.is_some() && later[0] == earlier[0] && piece(later).contours[later[1] as usize].closed
+    };
     for &(later, earlier) in &repeats {
         let number = |contour: ContourPlace| piece(contour).number;
+        let span = first(&marker.list, range(later)).span;
+        if is_spared(&(later, earlier)) {
+            say_once(number(later), span, diagnostics);
+            continue;
+        }
         let before = first(&marker.list, range(earlier)).span;
         let message = format!(
             "a contour of piece {} is the same as the one of piece {} in block {}",
@@ -283,20 +317,29 @@ fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> BTree
         );
         diagnostics.push(
             Diagnostic::new(&code::MARKER_TWICE, message)
-                .at(first(&marker.list, range(later)).span)
+                .at(span)
                 .hint("delete one of the two unless the cloth needs two cuts"),
         );
     }
-    repeats.into_iter().map(|(later, _)| later).collect()
+    let spared = repeats.iter().filter(|pair| is_spared(pair)).map(|(later, _)| *later).collect();
+    Repeats { all: repeats.into_iter().map(|(later, _)| later).collect(), spared }
 }
 
-/// Tells closed contours that run beside another one within a reach, mm; those that stand again are told already.
-fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reach: f64, diagnostics: &mut Diagnostics) {
+/// Tells closed contours that run beside another one within a reach, mm; those that stand again are told already. Which of them
+/// are spared.
+fn beside(
+    marker: &Marker,
+    boxed: &Boxed,
+    repeats: &BTreeSet<ContourPlace>,
+    reach: f64,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ContourPlace> {
+    let mut spared = Vec::new();
     let contour = |[piece, k]: ContourPlace| &marker.pieces[piece as usize].contours[k as usize];
     let is_looked_at = |k: &usize| contour(boxed.places[*k]).closed && !repeats.contains(&boxed.places[*k]);
     let closed: Vec<usize> = (0..boxed.places.len()).filter(is_looked_at).collect();
     if !may_be_beside(closed.iter().map(|&k| boxed.extents[k]).collect(), reach) {
-        return; // as in nearly all markers
+        return spared; // as in nearly all markers
     }
     let range = |k: usize| contour(boxed.places[closed[k]]).range;
     let all = Lines {
@@ -308,6 +351,16 @@ fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reac
     for [earlier, later] in all.twins(reach, &mut work) {
         let span = |k: usize| first(&marker.list, range(k)).span;
         let number = |k: usize| marker.pieces[boxed.places[closed[k]][0] as usize].number;
+        let places = [earlier, later].map(|k| boxed.places[closed[k]]);
+        let lies_on = || {
+            let [one, other] = [range(later), range(earlier)].map(|range| marker.list.points(range).into_owned());
+            one.iter().all(|&at| polyline::distance(at, &other) <= ON_IT)
+        };
+        if marker.drawing.is_some() && places[0][0] == places[1][0] && lies_on() {
+            say_once(number(later), span(later), diagnostics);
+            spared.push(places[1]);
+            continue;
+        }
         let message = format!(
             "a contour of piece {} runs beside the one of piece {} in block {}, nowhere farther than {} mm from it",
             number(later),
@@ -321,6 +374,7 @@ fn beside(marker: &Marker, boxed: &Boxed, repeats: &BTreeSet<ContourPlace>, reac
     if work.is_spent() {
         diagnostics.push(search_ended("some contours may run beside others and be cut twice"));
     }
+    spared
 }
 
 /// Quick test for boxes that nearly agree; true also where many begin beside each other, so that a search must tell.

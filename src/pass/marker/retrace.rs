@@ -118,7 +118,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    fn add(&mut self, piece: u32, worst: f64, span: Span) {
+    pub(super) fn add(&mut self, piece: u32, worst: f64, span: Span) {
         self.count += 1;
         self.worst = self.worst.max(worst);
         self.first.get_or_insert(span);
@@ -131,6 +131,13 @@ impl Found {
     pub(super) fn say_there_and_back(&self, diagnostics: &mut Diagnostics) {
         self.say(&code::MARKER_ROUND_AGAIN, "line", diagnostics, |longest| {
             format!("there and back, for up to {} mm", fixed(longest, DECIMALS))
+        });
+    }
+
+    /// Reports ways of outlines there and back that are longer than slits.
+    pub(super) fn say_out_and_back(&self, diagnostics: &mut Diagnostics) {
+        self.say(&code::MARKER_ROUND_AGAIN, "outline", diagnostics, |longest| {
+            format!("out and back on one line of up to {} mm", fixed(longest, DECIMALS))
         });
     }
 

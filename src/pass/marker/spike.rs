@@ -3,8 +3,9 @@
 //!
 //! Needs: welded contours. From the tip of such a way, or its narrow bottom, both sides lead back to the mouth:
 //!
-//! - sides within rounding of each other are one line that is drawn twice. 1 to 25 mm of it is a slit; less that comes
-//!   back to its root to the bit is the jitter of a digitiser and is dropped; all else stays as it is drawn;
+//! - sides within rounding of each other are one line that is drawn twice. 1 to 25 mm of it is a slit. Of what comes back to
+//!   its root to the bit less is the jitter of a digitiser and is dropped, and more is a line from the edge on: it is cut once,
+//!   and told. All else stays as it is drawn;
 //! - sides up to `notch.box_max_mm` apart and 1.5 to 15 mm long are a box or a needle, and that is a slit along its middle.
 //!
 //! Where the way does not come back to its root to the bit, the outline must leave the mouth to both sides: sides that
@@ -15,17 +16,18 @@
 use rayon::prelude::*;
 
 use super::pass::MarkerPass;
+use super::retrace::Found;
 use crate::diagnostic::Diagnostics;
 use crate::geom::monotone::Chain;
 use crate::geom::{Point, Vector, bits, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
-use crate::ir::marker::{Marker, Notch, NotchKind};
+use crate::ir::marker::{Contour, Marker, Notch, NotchKind};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "spike", about: "makes slits of narrow boxes and of ways out and back in an outline", run };
 
-/// Lengths of a line that is drawn out and back, mm: shorter ones are jitter, longer ones no notch.
+/// Lengths of a slit that is drawn out and back, mm: shorter ones are jitter, longer ones no notch.
 const SHORTEST: f64 = 1.0;
 const LONGEST: f64 = 25.0;
 /// Depths of boxes, mm.
@@ -45,7 +47,7 @@ const MOST_ROUNDS: usize = 8;
 /// What an outline has left at least, segments.
 const LEAST_LEFT: usize = 3;
 
-fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let Marker { pieces, list, unit, .. } = marker;
     let measure = Measure::new(*unit, job);
     let outlines: Vec<[usize; 2]> = pieces
@@ -58,20 +60,32 @@ fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
             may_be.map(|(k, _)| [i, k]).collect::<Vec<_>>()
         })
         .collect();
+    let mut long = Found::default();
     for [i, k] in outlines {
-        let slits = prune(list, &mut pieces[i].contours[k].range, measure);
+        let Pruned { slits, lines } = prune(list, &mut pieces[i].contours[k].range, measure);
         let piece = &mut pieces[i];
+        for line in lines {
+            long.add(piece.number, line.iter().map(|segment| (segment.to - segment.from).norm()).sum(), line[0].span);
+            piece.contours.extend(list.append(line).map(|range| Contour { range, closed: false }));
+        }
         if !slits.is_empty() {
             piece.notches.extend(slits);
             piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
         }
     }
+    long.say_out_and_back(diagnostics);
 }
 
-/// Takes the ways out of an outline, again until there are no more: the slits that they are.
-fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Vec<Notch> {
+/// What the ways of an outline are.
+struct Pruned {
+    slits: Vec<Notch>,
+    lines: Vec<Vec<Segment>>,
+}
+
+/// Takes the ways out of an outline, again until there are no more.
+fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Pruned {
     let mut segments: Vec<Segment> = list.walk(*range).map(|(_, segment)| segment).collect();
-    let mut slits = Vec::new();
+    let (mut slits, mut lines) = (Vec::new(), Vec::new());
     let mut is_changed = false;
     for _ in 0..MOST_ROUNDS {
         let ways = ways(&segments, measure);
@@ -79,13 +93,14 @@ fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Vec<Not
             break;
         }
         slits.extend(ways.iter().flat_map(|way| way.slits.iter().copied()));
+        lines.extend(ways.iter().map(|way| way.line.clone()).filter(|line| !line.is_empty()));
         segments = without(&segments, &ways);
         is_changed = true;
     }
     if is_changed && let Some(rest) = list.append(segments) {
         *range = rest;
     }
-    slits
+    Pruned { slits, lines }
 }
 
 /// How ways are told from what else lies near itself, mm.
@@ -105,8 +120,9 @@ struct Way {
     count: usize,
     /// Where the outline goes on.
     root: Point,
-    /// What is cut for it.
+    /// What is cut for it: slits, or a line that is too long for one.
     slits: Vec<Notch>,
+    line: Vec<Segment>,
 }
 
 impl Measure {
@@ -226,7 +242,8 @@ impl<'a> Sides<'a> {
         let most = self.segments.len().saturating_sub(LEAST_LEFT).min(MOST_STEPS);
         let mut longest = None;
         let mut reached = 0.0;
-        while self.steps[0] + self.steps[1] < most && reached <= LONGEST + measure.width {
+        let may_go_on = |sides: &Self, reached: f64| reached <= LONGEST + measure.width || sides.apart <= measure.slack;
+        while self.steps[0] + self.steps[1] < most && may_go_on(&self, reached) {
             let [back, ahead] = self.steps;
             let (here, next) = ([self.back(back), self.ahead(ahead)], [self.back(back + 1), self.ahead(ahead + 1)]);
             let both = (next[1] - next[0]).norm();
@@ -281,7 +298,10 @@ impl<'a> Sides<'a> {
         };
         let off = self.gap().max(self.apart) / 2.0 + measure.slack;
         let sides = || (0..=back).map(|k| self.back(k)).chain((0..=ahead).map(|k| self.ahead(k)));
-        if is_line && is_exact && length <= LONGEST {
+        if is_line && is_exact && length > LONGEST {
+            return Some(Way { line: self.outwards(), ..self.taken(root, Vec::new()) });
+        }
+        if is_line && is_exact {
             let ends = stretches(&line, measure.slack);
             return Some(self.taken(root, ends.into_iter().map(|[from, to]| [line[from], line[to]]).collect()));
         }
@@ -308,6 +328,13 @@ impl<'a> Sides<'a> {
         sides.into_iter().flatten().all(|way| way.dot(&along).abs() < LEAVING * way.norm())
     }
 
+    /// The line from the mouth to the tip.
+    fn outwards(&self) -> Vec<Segment> {
+        let (total, back) = (self.segments.len(), self.steps[0]);
+        let first = self.tip[0] + total - back;
+        (first..first + back).map(|k| Segment { joint: Joint::default(), ..self.segments[k % total] }).collect()
+    }
+
     /// The way, with a slit between each two ends.
     fn taken(&self, root: Point, cuts: Vec<[Point; 2]>) -> Way {
         let total = self.segments.len();
@@ -322,7 +349,7 @@ impl<'a> Sides<'a> {
             leads.map_or(span, |segment| segment.span)
         };
         let slit = |[root, tip]: [Point; 2]| Notch { kind: NotchKind::Slit, root, tip, percent, span: span_of(tip) };
-        Way { first, count, root, slits: cuts.into_iter().map(slit).collect() }
+        Way { first, count, root, slits: cuts.into_iter().map(slit).collect(), line: Vec::new() }
     }
 }
 
@@ -410,7 +437,13 @@ mod tests {
             let segments: Vec<Segment> = (0..count).map(segment).collect();
             let way = |first: usize| {
                 let first = (first + count - start) % count;
-                Way { first, count: 2, root: at(first) + (at(first + 2) - at(first)) / 2.0, slits: Vec::new() }
+                Way {
+                    first,
+                    count: 2,
+                    root: at(first) + (at(first + 2) - at(first)) / 2.0,
+                    slits: Vec::new(),
+                    line: Vec::new(),
+                }
             };
             let left = without(&segments, &[way(1), way(3)]);
             assert_eq!(left.len(), 6, "from {start}");

@@ -1,11 +1,14 @@
 //! An outline that runs past its own start, or goes round again in one stroke, is the part that it is without that.
 
-use cutc::diagnostic::Diagnostics;
+use std::io::Cursor;
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
 use cutc::front::by_name;
 use cutc::ir::Marker;
 use cutc::ir::marker::Contour;
 use cutc::machine::Job;
-use cutc::pipeline;
+use cutc::pipeline::{self, Order};
 use cutc::source::Source;
 use fastrand::Rng;
 
@@ -288,5 +291,80 @@ fn an_outline_is_cut_once_however_many_rounds_it_goes_and_whichever_way() {
         assert_eq!((places, said.contains(&AGAIN)), (vec![once.len()], true), "seed {seed}");
         drawn.extend_from_slice(&[[400.0, 0.0], once[0]]);
         assert!(!judged(&drawn, &once).is_empty(), "seed {seed}");
+    }
+}
+
+#[test]
+fn an_outline_that_stands_twice_is_cut_once_wherever_it_starts() {
+    let mut told = 0;
+    for seed in 0..60 {
+        let mut random = Rng::with_seed(seed);
+        let ring = ring(&mut random);
+        let mut again = ring.clone();
+        again.rotate_left(random.usize(..ring.len()));
+        if random.bool() {
+            again.reverse();
+        }
+        if random.bool() {
+            // A vertex more amid an edge.
+            let (a, b) = (again[0], again[1]);
+            again.insert(1, [0, 1].map(|axis| ((a[axis] + b[axis]) * 500.0).round() / 1000.0));
+        }
+        let mut file = Writer::begin();
+        file.block("A");
+        for places in [&ring, &again] {
+            file.polyline(1, places, true);
+        }
+        file.end_block();
+        let source = source(file.end(&["UNITS: METRIC"]));
+        let mut said = Diagnostics::default();
+        let read =
+            pipeline::read(&source, by_name("pattern"), &Job::default(), &mut said).expect("the dialect is given");
+        let codes: Vec<&str> = said.iter().map(|finding| finding.code.name).collect();
+        assert_eq!(read.marker.contours().count(), 1, "seed {seed}: {codes:?}");
+        assert!(!codes.contains(&"marker/contour-twice"), "seed {seed}: {codes:?}");
+        told += usize::from(codes.contains(&AGAIN));
+        verified(&source, seed);
+    }
+    // Lines that are equal place by place are one from the start.
+    assert!(told > 40, "{told}");
+}
+
+/// Compiles a source and judges the program.
+fn verified(source: &Source, seed: u64) {
+    let target = TARGETS.iter().find(|target| target.name == "gcode").expect("a target");
+    let mut found = Diagnostics::default();
+    let order = Order { from: None, target, verify: true };
+    let compiled = pipeline::compile(source, &Job::default(), order, &mut Cursor::new(Vec::new()), &mut found);
+    let is_made = compiled.expect("memory takes everything").is_some();
+    assert!(is_made, "seed {seed}: {}", render(&found, source));
+}
+
+#[test]
+fn a_spur_longer_than_a_slit_is_cut_once_and_told() {
+    for (seed, length) in (0..).zip([26.0, 30.0, 60.0, 120.0, 250.0]) {
+        let bent = [250.0 + length / 3.0, length];
+        for way in [vec![[250.0, length]], vec![[250.0, length / 2.0], bent]] {
+            let mut file = Writer::begin();
+            file.block("A");
+            let ring = [[0.0, 0.0], [250.0, 0.0], [500.0, 0.0], [500.0, 300.0], [0.0, 300.0], [0.0, 0.0]];
+            file.polyline(1, &ring, false);
+            file.polyline(1, &[&[[250.0, 0.0]], &way[..]].concat(), false);
+            file.end_block();
+            let source = source(file.end(&["UNITS: METRIC"]));
+            let mut said = Diagnostics::default();
+            let read = pipeline::read(&source, by_name("pattern"), &Job::default(), &mut said);
+            let marker = read.expect("the dialect is given").marker;
+            let codes: Vec<&str> = said.iter().map(|finding| finding.code.name).collect();
+            assert!(codes.contains(&AGAIN), "{way:?}: {codes:?}");
+            let (rings, lines): (Vec<_>, Vec<_>) = marker.contours().partition(|(_, contour)| contour.closed);
+            assert_eq!((rings.len(), lines.len()), (1, 1), "{way:?}: {codes:?}");
+            let mut points: Vec<Place> = marker.points(lines[0].1).iter().map(|at| [at.x, at.y]).collect();
+            if points[0] != [250.0, 0.0] {
+                points.reverse();
+            }
+            assert_eq!(points, [&[[250.0, 0.0]], &way[..]].concat());
+            verified(&source, seed);
+        }
     }
 }
