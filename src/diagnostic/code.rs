@@ -125,7 +125,7 @@ codes! {
     /// An attribute that cannot be read.
     SVG_VALUE = error(Text, "svg/bad-value", "A length, a transform or a view box cannot be read, or is no size.", "What has it would lie elsewhere or have another size. Lengths have mm, cm, in, pt, pc, q, px, % or no unit; the size of letters (em) is none that can be cut.");
     /// A style that transforms.
-    SVG_STYLE_MOVES = error(Text, "svg/style-moves", "A style sheet or a `style` transforms a shape or gives the data of a path.", "Programs for drawings write both as attributes, which are read. As styles they are not, so the shape would be cut elsewhere than it is seen.");
+    SVG_STYLE_MOVES = error(Text, "svg/style-moves", "A style sheet or a `style` transforms a shape or gives the data of a path, or `transform-origin` moves the centre of a transform.", "Programs for drawings write such things as attributes of their own, which are read. These are not, so the shape would be cut elsewhere than it is seen.");
     /// A copy of nothing or of itself.
     SVG_USE = error(Text, "svg/use-broken", "A `use` copies an element that is not in the file, or one that holds it.", "Whatever it should draw would be missing from the cloth. It may stand in another file, or have been deleted: turn copies into shapes of their own before saving.");
     /// Too much of everything.

@@ -54,13 +54,13 @@ const FORMATS: &[Format] = &[
     vague("a gzip archive", UNPACK, |b| b.starts_with(b"\x1f\x8b")),
     known("a drawing of Adobe Illustrator (AI)", EXPORT_PLOT, is_illustrator),
     known("a PDF document", EXPORT_CUT, is_pdf),
-    known("a PostScript file (EPS)", EXPORT_PLOT, |b| b.starts_with(b"%!PS") || b.starts_with(b"\xc5\xd0\xd3\xc6")),
+    known("a PostScript file (EPS)", EXPORT_PLOT, |b| b.starts_with(b"%!") || b.starts_with(b"\xc5\xd0\xd3\xc6")),
     known("a PNG picture", PICTURE, |b| b.starts_with(b"\x89PNG")),
     known("a JPEG picture", PICTURE, |b| b.starts_with(b"\xff\xd8\xff")),
     known("a GIF picture", PICTURE, |b| b.starts_with(b"GIF8")),
     known("a TIFF picture", PICTURE, |b| b.starts_with(b"II*\0") || b.starts_with(b"MM\0*")),
     known("a WebP picture", PICTURE, |b| b.starts_with(b"RIFF") && b.get(8..12) == Some(b"WEBP")),
-    known("a BMP picture", PICTURE, |b| b.starts_with(b"BM") && b.get(6..10) == Some(&[0; 4])),
+    known("a BMP picture", PICTURE, is_bmp),
     known("a Photoshop picture (PSD)", PICTURE, |b| b.starts_with(b"8BPS")),
     known("an icon (ICO)", PICTURE, |b| b.starts_with(&[0, 0, 1, 0])),
     known("a HEIC or AVIF picture", PICTURE, |b| b.get(4..8) == Some(b"ftyp")),
@@ -240,7 +240,14 @@ fn is_gp_gl(bytes: &[u8]) -> bool {
     leads.count() >= 2
 }
 
-/// Lines of one letter with pairs of numbers, moves and lines, among commands of mode 2 behind a circumflex.
+/// The two letters, and then either four reserved bytes that are 0 or the size of a header that there is.
+fn is_bmp(bytes: &[u8]) -> bool {
+    let sizes = [12, 40, 52, 56, 64, 108, 124];
+    bytes.starts_with(b"BM")
+        && (bytes.get(6..10) == Some(&[0; 4]) || sizes.iter().any(|&size| bytes.get(14..18) == Some(&[size, 0, 0, 0])))
+}
+
+/// Lines of one letter with pairs of numbers, moves and lines, among commands of mode 2 behind a circumflex; or these alone.
 fn is_camm_gl(bytes: &[u8]) -> bool {
     let begins = |bytes: &[u8]| matches!(bytes, [first, second, ..] if *first == b'^' || !second.is_ascii_alphabetic());
     let holds = |byte: u8| memchr::memchr(byte, head(bytes)).is_some();
@@ -250,11 +257,22 @@ fn is_camm_gl(bytes: &[u8]) -> bool {
     let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
     let commands = commands.filter(|command| !command.is_empty() && !b"^!".contains(&command[0]));
     let (mut all, mut leads) = (0, 0);
+    if is_mode_2(bytes) {
+        return true;
+    }
     for command in commands.take(50) {
         all += 1;
         leads += usize::from(is_lead(command, b"MDIR"));
     }
     leads >= 3 && 2 * leads > all
+}
+
+/// Whether commands of two letters stand behind a circumflex each.
+fn is_mode_2(bytes: &[u8]) -> bool {
+    let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
+    let is_of_it =
+        |command: &&[u8]| matches!(command, [b'^', a, b, ..] if a.is_ascii_alphabetic() && b.is_ascii_alphabetic());
+    commands.filter(is_of_it).take(3).count() == 3
 }
 
 /// Whether a command is one of some letters, with a pair of numbers and a comma between them.
@@ -394,6 +412,9 @@ mod tests {
             Some("a drawing of Adobe Illustrator (AI)"),
         );
         check(b"%!PS-Adobe-3.0 EPSF-3.0\n", Some("a PostScript file (EPS)"));
+        check(b"%!\nnewpath 0 0 moveto\n", Some("a PostScript file (EPS)"));
+        check(b"BM\x36\x10\0\0ab\0\0\x36\0\0\0\x28\0\0\0", Some("a BMP picture"));
+        check(b"^IN;!MC0;V20;^PU400,400;^PD12400,400;^PU0,0;", Some("a CAMM-GL I plot (Roland)"));
         check(b"\xff\xd8\xff\xe0\0\x10JFIF", Some("a JPEG picture"));
         check(
             b"ANSI/AAMA\r\nUNITS: METRIC\r\nSIZE LIST: S M\r\nRULE: DELTA 1\r\n",

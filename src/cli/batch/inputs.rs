@@ -145,8 +145,13 @@ pub(in crate::cli) fn is_cutter_file(path: &Path) -> bool {
 
 /// The extensions by which cutter files in folders are told.
 pub(in crate::cli) fn extensions() -> String {
-    let known: Vec<_> = DIALECTS.iter().flat_map(|dialect| dialect.extensions).map(|e| format!(".{e}")).collect();
-    known.join(" ")
+    let mut known: Vec<&str> = Vec::new();
+    for extension in DIALECTS.iter().flat_map(|dialect| dialect.extensions) {
+        if !known.contains(extension) {
+            known.push(extension);
+        }
+    }
+    known.iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(" ")
 }
 
 /// What to do when a folder has no cutter files.

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use roxmltree::Node;
 
 /// Properties that matter.
-pub(super) const PROPERTIES: [&str; 21] = [
+pub(super) const PROPERTIES: [&str; 24] = [
     "display",
     "visibility",
     "stroke",
@@ -29,6 +29,9 @@ pub(super) const PROPERTIES: [&str; 21] = [
     "r",
     "rx",
     "ry",
+    "zoom",
+    "offset",
+    "offset-path",
 ];
 /// Places of some of them in a [`Style`].
 pub(super) const DISPLAY: usize = 0;
@@ -39,7 +42,7 @@ pub(super) const CLIP_PATH: usize = 4;
 pub(super) const MASK: usize = 5;
 pub(super) const MARKERS: std::ops::Range<usize> = 6..10;
 /// Properties that move or shape what is drawn: as attributes they are read elsewhere, as styles nobody writes them.
-const MOVING: std::ops::Range<usize> = 10..21;
+const MOVING: std::ops::Range<usize> = 10..24;
 
 /// Values of an element's own properties.
 pub(super) type Style<'a> = [Option<&'a str>; PROPERTIES.len()];

@@ -170,6 +170,12 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
                 return;
             };
             scene.map = map.then(&scene.map);
+            if node.attribute("transform-origin").is_some_and(|origin| !is_corner(origin)) {
+                let message = "`transform-origin` moves the centre of a transform, and is not read";
+                let finding = Diagnostic::new(&code::SVG_STYLE_MOVES, message).at(span);
+                self.out
+                    .push(finding.hint("write the centre into `transform`, or save the drawing from another program"));
+            }
         }
         if let Err(fault) = self.follow(node, scene) {
             self.blame(node, fault);
@@ -369,4 +375,10 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
 fn is_fitting(node: Node) -> bool {
     let is_english = |languages: &str| languages.split(',').any(|language| language.trim().starts_with("en"));
     !node.has_attribute("requiredExtensions") && node.attribute("systemLanguage").is_none_or(is_english)
+}
+
+/// Whether the centre of a transform is the corner of the page, as it is where nothing is said.
+fn is_corner(origin: &str) -> bool {
+    let mut values = origin.split([' ', ',']).filter(|value| !value.is_empty());
+    values.all(|value| value.trim_end_matches("px").parse() == Ok(0.0))
 }
