@@ -20,7 +20,7 @@ pub(super) const TARGET: Target = Target {
     about: "encoder counts of X, Y and C as 32-bit integers, a record a cycle",
     extension: "counts",
     emit: Emit::Motion(Parts { refusals, head, body, tail }),
-    proof: Proof::Setpoints,
+    proof: Some(Proof::Setpoints),
 };
 
 /// Bytes before the first record.

@@ -18,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     about: "timed setpoints of X, Y and C, a row a period",
     extension: "csv",
     emit: Emit::Motion(PARTS),
-    proof: Proof::Setpoints,
+    proof: Some(Proof::Setpoints),
 };
 
 pub(super) const PARTS: Parts<Motion> = Parts { refusals: nothing, head, body, tail };

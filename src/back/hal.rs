@@ -18,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     about: "timed setpoints for LinuxCNC's halstreamer, a row a servo period",
     extension: "hal.txt",
     emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
-    proof: Proof::Setpoints,
+    proof: Some(Proof::Setpoints),
 };
 
 /// Decimals of positions, in mm and degrees.

@@ -7,7 +7,7 @@
 use std::io;
 use std::path::Path;
 
-use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use super::target::{Context, Emit, Outcome, Output, Parts, Target, nothing};
 use crate::ir::Motion;
 use crate::ir::motion::Kind;
 use crate::units::NS_PER_S;
@@ -17,7 +17,7 @@ pub(super) const TARGET: Target = Target {
     about: "the .hal file that plays the rows of hal",
     extension: "hal",
     emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
-    proof: Proof::None,
+    proof: None,
 };
 
 /// Rows that the streamer holds at the most: a longer program is topped up while it plays.

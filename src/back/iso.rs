@@ -30,7 +30,7 @@ pub(super) const TARGET: Target = Target {
     about: "a normalised ISO cut file that says the same as the input",
     extension: "iso",
     emit: Emit::Marker(emit),
-    proof: Proof::Marker,
+    proof: Some(Proof::Marker),
 };
 
 /// Units of the dialect, mm, and their codes; a file without a code is in hundredths of an inch.

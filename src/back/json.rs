@@ -22,7 +22,7 @@
 
 use std::io;
 
-use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use super::target::{Context, Emit, Outcome, Output, Parts, Target, nothing};
 use crate::ir::Motion;
 use crate::ir::motion::{Kind, Phase, Task};
 use crate::ir::toolpath::{Edge, OrientationMode, Pose, Side};
@@ -34,7 +34,7 @@ pub(super) const TARGET: Target = Target {
     about: "the program step by step: cuts, stabs, travels, turns with their times",
     extension: "json",
     emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
-    proof: Proof::None,
+    proof: None,
 };
 
 /// Decimals of positions and lengths, in mm and degrees.

@@ -17,7 +17,7 @@ pub(super) const TARGET: Target = Target {
     about: "the setpoints of csv as a NumPy array of records, unrounded",
     extension: "npy",
     emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
-    proof: Proof::Setpoints,
+    proof: Some(Proof::Setpoints),
 };
 
 /// Bytes of a record, and of the way of the cloth.

@@ -5,7 +5,7 @@ use std::io::{self, Seek, Write};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::declaration::{Declaration, Total};
-use crate::ir::{Arcs, Finding, Marker, Motion, Toolpath};
+use crate::ir::{self, Arcs, Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 use crate::source::Source;
 
@@ -32,20 +32,8 @@ impl Context<'_> {
     }
 }
 
-/// An output format: a row of [`TARGETS`](crate::back::TARGETS).
-#[derive(Debug)]
-pub struct Target {
-    /// Name, as `-t` takes it.
-    pub name: &'static str,
-    /// What it is, in a line.
-    pub about: &'static str,
-    /// Extension of its files, without the dot.
-    pub extension: &'static str,
-    /// The form that it needs, and how it writes it.
-    pub emit: Emit,
-    /// How its bytes are judged.
-    pub proof: Proof,
-}
+/// Output format of the cutter: a row of [`TARGETS`](crate::back::TARGETS).
+pub type Target = ir::Target<Emit, Proof>;
 
 /// The form that a target needs; the pipeline goes no further.
 #[derive(Debug)]
@@ -162,6 +150,4 @@ pub enum Proof {
     Positions,
     /// As a cutter file that must say the same.
     Marker,
-    /// Not at all: a picture or a summary; the verdict is that on the setpoints.
-    None,
 }

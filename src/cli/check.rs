@@ -45,7 +45,7 @@ pub(super) struct Arguments {
 
 /// What is said about one file, as JSON.
 #[derive(Serialize)]
-struct Verdict {
+struct Listing {
     file: String,
     dialect: Option<&'static str>,
     #[serde(flatten)]
@@ -100,7 +100,7 @@ fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
                 say(&mut said, format_args!("{}: {dialect}, {errors}, {warnings}", source.name()));
                 said.push_str(&setup::sheet(job));
             }
-            verdicts.push(checked.verdict());
+            verdicts.push(checked.listing());
         }
         Err(error) => {
             say(&mut said, format_args!("error: {error:#}"));
@@ -136,7 +136,7 @@ impl Arguments {
     fn outcome(&self, input: &Input, job: &Job) -> Outcome {
         match self.checked(&input.path, job) {
             Ok(checked) => {
-                let json = (self.format == Format::Json).then(|| pretty(&checked.verdict()));
+                let json = (self.format == Format::Json).then(|| pretty(&checked.listing()));
                 Outcome { said: self.said(&checked), json, row: Some(checked.row()) }
             }
             Err(error) => Outcome::failed(input, &error),
@@ -156,8 +156,8 @@ impl Checked {
         }
     }
 
-    fn verdict(&self) -> Verdict {
+    fn listing(&self) -> Listing {
         let Self { source, diagnostics, dialect, .. } = self;
-        Verdict { file: source.name().to_owned(), dialect: *dialect, findings: Findings::of(diagnostics, source) }
+        Listing { file: source.name().to_owned(), dialect: *dialect, findings: Findings::of(diagnostics, source) }
     }
 }

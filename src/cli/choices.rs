@@ -3,15 +3,14 @@
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::back::{TARGETS, Target};
-use crate::flow;
 use crate::front::{DIALECTS, Dialect};
+use crate::ir::Target;
 use crate::machine::keys::{self, Takes};
 use crate::machine::{patterns, plot};
 use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
-use crate::{sew, track};
+use crate::sew;
 
 /// How figures are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -72,38 +71,19 @@ impl From<Quantity> for patterns::Quantity {
     }
 }
 
-/// Reads the name of a target.
-pub(super) fn targets() -> impl TypedValueParser<Value = &'static Target> {
-    names(TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
-        TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
-    })
+/// Reads the name of a target, a row of a table.
+pub(super) fn targets<E: Sync, P: Sync>(
+    table: &'static [Target<E, P>],
+) -> impl TypedValueParser<Value = &'static Target<E, P>> {
+    let find = move |name: String| table.iter().find(|target| target.name == name);
+    names(table.iter().map(|target| (target.name, target.about)))
+        .map(move |name| find(name).expect("clap lets only the names of the table pass"))
 }
 
 /// Reads the name of a dialect.
 pub(super) fn dialects() -> impl TypedValueParser<Value = &'static Dialect> {
     names(DIALECTS.iter().map(|dialect| (dialect.name, dialect.about))).map(|name| {
         DIALECTS.iter().find(|dialect| dialect.name == name).expect("clap lets only the names of the table pass")
-    })
-}
-
-/// Reads the name of a target of sewn patterns.
-pub(super) fn sewing_targets() -> impl TypedValueParser<Value = &'static sew::Target> {
-    names(sew::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
-        sew::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
-    })
-}
-
-/// Reads the name of what is written of a tracked cloth.
-pub(super) fn tracking_targets() -> impl TypedValueParser<Value = &'static track::Target> {
-    names(track::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
-        track::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
-    })
-}
-
-/// Reads the name of a target of heads over a conveyor.
-pub(super) fn flow_targets() -> impl TypedValueParser<Value = &'static flow::Target> {
-    names(flow::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
-        flow::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
     })
 }
 

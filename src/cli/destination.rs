@@ -7,49 +7,20 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use super::files::{STDIN, directory, is_dash, meta, path_from, stale};
 use super::finished::failure;
 use super::provenance;
-use crate::{back, sew, track};
+use crate::ir::Target;
 
 /// The current directory, a directory on every system.
 const DIRECTORY: &str = ".";
 
-/// Target of a machine: the name and the extension that decide the place of its program.
-pub(super) trait Target: Sized + 'static {
-    /// Every target of the machine; the first is the default.
-    const ALL: &'static [Self];
-
-    /// Name, as `-t` takes it.
-    fn name(&self) -> &'static str;
-
-    /// Extension of its files, without the first dot.
-    fn extension(&self) -> &'static str;
-}
-
-/// Implements [`Target`] for the rows of a table of targets.
-macro_rules! targets {
-    ($($machine:ident),*) => {$(
-        impl Target for $machine::Target {
-            const ALL: &'static [Self] = $machine::TARGETS;
-
-            fn name(&self) -> &'static str {
-                self.name
-            }
-
-            fn extension(&self) -> &'static str {
-                self.extension
-            }
-        }
-    )*};
-}
-
-targets!(back, sew, track);
-
 /// Arguments that decide where the programs of an input go.
 #[derive(Debug)]
-pub(super) struct Asked<'a, T: Target> {
+pub(super) struct Asked<'a, E: 'static, P: 'static> {
+    /// Every target of the machine; the first is the default.
+    pub(super) all: &'static [Target<E, P>],
     /// The place as typed.
     pub(super) out: Option<&'a Path>,
     /// The targets as typed; none = what the place says.
-    pub(super) targets: &'a [&'static T],
+    pub(super) targets: &'a [&'static Target<E, P>],
     /// The file that is read.
     pub(super) input: &'a Path,
     /// The machine profile, and the centre line.
@@ -60,9 +31,9 @@ pub(super) struct Asked<'a, T: Target> {
 
 /// Targets of an input, and the place of their programs.
 #[derive(Debug)]
-pub(super) struct Destination<T: Target> {
+pub(super) struct Destination<E: 'static, P: 'static> {
     /// Targets that are written.
-    pub(super) targets: Vec<&'static T>,
+    pub(super) targets: Vec<&'static Target<E, P>>,
     /// Where.
     pub(super) place: Place,
 }
@@ -86,10 +57,10 @@ impl Place {
     }
 }
 
-impl<T: Target> Asked<'_, T> {
+impl<E, P> Asked<'_, E, P> {
     /// Finds what is written and where: `out` as typed, a directory for `<stem>.<extension>`, or without it the current
     /// directory. Never over the input itself, nor the profile. Without a target the extension of `out` chooses it.
-    pub(super) fn destination(&self) -> anyhow::Result<Destination<T>> {
+    pub(super) fn destination(&self) -> anyhow::Result<Destination<E, P>> {
         let targets = self.targets()?;
         let is_stdout = self.out.is_some_and(is_dash);
         if let Some(out) = self.out.filter(|out| targets.len() > 1 && (is_stdout || !names_directory(out))) {
@@ -106,8 +77,8 @@ impl<T: Target> Asked<'_, T> {
     }
 
     /// What is written: what was typed, else what the extension of the place says, else the default.
-    fn targets(&self) -> anyhow::Result<Vec<&'static T>> {
-        let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension()).collect();
+    fn targets(&self) -> anyhow::Result<Vec<&'static Target<E, P>>> {
+        let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension).collect();
         if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
             return Err(failure(
                 format!("two of the targets would write the same file, of extension `{twice}`"),
@@ -116,17 +87,19 @@ impl<T: Target> Asked<'_, T> {
         }
         let file = self.out.filter(|out| !is_dash(out) && !names_directory(out));
         let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy().to_ascii_lowercase());
-        let ends = |target: &&T| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension())));
+        let ends = |target: &&Target<E, P>| {
+            name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension)))
+        };
         // The longest ending: `.timing.svg` ends with `.svg`, too.
-        let told = T::ALL.iter().filter(ends).max_by_key(|target| target.extension().len());
-        let is_ambiguous = |file: &Path| names_program(file) && T::ALL.iter().any(|target| target.name() == "gcode");
+        let told = self.all.iter().filter(ends).max_by_key(|target| target.extension.len());
+        let is_ambiguous = |file: &Path| names_program(file) && self.all.iter().any(|target| target.name == "gcode");
         match (self.targets, told, file) {
-            ([one], Some(told), Some(file)) if one.extension() != told.extension() => Err(failure(
+            ([one], Some(told), Some(file)) if one.extension != told.extension => Err(failure(
                 format!(
                     "`-t {}` and `-o {}` disagree: the name is one of target {}",
-                    one.name(),
+                    one.name,
                     file.display(),
-                    told.name()
+                    told.name
                 ),
                 renamed(file, told, one),
             )),
@@ -139,19 +112,19 @@ impl<T: Target> Asked<'_, T> {
                 format!("`-o {}` is the name of no target", file.display()),
                 format!(
                     "choose a target with -t, such as `-t {}`, or end the name as one does: {}",
-                    T::ALL[0].name(),
-                    T::ALL.iter().map(|target| format!("`.{}`", target.extension())).collect::<Vec<_>>().join(", ")
+                    self.all[0].name,
+                    self.all.iter().map(|target| format!("`.{}`", target.extension)).collect::<Vec<_>>().join(", ")
                 ),
             )),
-            ([], None, _) => Ok(vec![&T::ALL[0]]),
+            ([], None, _) => Ok(vec![&self.all[0]]),
             (typed, _, _) => Ok(typed.to_vec()),
         }
     }
 
     /// The file of one program.
-    fn path(&self, target: &T) -> anyhow::Result<PathBuf> {
+    fn path(&self, target: &Target<E, P>) -> anyhow::Result<PathBuf> {
         let Self { out, input, beside, force, .. } = *self;
-        let name = program_name(input, target.extension());
+        let name = program_name(input, target.extension);
         let path = match out {
             None if is_dash(input) => {
                 return Err(failure(
@@ -172,10 +145,7 @@ impl<T: Target> Asked<'_, T> {
                 let shown = out.display();
                 return Err(failure(
                     format!("`-o {shown}` may be a file or a directory"),
-                    format!(
-                        "write `-o {shown}/` for a directory, which is made, or `-o {shown}.{}`",
-                        target.extension()
-                    ),
+                    format!("write `-o {shown}/` for a directory, which is made, or `-o {shown}.{}`", target.extension),
                 ));
             }
             Some(out) => out.to_owned(),
@@ -198,10 +168,10 @@ impl<T: Target> Asked<'_, T> {
 }
 
 /// Hint with the name of a file under the extension of another target.
-fn renamed<T: Target>(file: &Path, told: &T, asked: &T) -> String {
+fn renamed<E, P>(file: &Path, told: &Target<E, P>, asked: &Target<E, P>) -> String {
     let shown = file.display().to_string();
-    let stem = &shown[..shown.len() - told.extension().len()];
-    format!("leave -t out, or write to `-o {stem}{}`", asked.extension())
+    let stem = &shown[..shown.len() - told.extension.len()];
+    format!("leave -t out, or write to `-o {stem}{}`", asked.extension)
 }
 
 /// The name of the program that is made from an input, by the extension of its target.
@@ -223,12 +193,16 @@ pub(super) fn of_many(out: &Path) -> anyhow::Error {
 }
 
 /// The targets of many files, which go below a folder.
-pub(super) fn targets_of_many<T: Target>(out: &Path, typed: &[&'static T]) -> anyhow::Result<Vec<&'static T>> {
+pub(super) fn targets_of_many<E, P>(
+    out: &Path,
+    all: &'static [Target<E, P>],
+    typed: &[&'static Target<E, P>],
+) -> anyhow::Result<Vec<&'static Target<E, P>>> {
     if is_one_file(out) {
         return Err(of_many(out));
     }
     let folder = Path::new(DIRECTORY);
-    Asked { out: Some(folder), targets: typed, input: folder, beside: [None; 3], force: false }.targets()
+    Asked { all, out: Some(folder), targets: typed, input: folder, beside: [None; 3], force: false }.targets()
 }
 
 /// Where the programs of one of many files go, by the extensions of their targets: below a folder, in the structure that
@@ -315,11 +289,11 @@ fn same_file(a: &Path, b: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::back::TARGETS;
+    use crate::back::{self, TARGETS};
     use crate::cli::files;
 
     fn find(out: Option<&Path>, input: &Path) -> Result<Place, String> {
-        let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 3], force: false };
+        let asked = Asked { all: TARGETS, out, targets: &[], input, beside: [None; 3], force: false };
         asked.destination().map(|found| found.place).map_err(|error| error.to_string())
     }
 
@@ -340,6 +314,7 @@ mod tests {
     fn without_a_target_the_extension_chooses_it() {
         let written = |out: &str, targets: &[&'static back::Target]| {
             let asked = Asked {
+                all: TARGETS,
                 out: Some(Path::new(out)),
                 targets,
                 input: Path::new("a.cut"),
@@ -390,7 +365,7 @@ mod tests {
         fs::write(meta(&program), r#"{"source": "m05.cut"}"#).expect("writable");
         let find = |input: &str, force| {
             let (out, input) = (Some(directory.path()), Path::new(input));
-            let asked: Asked<back::Target> = Asked { out, targets: &[], input, beside: [None; 3], force };
+            let asked = Asked { all: TARGETS, out, targets: &[], input, beside: [None; 3], force };
             asked.destination().map(|found| found.place).map_err(|error| error.to_string())
         };
         assert!(find("in/m05.plt", false).expect_err("refused").contains("made from `m05.cut`, not from `m05.plt`"));

@@ -11,7 +11,7 @@ use super::files;
 use super::finished::{failure, say};
 use super::options::file_name;
 use super::report::pretty;
-use crate::back::{Proof, TARGETS};
+use crate::back::TARGETS;
 use crate::ir::declaration::Declaration;
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::sew;
@@ -180,7 +180,7 @@ fn path_of(source: &Source, beside: &Path) -> Option<String> {
 /// Whether a program is one that can be judged, by the target that it was made by; `None` when nothing beside it says so.
 pub(super) fn is_judged(program: &Path) -> Option<bool> {
     let made_by = target_of(program)?;
-    let is_cut = TARGETS.iter().any(|target| target.name == made_by && target.proof != Proof::None);
+    let is_cut = TARGETS.iter().any(|target| target.name == made_by && target.proof.is_some());
     Some(is_cut || sew::TARGETS.iter().any(|target| target.name == made_by && target.proof.is_some()))
 }
 

@@ -39,7 +39,7 @@ pub use link::{State, Wait};
 pub use program::{Head, Program, Setpoint};
 pub use search::plan;
 pub use stroke::{Lag, Stroke};
-pub use write::{File, Kind, Plan, TARGETS, Target, describe};
+pub use write::{Emit, File, Plan, TARGETS, Target, describe};
 
 use serde::Serialize;
 

@@ -14,8 +14,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::plan::Peaks;
 use crate::source::Source;
-use crate::spray::{self, Program, TARGETS, Target};
-use crate::verify;
+use crate::spray::{self, Program, Reader, TARGETS, Target};
 use crate::verify::spray::Ground;
 
 /// Compiles a source, read as a dialect, to several programs of a head, as [`super::compile_all`] does for a knife: its
@@ -41,12 +40,12 @@ pub(super) fn compile(
     let planned = spray::plan(&input.marker, job, diagnostics);
     place::place(diagnostics, known, &input.marker, source, job);
     let Some((mut program, peaks)) = planned else { return Ok(None) };
-    if targets.iter().any(|target| target.compares) {
+    if targets.iter().any(|target| target.emit.compares) {
         program = spray::beside_optimal(program, &input.marker, job);
     }
     for (product, target) in products.iter_mut().zip(&targets) {
         let mut out = BufWriter::new(&mut *product.out);
-        (target.write)(&program, &mut out)?;
+        (target.emit.write)(&program, &mut out)?;
         out.flush()?;
     }
     let mut report = Report::of(&input.marker, input.dialect.name);
@@ -96,6 +95,12 @@ fn targets(products: &[Product], diagnostics: &mut Diagnostics) -> Vec<&'static 
     targets
 }
 
+/// Target that is judged, with its reader.
+fn setpoints() -> (&'static Target, Reader) {
+    let judged = TARGETS.iter().find_map(|target| Some((target, target.proof?)));
+    judged.expect("setpoints are a target")
+}
+
 /// The verdict on the setpoints: those that were written, or else some that are made to be judged.
 fn verdict_of(
     program: &Program,
@@ -104,13 +109,13 @@ fn verdict_of(
     job: &Job,
     audit: Vec<Finding>,
 ) -> io::Result<Verdict> {
-    let setpoints = &TARGETS[0];
+    let (setpoints, _) = setpoints();
     let written = products.iter_mut().find(|product| product.target.name == setpoints.name);
     if let Some(product) = written {
         return judged(&mut *product.out, input, job, audit);
     }
     let mut bytes = Cursor::new(Vec::new());
-    (setpoints.write)(program, &mut bytes)?;
+    (setpoints.emit.write)(program, &mut bytes)?;
     judged(&mut bytes, input, job, audit)
 }
 
@@ -119,7 +124,7 @@ fn judged(program: &mut dyn Medium, input: &Input, job: &Job, audit: Vec<Finding
     program.rewind()?;
     let ground = Ground::new(&input.marker, &job.profile);
     let mut bytes = BufReader::with_capacity(BLOCK, program);
-    let mut verdict = verify::spray::judge(&mut bytes, &ground, job)?;
+    let mut verdict = (setpoints().1)(&mut bytes, &ground, job)?;
     verdict.findings.extend(audit);
     Ok(verdict)
 }

@@ -275,9 +275,9 @@ struct Proofs {
 
 impl Proofs {
     fn of(products: &[Product], verify: bool) -> Self {
-        let has = |proof: Proof| products.iter().any(|product| product.target.proof == proof);
-        let beside = verify && has(Proof::None) && !has(Proof::Setpoints);
-        Self { beside, by_motion: beside || has(Proof::Setpoints) || has(Proof::Positions) }
+        let has = |proof: Option<Proof>| products.iter().any(|product| product.target.proof == proof);
+        let beside = verify && has(None) && !has(Some(Proof::Setpoints));
+        Self { beside, by_motion: beside || has(Some(Proof::Setpoints)) || has(Some(Proof::Positions)) }
     }
 
     /// The verdict on all programs.
@@ -291,7 +291,7 @@ impl Proofs {
     ) -> io::Result<Option<Verdict>> {
         let Context { source, job, marker } = *context;
         let ground = (self.by_motion && job.mode.cuts()).then(|| Ground::new(marker, &job.profile));
-        let judged_alone = products.iter_mut().filter(|product| product.target.proof != Proof::None);
+        let judged_alone = products.iter_mut().filter(|product| product.target.proof.is_some());
         let programs = judged_alone.map(|product| &mut *product.out);
         let scratch: Option<&mut dyn Medium> = if self.beside { Some(scratch) } else { None };
         let mut verdict: Option<Verdict> = None;

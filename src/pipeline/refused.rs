@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, Write};
 
 use super::product::Product;
-use crate::back::{Context, Emit, Outcome, Proof, Target};
+use crate::back::{Context, Emit, Outcome, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 
 /// The most errors that a picture marks: it is looked at, the messages tell the rest.
@@ -11,7 +11,7 @@ const MOST: usize = 24;
 
 /// Whether a target draws what the knife would do, and may do so where no program is written.
 pub(super) fn is_picture(target: &Target) -> bool {
-    matches!(target.emit, Emit::Toolpath(_) | Emit::Page(_)) && target.proof == Proof::None
+    matches!(target.emit, Emit::Toolpath(_) | Emit::Page(_)) && target.proof.is_none()
 }
 
 /// The errors that refuse a program; those of the verifier are findings.

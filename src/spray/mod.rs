@@ -35,7 +35,7 @@ mod write;
 pub use figures::{Edge, Piece};
 pub use program::Program;
 pub use rows::Row;
-pub use write::{TARGETS, Target};
+pub use write::{Reader, TARGETS, Target};
 
 use std::f64::consts::TAU;
 

@@ -31,4 +31,4 @@ mod write;
 pub use replay::Replay;
 pub use row::Row;
 pub use tracked::{Needs, Tracked};
-pub use write::{TARGETS, Target};
+pub use write::{Reader, TARGETS, Target, Writer};

@@ -1,29 +1,31 @@
 //! Writing: what a log came to, as the bytes of a target, a row of [`TARGETS`] each.
 
-use std::io::{self, Write};
+use std::io::{self, BufRead, Write};
 
 use super::centre;
 use super::chart;
 use super::controller::{Command, Status};
+use super::row::Row;
 use super::tracked::{Needs, Tracked};
+use super::verify;
+use crate::ir;
+use crate::machine::Tracking;
 use crate::units::number::{push_fixed, push_integer};
 
-/// What is written of a log: a row of [`TARGETS`].
+/// Output format of a log: a row of [`TARGETS`].
+pub type Target = ir::Target<Writer, Reader>;
+
+/// Writer of a log.
 #[derive(Debug)]
-pub struct Target {
-    /// Name, as `-t` takes it.
-    pub name: &'static str,
-    /// What it is, in a line.
-    pub about: &'static str,
-    /// What its files end in, without the first dot.
-    pub extension: &'static str,
-    /// What must be known for it.
+pub struct Writer {
+    /// Knowledge that it takes.
     pub needs: Needs,
-    /// Whether it is read back and judged before it takes its place.
-    pub is_judged: bool,
     /// Writes it.
     pub write: fn(&Tracked, &mut dyn Write) -> io::Result<()>,
 }
+
+/// Judge of written bytes, by the readings of the log: the first fault, in words.
+pub type Reader = fn(&mut dyn BufRead, &[Row], &Tracking) -> io::Result<Option<String>>;
 
 /// Every target; the first is the default.
 pub const TARGETS: &[Target] = &[
@@ -31,33 +33,29 @@ pub const TARGETS: &[Target] = &[
         name: "commands",
         about: "what the controller makes of each row: `t_s,i,j,status,direction,v_mm_s`",
         extension: "commands.csv",
-        needs: Needs::Commands,
-        is_judged: true,
-        write: commands,
+        emit: Writer { needs: Needs::Commands, write: commands },
+        proof: Some(verify::commands),
     },
     Target {
         name: "centre",
         about: "the centre line of the cloth by the place of the conveyor: `conv_mm,centre_mm`",
         extension: "centre.csv",
-        needs: Needs::Centre,
-        is_judged: false,
-        write: |tracked, out| centre::write(&tracked.centre, out),
+        emit: Writer { needs: Needs::Centre, write: |tracked, out| centre::write(&tracked.centre, out) },
+        proof: None,
     },
     Target {
         name: "log",
         about: "the log, with the places of conveyor and carriage: `t_s,i,j,conv_mm,carriage_mm`",
         extension: "log.csv",
-        needs: Needs::Places,
-        is_judged: false,
-        write: log,
+        emit: Writer { needs: Needs::Places, write: log },
+        proof: None,
     },
     Target {
         name: "svg",
         about: "a picture: positions, error and speed over time",
         extension: "svg",
-        needs: Needs::Centre,
-        is_judged: false,
-        write: chart::write,
+        emit: Writer { needs: Needs::Centre, write: chart::write },
+        proof: None,
     },
 ];
 

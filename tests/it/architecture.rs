@@ -50,8 +50,8 @@ const IMPORTS: &[(&str, &[&str])] = &[
         ],
     ),
     // A head in the place of the knife: it is moved by the cutter's planner or its own.
-    ("spray", &["source", "diagnostic", "units", "geom", "ir", "machine", "plan"]),
-    ("track", &["source", "diagnostic", "units", "machine"]),
+    ("spray", &["source", "diagnostic", "units", "geom", "ir", "machine", "plan", "verify"]),
+    ("track", &["source", "diagnostic", "units", "ir", "machine"]),
     // Another machine: it cuts what the cutter cuts.
     ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan", "verify", "picture"]),
     ("manual", &[]),
@@ -318,6 +318,35 @@ fn the_verifier_of_sewing_knows_its_forms_and_nothing_of_who_makes_them() {
         }
         if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
             faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
+        }
+    }
+    report(&faults);
+}
+
+/// Types that all machines share, each with the file that declares it.
+const SHARED: &[(&str, &str)] = &[
+    ("Target", "src/ir/target.rs"),
+    ("Rule", "src/ir/verdict/mod.rs"),
+    ("Finding", "src/ir/verdict/mod.rs"),
+    ("Verdict", "src/ir/verdict/mod.rs"),
+    ("Worst", "src/ir/verdict/worst.rs"),
+];
+
+#[test]
+fn a_machine_declares_no_target_rule_or_verdict_of_its_own() {
+    let mut faults = Vec::new();
+    // Readers and passes judge nothing: the rules of a style sheet are none of the verifier.
+    let files =
+        sources("src").into_iter().filter(|file| !["front", "recognise", "pass"].contains(&file.module.as_str()));
+    for file in files {
+        for (name, home) in SHARED {
+            let declares = ["struct ", "enum "].into_iter().any(|word| {
+                let declared = after(&file.code, word).map(|rest| rest.split(|c: char| !c.is_alphanumeric()).next());
+                declared.flatten().any(|declared| declared == *name)
+            });
+            if declares != (file.path == Path::new(home)) {
+                faults.push(format!("{}: `{name}` is declared in {home}, and there alone", file.path.display()));
+            }
         }
     }
     report(&faults);

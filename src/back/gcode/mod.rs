@@ -22,7 +22,7 @@ pub(super) const TARGET: Target = Target {
     about: "G-code of arcs and lines with C, for LinuxCNC and its like",
     extension: "ngc",
     emit: Emit::Arcs(ArcTarget { interpolation, refusals: refusal::refusals, unfit: refusal::unfit, begin }),
-    proof: Proof::Positions,
+    proof: Some(Proof::Positions),
 };
 
 /// How its controller can be told a path.

@@ -15,7 +15,7 @@ mod report;
 
 use std::io;
 
-use super::target::{Context, Emit, Outcome, Output, PageWriter, Proof, Target};
+use super::target::{Context, Emit, Outcome, Output, PageWriter, Target};
 use crate::ir::Motion;
 use crate::picture::{Columns, Page, Script};
 use about::About;
@@ -27,7 +27,7 @@ pub(super) const TARGET: Target = Target {
     about: "a page for a browser: plays the cutting, shows speeds and limits, and reports",
     extension: "html",
     emit: Emit::Page(begin),
-    proof: Proof::None,
+    proof: None,
 };
 
 /// A page while it is made.

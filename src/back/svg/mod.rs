@@ -28,7 +28,7 @@ mod spot;
 
 use std::io::{self, SeekFrom};
 
-use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use super::target::{Context, Emit, Outcome, Output, Parts, Target, nothing};
 use crate::ir::Toolpath;
 use sheet::Sheet;
 
@@ -37,7 +37,7 @@ pub(super) const TARGET: Target = Target {
     about: "a picture to scale: pieces, labels, runs, overlaps, plunges, travels, findings",
     extension: "svg",
     emit: Emit::Toolpath(Parts { refusals: nothing, head, body, tail }),
-    proof: Proof::None,
+    proof: None,
 };
 
 fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {

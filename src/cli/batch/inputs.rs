@@ -128,9 +128,9 @@ fn find_sought(arguments: &[PathBuf], sought: Sought) -> anyhow::Result<Inputs> 
 /// any other.
 fn is_named_as_program(path: &Path) -> bool {
     let Some(extension) = path.extension() else { return false };
-    let moves = |proof: Proof| match proof {
-        Proof::Setpoints | Proof::Positions => true,
-        Proof::Marker | Proof::None => false,
+    let moves = |proof: Option<Proof>| match proof {
+        Some(Proof::Setpoints | Proof::Positions) => true,
+        Some(Proof::Marker) | None => false,
     };
     let mut known = TARGETS.iter().filter(|target| moves(target.proof)).map(|target| target.extension);
     known.any(|known| extension.eq_ignore_ascii_case(known))

@@ -50,10 +50,10 @@ pub(in crate::cli) struct Output {
     pub(in crate::cli) sha256: String,
 }
 
-/// What a file was found to be worth.
+/// Standing of the programs of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(in crate::cli) enum Verdict {
+pub(in crate::cli) enum Standing {
     /// Its programs were read back and proven.
     Verified,
     /// They were not, as `--no-verify` asked.
@@ -67,7 +67,7 @@ pub(in crate::cli) enum Verdict {
 pub(in crate::cli) struct Line {
     #[serde(flatten)]
     pub(in crate::cli) made: Made,
-    pub(in crate::cli) verdict: Verdict,
+    pub(in crate::cli) verdict: Standing,
     /// Programs, and pictures of what was refused.
     pub(in crate::cli) outputs: Vec<Output>,
     /// None of what could not be read.
@@ -162,8 +162,8 @@ impl Manifest {
             .find(|line| line.made == *made)?
             .clone();
         let is_made = match line.verdict {
-            Verdict::Verified | Verdict::Unverified => true,
-            Verdict::Refused => false,
+            Standing::Verified | Standing::Unverified => true,
+            Standing::Refused => false,
         };
         (is_made && line.outputs.iter().all(|output| self.stands(output))).then_some(line)
     }
@@ -172,14 +172,14 @@ impl Manifest {
     pub(in crate::cli) fn refused(&self, made: &Made) -> Option<Line> {
         let lines = self.lines();
         let last = lines.known.get(&(made.source.clone(), made.targets.clone())).and_then(|lines| lines.last());
-        last.filter(|line| line.made == *made && line.verdict == Verdict::Refused).cloned()
+        last.filter(|line| line.made == *made && line.verdict == Standing::Refused).cloned()
     }
 
     /// The inputs of which the last thing that was made is nothing, by their names.
     pub(in crate::cli) fn refused_names(&self) -> Vec<String> {
         let lines = self.lines();
         let last = lines.known.values().filter_map(|lines| lines.last());
-        last.filter(|line| line.verdict == Verdict::Refused).map(|line| line.made.source.clone()).collect()
+        last.filter(|line| line.verdict == Standing::Refused).map(|line| line.made.source.clone()).collect()
     }
 
     fn stands(&self, output: &Output) -> bool {

@@ -19,7 +19,7 @@ use clap::Args;
 pub(super) use collisions::refuse_collisions;
 pub(super) use figures::{Cloth, Figures};
 pub(super) use inputs::{Input, Inputs, extensions, files_in, find, find_programs, hint, is_cutter_file};
-pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};
+pub(super) use manifest::{Line, Made, Manifest, Output, Standing};
 pub(super) use passed::tell_passed_over;
 pub(super) use shard::Shard;
 pub(super) use side_by_side::{Stages, run as side_by_side};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::back::{Emit, Target};
+use crate::back::{Emit, TARGETS, Target};
 use crate::cli::batch::{Shard, Threads};
 use crate::cli::choices::{self, Format};
 use crate::cli::finished::{Finished, failure};
@@ -71,7 +71,7 @@ pub(in crate::cli) struct Making {
         short,
         long = "target",
         value_name = "TARGET",
-        value_parser = choices::targets(),
+        value_parser = choices::targets(TARGETS),
         value_delimiter = ','
     )]
     pub(super) targets: Vec<&'static Target>,

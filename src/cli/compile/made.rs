@@ -128,7 +128,7 @@ impl Compile<'_> {
         };
         let declared = compiled.map_or(&[][..], |compiled| &compiled.declared);
         let Self { source, job, .. } = *self;
-        let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
+        let is_moved = matches!(target.proof, Some(Proof::Setpoints | Proof::Positions));
         let cut = Some(Cut { declared: is_moved.then_some(declared) });
         let remarks = if matches!(target.emit, Emit::Page(_)) { remarks(job) } else { String::new() };
         let options = [typed(job), remarks].join(" ");

@@ -6,9 +6,9 @@ use super::arguments::{Arguments, Making};
 use super::made::{Compile, Drafted, Ended, Whole};
 use super::one;
 use super::overview::{Overview, page_of};
-use crate::back::Target;
+use crate::back::{TARGETS, Target};
 use crate::cli::batch::{
-    self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
+    self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, Standing, State, Telling,
     refuse_collisions,
 };
 use crate::cli::choices::Format;
@@ -30,7 +30,7 @@ pub(super) fn run(
 ) -> anyhow::Result<Finished> {
     let Arguments { making, messages, format, changed, shard, .. } = arguments;
     let out = making.place();
-    let targets = targets_of_many(out, &making.targets)?;
+    let targets = targets_of_many(out, TARGETS, &making.targets)?;
     making.check_remarks(&targets)?;
     let job = match making.job()? {
         Ok(job) => job,
@@ -157,9 +157,9 @@ impl<'a> Many<'a> {
             let output = |Whole { path, sha256 }| Output { path: self.manifest.name_of(&path), sha256 };
             let report = compiled.map(|compiled| &compiled.report);
             let verdict = match compiled {
-                None => Verdict::Refused,
-                Some(Compiled { verdict: None, .. }) => Verdict::Unverified,
-                Some(Compiled { verdict: Some(_), .. }) => Verdict::Verified,
+                None => Standing::Refused,
+                Some(Compiled { verdict: None, .. }) => Standing::Unverified,
+                Some(Compiled { verdict: Some(_), .. }) => Standing::Verified,
             };
             self.manifest.add(Line {
                 made: made.clone(),

@@ -7,6 +7,7 @@ use tempfile::SpooledTempFile;
 use super::arguments::{Arguments, Making};
 use super::made::{Compile, Emitted, Ended, move_aside};
 use super::shown::Shown;
+use crate::back::TARGETS;
 use crate::cli::choices::Format;
 use crate::cli::destination::{Asked, Destination, Place};
 use crate::cli::draft;
@@ -27,7 +28,7 @@ const MOST_LINES: usize = 10;
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
     let Making { out, targets, force, .. } = &arguments.making;
     let beside = arguments.making.beside();
-    let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
+    let asked = Asked { all: TARGETS, out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
     arguments.making.check_remarks(&targets)?;
     if place == Place::Stdout && arguments.format == Format::Json {

@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::choices::{self, Format};
 use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
-use crate::flow::{Speed, Target};
+use crate::flow::{Speed, TARGETS, Target};
 use crate::units::quantity;
 
 /// Arguments of `cutc flow`.
@@ -30,7 +30,7 @@ pub(in crate::cli) struct Arguments {
     pub(super) speed: Option<Speed>,
 
     /// What to write beside the plan, one or several as in `-t csv,svg`; csv without it
-    #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::flow_targets(), value_delimiter = ',')]
+    #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::targets(TARGETS), value_delimiter = ',')]
     pub(super) targets: Vec<&'static Target>,
 
     /// Overwrite a plan even if it was made from another input, or by somebody else

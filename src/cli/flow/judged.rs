@@ -14,7 +14,7 @@ use crate::cli::finished::{failure, say};
 use crate::cli::made::BLOCK_BYTES;
 use crate::diagnostic::Diagnostics;
 use crate::flow::verify::{self, Bytes, Ground};
-use crate::flow::{Kind, TARGETS, Target};
+use crate::flow::{TARGETS, Target};
 use crate::front::Dialect;
 use crate::machine::{Job, blake3_of};
 use crate::pipeline::{self, Explained, Judged};
@@ -75,7 +75,7 @@ fn programs(plan: &Path, text: &str) -> Vec<Programs> {
     let heads = told["heads"].as_array().map_or(&[][..], Vec::as_slice);
     let folder = plan.parent().unwrap_or(Path::new(""));
     let of_target = |target: &Target| {
-        let Kind::Heads { bytes, .. } = target.kind else { return None };
+        let bytes = target.proof?;
         let named: Vec<Option<&str>> = heads.iter().map(|head| named(head, target.extension)).collect();
         let is_any = named.iter().any(Option::is_some);
         let name = |(head, name): (usize, Option<&str>)| name.map_or_else(|| target.file(head), str::to_owned);

@@ -16,7 +16,7 @@ use crate::cli::provenance::{self, Verified};
 use crate::cli::report::pretty;
 use crate::diagnostic::{Diagnostics, code};
 use crate::flow::verify::{self, Bytes, Ground};
-use crate::flow::{self, Head, Kind, Program, Target};
+use crate::flow::{self, Emit, Head, Program, Target};
 use crate::ir::verdict::{Sighting, Verdict};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, blake3_of};
@@ -51,8 +51,8 @@ impl Made<'_> {
         let mut plan = flow::describe(program, self.marker, &self.job.profile);
         let (mut drafts, mut judged) = (Vec::new(), Vec::new());
         for target in self.targets {
-            match target.kind {
-                Kind::Heads { write, bytes } => {
+            match target.emit {
+                Emit::Heads(write) => {
                     let of_head = |(i, head): (usize, &Head)| {
                         written(folder, &target.file(i), |out: &mut dyn io::Write| write(program, head, out))
                     };
@@ -63,9 +63,9 @@ impl Made<'_> {
                         head.files.push(file);
                         programs.push(draft);
                     }
-                    judged.push((*target, bytes, programs));
+                    judged.push((*target, programs));
                 }
-                Kind::Whole { write, .. } => {
+                Emit::Whole { write, .. } => {
                     let put = |out: &mut dyn io::Write| write(program, self.marker, out);
                     let (draft, file) = written(folder, &target.file(0), put)?;
                     plan.pictures.push(file);
@@ -73,11 +73,11 @@ impl Made<'_> {
                 }
             }
         }
-        let programs = judged.iter().map(|(_, _, programs)| programs.len()).sum();
+        let programs = judged.iter().map(|(_, programs)| programs.len()).sum();
         let text = pretty(&plan);
         let mut verdicts = Vec::new();
-        for (target, bytes, mut programs) in judged {
-            if self.verify {
+        for (target, mut programs) in judged {
+            if let Some(bytes) = target.proof.filter(|_| self.verify) {
                 let verdict = self.judged(&text, bytes, &mut programs)?;
                 let place = |place: Sighting| {
                     let row = place.line.filter(|_| place.head > 0);

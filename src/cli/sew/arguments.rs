@@ -9,7 +9,7 @@ use crate::cli::choices::{self, Format};
 use crate::cli::options::{Machine, Messages, NO_HEADING, Patterned};
 use crate::machine::Job;
 use crate::machine::sewing;
-use crate::sew::{Asked, Target};
+use crate::sew::{Asked, TARGETS, Target};
 
 /// Arguments of `cutc sew`.
 ///
@@ -29,7 +29,7 @@ pub(in crate::cli) struct Arguments {
     pub(super) out: Option<PathBuf>,
 
     /// What to write, one or several as in `-t queue,dst`; without it the extension of -o chooses, else queue
-    #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::sewing_targets(), value_delimiter = ',')]
+    #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::targets(TARGETS), value_delimiter = ',')]
     pub(super) targets: Vec<&'static Target>,
 
     /// Overwrite a file even if it was made from another input, or by somebody else

@@ -35,7 +35,7 @@ impl<'a> Writing<'a> {
     /// Writes every program to its place. Nothing takes its place when one is refused.
     pub(super) fn write(&self, place: &Place, out: &mut Diagnostics) -> anyhow::Result<Written> {
         for target in self.targets {
-            (target.refusals)(self.made.program, self.made.job, out);
+            (target.emit.refusals)(self.made.program, self.made.job, out);
         }
         let verdicts = RefCell::default();
         if self.verify && self.targets.iter().all(|target| target.proof.is_none()) {
@@ -71,7 +71,7 @@ impl<'a> Writing<'a> {
         Product {
             target: target.name,
             verified: if self.verify { Verified::Yes } else { Verified::No },
-            write: Box::new(move |out| (target.write)(made.program, made.job, out)),
+            write: Box::new(move |out| (target.emit.write)(made.program, made.job, out)),
             judge: proof.map(|bytes| -> Box<Judge<'p>> { Box::new(move |input, out| judge(bytes, input, out)) }),
         }
     }

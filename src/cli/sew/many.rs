@@ -10,11 +10,12 @@ use crate::cli::destination::{Place, below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
 use crate::cli::files;
 use crate::cli::finished::{Console, Finished};
+use crate::sew::TARGETS;
 
 pub(super) fn run(arguments: &Arguments, inputs: &[Input], console: &mut Console) -> anyhow::Result<Finished> {
     let threads = arguments.threads.set();
     let out = arguments.out.as_deref().unwrap_or(Path::new(""));
-    let targets = targets_of_many(out, &arguments.targets)?;
+    let targets = targets_of_many(out, TARGETS, &arguments.targets)?;
     let job = match arguments.machine.job()? {
         Ok(job) => arguments.of(job),
         Err(refused) => return Ok(refused),

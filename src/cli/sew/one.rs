@@ -10,11 +10,12 @@ use crate::cli::destination::{Asked, Destination, Place};
 use crate::cli::draft::MadeFolders;
 use crate::cli::files;
 use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+use crate::sew::TARGETS;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
     let Arguments { out, targets, force, machine, .. } = arguments;
     let beside = [machine.profile.as_deref(), None, None];
-    let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
+    let asked = Asked { all: TARGETS, out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
     if place == Place::Stdout && arguments.format == Format::Json {
         return Err(failure(

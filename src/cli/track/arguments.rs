@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::choices::{self, Format};
 use crate::cli::options::{Machine, Messages, NO_HEADING};
-use crate::track::Target;
+use crate::track::{TARGETS, Target};
 
 /// Arguments of `cutc track`.
 ///
@@ -29,7 +29,7 @@ pub(in crate::cli) struct Arguments {
     pub(super) out: Option<PathBuf>,
 
     /// What to write, one or several as in `-t commands,centre`; without it commands
-    #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::tracking_targets(), value_delimiter = ',')]
+    #[arg(short, long = "target", value_name = "TARGET", value_parser = choices::targets(TARGETS), value_delimiter = ',')]
     pub(super) targets: Vec<&'static Target>,
 
     /// Draw positions, error and speed over time to this file, as SVG

@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         }
     };
     let _made = MadeFolders::of(paths.iter().copied())?;
-    let needs = destinations.iter().flat_map(|found| &found.targets).map(|target| target.needs).max();
+    let needs = destinations.iter().flat_map(|found| &found.targets).map(|target| target.emit.needs).max();
     let needs = needs.unwrap_or(Needs::Commands);
     let mut diagnostics = Diagnostics::default();
     let track = &job.profile.track;

@@ -7,7 +7,7 @@ use clap::Parser;
 
 use super::arguments::Arguments;
 use super::settling::Stamp;
-use crate::back::Target;
+use crate::back::{TARGETS, Target};
 use crate::cli::compile::one_map;
 use crate::cli::destination::targets_of_many;
 use crate::cli::files;
@@ -62,7 +62,7 @@ impl Settings {
         if map.is_some() {
             return Err(one_map());
         }
-        let targets = targets_of_many(arguments.making.place(), arguments.making.targets())?;
+        let targets = targets_of_many(arguments.making.place(), TARGETS, arguments.making.targets())?;
         arguments.making.check_remarks(&targets)?;
         let named: Vec<PathBuf> = [profile, centre].into_iter().flatten().map(Path::to_owned).collect();
         let stamps = std::iter::once(stamp).chain(named.iter().map(|path| Stamp::at(path))).collect();

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::target::{Kind, Target};
+use super::target::{Emit, Target};
 use crate::flow::program::{Head, Program, Setpoint};
 use crate::units::{deg, number};
 use crate::verify::flow::Bytes;
@@ -14,7 +14,8 @@ pub(super) const TARGET: Target = Target {
     name: "csv",
     about: "timed setpoints of each head, a row a period, against time and conveyor position",
     extension: "csv",
-    kind: Kind::Heads { write, bytes: Bytes::Rows },
+    emit: Emit::Heads(write),
+    proof: Some(Bytes::Rows),
 };
 
 /// Decimals of every number.

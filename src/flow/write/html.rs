@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde_json::{Value, json};
 
 use super::markup::color;
-use super::target::{Kind, Target};
+use super::target::{Emit, Target};
 use crate::flow::program::{Program, Setpoint};
 use crate::ir::Marker;
 use crate::picture::{Columns, Page, Script};
@@ -15,7 +15,8 @@ pub(super) const TARGET: Target = Target {
     name: "html",
     about: "a page that plays the program: cloth and heads moving",
     extension: "html",
-    kind: Kind::Whole { stem: "player", write },
+    emit: Emit::Whole { stem: "player", write },
+    proof: None,
 };
 
 /// Time between two places of a head where there are not too many, s.

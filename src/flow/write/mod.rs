@@ -12,7 +12,7 @@ mod target;
 mod timing;
 
 pub use plan::{File, Plan, describe};
-pub use target::{Kind, Target};
+pub use target::{Emit, Target};
 
 /// Every target; the first is the default.
 pub const TARGETS: &[Target] = &[csv::TARGET, npy::TARGET, svg::TARGET, timing::TARGET, html::TARGET];

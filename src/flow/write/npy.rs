@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::target::{Kind, Target};
+use super::target::{Emit, Target};
 use crate::flow::program::{Head, Program};
 use crate::units::{array, deg};
 use crate::verify::flow::Bytes;
@@ -14,7 +14,8 @@ pub(super) const TARGET: Target = Target {
     name: "npy",
     about: "the setpoints of csv as NumPy arrays of records, unrounded",
     extension: "npy",
-    kind: Kind::Heads { write, bytes: Bytes::Records },
+    emit: Emit::Heads(write),
+    proof: Some(Bytes::Records),
 };
 
 /// The fields of a record.

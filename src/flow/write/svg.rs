@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::markup::{color, extent, mm, path};
-use super::target::{Kind, Target};
+use super::target::{Emit, Target};
 use crate::flow::program::Program;
 use crate::ir::Marker;
 use crate::units::MM_PER_INCH;
@@ -13,7 +13,8 @@ pub(super) const TARGET: Target = Target {
     name: "svg",
     about: "a picture of the cloth to scale: the chains, coloured by head",
     extension: "svg",
-    kind: Kind::Whole { stem: "chains", write },
+    emit: Emit::Whole { stem: "chains", write },
+    proof: None,
 };
 
 /// Window in which the whole picture should be readable, pixels, and the least size of one, mm: that of a browser.

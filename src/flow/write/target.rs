@@ -1,34 +1,19 @@
-//! What a target of heads over a conveyor is.
+//! Row of a target of heads over a conveyor, and its writer.
 
 use std::io::{self, Write};
 
 use crate::flow::program::{Head, Program};
-use crate::ir::Marker;
+use crate::ir::{self, Marker};
 use crate::verify::flow::Bytes;
 
-/// What a program is written as: a row of [`TARGETS`](super::TARGETS).
-#[derive(Debug)]
-pub struct Target {
-    /// Name, as `-t` takes it.
-    pub name: &'static str,
-    /// What it is, in a line.
-    pub about: &'static str,
-    /// What its files end in, without the first dot.
-    pub extension: &'static str,
-    /// What is written.
-    pub kind: Kind,
-}
+/// Output format of heads over a conveyor: a row of [`TARGETS`](super::TARGETS).
+pub type Target = ir::Target<Emit, Bytes>;
 
-/// What is written.
+/// Writer of a plan.
 #[derive(Debug, Clone, Copy)]
-pub enum Kind {
-    /// A file a head, which is judged from its bytes.
-    Heads {
-        /// Writes it.
-        write: fn(&Program, &Head, &mut dyn Write) -> io::Result<()>,
-        /// How it is judged.
-        bytes: Bytes,
-    },
+pub enum Emit {
+    /// A file for each head.
+    Heads(fn(&Program, &Head, &mut dyn Write) -> io::Result<()>),
     /// One file, a picture.
     Whole {
         /// What it is called, without its extension.
@@ -41,9 +26,9 @@ pub enum Kind {
 impl Target {
     /// The file of a head, by its place in the plan, or the only one.
     pub fn file(&self, head: usize) -> String {
-        match self.kind {
-            Kind::Heads { .. } => format!("head-{:02}.{}", head + 1, self.extension),
-            Kind::Whole { stem, .. } => format!("{stem}.{}", self.extension),
+        match self.emit {
+            Emit::Heads(_) => format!("head-{:02}.{}", head + 1, self.extension),
+            Emit::Whole { stem, .. } => format!("{stem}.{}", self.extension),
         }
     }
 }

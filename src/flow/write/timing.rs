@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 
 use super::markup::{color, extent, mm};
-use super::target::{Kind, Target};
+use super::target::{Emit, Target};
 use crate::flow::program::{Head, Program, Setpoint};
 use crate::ir::Marker;
 use crate::units::number::fixed;
@@ -13,7 +13,8 @@ pub(super) const TARGET: Target = Target {
     name: "timing",
     about: "a chart of the rows against time: heads across the feed, and in their travel along it",
     extension: "svg",
-    kind: Kind::Whole { stem: "rows", write },
+    emit: Emit::Whole { stem: "rows", write },
+    proof: None,
 };
 
 /// Size of the chart, px: its width, the places of its axes, and the heights of the two panels of a row.

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::target::{Target, nothing};
+use super::target::{Target, Writer};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
@@ -16,8 +16,7 @@ pub(super) const TARGET: Target = Target {
     name: "timing",
     about: "a picture of three stitches in time at two speeds: spindle, window, pulse rates of X and Y",
     extension: "timing.svg",
-    refusals: nothing,
-    write,
+    emit: Writer::of_all(write),
     proof: None,
 };
 

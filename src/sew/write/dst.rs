@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use super::stitch_file::{Record, records};
-use super::target::Target;
+use super::target::{Target, Writer};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::sew::program::Program;
@@ -16,8 +16,7 @@ pub(super) const TARGET: Target = Target {
     name: "dst",
     about: "a stitch file of Tajima machines, which have their own speeds",
     extension: "dst",
-    refusals,
-    write,
+    emit: Writer { refusals, write },
     proof: Some(Bytes::Dst),
 };
 

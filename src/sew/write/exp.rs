@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::stitch_file::{Record, records};
-use super::target::{Target, nothing};
+use super::target::{Target, Writer};
 use crate::machine::Job;
 use crate::sew::program::Program;
 use crate::sew::verify::Bytes;
@@ -12,8 +12,7 @@ pub(super) const TARGET: Target = Target {
     name: "exp",
     about: "a stitch file of Melco machines, which have their own speeds",
     extension: "exp",
-    refusals: nothing,
-    write,
+    emit: Writer::of_all(write),
     proof: Some(Bytes::Exp),
 };
 

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::json;
 
-use super::target::Target;
+use super::target::{Target, Writer};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::machine::sewing::Ramp;
@@ -16,8 +16,7 @@ pub(super) const TARGET: Target = Target {
     name: "html",
     about: "a page that plays the pattern: needle, cloth, spindle angle, window",
     extension: "html",
-    refusals,
-    write,
+    emit: Writer { refusals, write },
     proof: None,
 };
 

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::target::{Target, nothing};
+use super::target::{Target, Writer};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
@@ -18,8 +18,7 @@ pub(super) const ROWS: Target = Target {
     name: "pulses",
     about: "every pulse of X and Y, timed from where the window of its stitch begins, a row each",
     extension: "pulses.csv",
-    refusals: nothing,
-    write: rows,
+    emit: Writer::of_all(rows),
     proof: Some(Bytes::PulseRows),
 };
 
@@ -27,8 +26,7 @@ pub(super) const RECORDS: Target = Target {
     name: "pulses-npy",
     about: "the same as a NumPy array of records, unrounded",
     extension: "pulses.npy",
-    refusals: nothing,
-    write: records,
+    emit: Writer::of_all(records),
     proof: Some(Bytes::PulseRecords),
 };
 

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::target::{Target, nothing};
+use super::target::{Target, Writer};
 use crate::machine::Job;
 use crate::sew::program::Program;
 use crate::sew::stitches::Op;
@@ -16,8 +16,7 @@ pub(super) const ROWS: Target = Target {
     name: "queue",
     about: "entries of a stitch queue: `op,dx_mm,dy_mm,value`, STITCH, JUMP, TRIM, STOP, COLOR, SPEED, END",
     extension: "queue.csv",
-    refusals: nothing,
-    write: |program, job, out| write(program, job, out, &AS_ROWS),
+    emit: Writer::of_all(|program, job, out| write(program, job, out, &AS_ROWS)),
     proof: Some(Bytes::QueueRows),
 };
 
@@ -25,8 +24,7 @@ pub(super) const JSON: Target = Target {
     name: "jsonl",
     about: "the same entries as JSON, a line each",
     extension: "queue.jsonl",
-    refusals: nothing,
-    write: |program, job, out| write(program, job, out, &AS_JSON),
+    emit: Writer::of_all(|program, job, out| write(program, job, out, &AS_JSON)),
     proof: Some(Bytes::QueueJson),
 };
 

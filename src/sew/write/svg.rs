@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::markup::{color, extent, mm, path, speeds};
-use super::target::{Target, nothing};
+use super::target::{Target, Writer};
 use crate::geom::Point;
 use crate::machine::Job;
 use crate::sew::program::Program;
@@ -14,8 +14,7 @@ pub(super) const TARGET: Target = Target {
     name: "svg",
     about: "a picture to scale: needle points, jumps, trims, the speed by colour",
     extension: "svg",
-    refusals: nothing,
-    write,
+    emit: Writer::of_all(write),
     proof: None,
 };
 

@@ -5,15 +5,17 @@
 
 use std::io::{self, Write};
 
-use super::target::Target;
+use super::target::{Target, Writer};
 use crate::spray::program::Program;
 use crate::units::{deg, number};
+use crate::verify::spray::judge;
 
 pub(super) const TARGET: Target = Target {
     name: "csv",
     about: "timed setpoints of X, Y and C with the velocities of X and Y, a row a period",
-    compares: false,
-    write,
+    extension: "csv",
+    emit: Writer { compares: false, write },
+    proof: Some(judge),
 };
 
 /// Decimals of positions (mm, degrees), of speeds (mm/s) and of times (s).

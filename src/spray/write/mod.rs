@@ -6,7 +6,7 @@ mod csv;
 mod svg;
 mod target;
 
-pub use target::Target;
+pub use target::{Reader, Target};
 
-/// Every target; the first is the one that is judged.
+/// Every target; the first is the default.
 pub const TARGETS: &[Target] = &[csv::TARGET, svg::TARGET];

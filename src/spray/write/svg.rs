@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use super::target::Target;
+use super::target::{Target, Writer};
 use crate::geom::{Extent, Point, Vector};
 use crate::spray::course::Leg;
 use crate::spray::figures;
@@ -15,8 +15,9 @@ use crate::units::number::{fixed, short};
 pub(super) const TARGET: Target = Target {
     name: "svg",
     about: "a picture of the edges, the way of the head, and its speed over time",
-    compares: true,
-    write,
+    extension: "svg",
+    emit: Writer { compares: true, write },
+    proof: None,
 };
 
 /// Sizes, px: of the picture, its margins, and the panel of speeds.

@@ -1,18 +1,24 @@
-//! What a target of a head is.
+//! Row of a target of a head, its writer and its reader.
 
-use std::io::{self, Write};
+use std::io::{self, BufRead, Write};
 
+use crate::ir;
+use crate::ir::verdict::Verdict;
+use crate::machine::Job;
 use crate::spray::program::Program;
+use crate::verify::spray::Ground;
 
-/// What a program is written as; it has the name of a target of the cutter.
+/// Output format of a head: a row of [`TARGETS`](super::TARGETS), with the name of a target of the cutter.
+pub type Target = ir::Target<Writer, Reader>;
+
+/// Writer of programs.
 #[derive(Debug)]
-pub struct Target {
-    /// The name, as `-t` takes it.
-    pub name: &'static str,
-    /// What it is here, in a line.
-    pub about: &'static str,
-    /// Whether it shows what another planner makes of the same.
+pub struct Writer {
+    /// Whether it shows the program of another planner beside.
     pub compares: bool,
-    /// Writes it.
+    /// Writes a program.
     pub write: fn(&Program, &mut dyn Write) -> io::Result<()>,
 }
+
+/// Judge of a program by its bytes.
+pub type Reader = fn(&mut dyn BufRead, &Ground, &Job) -> io::Result<Verdict>;

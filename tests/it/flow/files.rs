@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use cutc::flow::verify::Bytes;
-use cutc::flow::{Kind, Speed};
+use cutc::flow::{Emit, Speed};
 
 use super::{Planned, broken, job, judged, plan, planned, target, written};
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
@@ -76,7 +76,7 @@ fn records_hold_what_rows_hold_and_pictures_are_whole() {
     for (name, start, end) in
         [("svg", "<svg", "</svg>\n"), ("timing", "<svg", "</svg>\n"), ("html", "<!doctype html>", "</html>\n")]
     {
-        let Kind::Whole { write, .. } = target(name).kind else { panic!("{name} is a picture") };
+        let Emit::Whole { write, .. } = target(name).emit else { panic!("{name} is a picture") };
         let mut bytes = Vec::new();
         write(program, marker, &mut bytes).expect("a vector takes bytes");
         let text = String::from_utf8(bytes).expect("text");

@@ -8,7 +8,7 @@ use std::io::{BufRead, Cursor};
 
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::flow::verify::{self, Bytes, Ground};
-use cutc::flow::{self, Kind, Program, Speed, TARGETS, Target};
+use cutc::flow::{self, Emit, Program, Speed, TARGETS, Target};
 use cutc::ir::Marker;
 use cutc::ir::verdict::Verdict;
 use cutc::machine::{Job, load};
@@ -62,7 +62,7 @@ fn target(name: &str) -> &'static Target {
 fn written(planned: &Planned, job: &Job, name: &str) -> (String, Vec<Vec<u8>>) {
     let Planned { marker, program } = planned;
     let plan = serde_json::to_string(&flow::describe(program, marker, &job.profile)).expect("plain data");
-    let Kind::Heads { write, .. } = target(name).kind else { panic!("{name} is no program") };
+    let Emit::Heads(write) = target(name).emit else { panic!("{name} is no program") };
     let head = |head: &flow::Head| {
         let mut bytes = Vec::new();
         write(program, head, &mut bytes).expect("a vector takes bytes");

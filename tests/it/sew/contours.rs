@@ -21,7 +21,7 @@ fn seams(plot: &str, line: Option<&str>, inset: f64) -> Result<Vec<Vec<Point>>, 
     let program = sew::plan(&source, &asked, &Job::default(), &mut out);
     let program = program.ok_or_else(|| cutc::diagnostic::render(&out, &source))?;
     let mut bytes = Vec::new();
-    (target("queue").write)(&program, &Job::default(), &mut bytes).expect("a vector takes bytes");
+    (target("queue").emit.write)(&program, &Job::default(), &mut bytes).expect("a vector takes bytes");
     Ok(program.pattern.expect("lines").seams.into_iter().map(|seam| seam.points).collect())
 }
 

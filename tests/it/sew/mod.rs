@@ -48,7 +48,7 @@ fn target(name: &str) -> &'static Target {
 /// The bytes of a program.
 fn written(program: &Program, job: &Job, name: &str) -> Vec<u8> {
     let mut bytes = Vec::new();
-    (target(name).write)(program, job, &mut bytes).expect("a vector takes bytes");
+    (target(name).emit.write)(program, job, &mut bytes).expect("a vector takes bytes");
     bytes
 }
 

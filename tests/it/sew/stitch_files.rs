@@ -54,7 +54,7 @@ fn said_of_dst(queue: &str, job: &Job) -> Vec<String> {
     let (program, said, _) = plan("x.csv", queue.as_bytes().to_vec(), job);
     let program = program.unwrap_or_else(|| panic!("{said}"));
     let mut out = Diagnostics::default();
-    (target("dst").refusals)(&program, job, &mut out);
+    (target("dst").emit.refusals)(&program, job, &mut out);
     out.iter().map(|found| format!("{}: {}", found.code.name, found.message)).collect()
 }
 

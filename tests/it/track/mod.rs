@@ -38,6 +38,6 @@ fn scenario(name: &str, track: &Tracking) -> Scenario {
 fn written(tracked: &Tracked, name: &str) -> Vec<u8> {
     let target = TARGETS.iter().find(|target| target.name == name).expect("a target");
     let mut bytes = Vec::new();
-    (target.write)(tracked, &mut bytes).expect("a vector takes bytes");
+    (target.emit.write)(tracked, &mut bytes).expect("a vector takes bytes");
     bytes
 }
