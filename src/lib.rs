@@ -41,6 +41,7 @@
 //! | [`spray`] | the head that follows edges at a distance: rings to offsets, courses and setpoints with velocities |
 //! | [`track`] | the carriage that follows the centre of a moving cloth: ruler readings to commands and centre lines |
 //! | [`flow`] | heads over a conveyor, a pipeline of its own: a Marker to chains, heads, rows and a program a head |
+//! | [`machines`] | the machines, rows of [`machines::MACHINES`]: names, targets, rules, and the functions that commands call |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
@@ -71,7 +72,7 @@
 //!
 //! # What is absent, on purpose
 //!
-//! - **No trait for a stage and no plug-ins.** A dialect, pass or target is a row of data with functions in it.
+//! - **No trait for a stage and no plug-ins.** A dialect, pass, target or machine is a row of data with functions in it.
 //! - **No shared toolbox module.** What two stages need is geometry, a unit, part of a form, or a question to
 //!   [`analysis`].
 //! - **No curves in the Toolpath.** It is polylines, as files are; what is smooth about a motion is `plan`'s own.
@@ -89,6 +90,7 @@ pub mod front;
 pub mod geom;
 pub mod ir;
 pub mod machine;
+pub mod machines;
 pub mod manual;
 pub mod pass;
 pub mod picture;

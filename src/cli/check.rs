@@ -6,18 +6,17 @@ use clap::Args;
 use serde::Serialize;
 
 use super::batch::{self, Batch, Columns, Input, Inputs, Outcome, Row, State, Telling, Threads};
-use super::choices::Format;
+use super::choices::{self, Format};
 use super::files;
-use super::finished::{Console, DONE, FAULTY, Finished, USAGE, say};
+use super::finished::{Console, DONE, FAULTY, Finished, USAGE, failure, say};
 use super::options::{LeftOut, Messages, Reading, counted};
 use super::report::{Findings, pretty};
 use super::setup;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
-use crate::ir::Marker;
 use crate::machine::{Job, OrderPolicy};
-use crate::pipeline;
+use crate::machines::{self, Checked, Machine};
+use crate::sew::Asked;
 use crate::source::Source;
-use crate::units::MM_PER_M;
 
 /// Arguments of `cutc check`.
 #[derive(Debug, Args)]
@@ -25,6 +24,10 @@ pub(super) struct Arguments {
     /// Cutter files to check, folders of such, or patterns as 'in/**/*.cut'; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+
+    /// Machine that the files are for, which may not be able to do what they say; without it that of the profile's tool
+    #[arg(long = "for", value_name = "MACHINE", value_parser = choices::machines())]
+    machine: Option<&'static Machine>,
 
     #[command(flatten)]
     reading: Reading,
@@ -52,13 +55,13 @@ struct Listing {
     findings: Findings,
 }
 
-/// A file as it was found to be.
-struct Checked {
+/// A file with its faults.
+struct Found {
     source: Source,
     diagnostics: Diagnostics,
     dialect: Option<&'static str>,
-    /// The marker of a good file.
-    marker: Option<Marker>,
+    /// Contents of a good file.
+    contents: Option<Checked>,
 }
 
 pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
@@ -88,8 +91,8 @@ fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
     let (mut said, mut verdicts, mut code) = (String::new(), Vec::new(), DONE);
     match arguments.checked(file, job) {
         Ok(checked) => {
-            let Checked { source, diagnostics, dialect, marker } = &checked;
-            if marker.is_none() {
+            let Found { source, diagnostics, dialect, contents } = &checked;
+            if contents.is_none() {
                 code = FAULTY;
             }
             said.push_str(&arguments.said(&checked));
@@ -115,20 +118,25 @@ fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
 }
 
 impl Arguments {
-    fn checked(&self, file: &Path, job: &Job) -> anyhow::Result<Checked> {
+    fn checked(&self, file: &Path, job: &Job) -> anyhow::Result<Found> {
         let source = files::read(file)?;
         let mut diagnostics = Diagnostics::default();
         // Whatever the order, the same is wrong with a file.
         let mut job = job.clone();
         job.profile.order.policy = OrderPolicy::File;
-        let input = pipeline::check(&source, self.reading.from, &job, &mut diagnostics);
-        let dialect = input.as_ref().map(|input| input.dialect.name);
-        let marker = input.filter(|_| !diagnostics.has_errors()).map(|input| input.marker);
-        Ok(Checked { source, diagnostics, dialect, marker })
+        let machine = self.machine.unwrap_or_else(|| machines::of(&job));
+        if let Some([what, hint]) = (machine.refusal)(&job) {
+            return Err(failure(what, hint));
+        }
+        let asked = Asked { from: self.reading.from.map(|dialect| dialect.name.to_owned()), ..Asked::default() };
+        let checked = (machine.check)(&source, &asked, &job, &mut diagnostics);
+        let dialect = checked.as_ref().map(|checked| checked.format);
+        let contents = checked.filter(|_| !diagnostics.has_errors());
+        Ok(Found { source, diagnostics, dialect, contents })
     }
 
     /// What is said of a file.
-    fn said(&self, Checked { source, diagnostics, .. }: &Checked) -> String {
+    fn said(&self, Found { source, diagnostics, .. }: &Found) -> String {
         render_with(diagnostics, source, self.messages.detail(self.format))
     }
 
@@ -144,15 +152,15 @@ impl Arguments {
     }
 }
 
-impl Checked {
+impl Found {
     /// Its row in the table of many files.
     fn row(&self) -> Row {
-        let Self { source, diagnostics, marker, .. } = self;
+        let Self { source, diagnostics, contents, .. } = self;
         Row {
-            pieces: marker.as_ref().map(|marker| marker.pieces.len()),
-            cut_m: marker.as_ref().map(|marker| marker.cut_length() / MM_PER_M),
+            pieces: contents.as_ref().and_then(|contents| contents.pieces),
+            cut_m: contents.as_ref().and_then(|contents| contents.cut_m),
             worst: batch::worst(diagnostics).unwrap_or_default().to_owned(),
-            ..Row::new(Path::new(source.name()), if marker.is_some() { State::Done } else { State::Failed })
+            ..Row::new(Path::new(source.name()), if contents.is_some() { State::Done } else { State::Failed })
         }
     }
 

@@ -7,6 +7,7 @@ use crate::front::{DIALECTS, Dialect};
 use crate::ir::Target;
 use crate::machine::keys::{self, Takes};
 use crate::machine::{patterns, plot};
+use crate::machines::{MACHINES, Machine};
 use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
@@ -78,6 +79,13 @@ pub(super) fn targets<E: Sync, P: Sync>(
     let find = move |name: String| table.iter().find(|target| target.name == name);
     names(table.iter().map(|target| (target.name, target.about)))
         .map(move |name| find(name).expect("clap lets only the names of the table pass"))
+}
+
+/// Reads the name of a machine.
+pub(super) fn machines() -> impl TypedValueParser<Value = &'static Machine> {
+    names(MACHINES.iter().map(|machine| (machine.name, machine.about))).map(|name| {
+        MACHINES.iter().find(|machine| machine.name == name).expect("clap lets only the names of the table pass")
+    })
 }
 
 /// Reads the name of a dialect.

@@ -6,12 +6,11 @@ use clap::Args;
 
 use super::finished::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
-use crate::flow;
 use crate::front::DIALECTS;
 use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
+use crate::machines::MACHINES;
 use crate::manual;
-use crate::{pipeline, sew};
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
@@ -48,8 +47,7 @@ fn topics() -> impl Iterator<Item = Topic> {
         about: code.about,
         more: code.more,
     });
-    let rules = [pipeline::RULES, sew::verify::RULES, flow::verify::RULES, pipeline::SPRAY_RULES].concat();
-    let rules = rules.into_iter();
+    let rules = MACHINES.iter().flat_map(|machine| machine.rules);
     let rules = rules.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
     codes.chain(rules)
 }

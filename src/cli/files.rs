@@ -5,6 +5,7 @@ use std::io::{self, Read as _};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use super::finished::{failure, say};
+use crate::machines::flow::PLAN;
 use crate::source::Source;
 use crate::units::number::up;
 
@@ -136,9 +137,6 @@ fn with_end(path: &Path, end: &str) -> PathBuf {
 pub(super) fn meta(program: &Path) -> PathBuf {
     with_end(program, META)
 }
-
-/// The name of the plan of heads over a conveyor in its folder.
-pub(super) const PLAN: &str = "plan.json";
 
 /// Whether a file is a plan by its name.
 pub(super) fn is_plan(path: &Path) -> bool {

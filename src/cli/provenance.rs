@@ -11,10 +11,9 @@ use super::files;
 use super::finished::{failure, say};
 use super::options::file_name;
 use super::report::pretty;
-use crate::back::TARGETS;
 use crate::ir::declaration::Declaration;
 use crate::machine::{Job, blake3_of, sha256_hex};
-use crate::sew;
+use crate::machines::{self, Part};
 use crate::source::Source;
 
 /// Everything that made a program, for whoever finds it later. No date, and no path but from the program to its input: folders
@@ -179,9 +178,7 @@ fn path_of(source: &Source, beside: &Path) -> Option<String> {
 
 /// Whether a program is one that can be judged, by the target that it was made by; `None` when nothing beside it says so.
 pub(super) fn is_judged(program: &Path) -> Option<bool> {
-    let made_by = target_of(program)?;
-    let is_cut = TARGETS.iter().any(|target| target.name == made_by && target.proof.is_some());
-    Some(is_cut || sew::TARGETS.iter().any(|target| target.name == made_by && target.proof.is_some()))
+    target_of(program).map(|target| machines::is_judged(&target))
 }
 
 /// Name of the target that a program was made by, if that stands beside it.
@@ -265,6 +262,26 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, op
         beside.doubt(&mut said, &meta, &path);
     }
     doubt_options(&mut said, &meta, &path, options);
+    said
+}
+
+/// Warnings on files beside a program whose bytes are others than those that it names.
+pub(super) fn doubts_of_parts(program: &Path, parts: fn(&[u8]) -> Vec<Part>) -> String {
+    let mut said = String::new();
+    for Part { name, blake3 } in parts(&fs::read(program).unwrap_or_default()) {
+        let path = program.with_file_name(name);
+        if fs::File::open(&path).and_then(blake3_of).is_ok_and(|found| blake3.is_some_and(|told| told != found)) {
+            say(
+                &mut said,
+                format_args!(
+                    "warning: `{}` is not the program that was planned: its bytes are others\n  --> {}\n  \
+                     = hint: it was edited by hand or sent on changed, or heads changed places",
+                    path.display(),
+                    program.display()
+                ),
+            );
+        }
+    }
     said
 }
 

@@ -98,7 +98,7 @@ pub const PAGES: &[Page] = &[
     },
     Page {
         name: "extending",
-        about: "Adding a dialect or a target: a file and two lines",
+        about: "Adding a dialect, a target or a machine: rows of tables",
         text: include_str!("extending.md"),
     },
     Page { name: "glossary", about: "Words of the trade", text: GLOSSARY },

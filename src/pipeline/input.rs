@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check};
 use crate::machine::patterns::Patterns;
-use crate::machine::{Job, ToolKind, plot};
+use crate::machine::{Job, plot};
 use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
@@ -88,6 +88,20 @@ pub fn read_to_judge(
     Some(Judged { input, reading: Reading { census, patterns, drawing, kept, laid } })
 }
 
+/// Reads a source with what it takes to judge a program, where that is wanted, or else without.
+pub fn read_for(
+    (from, verify): (Option<&'static Dialect>, bool),
+    source: &Source,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Input, Option<Reading>)> {
+    if verify {
+        read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
+    } else {
+        read(source, from, job, diagnostics).map(|input| (input, None))
+    }
+}
+
 /// The marker as the source says it, before any pass.
 pub(super) fn read_alone(
     source: &Source,
@@ -133,11 +147,8 @@ fn marker_passes() -> (&'static [MarkerPass], &'static [MarkerPass]) {
     MARKER_PASSES.split_at(MARKER_PASSES.len() - CUTTING_PASSES)
 }
 
-/// Makes the cuts of what was read; a head at a distance has none.
+/// Makes the cuts of what was read.
 pub fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
-    if job.profile.tool.kind == ToolKind::Spray {
-        return;
-    }
     run_passes(marker_passes().1, &mut input.marker, source, job, diagnostics);
 }
 

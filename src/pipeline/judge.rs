@@ -36,7 +36,7 @@ const MOST_DIGITS: i32 = 15;
 
 /// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then
 /// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
-pub(super) fn judge_program(
+pub fn judge_program(
     program: &mut dyn Medium,
     source: &Source,
     from: Option<&'static Dialect>,
@@ -160,7 +160,7 @@ pub fn both(first: Verdict, second: Verdict) -> Verdict {
 }
 
 /// A diagnostic for each rule that does not hold.
-pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) {
+pub fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let crossing = diagnostics.iter().map(|known| known.code).find(|code| CROSSING.contains(code));
     for finding in verdict.broken() {
         let (worst, limit) = figures(finding);

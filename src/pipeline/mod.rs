@@ -1,11 +1,10 @@
-//! The compiler, each stage named once, in order.
+//! The compiler of the cutter, each stage named once, in order.
 //!
 //! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
-//! nothing about the cut.
+//! nothing about the cut. Other machines have compilers of their own, rows of [`MACHINES`](crate::machines::MACHINES).
 
 mod advance;
 mod bites;
-mod head;
 mod input;
 mod judge;
 mod off_table;
@@ -27,20 +26,20 @@ pub use self::advance::Advance;
 pub use self::bites::Bite;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
-pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{audited, both, figures, foreign};
+pub use input::{Input, Judged, Reading, marker_of, read, read_for, read_to_judge};
+pub use judge::{audited, both, figures, foreign, judge_program, report};
+pub use place::place;
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
 pub use savings::Savings;
 pub use spent::{Spent, word};
-pub use told::{Explained, Line, Told, told};
+pub use told::{Explained, Line, Told, quote, told};
 
 pub use crate::ir::verdict::Verdict;
 pub use crate::spray::{Edge, Piece};
+pub use crate::verify::Declared;
 pub(crate) use crate::verify::rules;
-pub use crate::verify::spray::RULES as SPRAY_RULES;
-pub use crate::verify::{Declared, RULES};
 
 use std::io::{self, BufWriter, Write};
 
@@ -58,7 +57,7 @@ use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
 use crate::ir::declaration::Total;
 use crate::ir::{Finding, text};
-use crate::machine::{Job, ToolKind};
+use crate::machine::Job;
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
@@ -125,16 +124,7 @@ pub fn compile_all(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let Choices { from, verify, advance } = choices;
-    if job.profile.tool.kind == ToolKind::Spray {
-        let made = head::compile(source, job, (from, verify), products, diagnostics)?;
-        return Ok(made.map(|(report, verdict)| Compiled { report, verdict, declared: Vec::new() }));
-    }
-    let judged = if verify {
-        read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
-    } else {
-        read(source, from, job, diagnostics).map(|input| (input, None))
-    };
-    let Some((mut input, reading)) = judged else { return Ok(None) };
+    let Some((mut input, reading)) = read_for((from, verify), source, job, diagnostics) else { return Ok(None) };
     let proofs = Proofs::of(products, verify);
     if proofs.beside || products.iter().any(|product| product.target.emit.needs_toolpaths()) {
         make_cuts(&mut input, source, job, diagnostics);
@@ -310,46 +300,11 @@ impl Proofs {
     }
 }
 
-/// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then the diagnostics say
-/// which. They are about the source alone; what the program breaks is in the verdict.
-pub fn judge_program(
-    program: &mut dyn Medium,
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    declared: Option<&Declared>,
-    diagnostics: &mut Diagnostics,
-) -> io::Result<Option<Explained>> {
-    match job.profile.tool.kind {
-        ToolKind::Spray => head::judge_program(program, source, from, job, diagnostics),
-        ToolKind::Knife | ToolKind::Wheel | ToolKind::Pen | ToolKind::Router => {
-            judge::judge_program(program, source, from, job, declared, diagnostics)
-        }
-    }
-}
-
-/// Reads a source as [`read`] does, and says all that is wrong with it for the tool of the job.
-pub fn check(
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    diagnostics: &mut Diagnostics,
-) -> Option<Input> {
-    let input = read(source, from, job, diagnostics)?;
-    if job.profile.tool.kind == ToolKind::Spray && !diagnostics.has_errors() {
-        head::check(&input, source, job, diagnostics);
-    }
-    Some(input)
-}
-
 /// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
 /// the diagnostics say why.
 pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
     if diagnostics.has_errors() {
         return Ok(Program::default());
-    }
-    if job.profile.tool.kind == ToolKind::Spray {
-        return Ok(head::estimate(&input.marker, job, diagnostics));
     }
     let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };

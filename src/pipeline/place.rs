@@ -15,7 +15,7 @@ const LETTERS: usize = 24;
 
 /// Tells findings that have a span in which piece they are and where, as far as the marker knows; what is known stays,
 /// and so do the first `known` ones. One walk over the marker, and none when there is nothing to tell.
-pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, source: &Source, job: &Job) {
+pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, source: &Source, job: &Job) {
     let mut wanted: BTreeMap<u32, Vec<OnCloth>> = BTreeMap::new();
     for finding in diagnostics.iter().skip(known).filter(|finding| finding.piece.is_none()) {
         wanted.extend(finding.span.map(|span| (span.start, Vec::new())));

@@ -86,7 +86,7 @@ pub fn told(verdict: &Verdict, marker: &Marker, source: &Source, job: &Job) -> V
 }
 
 /// Quotes the lines of a program of which something is told, where it has lines.
-pub(super) fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
+pub fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
     program.rewind()?;
     let mut program = BufReader::with_capacity(BLOCK, program);
     if !verify::has_lines(&mut program) {

@@ -54,11 +54,32 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("track", &["source", "diagnostic", "units", "ir", "machine"]),
     // Another machine: it cuts what the cutter cuts.
     ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan", "verify", "picture"]),
+    // Rows of functions, by which commands know machines.
+    (
+        "machines",
+        &[
+            "source",
+            "diagnostic",
+            "units",
+            "ir",
+            "machine",
+            "front",
+            "back",
+            "plan",
+            "pipeline",
+            "verify",
+            "sew",
+            "flow",
+            "spray",
+            "track",
+        ],
+    ),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
     (
         "cli",
         &[
+            "machines",
             "pipeline",
             "front",
             "back",

@@ -7,13 +7,13 @@ use std::process::{Command, Output};
 
 use cutc::back::TARGETS;
 use cutc::diagnostic::code;
-use cutc::flow;
 use cutc::front::DIALECTS;
+use cutc::ir::verdict::Rule;
 use cutc::machine::keys::{self, KEYS};
+use cutc::machines::{Listed, MACHINES, Machine};
 use cutc::manual::{PAGES, Page, glossary};
+use cutc::sew;
 use cutc::verify::RULES;
-use cutc::verify::spray::RULES as SPRAY_RULES;
-use cutc::{sew, track};
 use yaml_rust2::{Yaml, YamlLoader};
 
 use crate::support;
@@ -148,29 +148,23 @@ fn item(text: &str) -> String {
     lines.join("\n")
 }
 
+/// The machine of a list, with its word: "targets" or "rules".
+fn machine(list: &str) -> Option<(&'static Machine, &str)> {
+    let (name, what) = list.split_once(' ').filter(|(_, what)| ["targets", "rules"].contains(what))?;
+    Some((MACHINES.iter().find(|machine| machine.name == name)?, what))
+}
+
+fn rules(rules: &[&Rule]) -> Vec<String> {
+    rules.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect()
+}
+
 /// A list that the program's own tables give, by its name in the pages.
 fn list(name: &str) -> String {
     let rows: Vec<String> = match name {
         "dialects" => DIALECTS.iter().map(|dialect| format!("`{}`: {}.", dialect.name, dialect.about)).collect(),
         "targets" => TARGETS.iter().map(|target| format!("`{}`: {}.", target.name, target.about)).collect(),
         "sewing formats" => sew::FORMATS.iter().map(|format| format!("`{}`: {}.", format.name, format.about)).collect(),
-        "sewing targets" => {
-            let row = |target: &sew::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
-            sew::TARGETS.iter().map(row).collect()
-        }
-        "tracking targets" => {
-            let row =
-                |target: &track::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
-            track::TARGETS.iter().map(row).collect()
-        }
-        "sewing rules" => sew::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
-        "flow targets" => {
-            let row = |target: &flow::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
-            flow::TARGETS.iter().map(row).collect()
-        }
-        "flow rules" => flow::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
-        "spray rules" => SPRAY_RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
-        "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
+        "rules" => rules(RULES),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();
             code::ALL.iter().map(|code| format!("`{}` ({}): {}", code.name, severity(code), code.about)).collect()
@@ -180,11 +174,19 @@ fn list(name: &str) -> String {
             let default = |key| keys::default_of(key).map_or_else(String::new, shown);
             KEYS.iter().map(|key| format!("`{}`{}: {}. {}", key.name, default(key), key.expects(), key.about)).collect()
         }
-        words => {
-            let dialect = words.strip_prefix("words ").and_then(|name| DIALECTS.iter().find(|row| row.name == name));
-            let words = dialect.unwrap_or_else(|| panic!("there is no list `{name}`")).words;
-            words.iter().map(|row| format!("{}: {}.", row.words, row.about)).collect()
-        }
+        words => match machine(words) {
+            Some((machine, "targets")) => {
+                let row = |row: Listed| format!("`{}` (`.{}`): {}.", row.name, row.extension, row.about);
+                (machine.targets)().into_iter().map(row).collect()
+            }
+            Some((machine, _)) => rules(machine.rules),
+            None => {
+                let dialect =
+                    words.strip_prefix("words ").and_then(|name| DIALECTS.iter().find(|row| row.name == name));
+                let words = dialect.unwrap_or_else(|| panic!("there is no list `{name}`")).words;
+                words.iter().map(|row| format!("{}: {}.", row.words, row.about)).collect()
+            }
+        },
     };
     rows.iter().map(|row| item(row) + "\n").collect()
 }

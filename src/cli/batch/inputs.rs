@@ -7,10 +7,11 @@ use fast_glob::glob_match;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::back::{Proof, TARGETS};
-use crate::cli::files::{PLAN, STDIN, is_dash, is_meta, is_plan, meta};
+use crate::cli::files::{STDIN, is_dash, is_meta, is_plan, meta};
 use crate::cli::finished::failure;
 use crate::cli::provenance;
 use crate::front::DIALECTS;
+use crate::machines::flow::PLAN;
 
 /// What makes a name a pattern.
 const PATTERN: [char; 4] = ['*', '?', '[', '{'];

@@ -12,7 +12,8 @@ use crate::cli::options::{remarks, typed};
 use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
 use crate::machine::{Job, sha256_of};
-use crate::pipeline::{self, Advance, Choices, Compiled, Medium, Product};
+use crate::machines;
+use crate::pipeline::{Advance, Choices, Compiled, Medium, Product};
 use crate::source::Source;
 
 /// One compile, ready to run.
@@ -146,7 +147,8 @@ impl Compile<'_> {
         let mut products: Vec<Product> =
             self.targets.iter().zip(outs).map(|(target, out)| Product::new(target, out)).collect();
         let choices = Choices { from: reading.from, verify: !no_verify, advance: self.advance };
-        let compiled = pipeline::compile_all(self.source, self.job, choices, &mut products, diagnostics)?;
+        let compile = machines::tool_of(self.job).compile;
+        let compiled = compile(self.source, self.job, choices, &mut products, diagnostics)?;
         Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
     }
 }

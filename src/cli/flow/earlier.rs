@@ -3,8 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::files::{self, PLAN};
+use crate::cli::files;
 use crate::cli::finished::say;
+use crate::machines::Part;
+use crate::machines::flow::{PLAN, files_of};
 
 /// Moves plan and programs of an earlier plan in a folder aside, but for those of some names, and says so.
 pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {
@@ -14,7 +16,7 @@ pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {
         return String::new();
     }
     let mut said = String::new();
-    for name in programs(&plan) {
+    for Part { name, .. } in files_of(&fs::read(&plan).unwrap_or_default()) {
         let path = folder.join(name);
         if kept.contains(&path) || !path.is_file() {
             continue;
@@ -36,20 +38,4 @@ pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {
         said.push_str(&files::move_aside(&plan));
     }
     said
-}
-
-/// The files that a plan names in its folder.
-fn programs(plan: &Path) -> Vec<String> {
-    let text = fs::read(plan).unwrap_or_default();
-    let plan: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
-    let heads = plan["heads"].as_array().into_iter().flatten();
-    let files = heads.flat_map(|head| head["files"].as_array().into_iter().flatten());
-    let files = files.chain(plan["pictures"].as_array().into_iter().flatten());
-    let names = files.filter_map(|file| file["file"].as_str());
-    names.filter(|name| is_plain(name)).map(str::to_owned).collect()
-}
-
-/// Whether a name is that of a file in the folder of its plan, and in none beside it.
-pub(super) fn is_plain(name: &str) -> bool {
-    Path::new(name).file_name().is_some_and(|own| own == name)
 }

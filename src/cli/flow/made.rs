@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::earlier;
 use crate::cli::draft::{self, Draft};
-use crate::cli::files::{self, PLAN};
+use crate::cli::files;
 use crate::cli::finished::failure;
 use crate::cli::made::{BLOCK_BYTES, say_broken};
 use crate::cli::options::typed;
@@ -20,6 +20,7 @@ use crate::flow::{self, Emit, Head, Program, Target};
 use crate::ir::verdict::{Sighting, Verdict};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, blake3_of};
+use crate::machines::flow::PLAN;
 use crate::source::Source;
 
 /// What is to be written.
@@ -124,7 +125,7 @@ impl Made<'_> {
 }
 
 /// The failure of programs whose bytes cannot be had.
-pub(super) fn cannot_read_back(error: &io::Error) -> anyhow::Error {
+fn cannot_read_back(error: &io::Error) -> anyhow::Error {
     let hint = "the disk may fail, or something took files away that the plan names";
     failure(format!("the programs cannot be read back: {}", files::reason(error)), hint)
 }

@@ -2,29 +2,23 @@
 
 mod arguments;
 mod earlier;
-mod judged;
 mod made;
 mod summary;
 
 pub(super) use arguments::Arguments;
-pub(super) use judged::{doubts, judge};
-
-use std::sync::Arc;
 
 use self::made::Made;
 use super::choices::Format;
 use super::destination::{not_of_another, writable};
 use super::draft::MadeFolders;
-use super::files::{self, PLAN};
+use super::files;
 use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 use super::options::counted;
 use super::report;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
-use crate::flow::{self, Program, Speed, TARGETS, Target};
-use crate::front::Dialect;
-use crate::ir::{Finding, Marker};
-use crate::machine::{Centre, Job, Mode, ToolKind};
-use crate::pipeline::{self, Judged};
+use crate::flow::{Speed, TARGETS, Target};
+use crate::machine::Job;
+use crate::machines::flow::{self, PLAN, Planned};
 use crate::source::Source;
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
@@ -48,11 +42,15 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             return Ok(refused);
         }
     };
-    refuse_others(&job)?;
-    let job = on_cloth(job, arguments.reading.from, &source);
+    if let Some([what, hint]) = flow::refusal(&job) {
+        return Err(failure(what, hint));
+    }
+    let from = arguments.reading.from;
+    let job = flow::on_cloth(job, from, &source);
     let _made = MadeFolders::of([plan.as_path()])?;
     let mut diagnostics = Diagnostics::default();
-    let Some(Planned { marker, program, audit }) = planned(arguments, &source, &job, &mut diagnostics) else {
+    let speed = arguments.speed.unwrap_or(Speed::Profile);
+    let Some(Planned { marker, program, audit }) = flow::plan(&source, from, speed, &job, &mut diagnostics) else {
         return Ok(refused(arguments, &source, &diagnostics, &job));
     };
     let verify = !arguments.no_verify;
@@ -75,35 +73,6 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     Ok(Finished { stdout: Stdout::Text(stdout), stderr: said, code: DONE })
 }
 
-/// Refusal of jobs that heads over a conveyor cannot do: dry runs, frames and spray tools.
-fn refuse_others(job: &Job) -> anyhow::Result<()> {
-    if job.mode != Mode::Cut {
-        return Err(failure(
-            "heads over a conveyor have no dry run and no frame",
-            "leave `--dry-run` and `--frame` out",
-        ));
-    }
-    if job.marks.is_some() {
-        return Err(failure(
-            "`--map` lays a drawing on a table, and cloth on a conveyor moves",
-            "leave `--map` out; `--centre` follows cloth that wanders",
-        ));
-    }
-    if job.profile.bite.length_mm.is_some() {
-        return Err(failure(
-            "`bite.length_mm` cuts cloth that lies still, and heads over a conveyor cut cloth that moves",
-            "leave `bite.length_mm` out",
-        ));
-    }
-    if job.profile.tool.kind == ToolKind::Spray {
-        return Err(failure(
-            "`tool.kind` is \"spray\", and heads over a conveyor follow lines with a tool that touches the cloth",
-            "take a profile of another tool, or `cutc compile` for the spray head",
-        ));
-    }
-    Ok(())
-}
-
 /// What is written: what was typed, else the default.
 fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
     let typed = &arguments.targets;
@@ -111,38 +80,6 @@ fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
         return Err(failure(format!("the target `{}` is named twice", twice.1.name), "name each target once"));
     }
     Ok(if typed.is_empty() { vec![&TARGETS[0]] } else { typed.clone() })
-}
-
-/// What is cut, by which heads, and what is known of it against the bytes of the file.
-struct Planned {
-    marker: Marker,
-    program: Program,
-    audit: Vec<Finding>,
-}
-
-fn planned(arguments: &Arguments, source: &Source, job: &Job, out: &mut Diagnostics) -> Option<Planned> {
-    let Judged { mut input, reading } = pipeline::read_to_judge(source, arguments.reading.from, job, out)?;
-    pipeline::make_cuts(&mut input, source, job, out);
-    if out.has_errors() {
-        return None;
-    }
-    let program = flow::plan(&input.marker, arguments.speed.unwrap_or(Speed::Profile), job, out)?;
-    let audit = pipeline::audited(source, input.dialect, reading, job);
-    Some(Planned { marker: input.marker, program, audit })
-}
-
-/// The job with its centre line by places of the cloth: the front of the marker comes under the rulers first.
-fn on_cloth(job: Job, from: Option<&'static Dialect>, source: &Source) -> Job {
-    let Some(centre) = &job.centre else { return job };
-    // What is found about the file is said where it is read for good; no place moves along the feed until then.
-    let plain = Job { centre: None, ..job.clone() };
-    let input = pipeline::read(source, from, &plain, &mut Diagnostics::default());
-    let extent = input.map(|input| input.marker.extent()).filter(|extent| !extent.is_empty());
-    let Some(extent) = extent else { return job };
-    let rulers = extent.max.x + job.profile.flow.rulers_mm;
-    let line = centre.line.on_cloth(rulers);
-    let centre = Centre { line, source: Arc::clone(&centre.source), rulers: Some(rulers) };
-    Job { centre: Some(Arc::new(centre)), ..job }
 }
 
 /// What is said when nothing is written. Older programs are moved aside.

@@ -8,6 +8,7 @@ use crate::cli::files;
 use crate::cli::finished::{Console, Finished};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::Job;
+use crate::machines;
 use crate::pipeline::{self, Report};
 
 pub(super) fn run(
@@ -43,8 +44,9 @@ impl Arguments {
         let read = pipeline::read(&source, self.reading.from, job, &mut diagnostics);
         let (mut row, mut doubts) = (Row::new(source.name().as_ref(), State::Failed), String::new());
         if let Some(mut read) = read.filter(|_| !diagnostics.has_errors()) {
-            pipeline::make_cuts(&mut read, &source, job, &mut diagnostics);
-            let program = pipeline::estimate(&mut read, &source, job, &mut diagnostics)?;
+            let tool = machines::tool_of(job);
+            (tool.cuts)(&mut read, &source, job, &mut diagnostics);
+            let program = (tool.estimate)(&mut read, &source, job, &mut diagnostics)?;
             let report = Report::of(&read.marker, read.dialect.name).planned(program, &read.marker);
             if !diagnostics.has_errors() {
                 row.state = State::Done;

@@ -17,6 +17,7 @@ use crate::cli::{drawn, files, report, setup, summary};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::ir::Marker;
 use crate::machine::Job;
+use crate::machines;
 use crate::pipeline::{self, Report, significant};
 use crate::source::Source;
 use crate::units::number::fixed;
@@ -28,11 +29,12 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         Err(refused) => return Ok(refused),
     };
     let mut diagnostics = Diagnostics::default();
+    let tool = machines::tool_of(&job);
     let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
     let mut known = None;
     if let Some(mut input) = input {
         if !diagnostics.has_errors() {
-            pipeline::make_cuts(&mut input, &source, &job, &mut diagnostics);
+            (tool.cuts)(&mut input, &source, &job, &mut diagnostics);
         }
         let report = Report::of(&input.marker, input.dialect.name);
         let figures = arguments.figures(Some(&input.marker).filter(|_| !diagnostics.has_errors()), &report, &job);
@@ -42,7 +44,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         }
         let is_planned = arguments.time || arguments.pricing.price().is_some();
         if is_planned && !diagnostics.has_errors() {
-            let program = pipeline::estimate(&mut input, &source, &job, &mut diagnostics)?;
+            let program = (tool.estimate)(&mut input, &source, &job, &mut diagnostics)?;
             all.report = all.report.planned(program, &input.marker);
             all.time_by_piece = arguments.time.then(|| times::of(&all.report.program, &input.marker, &job.profile));
         }

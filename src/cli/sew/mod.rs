@@ -1,7 +1,6 @@
 //! `cutc sew`: patterns and stitch files to feed pulses, queues and stitch files of a pattern-sewing machine.
 
 mod arguments;
-mod judged;
 mod made;
 mod many;
 mod one;
@@ -9,7 +8,6 @@ mod sewn;
 mod summary;
 
 pub(super) use arguments::{Arguments, inset};
-pub(super) use judged::{judge, target_of};
 pub(super) use sewn::typed;
 
 use std::collections::BTreeSet;

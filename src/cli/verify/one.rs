@@ -1,45 +1,31 @@
 //! One program, and all that its verdict says.
 
 use std::fs::File;
-use std::io;
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
 use super::arguments::Arguments;
 use crate::cli::choices::Format;
 use crate::cli::finished::{DONE, FAULTY, Finished, failure, say};
+use crate::cli::made::BLOCK_BYTES;
 use crate::cli::options::{counted, typed};
 use crate::cli::verdict::{self, Judgement};
-use crate::cli::{files, flow, provenance, sew};
+use crate::cli::{files, provenance, sew};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
+use crate::machine::patterns::Patterns;
+use crate::machines::{self, Claim, Machine, Written};
 use crate::pipeline::{self, Declared, Explained, rules};
-use crate::sew::Target;
 use crate::source::Source;
 
 /// A program that can be judged.
 pub(super) struct Program<'a> {
     path: &'a Path,
-    machine: Machine,
-}
-
-/// The machine of a program, with the bytes of that.
-enum Machine {
-    /// A cutter or a spray head.
-    Cutter(File),
-    /// Heads over a conveyor: the plan names their programs.
-    Heads,
-    /// A sewing machine.
-    Sewing(File, &'static Target),
-}
-
-impl Machine {
-    /// Its work, as a verb.
-    fn works(&self) -> &'static str {
-        match self {
-            Self::Cutter(_) | Self::Heads => "cuts",
-            Self::Sewing(..) => "sews",
-        }
-    }
+    file: File,
+    /// Name of its file, in lower case.
+    name: String,
+    /// Target in its provenance.
+    target: Option<String>,
 }
 
 /// What was found of a program.
@@ -70,7 +56,7 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
     let stdout = match (arguments.format, &verdict) {
         (Format::Json, verdict) => verdict::json(verdict.as_ref()),
         (Format::Text, Some(explained)) => {
-            let (works, program) = (program.machine.works(), program.path.display().to_string());
+            let (works, program) = (program.machine(&job).works, program.path.display().to_string());
             verdict::text(&Judgement { explained, mode: job.mode, works, program: &program, source: source.name() })
         }
         (Format::Text, None) => String::new(),
@@ -82,58 +68,63 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
 impl<'a> Program<'a> {
     /// Opens a file; the inner error is of one that is no program.
     pub(super) fn open(path: &'a Path) -> anyhow::Result<Result<Self, anyhow::Error>> {
-        if files::is_plan(path) {
-            return Ok(Ok(Self { path, machine: Machine::Heads }));
-        }
-        let mut file = files::open(path)?;
-        if let Some(target) = sew::target_of(path) {
-            return Ok(Ok(Self { path, machine: Machine::Sewing(file, target) }));
-        }
-        let foreign = pipeline::foreign(&mut file).map_err(|error| cannot_read(path, &error))?;
-        let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, machine: Machine::Cutter(file) })) };
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let target = provenance::target_of(path);
+        let mut program = Self { path, file: files::open(path)?, name, target };
+        let foreign = match machines::claimant(program.claim()) {
+            Some(_) => None,
+            None => pipeline::foreign(&mut program.file).map_err(|error| cannot_read(path, &error))?,
+        };
+        let Some([what, hint]) = foreign else { return Ok(Ok(program)) };
         let first = "first comes what `cutc compile`, `cutc sew` or `cutc flow` wrote with a target that is judged, then \
                      its source as --source";
         let message = format!("not a program: `{}`: {what}", path.display());
         Ok(Err(failure(message, format!("{hint}; {first}"))))
+    }
+
+    fn claim(&self) -> Claim<'_> {
+        Claim { name: &self.name, target: self.target.as_deref() }
+    }
+
+    /// The machine that its name or its provenance tells; else the one that the tool of the profile makes.
+    fn machine(&self, job: &Job) -> &'static Machine {
+        machines::claimant(self.claim()).unwrap_or_else(|| machines::of(job))
     }
 }
 
 impl Arguments {
     /// Judges a program by a source.
     pub(super) fn judge(&self, program: &mut Program, source: &Source, job: &Job) -> anyhow::Result<Judged> {
-        let Program { path, machine } = program;
-        let asked = self.asked();
-        if !matches!(machine, Machine::Sewing(..)) && (self.line.is_some() || self.inset.is_some()) {
-            return Err(failure(
-                format!("`{}` is no program of `cutc sew`: --line and --inset do nothing to it", path.display()),
-                "leave them out",
-            ));
-        }
+        let (path, machine, asked) = (program.path, program.machine(job), self.asked());
+        self.refuse(path, machine, job)?;
         let mut diagnostics = Diagnostics::default();
         let meta = self.meta.clone().unwrap_or_else(|| files::meta(path));
         let declared = match provenance::declared(&meta) {
             Ok(declared) => declared.map(Declared::new),
             Err(fault) => return Ok(Judged { verdict: None, said: format!("error: {fault:#}\n") }),
         };
-        let from = self.reading.from;
-        let verdict = match machine {
-            Machine::Heads => flow::judge(path, source, from, job, &mut diagnostics)?,
-            Machine::Sewing(file, target) => sew::judge((file, target), source, &asked, job, &mut diagnostics)?,
-            Machine::Cutter(file) => {
-                pipeline::judge_program(file, source, from, job, declared.as_ref(), &mut diagnostics)
-                    .map_err(|error| cannot_read(path, &error))?
-            }
+        let open = |name: &str| -> io::Result<Box<dyn BufRead>> {
+            let beside = path.with_file_name(name);
+            let named = |error: io::Error| io::Error::new(error.kind(), beside.display().to_string());
+            Ok(Box::new(BufReader::with_capacity(BLOCK_BYTES, File::open(&beside).map_err(named)?)))
         };
+        let Program { file, name, target, .. } = program;
+        let claim = Claim { name, target: target.as_deref() };
+        let mut written = Written { claim, bytes: file, open: &open, declared: declared.as_ref() };
+        let judge = machine.judge.expect("a machine that claims programs judges them");
+        let judged = judge(&mut written, source, &asked, job, &mut diagnostics);
+        let verdict = judged.map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => failure(
+                format!("there is no `{error}`, which `{}` needs", path.display()),
+                "move the folder of a plan as a whole, or plan anew",
+            ),
+            _ => cannot_read(path, &error),
+        })?;
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
-            let options = match machine {
-                Machine::Cutter(_) | Machine::Heads => typed(job),
-                Machine::Sewing(..) => sew::typed(&asked),
-            };
+            let options = if machine.is_sewn { sew::typed(&asked) } else { typed(job) };
             said.push_str(&provenance::doubts(path, &meta, source, job, &options));
-            if let Machine::Heads = machine {
-                said.push_str(&flow::doubts(path));
-            }
+            said.extend(machine.parts.map(|parts| provenance::doubts_of_parts(path, parts)));
             if declared.is_none()
                 && verdict.as_ref().is_some_and(|explained| explained.verdict.under(&rules::DECLARED).is_some())
             {
@@ -145,6 +136,29 @@ impl Arguments {
             say(&mut said, format_args!("{}: {errors}; `{}` was not judged", source.name(), path.display()));
         }
         Ok(Judged { verdict, said })
+    }
+}
+
+impl Arguments {
+    /// Refuses options that do nothing to the programs of a machine, and jobs that it cannot do.
+    fn refuse(&self, program: &Path, machine: &Machine, job: &Job) -> anyhow::Result<()> {
+        let others = typed(&Job { patterns: Patterns::default(), ..job.clone() });
+        if machine.is_sewn && !others.is_empty() {
+            return Err(failure(
+                format!("`{others}` does nothing to a program of a sewing machine"),
+                "leave it out: what it was sewn with are --from, --line, --inset, --size, --quantity and the profile",
+            ));
+        }
+        if !machine.is_sewn && (self.line.is_some() || self.inset.is_some()) {
+            return Err(failure(
+                format!("`{}` is no program of `cutc sew`: --line and --inset do nothing to it", program.display()),
+                "leave them out",
+            ));
+        }
+        match (machine.refusal)(job) {
+            None => Ok(()),
+            Some([what, hint]) => Err(failure(what, hint)),
+        }
     }
 }
 

@@ -11,7 +11,9 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::machine::{Job, MachineProfile, load};
-use cutc::pipeline::{Advance, Choices, Compiled, Product, compile_all, judge_program};
+use cutc::machines::{self, Claim, Written};
+use cutc::pipeline::{Advance, Choices, Compiled, Product};
+use cutc::sew::Asked;
 use cutc::source::Source;
 
 use crate::support::damage::names;
@@ -43,7 +45,8 @@ fn compiled(source: &Source, target: &str, job: &Job) -> Result<(Compiled, Vec<u
     let mut bytes = Cursor::new(Vec::new());
     let mut out = Diagnostics::default();
     let choices = Choices { from: None, verify: true, advance: &Advance::default() };
-    let compiled = compile_all(source, job, choices, &mut [Product::new(target, &mut bytes)], &mut out);
+    let compile = machines::tool_of(job).compile;
+    let compiled = compile(source, job, choices, &mut [Product::new(target, &mut bytes)], &mut out);
     let said = render(&out, source);
     match compiled.expect("memory takes bytes") {
         Some(compiled) => Ok((compiled, bytes.into_inner(), said)),
@@ -55,7 +58,12 @@ fn compiled(source: &Source, target: &str, job: &Job) -> Result<(Compiled, Vec<u
 fn broken(source: &Source, program: &[u8], job: &Job) -> Vec<&'static str> {
     let mut out = Diagnostics::default();
     let mut program = Cursor::new(program.to_vec());
-    let judged = judge_program(&mut program, source, None, job, None, &mut out).expect("memory is readable");
+    let open =
+        |name: &str| -> std::io::Result<Box<dyn std::io::BufRead>> { unreachable!("{name}: a program is one file") };
+    let claim = Claim { name: "program.csv", target: None };
+    let mut written = Written { claim, bytes: &mut program, open: &open, declared: None };
+    let judge = machines::of(job).judge.expect("its programs are judged");
+    let judged = judge(&mut written, source, &Asked::default(), job, &mut out).expect("memory is readable");
     judged.expect("a source without errors").verdict.broken().map(|finding| finding.rule.name).collect()
 }
 
@@ -141,7 +149,7 @@ fn curves_of_coarse_chords_are_followed_as_curves_by_either_planner() {
     };
     let source = drawing("coarse.csv", (0..24).map(hexagon));
     let mut out = Diagnostics::default();
-    cutc::pipeline::check(&source, None, &job(&[]), &mut out);
+    (machines::of(&job(&[])).check)(&source, &Asked::default(), &job(&[]), &mut out);
     let said = render(&out, &source);
     assert!(said.contains("spray/coarse") && said.contains("`path.chord_sag_max_mm` = 0.9"), "{said}");
 }

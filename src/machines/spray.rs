@@ -1,44 +1,54 @@
-//! A head at a distance in the place of the knife: what was read goes to its pipeline, and its programs to its verifier.
+//! The head that follows edges at a distance, in the place of the knife.
 
-use std::io::{self, BufReader, BufWriter, Cursor, Write};
+use std::io::{self, BufReader, BufWriter, Cursor, Write as _};
 
-use super::input::{Input, Judged, read, read_to_judge};
-use super::product::{BLOCK, Medium, Product};
-use super::report::{self, Axes, Report};
-use super::told::{Explained, quote, told};
-use super::{judge, place};
+use super::machine::{Checked, Machine, Tool, Written, dialect, listed};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::front::Dialect;
+use crate::ir::Finding;
 use crate::ir::verdict::Verdict;
-use crate::ir::{Finding, Marker};
-use crate::machine::Job;
+use crate::machine::{Job, ToolKind};
+use crate::pipeline::{self, Axes, Choices, Compiled, Explained, Input, Judged, Medium, Product, Report, place};
 use crate::plan::Peaks;
+use crate::sew::Asked;
 use crate::source::Source;
 use crate::spray::{self, Program, Reader, TARGETS, Target};
-use crate::verify::spray::Ground;
+use crate::verify::spray::{Ground, RULES};
 
-/// Compiles a source, read as a dialect, to several programs of a head, as [`super::compile_all`] does for a knife: its
-/// figures, and with `verify` what it is worth.
-pub(super) fn compile(
+pub(super) const MACHINE: Machine = Machine {
+    name: "spray",
+    about: "a head that follows edges at a distance: a spray gun, a torch, a nozzle",
+    works: "follows",
+    tool: Some(Tool { kinds: &[ToolKind::Spray], compile, cuts: |_, _, _, _| {}, estimate }),
+    targets: || listed(TARGETS),
+    rules: RULES,
+    is_sewn: false,
+    claims: |_| false,
+    refusal: |_| None,
+    parts: None,
+    check,
+    judge: Some(judge),
+};
+
+/// Bytes that are read back at a time.
+const BLOCK_BYTES: usize = 1 << 16;
+
+/// Compiles a source to several programs of a head.
+fn compile(
     source: &Source,
     job: &Job,
-    (from, verify): (Option<&'static Dialect>, bool),
+    choices: Choices,
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
-) -> io::Result<Option<(Report, Option<Verdict>)>> {
-    let all = if verify {
-        read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
-    } else {
-        read(source, from, job, diagnostics).map(|input| (input, None))
-    };
-    let Some((input, reading)) = all else { return Ok(None) };
+) -> io::Result<Option<Compiled>> {
+    let read = pipeline::read_for((choices.from, choices.verify), source, job, diagnostics);
+    let Some((input, reading)) = read else { return Ok(None) };
     let targets = targets(products, diagnostics);
     if diagnostics.has_errors() {
         return Ok(None);
     }
     let known = diagnostics.iter().len();
     let planned = spray::plan(&input.marker, job, diagnostics);
-    place::place(diagnostics, known, &input.marker, source, job);
+    place(diagnostics, known, &input.marker, source, job);
     let Some((mut program, peaks)) = planned else { return Ok(None) };
     if targets.iter().any(|target| target.emit.compares) {
         program = spray::beside_optimal(program, &input.marker, job);
@@ -53,30 +63,38 @@ pub(super) fn compile(
     report.edges = Some(program.figures.clone()).filter(|edges| !edges.is_empty());
     let mut verdict = None;
     if let Some(reading) = reading {
-        let audit = judge::audited(source, input.dialect, reading, job);
+        let audit = pipeline::audited(source, input.dialect, reading, job);
         let judged = verdict_of(&program, products, &input, job, audit)?;
-        judge::report(&judged, &input.marker, job, diagnostics);
+        pipeline::report(&judged, &input.marker, job, diagnostics);
         verdict = Some(judged);
     }
-    Ok((!diagnostics.has_errors()).then_some((report, verdict)))
+    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: Vec::new() }))
 }
 
-/// Says what of the edges of an input a head cannot follow.
-pub(super) fn check(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
-    let known = diagnostics.iter().len();
-    spray::check(&input.marker, job, diagnostics);
-    place::place(diagnostics, known, &input.marker, source, job);
+/// Reads a source, and finds the edges that a head cannot follow.
+fn check(source: &Source, asked: &Asked, job: &Job, diagnostics: &mut Diagnostics) -> Option<Checked> {
+    let input = pipeline::read(source, dialect(asked), job, diagnostics)?;
+    if !diagnostics.has_errors() {
+        let known = diagnostics.iter().len();
+        spray::check(&input.marker, job, diagnostics);
+        place(diagnostics, known, &input.marker, source, job);
+    }
+    Some(Checked::of(&input))
 }
 
-/// The figures of the program that a marker would become, as [`super::estimate`] has them of a knife.
-pub(super) fn estimate(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> report::Program {
-    let planned = spray::plan(marker, job, diagnostics);
-    planned.map_or_else(report::Program::default, |(program, peaks)| figures(&program, &peaks))
+/// The figures of the program that an input would become.
+fn estimate(input: &mut Input, _: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<pipeline::Program> {
+    if diagnostics.has_errors() {
+        return Ok(pipeline::Program::default());
+    }
+    let planned = spray::plan(&input.marker, job, diagnostics);
+    Ok(planned.map_or_else(pipeline::Program::default, |(program, peaks)| figures(&program, &peaks)))
 }
 
 /// The figures of a program.
-fn figures(program: &Program, peaks: &Peaks) -> report::Program {
-    report::Program { time_s: Some(program.duration()), axes: Some(Axes::new(peaks)), ..report::Program::default() }
+fn figures(program: &Program, peaks: &Peaks) -> pipeline::Program {
+    let (time_s, axes) = (Some(program.duration()), Some(Axes::new(peaks)));
+    pipeline::Program { time_s, axes, ..pipeline::Program::default() }
 }
 
 /// The targets of the products; one that tells of a knife is an error.
@@ -123,27 +141,25 @@ fn verdict_of(
 fn judged(program: &mut dyn Medium, input: &Input, job: &Job, audit: Vec<Finding>) -> io::Result<Verdict> {
     program.rewind()?;
     let ground = Ground::new(&input.marker, &job.profile);
-    let mut bytes = BufReader::with_capacity(BLOCK, program);
+    let mut bytes = BufReader::with_capacity(BLOCK_BYTES, program);
     let mut verdict = (setpoints().1)(&mut bytes, &ground, job)?;
     verdict.findings.extend(audit);
     Ok(verdict)
 }
 
-/// Judges a program of a head against a source, as [`super::judge_program`] does for a knife.
-pub(super) fn judge_program(
-    program: &mut dyn Medium,
+/// Judges a program of a head against a source.
+fn judge(
+    program: &mut Written,
     source: &Source,
-    from: Option<&'static Dialect>,
+    asked: &Asked,
     job: &Job,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Explained>> {
-    let Some(Judged { input, reading }) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
-    if diagnostics.has_errors() {
-        return Ok(None);
-    }
-    let audit = judge::audited(source, input.dialect, reading, job);
-    let verdict = judged(program, &input, job, audit)?;
-    let mut told = told(&verdict, &input.marker, source, job);
-    quote(&mut told, program)?;
+    let read = pipeline::read_to_judge(source, dialect(asked), job, diagnostics);
+    let Some(Judged { input, reading }) = read.filter(|_| !diagnostics.has_errors()) else { return Ok(None) };
+    let audit = pipeline::audited(source, input.dialect, reading, job);
+    let verdict = judged(program.bytes, &input, job, audit)?;
+    let mut told = pipeline::told(&verdict, &input.marker, source, job);
+    pipeline::quote(&mut told, program.bytes)?;
     Ok(Some(Explained { verdict, told }))
 }
