@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
+use std::io::{self, Seek as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -13,6 +13,7 @@ use tempfile::NamedTempFile;
 
 use super::files::{cannot_write, directory};
 use super::finished::failure;
+use crate::machine::sha256_of;
 
 /// How the name of a draft begins and ends: between stand machine, process and some letters of chance.
 const PREFIX: &str = ".cutc-";
@@ -135,6 +136,21 @@ impl Draft {
             _ => cannot_write(&path, &error.error),
         })?;
         Ok(())
+    }
+}
+
+/// A file that is whole and about to take its place.
+pub(super) struct Whole {
+    pub(super) path: PathBuf,
+    pub(super) sha256: String,
+}
+
+impl Whole {
+    pub(super) fn of(draft: &mut Draft) -> anyhow::Result<Self> {
+        let path = draft.path().to_owned();
+        let digest = draft.file().rewind().and_then(|()| sha256_of(draft.file()));
+        let sha256 = digest.map_err(|error| cannot_write(&path, &error))?;
+        Ok(Self { path, sha256 })
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 use tempfile::SpooledTempFile;
 
 use super::destination::Place;
-use super::draft::{self, Draft};
+use super::draft::{self, Draft, Whole};
 use super::files;
 use super::finished::failure;
 use super::provenance::{self, Made, Verified};
@@ -64,13 +64,18 @@ impl Product<'_> {
     }
 }
 
+/// Record of programs that take their places: it is made together with them or not at all.
+pub(super) type Record<'r> = dyn Fn(&Diagnostics, Vec<Whole>) -> anyhow::Result<()> + 'r;
+
 /// Source and machine of programs.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Origin<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
     /// Options as typed.
     pub(super) options: &'a str,
+    /// `None` of programs that no manifest lists.
+    pub(super) record: Option<&'a Record<'a>>,
 }
 
 impl Origin<'_> {
@@ -86,17 +91,18 @@ impl Origin<'_> {
             Place::Stdout => return products.first().map(|product| product.spool(out)).transpose(),
             Place::Files(paths) => paths,
         };
-        let mut drafts = Vec::new();
+        let (mut drafts, mut whole) = (Vec::new(), Vec::new());
         for (product, path) in products.iter().zip(paths) {
             let mut draft = Draft::new(path)?;
             product.make(draft.file(), out).map_err(|error| files::cannot_write(path, &error))?;
-            let (Self { source, job, options }, Product { target, verified, .. }) = (*self, product);
+            let (Self { source, job, options, record }, Product { target, verified, .. }) = (*self, product);
             let made = Made { source, job, target, verified: *verified, cut: None, options };
             drafts.push(provenance::draft(&files::meta(path), draft.file(), &made)?);
+            whole.extend(record.map(|_| Whole::of(&mut draft)).transpose()?);
             drafts.push(draft);
         }
         if !out.has_errors() {
-            draft::publish(drafts, || Ok(()))?;
+            draft::publish(drafts, || self.record.map_or(Ok(()), |record| record(out, whole)))?;
         }
         Ok(None)
     }

@@ -11,10 +11,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde::{Deserialize, Serialize};
 
 use super::shard::Shard;
-use crate::cli::draft::{self, Draft};
+use super::{Input, worst};
+use crate::cli::draft::{self, Draft, Whole};
 use crate::cli::files::{cannot_write, directory, meta};
 use crate::cli::finished::Console;
-use crate::machine::sha256_of;
+use crate::diagnostic::Diagnostics;
+use crate::machine::{MachineProfile, sha256_hex, sha256_of};
+use crate::source::Source;
 
 /// The name of a manifest, and how those of parts begin and end.
 const NAME: &str = "cutc.jsonl";
@@ -40,6 +43,26 @@ pub(in crate::cli) struct Made {
     pub(in crate::cli) options: String,
     /// Version of this program.
     pub(in crate::cli) version: String,
+}
+
+impl Made {
+    /// Ingredients of the programs of an input; `options` as they are typed, of which some may be empty.
+    pub(in crate::cli) fn of(
+        (input, source): (&Input, &Source),
+        targets: impl Iterator<Item = &'static str>,
+        profile: &MachineProfile,
+        mut options: Vec<String>,
+    ) -> Self {
+        options.retain(|option| !option.is_empty());
+        Self {
+            source: input.key(),
+            targets: targets.map(str::to_owned).collect(),
+            source_sha256: sha256_hex(source.bytes()),
+            profile_sha256: profile.digest(),
+            options: options.join(" "),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
 }
 
 /// A file that was written.
@@ -193,10 +216,18 @@ impl Manifest {
     }
 
     /// The name of a program as lines have it.
-    pub(in crate::cli) fn name_of(&self, program: &Path) -> String {
+    fn name_of(&self, program: &Path) -> String {
         let below = program.strip_prefix(self.folder()).unwrap_or(program);
         let parts: Vec<_> = below.iter().map(|part| part.to_string_lossy()).collect();
         parts.join("/")
+    }
+
+    /// Line on files that take their place, without figures of them.
+    pub(in crate::cli) fn line(&self, made: Made, verdict: Standing, whole: Vec<Whole>, out: &Diagnostics) -> Line {
+        let output = |Whole { path, sha256 }| Output { path: self.name_of(&path), sha256 };
+        let outputs = whole.into_iter().map(output).collect();
+        let worst = worst(out).map(str::to_owned);
+        Line { made, verdict, outputs, pieces: None, cut_m: None, time_s: None, worst }
     }
 
     /// Adds a line; what cannot be written whole leaves nothing.
@@ -343,4 +374,9 @@ fn is_part(name: &OsStr) -> bool {
     let part = name.strip_prefix(PART[0]).and_then(|rest| rest.strip_suffix(PART[1]));
     let numbers = part.and_then(|part| part.split_once("-of-"));
     numbers.is_some_and(|(index, count)| Shard::parse(&format!("{index}/{count}")).is_ok())
+}
+
+/// Micrometres of a metre, microseconds of a second: far below what a machine resolves.
+pub(in crate::cli) fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }

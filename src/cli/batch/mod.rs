@@ -5,6 +5,7 @@ mod figures;
 mod inputs;
 mod manifest;
 mod passed;
+mod programs;
 mod progress;
 mod shard;
 mod side_by_side;
@@ -16,11 +17,11 @@ use std::thread;
 
 use clap::Args;
 
-pub(super) use collisions::refuse_collisions;
 pub(super) use figures::{Cloth, Figures};
 pub(super) use inputs::{Input, Inputs, extensions, files_in, find, find_programs, hint, is_cutter_file};
-pub(super) use manifest::{Line, Made, Manifest, Output, Standing};
+pub(super) use manifest::{Line, Made, Manifest, Standing, rounded};
 pub(super) use passed::tell_passed_over;
+pub(super) use programs::{Chosen, Programs, Work, kept, places};
 pub(super) use shard::Shard;
 pub(super) use side_by_side::{Stages, run as side_by_side};
 pub(super) use table::{Columns, Row, State, Telling, counts, failed_last, sum, text};

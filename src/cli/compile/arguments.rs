@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::back::{Emit, TARGETS, Target};
-use crate::cli::batch::{Shard, Threads};
+use crate::cli::batch::{Chosen, Threads};
 use crate::cli::choices::{self, Format};
 use crate::cli::finished::{Finished, failure};
 use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
@@ -28,17 +28,8 @@ pub(in crate::cli) struct Arguments {
     #[command(flatten)]
     pub(super) threads: Threads,
 
-    /// Compile only what was changed: what `cutc.jsonl` beside the programs does not have, or not of these bytes, options
-    /// and version, or what no longer stands there as it was written
-    #[arg(long, help_heading = "Many files")]
-    pub(super) changed: bool,
-
-    /// Compile one part of the files, as in `--shard 3/16`, on one of several machines
-    ///
-    /// Which part a file belongs to is told by its content. Its manifest is `cutc.3-of-16.jsonl`; the next run with
-    /// --changed and without --shard joins those of all parts.
-    #[arg(long, value_name = "PART/PARTS", value_parser = Shard::parse, help_heading = "Many files")]
-    pub(super) shard: Option<Shard>,
+    #[command(flatten)]
+    pub(super) chosen: Chosen,
 
     /// How to give the figures; of many files JSON is a list, each with its `file`
     #[arg(long, value_enum, default_value = "text", help_heading = NO_HEADING)]

@@ -1,17 +1,17 @@
 //! Programs that are written: all of a file whole, with their provenance beside them, or none at all.
 
-use std::io::{self, Seek as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::arguments::Making;
 use crate::back::{Emit, Proof, Target};
-use crate::cli::draft::{self, Draft};
+use crate::cli::draft::{self, Draft, Whole};
 use crate::cli::files;
 use crate::cli::finished::say;
 use crate::cli::options::{remarks, typed};
 use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
-use crate::machine::{Job, sha256_of};
+use crate::machine::Job;
 use crate::machines;
 use crate::pipeline::{Advance, Choices, Compiled, Medium, Product};
 use crate::source::Source;
@@ -51,21 +51,6 @@ impl Ended {
     pub(in crate::cli) fn failed(error: anyhow::Error) -> Self {
         let diagnostics = Diagnostics::default();
         Self { compiled: Err(error), diagnostics, programs: Vec::new(), beside: String::new() }
-    }
-}
-
-/// A file that is whole and about to take its place.
-pub(in crate::cli) struct Whole {
-    pub(in crate::cli) path: PathBuf,
-    pub(in crate::cli) sha256: String,
-}
-
-impl Whole {
-    fn of(draft: &mut Draft) -> anyhow::Result<Self> {
-        let path = draft.path().to_owned();
-        let digest = draft.file().rewind().and_then(|()| sha256_of(draft.file()));
-        let sha256 = digest.map_err(|error| files::cannot_write(&path, &error))?;
-        Ok(Self { path, sha256 })
     }
 }
 

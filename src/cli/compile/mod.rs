@@ -21,7 +21,7 @@ use crate::pipeline;
 pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
     let threads = arguments.threads.set();
     let inputs = match batch::find(&arguments.files, batch::is_cutter_file, &batch::hint())? {
-        Inputs::One(file) if !arguments.changed && arguments.shard.is_none() => {
+        Inputs::One(file) if !arguments.chosen.is_of_many() => {
             return match &arguments.dump_after {
                 Some(pass) => dump(arguments, &file, pass),
                 None => one::run(arguments, &file),

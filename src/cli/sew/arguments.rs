@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::cli::batch::Threads;
+use crate::cli::batch::{Chosen, Threads};
 use crate::cli::choices::{self, Format};
 use crate::cli::options::{Machine, Messages, NO_HEADING, Patterned};
 use crate::machine::Job;
@@ -60,6 +60,9 @@ pub(in crate::cli) struct Arguments {
 
     #[command(flatten)]
     pub(super) threads: Threads,
+
+    #[command(flatten)]
+    pub(super) chosen: Chosen,
 
     /// How to give the figures; of many files JSON is a list
     #[arg(long, value_enum, default_value = "text", help_heading = NO_HEADING)]

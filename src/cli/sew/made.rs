@@ -6,7 +6,7 @@ use std::io;
 use tempfile::SpooledTempFile;
 
 use crate::cli::destination::Place;
-use crate::cli::made::{Judge, Origin, Product, say_broken};
+use crate::cli::made::{Judge, Origin, Product, Record, say_broken};
 use crate::cli::provenance::Verified;
 use crate::diagnostic::{Diagnostics, code};
 use crate::ir::verdict::{Sighting, Verdict};
@@ -21,6 +21,8 @@ pub(super) struct Writing<'a> {
     /// What was asked of the file, as it is typed.
     pub(super) options: &'a str,
     pub(super) verify: bool,
+    /// Record of what takes its place.
+    pub(super) record: Option<&'a Record<'a>>,
 }
 
 /// What was written.
@@ -45,7 +47,7 @@ impl<'a> Writing<'a> {
         }
         let products: Vec<Product> = self.targets.iter().map(|target| self.product(target, &verdicts)).collect();
         let Made { source, job, .. } = self.made;
-        let stdout = Origin { source, job, options: self.options }.write(&products, place, out)?;
+        let stdout = Origin { source, job, options: self.options, record: self.record }.write(&products, place, out)?;
         drop(products);
         Ok(Written { verdicts: verdicts.into_inner(), stdout })
     }

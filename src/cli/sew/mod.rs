@@ -13,7 +13,7 @@ pub(super) use sewn::typed;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::batch::{self, Inputs};
+use super::batch::{self, Input, Inputs};
 use super::finished::{Console, Finished};
 use crate::front::DIALECTS;
 use crate::sew::FORMATS;
@@ -22,7 +22,8 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     let dotted: Vec<String> = extensions().iter().map(|known| format!(".{known}")).collect();
     let hint = format!("files to sew are told by {}", dotted.join(" "));
     match batch::find(&arguments.files, is_sewn, &hint)? {
-        Inputs::One(file) => one::run(arguments, &file),
+        Inputs::One(file) if !arguments.chosen.is_of_many() => one::run(arguments, &file),
+        Inputs::One(file) => many::run(arguments, &[Input::named(&file)], console),
         Inputs::Many(inputs) => many::run(arguments, &inputs, console),
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         }
     };
     let _made = MadeFolders::of(paths.iter().map(PathBuf::as_path))?;
-    let sewn = Sewing { arguments, targets: &targets, job: &job }.sew(&source, &place)?;
+    let sewn = Sewing { arguments, targets: &targets, job: &job }.sew(&source, &place, None)?;
     let json = (arguments.format == Format::Json).then(|| sewn.json(&source, &job));
     let mut said = sewn.said;
     let Some(Programs { figures, written, .. }) = sewn.made else {

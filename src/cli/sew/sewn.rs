@@ -4,9 +4,10 @@ use super::arguments::Arguments;
 use super::made::{Writing, Written};
 use super::summary;
 use crate::cli::destination::Place;
+use crate::cli::draft::Whole;
 use crate::cli::finished::say;
 use crate::cli::options::counted;
-use crate::cli::{files, report};
+use crate::cli::{files, made, report};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code, render_with};
 use crate::machine::Job;
 use crate::sew::{self, Asked, Estimate, Fifo, Made, Program, Target};
@@ -19,6 +20,9 @@ pub(super) struct Sewing<'a> {
     pub(super) targets: &'a [&'static Target],
     pub(super) job: &'a Job,
 }
+
+/// Record of a sewn file in a manifest: its figures, `None` of what was refused, and its programs.
+pub(super) type Record<'r> = dyn Fn(Option<&Estimate>, &Diagnostics, Vec<Whole>) -> anyhow::Result<()> + 'r;
 
 /// What became of a file.
 pub(super) struct Sewn {
@@ -40,7 +44,7 @@ pub(super) struct Programs {
 impl Sewing<'_> {
     /// Sews a file: programs to their place. What is refused leaves nothing; older
     /// programs of these names are moved aside.
-    pub(super) fn sew(&self, source: &Source, place: &Place) -> anyhow::Result<Sewn> {
+    pub(super) fn sew(&self, source: &Source, place: &Place, record: Option<&Record>) -> anyhow::Result<Sewn> {
         let Self { arguments, targets, job } = *self;
         let asked = arguments.asked();
         let mut diagnostics = Diagnostics::default();
@@ -48,14 +52,21 @@ impl Sewing<'_> {
         if let Some((program, fifo)) = planned(source, &asked, job, &mut diagnostics) {
             let of = Made { program: &program, source, job };
             let options = &typed(&asked);
-            let written =
-                Writing { made: of, targets, options, verify: !arguments.no_verify }.write(place, &mut diagnostics)?;
+            let estimate = sew::estimate(&program, job);
+            let told = record.map(|record| {
+                let estimate = &estimate;
+                move |out: &Diagnostics, whole: Vec<Whole>| record(Some(estimate), out, whole)
+            });
+            let record = told.as_ref().map(|told| told as &made::Record);
+            let verify = !arguments.no_verify;
+            let written = Writing { made: of, targets, options, verify, record }.write(place, &mut diagnostics)?;
             let figures = summary::Figures::of(of, fifo, targets, &written.verdicts);
-            made = Some(Programs { estimate: sew::estimate(&program, job), figures, written });
+            made = Some(Programs { estimate, figures, written });
         }
         let mut said = render_with(&diagnostics, source, arguments.messages.detail(arguments.format));
         if diagnostics.has_errors() {
             made = None;
+            record.map_or(Ok(()), |record| record(None, &diagnostics, Vec::new()))?;
             let errors = counted(diagnostics.count(Severity::Error), "error");
             let warnings = counted(diagnostics.count(Severity::Warning), "warning");
             say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));

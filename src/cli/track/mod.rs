@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let mut spool = None;
     for Destination { targets, place } in &destinations {
         let products: Vec<_> = targets.iter().map(|target| product(target, &tracked, &job)).collect();
-        let origin = Origin { source: &source, job: &job, options: "" };
+        let origin = Origin { source: &source, job: &job, options: "", record: None };
         spool = origin.write(&products, place, &mut diagnostics)?.or(spool);
     }
     if diagnostics.has_errors() {

@@ -21,7 +21,7 @@ use self::settings::{Settings, Stamps};
 use self::settling::{STEADY, Settling, Stamp};
 use super::batch::{self, Input, Manifest, Outcome, Row, Stages, State};
 use super::choices::Format;
-use super::compile::many::{Became, Many};
+use super::compile::many::{Became, Many, made};
 use super::compile::overview::{Overview, page_of};
 use super::destination::below;
 use super::draft::{self, MadeFolders};
@@ -350,13 +350,13 @@ impl Folders<'_> {
         }
         let Arguments { making, messages, .. } = &settings.arguments;
         let many = Many { making, targets: &settings.targets, job: &settings.job, manifest: self.manifest };
-        let made = many.made(input, &source);
+        let made = made(making, &settings.targets, &settings.job, (input, &source));
         if let Some(line) = self.manifest.standing(&made) {
             report::remove(&report);
-            return Dealt::Before(many.kept(input, line));
+            return Dealt::Before(batch::kept(self.manifest, input, line));
         }
         if let Some(line) = self.manifest.refused(&made).filter(|_| report.exists()) {
-            return Dealt::Before(many.kept(input, line));
+            return Dealt::Before(batch::kept(self.manifest, input, line));
         }
         // It is of what the file was before.
         report::remove(&report);

@@ -31,6 +31,70 @@ fn many_files_are_sewn_below_one_folder() {
 }
 
 #[test]
+fn only_what_was_changed_is_sewn_and_a_part_of_a_folder_at_a_time() {
+    let room = Room::new();
+    std::fs::create_dir(room.at("in")).expect("writable");
+    room.write("in/a.dst", &fixture("sew/seat.dst"));
+    room.write("in/b.csv", &fixture("sew/pocket.csv"));
+    let run = |options: &str, expected: &str| {
+        let said = room.says(&format!("sew in -o out/ --changed {options}"), DONE);
+        assert!(said.contains(expected), "{options}: {said}");
+    };
+    run("", "2 files, 2 done");
+    let manifest = room.read("out/cutc.jsonl");
+    let lines = String::from_utf8(manifest.clone()).expect("text");
+    assert!(lines.lines().count() == 2 && lines.matches("\"verdict\":\"verified\"").count() == 2, "{lines}");
+    run("", "2 files, 2 unchanged");
+    assert_eq!(room.read("out/cutc.jsonl"), manifest);
+    room.write("in/b.csv", &fixture("sew/square.csv"));
+    run("", "2 files, 1 done, 1 unchanged");
+    room.write("out/b.queue.csv", b"op\n");
+    run("", "2 files, 1 done, 1 unchanged");
+    // What the programs depend on: the profile, and whether they were judged.
+    run("--set sewing.max_rpm=1000", "2 files, 2 done");
+    run("--set sewing.max_rpm=1000 --no-verify", "2 files, 2 done");
+    run("--set sewing.max_rpm=1000 --no-verify", "2 files, 2 unchanged");
+    room.write("in/bad.dst", &fixture("invalid/sew/record.dst"));
+    assert!(room.says("sew in -o out/ --changed", FAULTY).contains("3 files, 2 done, 1 failed"));
+    let lines = String::from_utf8(room.read("out/cutc.jsonl")).expect("text");
+    let refused = lines.lines().find(|line| line.contains("bad.dst")).expect("a line");
+    assert!(refused.contains("\"verdict\":\"refused\",\"outputs\":[]"), "{refused}");
+    std::fs::remove_file(room.at("in/bad.dst")).expect("removable");
+    for part in 1..=2 {
+        room.expect(&format!("sew in -o parts/ --shard {part}/2"), DONE);
+    }
+    for name in ["a.queue.csv", "b.queue.csv"] {
+        assert_eq!(room.read(&format!("parts/{name}")), room.read(&format!("out/{name}")), "{name}");
+    }
+    assert!(room.says("sew in -o parts/ --changed", DONE).contains("2 files, 2 unchanged"));
+}
+
+#[test]
+fn a_file_is_checked_for_the_machine_that_is_to_work_on_it() {
+    let room = Room::new();
+    room.write("seat.dst", &fixture("sew/seat.dst"));
+    room.write("bad.dst", &fixture("invalid/sew/record.dst"));
+    room.write("log.csv", &fixture("track/unix-times.csv"));
+    room.write("disc.cut", &fixture("iso/seed-circle.cut"));
+    room.write("across.csv", &fixture("invalid/flow/edge-across-the-feed.csv"));
+    room.write("flow.toml", &fixture("machines/flow.toml"));
+    let files = || std::fs::read_dir(room.at(".")).expect("readable").count();
+    let before = files();
+    assert!(room.says("check seat.dst --for sew", DONE).contains("seat.dst: dst, 0 errors"));
+    assert!(room.says("check bad.dst --for sew", FAULTY).contains("sew/record"));
+    assert!(room.says("check seat.dst", FAULTY).contains("cutc sew"));
+    assert!(room.says("check log.csv --for track", DONE).contains("log.csv: log, "));
+    let said = room.says("check disc.cut seat.dst --for sew", DONE);
+    assert!(said.contains("2 files, 2 done"), "{said}");
+    let said = room.says("check disc.cut --for flow --set bite.length_mm=500", USAGE);
+    assert!(said.contains("cut cloth that moves"), "{said}");
+    let said = room.says("check across.csv --for flow -p flow.toml", FAULTY);
+    assert!(said.contains("flow/"), "{said}");
+    assert!(room.says("check disc.cut --for milling", USAGE).contains("flow"));
+    assert_eq!(files(), before, "a check writes nothing");
+}
+
+#[test]
 fn programs_are_judged_anew_by_what_they_were_sewn_from() {
     let room = Room::new();
     std::fs::create_dir(room.at("in")).expect("writable");
