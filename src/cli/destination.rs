@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use super::files::{STDIN, directory, is_dash, meta, path_from, stale};
-use super::finished::failure;
+use super::choices::Format;
+use super::files::{STDIN, directory, is_dash, meta, move_aside, path_from, stale};
+use super::finished::{FAULTY, Finished, failure};
 use super::provenance;
 use crate::ir::Target;
 
@@ -54,6 +55,25 @@ impl Place {
             Self::Stdout => &[],
             Self::Files(paths) => paths,
         }
+    }
+
+    /// Refuses figures as JSON beside a program on standard output.
+    pub(super) fn refuse_json(&self, format: Format) -> anyhow::Result<()> {
+        if *self == Self::Stdout && format == Format::Json {
+            return Err(failure(
+                "`-o -` and `--format json` both want standard output",
+                "write to a file with -o FILE, or leave --format out",
+            ));
+        }
+        Ok(())
+    }
+
+    /// End of a command whose job was refused: older programs are moved aside. A slip in an argument is no verdict on them.
+    pub(super) fn refused(&self, mut refused: Finished) -> Finished {
+        if refused.code == FAULTY {
+            refused.stderr.extend(self.files().iter().map(|path| move_aside(path)));
+        }
+        refused
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::options::counted;
 use super::setup::{Profile, Setup};
 use crate::diagnostic::{Code, Diagnostics, Json, Severity};
 use crate::ir::{Finding, Marker};
@@ -98,6 +99,13 @@ impl From<&Finding> for WorstOf {
     fn from(finding: &Finding) -> Self {
         Self { code: finding.rule.name, worst: finding.worst, limit: finding.limit, unit: finding.unit }
     }
+}
+
+/// Line on a source that has errors, of which no program was written.
+pub(super) fn nothing_written(source: &Source, diagnostics: &Diagnostics) -> String {
+    let [errors, warnings] = [(Severity::Error, "error"), (Severity::Warning, "warning")]
+        .map(|(severity, word)| counted(diagnostics.count(severity), word));
+    format!("{}: {errors}, {warnings}; no program was written\n", source.name())
 }
 
 /// Figures of another machine, with the profile and the findings, as one JSON object.

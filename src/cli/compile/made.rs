@@ -171,6 +171,6 @@ impl Drafted {
 }
 
 /// Moves older programs aside, and says so.
-pub(in crate::cli) fn move_aside(paths: &[PathBuf]) -> String {
+fn move_aside(paths: &[PathBuf]) -> String {
     paths.iter().map(|path| files::move_aside(path)).collect()
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use tempfile::SpooledTempFile;
 
 use super::arguments::{Arguments, Making};
-use super::made::{Compile, Emitted, Ended, move_aside};
+use super::made::{Compile, Emitted, Ended};
 use super::shown::Shown;
 use crate::back::TARGETS;
 use crate::cli::choices::Format;
@@ -31,25 +31,14 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let asked = Asked { all: TARGETS, out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
     arguments.making.check_remarks(&targets)?;
-    if place == Place::Stdout && arguments.format == Format::Json {
-        return Err(failure(
-            "`-o -` and `--format json` both want standard output",
-            "write the program to a file with -o FILE, or leave --format out",
-        ));
-    }
+    place.refuse_json(arguments.format)?;
     if arguments.making.meta.is_some() && place != Place::Stdout {
         return Err(failure("`--meta` goes with `-o -`", "beside a file the `.meta.json` is written by itself"));
     }
     let source = files::read(file)?;
     let job = match arguments.making.job()? {
         Ok(job) => job,
-        Err(mut refused) => {
-            // A slip in an argument is no verdict on the program that is there.
-            if let (FAULTY, Place::Files(paths)) = (refused.code, &place) {
-                refused.stderr.push_str(&move_aside(paths));
-            }
-            return Ok(refused);
-        }
+        Err(refused) => return Ok(place.refused(refused)),
     };
     let shown = Shown::new(arguments.messages.quiet);
     let making = &arguments.making;

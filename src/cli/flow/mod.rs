@@ -15,7 +15,7 @@ use super::files;
 use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 use super::options::counted;
 use super::report;
-use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::diagnostic::{Diagnostics, render_with};
 use crate::flow::{Speed, TARGETS, Target};
 use crate::machine::Job;
 use crate::machines::flow::{self, PLAN, Planned};
@@ -85,9 +85,7 @@ fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
 /// What is said when nothing is written. Older programs are moved aside.
 fn refused(arguments: &Arguments, source: &Source, diagnostics: &Diagnostics, job: &Job) -> Finished {
     let mut said = render_with(diagnostics, source, arguments.messages.detail(arguments.format));
-    let errors = counted(diagnostics.count(Severity::Error), "error");
-    let warnings = counted(diagnostics.count(Severity::Warning), "warning");
-    say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
+    said.push_str(&report::nothing_written(source, diagnostics));
     said.push_str(&earlier::move_aside(&arguments.out, &[]));
     let stdout = match arguments.format {
         Format::Json => report::json_by_profile(summary::nothing(), diagnostics, source, job),

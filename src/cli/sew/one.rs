@@ -6,10 +6,10 @@ use super::arguments::Arguments;
 use super::sewn::{Programs, Sewing};
 use super::summary;
 use crate::cli::choices::Format;
-use crate::cli::destination::{Asked, Destination, Place};
+use crate::cli::destination::{Asked, Destination};
 use crate::cli::draft::MadeFolders;
 use crate::cli::files;
-use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, say};
 use crate::sew::TARGETS;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
@@ -17,23 +17,12 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let beside = [machine.profile.as_deref(), None, None];
     let asked = Asked { all: TARGETS, out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
-    if place == Place::Stdout && arguments.format == Format::Json {
-        return Err(failure(
-            "`-o -` and `--format json` both want standard output",
-            "write the program to a file with -o FILE, or leave --format out",
-        ));
-    }
+    place.refuse_json(arguments.format)?;
     let paths = place.files();
     let source = files::read(file)?;
     let job = match arguments.machine.job()? {
         Ok(job) => arguments.of(job),
-        Err(mut refused) => {
-            // A slip in an argument is no verdict on the program that is there.
-            if refused.code == FAULTY {
-                refused.stderr.extend(paths.iter().map(|path| files::move_aside(path)));
-            }
-            return Ok(refused);
-        }
+        Err(refused) => return Ok(place.refused(refused)),
     };
     let _made = MadeFolders::of(paths.iter().map(PathBuf::as_path))?;
     let sewn = Sewing { arguments, targets: &targets, job: &job }.sew(&source, &place, None)?;

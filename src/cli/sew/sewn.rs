@@ -5,10 +5,8 @@ use super::made::{Writing, Written};
 use super::summary;
 use crate::cli::destination::Place;
 use crate::cli::draft::Whole;
-use crate::cli::finished::say;
-use crate::cli::options::counted;
 use crate::cli::{files, made, report};
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code, render_with};
+use crate::diagnostic::{Diagnostic, Diagnostics, code, render_with};
 use crate::machine::Job;
 use crate::sew::{self, Asked, Estimate, Fifo, Made, Program, Target};
 use crate::source::Source;
@@ -67,9 +65,7 @@ impl Sewing<'_> {
         if diagnostics.has_errors() {
             made = None;
             record.map_or(Ok(()), |record| record(None, &diagnostics, Vec::new()))?;
-            let errors = counted(diagnostics.count(Severity::Error), "error");
-            let warnings = counted(diagnostics.count(Severity::Warning), "warning");
-            say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
+            said.push_str(&report::nothing_written(source, &diagnostics));
             said.extend(place.files().iter().map(|path| files::move_aside(path)));
         }
         Ok(Sewn { diagnostics, made, said })

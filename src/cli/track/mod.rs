@@ -11,35 +11,25 @@ use std::path::{Path, PathBuf};
 
 use self::made::product;
 use super::choices::Format;
-use super::destination::{Destination, Place};
+use super::destination::Destination;
 use super::draft::MadeFolders;
 use super::files;
-use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+use super::finished::{DONE, FAULTY, Finished, Stdout, say};
 use super::made::Origin;
-use super::options::counted;
 use super::report;
-use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::Job;
 use crate::source::Source;
 use crate::track::{Needs, Tracked};
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let destinations = place::destinations(arguments)?;
-    let is_stdout = destinations.iter().any(|found| found.place == Place::Stdout);
-    if arguments.format == Format::Json && is_stdout {
-        return Err(failure("`-o -` and `--format json` both want standard output", "write to a file with -o FILE"));
-    }
+    destinations.iter().try_for_each(|found| found.place.refuse_json(arguments.format))?;
     let paths: Vec<&Path> = destinations.iter().flat_map(|found| found.place.files()).map(PathBuf::as_path).collect();
     let source = files::read(&arguments.file)?;
     let job = match arguments.machine.job()? {
         Ok(job) => job,
-        Err(mut refused) => {
-            // A slip in an argument is no verdict on what is there.
-            if refused.code == FAULTY {
-                refused.stderr.extend(paths.iter().map(|path| files::move_aside(path)));
-            }
-            return Ok(refused);
-        }
+        Err(refused) => return Ok(destinations.iter().fold(refused, |refused, found| found.place.refused(refused))),
     };
     let _made = MadeFolders::of(paths.iter().copied())?;
     let needs = destinations.iter().flat_map(|found| &found.targets).map(|target| target.emit.needs).max();
@@ -83,9 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
 /// What is said when nothing is written. Older files of these names are moved aside.
 fn refused(arguments: &Arguments, source: &Source, paths: &[&Path], diagnostics: &Diagnostics, job: &Job) -> Finished {
     let mut said = render_with(diagnostics, source, arguments.messages.detail(arguments.format));
-    let errors = counted(diagnostics.count(Severity::Error), "error");
-    let warnings = counted(diagnostics.count(Severity::Warning), "warning");
-    say(&mut said, format_args!("{}: {errors}, {warnings}; nothing was written", source.name()));
+    said.push_str(&report::nothing_written(source, diagnostics));
     said.extend(paths.iter().map(|path| files::move_aside(path)));
     let stdout = match arguments.format {
         Format::Json => report::json_by_profile(summary::nothing(), diagnostics, source, job),
