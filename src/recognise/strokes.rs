@@ -1,9 +1,10 @@
-//! Notches that are drawn as one open stroke from a place of an outline to another: V, castle and U.
+//! Notches that are drawn as one open stroke from a place of an outline to another: V, castle and U, or some of them that
+//! touch each other.
 
 use super::line::{Class, ROUNDING, SHORTEST_NOTCH, is_straight};
 use super::marks::{Candidate, Search, meet};
 use crate::geom::budget::Budget;
-use crate::geom::{Point, polyline, ring};
+use crate::geom::{Point, cross, polyline, ring};
 use crate::ir::marker::Notch;
 
 /// An open stroke that is a notch of an outline.
@@ -40,28 +41,57 @@ fn rises(mut depths: impl Iterator<Item = f64>) -> bool {
     })
 }
 
+/// Notches that touch each other in one stroke, at the most.
+const MOST_TOUCHING: usize = 3;
+
+/// The tip of a stroke with the shape of a notch, or of some that touch each other: the deepest place of the first one.
+fn tip(places: &[Point]) -> Option<Point> {
+    let [first, .., last] = places[..] else { return None };
+    let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
+    let side = |at: &Point| cross(last - first, at - first);
+    let deepest = side(places.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?);
+    // An end past the edge lies on the other side.
+    let is_near = |k: &usize| depth(&places[*k]) <= Notch::MISS || side(&places[*k]) * deepest < 0.0;
+    let mut tips = Vec::new();
+    let mut from = 0;
+    while from + 1 < places.len() {
+        let deep = (from + 1..places.len()).find(|k| !is_near(k))?;
+        let back = (deep..places.len()).find(is_near)?;
+        let again = (back..places.len()).find(|k| !is_near(k));
+        let to = match again {
+            Some(again) => (back..again).min_by(|&a, &b| depth(&places[a]).total_cmp(&depth(&places[b])))?,
+            None => places.len() - 1,
+        };
+        let notch = &places[from..=to];
+        let deepest = notch.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
+        let is_notch = (SHORTEST_NOTCH..=Notch::LONGEST).contains(&depth(deepest))
+            && (notch[notch.len() - 1] - notch[0]).norm() <= Notch::WIDEST
+            && polyline::length(notch) <= Notch::LONGEST_STROKE
+            && has_one_tip(&notch.iter().map(depth).collect::<Vec<f64>>());
+        tips.push(is_notch.then_some(*deepest)?);
+        from = to;
+    }
+    tips.first().copied().filter(|_| tips.len() <= MOST_TOUCHING)
+}
+
 /// The notches among the open lines that were not taken for anything yet.
 pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     let Search { lines, vertices, unit, .. } = search;
     let may_be = |&i: &usize| {
         let line = &lines[i];
-        !line.is_closed && line.is_open_question() && line.length <= Notch::LONGEST_STROKE
+        let longest = MOST_TOUCHING as f64 * Notch::LONGEST_STROKE;
+        !line.is_closed && line.is_open_question() && line.length <= longest
     };
     let mut tips = Vec::new();
     let mut candidates = Vec::new();
     for line in (0..lines.len()).filter(may_be) {
         let places = lines[line].points(vertices);
         let [first, .., last] = places[..] else { continue };
-        if is_straight(lines[line].vertices(vertices)) || first == last || (last - first).norm() > Notch::WIDEST {
+        let is_wide = (last - first).norm() > MOST_TOUCHING as f64 * Notch::WIDEST;
+        if is_wide || first == last || is_straight(lines[line].vertices(vertices)) {
             continue;
         }
-        let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
-        let deepest = places.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
-        let is_notch = |tip: &&Point| {
-            (SHORTEST_NOTCH..=Notch::LONGEST).contains(&depth(tip))
-                && has_one_tip(&places.iter().map(depth).collect::<Vec<f64>>())
-        };
-        if let Some(&tip) = deepest.filter(is_notch) {
+        if let Some(tip) = tip(&places) {
             candidates.push(Candidate::whole(line, [first, last]));
             tips.push(tip);
         }

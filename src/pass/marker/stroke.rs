@@ -2,16 +2,17 @@
 //!
 //! Needs: welded contours. The stroke takes the place of the edge over its mouth, as if the file drew the notch in the
 //! outline, so that all passes behind this one see the same notches whatever drew them. Leaves true: outlines stay closed,
-//! and a stroke that overlaps the mouth of another one stays a contour of its own. Cutter files are left alone: what they
+//! each stroke that is part of one is listed as its notch, and a stroke that overlaps the mouth of another one stays a contour
+//! of its own. Cutter files are left alone: what they
 //! cut is meant.
 
 use super::pass::MarkerPass;
 use super::search;
 use crate::diagnostic::Diagnostics;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, polyline};
+use crate::geom::{Extent, Point, cross, polyline};
 use crate::ir::list::{Range, Segment, SegmentList};
-use crate::ir::marker::{Contour, Marker, Notch, Piece};
+use crate::ir::marker::{Contour, Marker, Notch, NotchForm, OutlineNotch, Piece};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
@@ -20,6 +21,8 @@ pub(super) const PASS: MarkerPass =
 /// Distance by which rounding moves a place: in units of the file, and without a grid in mm.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 const NO_GRID: f64 = 0.01;
+/// Notches that touch each other in one stroke, at the most.
+const MOST_TOUCHING: usize = 3;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, drawing, .. } = marker;
@@ -55,6 +58,18 @@ struct Mouth {
     segments: Vec<Segment>,
 }
 
+impl Mouth {
+    /// Its notch in an outline, with the form of what is neither a V nor a castle.
+    fn notch(&self, outline: &[Segment]) -> OutlineNotch {
+        let mouth = [self.from, self.to].map(|place| at(outline, place));
+        let depth = |segment: &&Segment| polyline::distance_to_segment(segment.to, mouth[0], mouth[1]);
+        let deepest = self.segments.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
+        let Segment { to: tip, span, .. } = *deepest.expect("a stroke has segments");
+        let segments = u32::try_from(self.segments.len()).expect("a stroke has few segments");
+        OutlineNotch { form: NotchForm::U, outwards: false, mouth, tip, segments, span }
+    }
+}
+
 impl Joining<'_> {
     fn join(&mut self, piece: &mut Piece) {
         let mut strokes: Vec<usize> = (0..piece.contours.len()).filter(|&k| self.may_be(&piece.contours[k])).collect();
@@ -74,12 +89,9 @@ impl Joining<'_> {
     }
 
     fn may_be(&self, contour: &Contour) -> bool {
-        let [start, end] = self.list.ends_of(contour.range);
         let points = || self.list.points(contour.range);
-        !contour.closed
-            && (end - start).norm() <= Notch::WIDEST
-            && points().len() > 2
-            && polyline::length(&points()) <= Notch::LONGEST_STROKE
+        let longest = MOST_TOUCHING as f64 * Notch::LONGEST_STROKE;
+        !contour.closed && points().len() > 2 && polyline::length(&points()) <= longest
     }
 
     /// Puts the strokes that stand on an outline into it: which ones.
@@ -99,20 +111,24 @@ impl Joining<'_> {
             segments = from_place(&segments, around.to);
             mouths = self.mouths(&segments, &ranges);
         }
-        mouths.retain(|mouth| mouth.from < mouth.to);
         mouths.sort_by(|a, b| a.from.0.cmp(&b.from.0).then(a.from.1.total_cmp(&b.from.1)));
         let mut end = (0, 0.0);
-        mouths.retain(|mouth| {
-            mouth.from >= end && {
+        let mut left: Vec<usize> = Vec::new();
+        for mouth in &mouths {
+            if mouth.from < mouth.to && mouth.from >= end {
                 end = mouth.to;
-                true
+            } else {
+                left.push(mouth.contour);
             }
-        });
+        }
+        // A stroke that draws several notches is taken whole or not at all.
+        mouths.retain(|mouth| !left.contains(&mouth.contour));
         if mouths.is_empty() {
             return Vec::new();
         }
         if let Some(range) = self.list.append(with(&segments, &mouths)) {
             piece.contours[outline].range = range;
+            piece.outline_notches.extend(mouths.iter().map(|mouth| mouth.notch(&segments)));
         }
         mouths.iter().map(|mouth| mouth.contour).collect()
     }
@@ -133,25 +149,64 @@ impl Joining<'_> {
             .collect();
         let round = stations[outline.len()];
         for &(contour, range) in strokes {
-            let ends = self.list.ends_of(range);
-            let [Some(first), Some(last)] = ends.map(|end| self.place(outline, end)) else { continue };
-            let station = |(segment, share): Place| stations[segment] + share * outline[segment].length();
-            let forward = (station(last) - station(first)).rem_euclid(round);
-            let is_forward = forward <= round / 2.0;
-            let range = if is_forward { range } else { range.reversed() };
-            let segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
-            let [mut from, mut to] = if is_forward { [first, last] } else { [last, first] };
-            // The outline starts where it ends.
-            let end = (outline.len() - 1, 1.0);
-            if from == end {
-                from = (0, 0.0);
+            let Some(notches) = self.notches(outline, range) else { continue };
+            for segments in notches {
+                let ends = [segments[0].from, segments[segments.len() - 1].to];
+                let [Some(first), Some(last)] = ends.map(|end| self.place(outline, end)) else { continue };
+                let station = |(segment, share): Place| stations[segment] + share * outline[segment].length();
+                let forward = (station(last) - station(first)).rem_euclid(round);
+                let is_forward = forward <= round / 2.0;
+                let [mut from, mut to] = if is_forward { [first, last] } else { [last, first] };
+                // The outline starts where it ends.
+                let end = (outline.len() - 1, 1.0);
+                if from == end {
+                    from = (0, 0.0);
+                }
+                if to == (0, 0.0) {
+                    to = end;
+                }
+                let segments = if is_forward { segments } else { reversed(&segments) };
+                mouths.push(Mouth { from, to, contour, segments });
             }
-            if to == (0, 0.0) {
-                to = end;
-            }
-            mouths.push(Mouth { from, to, contour, segments });
         }
         mouths
+    }
+
+    /// The segments of each notch of a stroke, which comes back to the outline between two that touch each other; `None` where
+    /// one of them is none.
+    fn notches(&mut self, outline: &[Segment], range: Range) -> Option<Vec<Vec<Segment>>> {
+        let segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
+        let [start, end] = self.list.ends_of(range);
+        let side = |segment: &Segment| cross(end - start, segment.to - start);
+        let deepest = segments.iter().map(side).max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        let mut notches: Vec<Vec<Segment>> = Vec::new();
+        let mut rest = &segments[..];
+        while let Some(first) = rest.first() {
+            let mut off = Vec::with_capacity(rest.len());
+            for segment in rest {
+                let edges = outline.iter().map(|edge| polyline::distance_to_segment(segment.to, edge.from, edge.to));
+                let distance = self.work.spend(outline.len()).then(|| edges.fold(f64::INFINITY, f64::min))?;
+                // An end past the edge lies on the other side.
+                off.push(if side(segment) * deepest < 0.0 { 0.0 } else { distance });
+            }
+            let is_off = |distance: &f64| *distance > self.reach();
+            // Where it comes back it lies nearest to the outline before it leaves it again.
+            let count = off.iter().position(is_off).and_then(|deep| {
+                let back = deep + off[deep..].iter().position(|distance| !is_off(distance))?;
+                let again = back + off[back..].iter().position(is_off)?;
+                let nearest = (back..again).min_by(|&a, &b| off[a].total_cmp(&off[b]))?;
+                Some(nearest + 1)
+            });
+            let (notch, others) = rest.split_at(count.unwrap_or(rest.len()));
+            let mouth = (notch[notch.len() - 1].to - first.from).norm();
+            let length: f64 = notch.iter().map(Segment::length).sum();
+            if notch.len() < 2 || mouth > Notch::WIDEST || length > Notch::LONGEST_STROKE {
+                return None;
+            }
+            notches.push(notch.to_vec());
+            rest = others;
+        }
+        (notches.len() <= MOST_TOUCHING).then_some(notches)
     }
 
     /// The place of an outline nearest to a point, if that lies on it.
@@ -182,20 +237,27 @@ impl Joining<'_> {
 
 /// An outline that starts at a place.
 fn from_place(outline: &[Segment], (first, share): Place) -> Vec<Segment> {
-    let Segment { from, to, .. } = outline[first];
-    let at = if share == 1.0 { to } else { from + (to - from) * share };
+    let at = at(outline, (first, share));
     let halves = [Segment { from: at, ..outline[first] }, Segment { to: at, ..outline[first] }];
     let between = outline[first + 1..].iter().chain(&outline[..first]).copied();
     let all = std::iter::once(halves[0]).chain(between).chain([halves[1]]);
     all.filter(|segment| segment.from != segment.to).collect()
 }
 
+/// A line in the other direction.
+fn reversed(segments: &[Segment]) -> Vec<Segment> {
+    segments.iter().rev().map(|segment| Segment { from: segment.to, to: segment.from, ..*segment }).collect()
+}
+
+/// A place of an outline.
+fn at(outline: &[Segment], (segment, share): Place) -> Point {
+    let Segment { from, to, .. } = outline[segment];
+    if share == 1.0 { to } else { from + (to - from) * share }
+}
+
 /// An outline with strokes in place of the edge over their mouths, which are in order.
 fn with(outline: &[Segment], mouths: &[Mouth]) -> Vec<Segment> {
-    let at = |(segment, share): Place| {
-        let Segment { from, to, .. } = outline[segment];
-        if share == 1.0 { to } else { from + (to - from) * share }
-    };
+    let at = |place: Place| at(outline, place);
     let mut all: Vec<Segment> = Vec::with_capacity(outline.len() + mouths.len());
     let mut add = |segment: Segment| {
         if segment.from != segment.to {

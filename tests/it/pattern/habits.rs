@@ -188,3 +188,31 @@ fn a_point_that_marks_a_drawn_notch_changes_nothing() {
         assert_eq!(told, ["dxf/notch-drawn"], "{what}");
     }
 }
+
+#[test]
+fn notches_of_an_outline_that_lean_touch_or_stand_at_a_corner_are_counted() {
+    let mut random = Rng::with_seed(44);
+    for case in 0..40 {
+        let lean = -0.7 + 1.4 * random.f64();
+        let (sine, cosine) = lean.sin_cos();
+        // A castle of 4 by 7 mm whose walls the edge cuts off askew, and two V of 4 by 6 mm that lean.
+        let half = 2.0 / cosine;
+        let bottom = |x: f64| [40.0 + 7.0 * sine + x * cosine, 7.0 * cosine - x * sine];
+        let castle = [[40.0 - half, 0.0], bottom(-2.0), bottom(2.0), [40.0 + half, 0.0]];
+        let tip = |x: f64| [x + 6.0 * sine, 6.0 * cosine];
+        let touching = [[98.0, 0.0], tip(100.0), [102.0, 0.0], tip(104.0), [106.0, 0.0]];
+        let corner = [[197.0, 0.0], [196.0, 4.0], [200.0, 3.0], [200.0, 150.0], [0.0, 150.0], [0.0, 0.0]];
+        let ring: Vec<Place> = castle.into_iter().chain(touching).chain(corner).collect();
+        for drawn in Drawn::ALL {
+            let mut file = Writer::begin();
+            file.block("A").text("PIECE NAME: A").text("SIZE: M").outline(1, &ring, drawn).end_block();
+            let source = source(file.end(&["UNITS: METRIC", "SAMPLE SIZE: M"]));
+            let mut found = cutc::diagnostic::Diagnostics::default();
+            let read = cutc::pipeline::read(&source, cutc::front::by_name("pattern"), &Job::default(), &mut found);
+            let marker = read.expect("a pattern").marker;
+            let mut words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(|notch| notch.word()).collect();
+            words.sort_unstable();
+            assert_eq!(words, ["castle", "v", "v", "v"], "case {case}, lean {lean}, {drawn:?}");
+        }
+    }
+}

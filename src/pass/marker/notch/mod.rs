@@ -4,11 +4,14 @@
 //! closed contour, of which all of this is true, to rounding:
 //!
 //! - it is a V (mouth 1 to 12 mm), a castle or a U (mouth 1.5 to 12 mm), 1.5 to 15 mm deep along its axis;
-//! - the axis of a V or castle, from the middle of the mouth to that of the bottom, leans up to 60 degrees from the square;
-//! - the bottom of a castle and the legs of a U are up to 10 degrees askew to the mouth and to the square;
-//! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction;
+//! - its axis, from the middle of the mouth to that of the bottom, leans up to 60 degrees from the square to the mouth;
+//! - the walls of a castle or U follow the axis within 10 degrees, its bottom lies square to them or along the mouth;
+//! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction; that of a V may bend there, as a
+//!   corner of the part does or where another notch begins, and turns by more than a right angle into the notch;
 //! - it is none of four or more in a row whose next is nearer than their mouths are wide: the teeth of a pinked hem;
 //! - three vertices at least belong to none of the contour's notches.
+//!
+//! What a drawing draws as a stroke from edge to edge is a notch whatever its measures; the pass `stroke` has listed it.
 //!
 //! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are none.
 //! What lies in the part goes inwards: on the inner side of a contour that lies within none or two others of its piece,
@@ -58,11 +61,11 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     pieces.par_chunks_mut(size).for_each(|pieces| {
         let mut found: Vec<Found> = Vec::with_capacity(pieces.len());
         for piece in &mut *pieces {
-            piece.outline_notches.clear();
+            let said = std::mem::take(&mut piece.outline_notches);
             let nesting = OnceCell::new();
             for (k, contour) in piece.contours.iter().enumerate().filter(|(_, contour)| contour.closed) {
-                let outline = Outline::of(list, contour.range, *unit);
-                if outline.mouths.is_empty() {
+                let outline = Outline::of(list, contour.range, *unit, &said);
+                if outline.mouths.is_empty() && outline.said.is_empty() {
                     continue;
                 }
                 let counter_clockwise = ring::area(outline.ring()) > 0.0;
@@ -109,13 +112,26 @@ struct Outline<'a> {
     points: Cow<'a, [Point]>,
     /// What may be notches, whichever side the part is on.
     mouths: Vec<Mouth>,
+    /// What the drawing says are notches.
+    said: Vec<Mouth>,
 }
 
 impl<'a> Outline<'a> {
-    fn of(list: &'a SegmentList, range: Range, unit: f64) -> Self {
+    fn of(list: &'a SegmentList, range: Range, unit: f64, said: &[OutlineNotch]) -> Self {
         let points = list.points(range);
         let mouths = if points.len() > LEAST_OTHERS + 3 { mouth::find(&points, unit) } else { Vec::new() };
-        Self { range, points, mouths }
+        let mut outline = Self { range, points, mouths, said: Vec::new() };
+        let found = said.iter().filter_map(|notch| mouth::said(&outline.points, unit, outline.place(notch)?));
+        outline.said = found.collect();
+        outline
+    }
+
+    /// The first vertex of a notch, and its segments; `None` where other passes made something else of it.
+    fn place(&self, notch: &OutlineNotch) -> Option<[usize; 2]> {
+        let count = self.points.len() - 1;
+        let first = (0..count).find(|&i| self.points[i] == notch.mouth[0])?;
+        let segments = (2..count).find(|k| self.at(first + k) == notch.mouth[1])?;
+        (segments <= notch.segments as usize).then_some([first, segments])
     }
 
     /// Its vertices, the first not repeated.
@@ -159,8 +175,15 @@ impl<'a> Outline<'a> {
             }
         };
         kept.sort_by_key(|mouth| mouth.first);
-        if kept.iter().map(|mouth| mouth.segments + 1).sum::<usize>() + LEAST_OTHERS > count {
+        let touching = kept.iter().zip(kept.iter().cycle().skip(1));
+        let touching = touching.filter(|(one, next)| (one.first + one.segments) % count == next.first).count();
+        if kept.iter().map(|mouth| mouth.segments + 1).sum::<usize>() - touching + LEAST_OTHERS > count {
             kept.clear();
+        }
+        if !self.said.is_empty() {
+            kept.retain(|mouth| !self.said.iter().any(|said| said.overlaps(mouth, count)));
+            kept.extend(&self.said);
+            kept.sort_by_key(|mouth| mouth.first);
         }
         kept
     }

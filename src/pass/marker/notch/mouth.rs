@@ -16,9 +16,7 @@ const V_MOUTH: [f64; 2] = [1.0, Notch::WIDEST];
 const MOUTH: [f64; 2] = [1.5, Notch::WIDEST];
 /// Depth, mm.
 const DEPTH: [f64; 2] = [1.5, Notch::LONGEST];
-/// How much longer than the other a leg of a V may be.
-const LEG_RATIO: f64 = 1.25;
-/// Tangent of how far the axis of a V or castle may lean from the square to its mouth: 60 degrees, as in the notches of
+/// Tangent of how far the axis of a notch may lean from the square to its mouth: 60 degrees, as in the notches of
 /// pattern DXF. Pattern makers point notches along seams that meet the edge askew.
 const AXIS_LEAN: f64 = 1.733;
 /// How far the sides of a castle may lean from its axis, of its depth.
@@ -36,6 +34,13 @@ const MOUTH_TURN: f64 = PI / 6.0;
 const NEXT_TURN: f64 = PI / 3.0;
 /// Cosine of that turn.
 const NEXT_COSINE: f64 = 0.5;
+/// Least turn from the edge into a V whose mouth begins or ends at a corner, rad. A cut-out at a corner turns by a right
+/// angle at the most, so that none is a notch.
+const CORNER_INTO: f64 = 95.0 * PI / 180.0;
+/// Greatest turn of the edge at such corners together, rad: those of a swallowtail turn by more.
+const CORNERS_MOST: f64 = 135.0 * PI / 180.0;
+/// Notches before and behind one among which those are looked for that touch it: their sides alternate.
+const BESIDE: usize = 4;
 /// Square of the cosine of the least turn at the end of a mouth: 12 degrees.
 const LEAST_TURN: f64 = 0.957;
 /// Tangent of a turn that is less than that one, beyond all rounding: 11 degrees.
@@ -63,8 +68,10 @@ pub(super) struct Mouth {
     pub(super) deepest: usize,
     /// Whether it lies to the left of the outline.
     pub(super) is_left: bool,
-    /// Tangent of the angle from its direction to that of the outline beside it.
+    /// Tangent of the angle from its direction to that of the outline beside it; infinite at a corner.
     pub(super) askew: f64,
+    /// Turns of the outline from the edge to the mouth and back, where these are corners, rad; 0 where they are not.
+    corners: [f64; 2],
 }
 
 /// What may be notches of a ring, whose last point is the first again; in the order of their first vertices.
@@ -80,7 +87,36 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     };
     see(0, points[count - 1]);
     each_turn(points, |i| see(i, points[i - 1]));
+    if found.iter().any(Mouth::is_at_corner) {
+        ring.leave_between_edges(&mut found);
+    }
     found
+}
+
+/// A notch of a ring that the drawing says is one, by its first vertex and its segments: what is neither a V nor a castle is a
+/// U.
+pub(super) fn said(points: &[Point], unit: f64, [first, segments]: [usize; 2]) -> Option<Mouth> {
+    let count = points.len() - 1;
+    let ring = Ring { points: &points[..count], slack: if unit > 0.0 { ROUNDING * unit } else { LEAST_SLACK } };
+    let [from, to] = [first, first + segments].map(|i| ring.at(i));
+    let height = |k: &usize| cross(to - from, ring.at(*k) - from);
+    let apex = (first..first + segments).max_by(|a, b| height(a).abs().total_cmp(&height(b).abs()))?;
+    let is_left = height(&apex) > 0.0;
+    let shape = (segments < MOST_STEPS).then(|| ring.shape(first, segments, if is_left { 1.0 } else { -1.0 }));
+    let (form, tip, deepest) = shape.flatten().unwrap_or((NotchForm::U, ring.at(apex), apex % count));
+    Some(Mouth { first, segments, form, tip, deepest, is_left, askew: 0.0, corners: [0.0; 2] })
+}
+
+impl Mouth {
+    /// Whether two share a segment of a ring with so many vertices.
+    pub(super) fn overlaps(&self, other: &Self, count: usize) -> bool {
+        let ahead = |from: &Self, to: &Self| (to.first + count - from.first) % count;
+        ahead(self, other) < self.segments || ahead(other, self) < other.segments
+    }
+
+    fn is_at_corner(&self) -> bool {
+        self.corners != [0.0; 2]
+    }
 }
 
 /// Calls `see` for each vertex of a line at which a notch may begin. Most turn by far less, which takes no lengths to see, and
@@ -118,16 +154,19 @@ struct Ring<'a> {
     slack: f64,
 }
 
-/// A way between the ends of a mouth: from its first end along the mouth, and into the notch.
-struct Way<'a> {
-    /// Its vertices.
-    points: &'a [[f64; 2]],
+/// Places of a way from its first vertex on.
+type Room = ArrayVec<Vector, MOST_STEPS>;
+
+/// A way between the ends of a mouth as one sees it who looks along the axis of the notch: whatever the edge does, the walls
+/// of a castle or U are upright in one view. The mouth is as wide as from wall to wall, and level with the longer one.
+struct Way {
+    /// Its vertices: across the axis from the first one, and along the axis from the mouth.
+    places: Room,
+    /// The directions of the view, of which the vertices are multiples.
+    axes: [Vector; 2],
     width: f64,
     depth: f64,
 }
-
-/// Room for the vertices of a way; filled where it stands.
-type Room = ArrayVec<[f64; 2], MOST_STEPS>;
 
 impl Ring<'_> {
     /// A vertex, less than twice round.
@@ -141,8 +180,45 @@ impl Ring<'_> {
         let long = self.edge(i, EDGE.max(4.0 * self.slack));
         let by_long = long.and_then(|edge| self.mouth(i, edge, is_left));
         // Beside a tooth the edge is short, on a grid it has the direction of the grid where it is.
-        let short = || self.edge(i, 2.0 * self.slack).filter(|short| long != Some(*short));
-        by_long.or_else(|| short().and_then(|edge| self.mouth(i, edge, is_left)))
+        let short = self.edge(i, 2.0 * self.slack);
+        let by_short = || short.filter(|_| long != short).and_then(|edge| self.mouth(i, edge, is_left));
+        by_long.or_else(by_short).or_else(|| short.and_then(|edge| self.at_corner(i, edge, is_left)))
+    }
+
+    /// The notch that begins at a corner, to that side. The edge that leads there does not tell where its mouth leads.
+    fn at_corner(&self, i: usize, edge: Vector, is_left: bool) -> Option<Mouth> {
+        let side = if is_left { 1.0 } else { -1.0 };
+        let from = self.points[i];
+        let far = |steps: usize, least: f64| (self.at(i + steps) - from).norm() >= least;
+        let most = self.points.len().min(MOST_STEPS);
+        let wall = self.at(i + (1..most).find(|&steps| far(steps, 2.0 * self.slack))?) - from;
+        if side * angle::turn(edge, wall) < CORNER_INTO {
+            return None;
+        }
+        let within = (2..most).take_while(|&steps| !far(steps, FAR));
+        let mut ends = within.filter(|&steps| far(steps, V_MOUTH[0]) && !far(steps, MOUTH[1] + self.slack));
+        ends.find_map(|steps| self.between(i, steps, side))
+    }
+
+    /// Leaves those whose mouth follows the edge: where it begins or ends at a corner, the outline turns by no more there
+    /// than a corner of a part does, or another notch of that side ends or begins at the corner.
+    fn leave_between_edges(&self, found: &mut Vec<Mouth>) {
+        let all = found.clone();
+        let end = |mouth: &Mouth, end: usize| self.at(mouth.first + if end == 0 { 0 } else { mouth.segments });
+        let touches = |k: usize, which: usize| {
+            let beside = (1..all.len().min(BESIDE)).flat_map(|by| [k + by, k + all.len() - by]);
+            let mut others =
+                beside.map(|other| &all[other % all.len()]).filter(|other| other.is_left == all[k].is_left);
+            others.any(|other| (end(other, 1 - which) - end(&all[k], which)).norm() <= 2.0 * self.slack)
+        };
+        let mut k = 0..;
+        found.retain(|mouth| {
+            let k = k.next().expect("it never ends");
+            let corners = mouth.corners.iter().enumerate();
+            let turn: f64 =
+                corners.filter(|&(which, turn)| *turn > 0.0 && !touches(k, which)).map(|(_, turn)| turn).sum();
+            turn <= CORNERS_MOST
+        });
     }
 
     /// The notch that begins at a vertex, to that side of the edge that leads there.
@@ -190,39 +266,70 @@ impl Ring<'_> {
     /// The notch between a vertex and the one so many steps ahead.
     #[inline(never)] // seldom asked for: apart, it leaves the registers to the steps
     fn between(&self, i: usize, steps: usize, side: f64) -> Option<Mouth> {
+        let (form, tip, deepest) = self.shape(i, steps, side)?;
         let chord = self.at(i + steps) - self.points[i];
-        let width = chord.norm();
-        let along = chord / width;
+        let [start, end] = [false, true].map(|is_end| {
+            let askew = self.askew(i, is_end, steps, chord).map(|askew| (askew, 0.0));
+            let corner = || self.corner(i, is_end, steps, side).filter(|_| form == NotchForm::V);
+            askew.or_else(|| corner().map(|turn| (f64::INFINITY, turn)))
+        });
+        let (start, end) = (start?, end?);
+        Some(Mouth {
+            first: i,
+            segments: steps,
+            form,
+            tip,
+            deepest,
+            is_left: side > 0.0,
+            askew: start.0.max(end.0),
+            corners: [start.1, end.1],
+        })
+    }
+
+    /// The form that a way has to that side of its mouth, the middle of its bottom, and the vertex there or before it.
+    fn shape(&self, i: usize, steps: usize, side: f64) -> Option<(NotchForm, Point, usize)> {
+        let chord = self.at(i + steps) - self.points[i];
+        let along = chord / chord.norm();
         let local = |k: usize| {
             let way = self.at(i + k) - self.points[i];
-            [way.dot(&along), side * cross(along, way)]
+            Vector::new(way.dot(&along), side * cross(along, way))
         };
-        let mut points = Room::new();
-        points.extend((0..=steps).map(local));
-        let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
-        let way = Way { points: &points, width, depth };
-        if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
+        let places: Room = (0..=steps).map(local).collect();
+        let way = Way::upright(places);
+        if !is_within(way.depth, DEPTH, self.slack) || way.places.iter().any(|place| place.y < -self.slack) {
             return None;
         }
         let (form, tip) = way.form(self.slack)?;
-        let askew = self.askew(i, false, steps, chord)?.max(self.askew(i, true, steps, chord)?);
         let (deepest, tip) = if form == NotchForm::V {
             let apex = way.apex();
             (apex, self.at(i + apex))
         } else {
             let across = Vector::new(-along.y, along.x) * side;
             let (deepest, _) = way.bottom(0..steps + 1, rounding(self.slack))?;
-            (deepest, self.points[i] + along * tip[0] + across * tip[1])
+            (deepest, self.points[i] + along * tip.x + across * tip.y)
         };
-        Some(Mouth {
-            first: i,
-            segments: steps,
-            form,
-            tip,
-            deepest: (i + deepest) % self.points.len(),
-            is_left: side > 0.0,
-            askew,
-        })
+        Some((form, tip, (i + deepest) % self.points.len()))
+    }
+
+    /// Turn of the outline from its edge to a mouth, or back, if that is a corner that a notch is cut into, rad: the outline
+    /// turns by more than a right angle from the edge into the notch.
+    fn corner(&self, i: usize, is_end: bool, steps: usize, side: f64) -> Option<f64> {
+        let count = self.points.len();
+        let least = 2.0 * self.slack;
+        let [own, other] = if is_end { [i + steps, i] } else { [i, i + steps] }.map(|k| self.at(k));
+        let at = if is_end { i + steps } else { i };
+        let first_far = |by: usize| {
+            let places = (1..count.min(MOST_STEPS)).map(|k| self.points[(at + k * by) % count]);
+            places.map(|place| place - own).find(|way| way.norm() >= least)
+        };
+        let [before, after] = [-first_far(count - 1)?, first_far(1)?];
+        let [into, bend] = if is_end {
+            [angle::turn(before, after), angle::turn(own - other, after)]
+        } else {
+            [angle::turn(before, after), angle::turn(before, other - own)]
+        }
+        .map(|turn| side * turn);
+        (into >= CORNER_INTO && bend >= 0.0).then_some(bend)
     }
 
     /// Tangent of the angle from the direction of a mouth to that of the outline that comes to it, or leaves it; `None` when
@@ -270,51 +377,71 @@ fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
     (least - slack..=most + slack).contains(&length)
 }
 
-impl Way<'_> {
-    /// What it looks like, and the middle of its bottom.
-    fn form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
-        self.square_form(slack).or_else(|| self.leaning_form(slack))
+impl Way {
+    /// A way whose mouth lies along the first axis.
+    fn upright(places: Room) -> Self {
+        let width = places[places.len() - 1].x;
+        let depth = places.iter().map(|place| place.y).fold(0.0, f64::max);
+        Self { places, axes: [Vector::x(), Vector::y()], width, depth }
     }
 
-    /// The form of a notch whose axis leans: the form that it has when it is sheared along its mouth until its axis is square.
-    /// A part of a round bottom may look like a U that leans, so that only a V and a castle may.
-    fn leaning_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
-        let last = self.points.len() - 1;
-        let (left, right) = self.bottom(0..last + 1, self.bottom_tolerance(slack))?;
-        // Shearing keeps straight sides straight, so that a way with curved ones is neither a V nor a castle.
-        if !self.is_straight([0, left], slack) || !self.is_straight([right, last], slack) {
-            return None;
-        }
-        let across = (self.points[left][0] + self.points[right][0] - self.width) / 2.0;
-        let leans = (slack..=AXIS_LEAN * self.depth + slack).contains(&across.abs());
-        if !leans || !is_within(across.hypot(self.depth), DEPTH, slack) {
-            return None;
-        }
-        let lean = across / self.depth;
-        let mut points = Room::new();
-        points.extend(self.points.iter().map(|&[x, y]| [x - lean * y, y]));
-        let upright = Way { points: &points, ..*self };
-        let (form, [x, y]) = upright.square_form(slack).filter(|(form, _)| *form != NotchForm::U)?;
-        Some((form, [x + lean * y, y]))
+    /// The way in another view; its tip lies up to so far from the middle of its mouth as a notch is deep.
+    fn seen(&self, axes: [Vector; 2]) -> Self {
+        let [across, along] = axes;
+        let whole = cross(across, along);
+        let local = |place: &Vector| Vector::new(cross(*place, along), cross(across, *place)) / whole;
+        let mut places: Room = self.places.iter().map(local).collect();
+        let last = places[places.len() - 1];
+        let level = last.y.min(0.0);
+        let depth = places.iter().map(|place| place.y).fold(0.0, f64::max) - level;
+        places.iter_mut().for_each(|place| place.y -= level);
+        Self { places, axes, width: last.x, depth }
     }
 
-    /// What it looks like when its axis is square to its mouth, and the middle of its bottom.
-    fn square_form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
+    /// What it looks like, and the middle of its bottom: a V by its legs; a castle or a U in one of three views. Its base and
+    /// its mouth are square to its axis, or both follow the edge while the axis leans, or the edge cuts its walls off askew.
+    fn form(&self, slack: f64) -> Option<(NotchForm, Vector)> {
+        let middle = Vector::new(self.width / 2.0, 0.0);
+        let is_deep = |tip: &Vector| is_within((tip - middle).norm(), DEPTH, slack);
         if is_within(self.width, V_MOUTH, slack) && self.is_v(slack) {
-            return Some((NotchForm::V, self.points[self.apex()]));
+            return Some((NotchForm::V, self.places[self.apex()])).filter(|(_, tip)| is_deep(tip));
         }
         if !is_within(self.width, MOUTH, slack) {
             return None;
         }
-        if let Some(bottom) = self.castle(slack) {
-            return Some((NotchForm::Castle, bottom));
-        }
-        self.is_u(slack).then_some((NotchForm::U, [self.width / 2.0, self.depth]))
+        let leaning = self.axis(slack).map(|axis| [[Vector::x(), axis], [Vector::new(axis.y, -axis.x), axis]]);
+        let others = leaning.into_iter().flatten().map(|axes| self.seen(axes));
+        let others: ArrayVec<Way, 2> = others.filter(|way| way.width >= MOUTH[0] - slack).collect();
+        let views = || std::iter::once(self).chain(&others);
+        let castle = views().find_map(|way| Some((NotchForm::Castle, way.drawn(way.castle(slack)?))));
+        let u = || {
+            let shares = views().filter_map(|way| Some((way.u(slack)?, way)));
+            let (_, way) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some((NotchForm::U, way.drawn(Vector::new(way.width / 2.0, way.depth))))
+        };
+        castle.or_else(u).filter(|(_, tip)| is_deep(tip))
+    }
+
+    /// The direction of its walls, if they lean from the square to its mouth and not too far: the longer one has more weight.
+    fn axis(&self, slack: f64) -> Option<Vector> {
+        let last = self.places.len() - 1;
+        let left = (1..=self.apex()).rev().find(|&k| self.is_straight([0, k], slack))?;
+        let right = (self.apex()..last).find(|&k| self.is_straight([k, last], slack))?;
+        let way = self.places[left] + (self.places[right] - self.places[last]);
+        let leans = slack * 2.0..=AXIS_LEAN * way.y;
+        leans.contains(&way.x.abs()).then(|| way.normalize())
+    }
+
+    /// A place of this view, as the outline draws it: from its first vertex on.
+    fn drawn(&self, place: Vector) -> Vector {
+        let [across, along] = self.axes;
+        // The first vertex lies on the mouth or, where its wall is the shorter one, above it.
+        across * place.x + along * (place.y - self.places[0].y)
     }
 
     /// The vertex that lies deepest.
     fn apex(&self) -> usize {
-        (0..self.points.len()).max_by(|&a, &b| self.points[a][1].total_cmp(&self.points[b][1])).unwrap_or(0)
+        (0..self.places.len()).max_by(|&a, &b| self.places[a].y.total_cmp(&self.places[b].y)).unwrap_or(0)
     }
 
     /// Greatest difference of depth along the bottom of a castle, mm: rounding, and tilt up to half the depth.
@@ -324,13 +451,13 @@ impl Way<'_> {
 
     /// First and last of some vertices whose depth is within `most` mm of the greatest.
     fn bottom(&self, mut among: Range<usize>, most: f64) -> Option<(usize, usize)> {
-        let is_low = |k: &usize| self.points[*k][1] >= self.depth - most;
+        let is_low = |k: &usize| self.places[*k].y >= self.depth - most;
         let left = among.find(is_low)?;
         Some((left, among.rfind(is_low).unwrap_or(left)))
     }
 
     fn place(&self, k: usize) -> Point {
-        Point::new(self.points[k][0], self.points[k][1])
+        self.places[k].into()
     }
 
     /// Whether the vertices between two lie on the line between them.
@@ -339,29 +466,27 @@ impl Way<'_> {
         (from + 1..to).all(|k| polyline::distance_to_segment(self.place(k), a, b) <= slack)
     }
 
-    /// Two legs, equal within a quarter.
+    /// Two straight legs, whose tip leans no farther from the middle of the mouth than the axis of a notch does.
     fn is_v(&self, slack: f64) -> bool {
-        let (apex, last) = (self.apex(), self.points.len() - 1);
-        let legs = [0, last].map(|end| (self.place(apex) - self.place(end)).norm());
-        let [shorter, longer] = [legs[0].min(legs[1]), legs[0].max(legs[1])];
-        longer <= LEG_RATIO * shorter + slack
+        let (apex, last) = (self.apex(), self.places.len() - 1);
+        let leans = (self.places[apex].x - self.width / 2.0).abs();
+        leans <= AXIS_LEAN * self.depth + slack
             && self.is_straight([0, apex], slack)
             && self.is_straight([apex, last], slack)
     }
 
     /// The middle of the bottom, if it is a rectangle.
-    fn castle(&self, slack: f64) -> Option<[f64; 2]> {
-        let last = self.points.len() - 1;
+    fn castle(&self, slack: f64) -> Option<Vector> {
+        let last = self.places.len() - 1;
         let (left, right) = self.bottom(1..last, self.bottom_tolerance(slack))?;
         let most = slack + LEAN * self.depth.min(self.width);
-        let leans = [self.points[left][0].abs(), (self.points[right][0] - self.width).abs()];
+        let leans = [self.places[left].x.abs(), (self.places[right].x - self.width).abs()];
         let is_castle = leans.into_iter().all(|lean| lean <= most)
             && self.is_straight([0, left], slack)
             && self.is_straight([left, right], slack)
             && self.is_straight([right, last], slack)
             && [left, right].into_iter().all(|k| self.is_corner(k, slack));
-        let middle = self.place(left) + (self.place(right) - self.place(left)) / 2.0;
-        is_castle.then_some([middle.x, middle.y])
+        is_castle.then(|| (self.places[left] + self.places[right]) / 2.0)
     }
 
     /// Whether it turns by nearly a right angle at a vertex, and not little by little around it.
@@ -370,24 +495,25 @@ impl Way<'_> {
         let at = self.place(k);
         let far = |place: &Point| (place - at).norm() >= least;
         let before = (0..k).rev().map(|i| self.place(i)).find(far).unwrap_or_else(|| self.place(0));
-        let after = (k + 1..self.points.len()).map(|i| self.place(i)).find(far);
-        let after = after.unwrap_or_else(|| self.place(self.points.len() - 1));
+        let after = (k + 1..self.places.len()).map(|i| self.place(i)).find(far);
+        let after = after.unwrap_or_else(|| self.place(self.places.len() - 1));
         angle::is_turned(at - before, after - at, CORNER)
     }
 
-    /// A way down, across and up again that fills most of the rectangle around it.
-    fn is_u(&self, slack: f64) -> bool {
-        let (apex, last) = (self.apex(), self.points.len() - 1);
+    /// The share of the rectangle around it that a way fills which leads down, across and up again.
+    fn u(&self, slack: f64) -> Option<f64> {
+        let (apex, last) = (self.apex(), self.places.len() - 1);
         let beside = LEAN * self.width + TILT * self.depth + slack;
         let (left, right) = (-beside, self.width + beside);
-        let steps = || self.points.windows(2);
+        let steps = || self.places.windows(2);
         // Whether a step leads on by one measure, or back no more than its tilt has it do by the way along the other.
         let leads_on = |on: f64, along: f64| on >= -2.0 * slack - TILT * along.abs();
-        let is_round = self.points.iter().all(|point| (left..=right).contains(&point[0]))
-            && steps().all(|ends| leads_on(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
-            && steps().take(apex).all(|ends| leads_on(ends[1][1] - ends[0][1], ends[1][0] - ends[0][0]))
-            && steps().skip(apex).all(|ends| leads_on(ends[0][1] - ends[1][1], ends[1][0] - ends[0][0]));
-        let doubled: f64 = steps().map(|ends| (ends[1][0] - ends[0][0]) * (ends[1][1] + ends[0][1])).sum();
-        last > 3 && is_round && doubled / 2.0 >= U_AREA * self.width * self.depth
+        let is_round = self.places.iter().all(|place| (left..=right).contains(&place.x))
+            && steps().all(|ends| leads_on(ends[1].x - ends[0].x, ends[1].y - ends[0].y))
+            && steps().take(apex).all(|ends| leads_on(ends[1].y - ends[0].y, ends[1].x - ends[0].x))
+            && steps().skip(apex).all(|ends| leads_on(ends[0].y - ends[1].y, ends[1].x - ends[0].x));
+        let doubled: f64 = steps().map(|ends| (ends[1].x - ends[0].x) * (ends[1].y + ends[0].y)).sum();
+        let share = doubled / (2.0 * self.width * self.depth);
+        (last > 3 && is_round && share >= U_AREA).then_some(share)
     }
 }

@@ -433,7 +433,10 @@ fn tip(stroke: &[Point]) -> Option<Point> {
     let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
     let deepest = stroke.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
     let depths: Vec<f64> = stroke.iter().map(depth).collect();
-    (is_within(depth(deepest), STROKE_DEPTH) && !has_dent(&depths)).then_some(*deepest)
+    // Notches that touch each other come back to the edge between them.
+    let mut notches = depths.split_inclusive(|depth| *depth <= ON_EDGE / 2.0);
+    let is_notch = |depths: &[f64]| !has_dent(depths) && depths.iter().all(|depth| *depth <= STROKE_DEPTH[1]);
+    (depth(deepest) >= STROKE_DEPTH[0] && notches.all(is_notch)).then_some(*deepest)
 }
 
 /// Whether some depth lies below deeper ones on both sides.
