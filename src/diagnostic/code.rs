@@ -187,7 +187,7 @@ codes! {
     /// Closed lines inside parts.
     DRAWING_INNER_LINES = warning(Spares, Shape, "drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).", "A plot draws seam lines, pockets and cut-outs alike. A cut-out that is missing can be cut by hand, a pocket that was cut cannot be mended: so nothing inside a part is cut unless somebody asks for it. Seam lines stay whole with `cut`; `all` cuts them, too.\n  cutc compile marker.plt --inner cut");
     /// Circles that may be holes.
-    DRAWING_HOLES = warning(Spares, Shape, "drawing/holes", "Small circles stand alone in parts; they may be holes to drill, and are not drilled as long as `hpgl.drill_max_mm` is off.", "Small circles of a plot may be drill holes, letters or signs. Say up to which size circles and squares are holes.\n  cutc compile marker.plt --set hpgl.drill_max_mm=5");
+    DRAWING_HOLES = warning(Spares, Shape, "drawing/holes", "Small circles stand alone in parts; they may be holes to drill, and are not drilled as long as `hpgl.drill_max_mm` is off. Crosses never are.", "Small circles and crosses of a plot may be drill holes, letters or signs. Say up to which size circles and squares are holes.\n  cutc compile marker.plt --set hpgl.drill_max_mm=5");
     /// Too small for parts.
     DRAWING_SMALL_OUTLINES = warning(Spares, Shape, "drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.", "Closed lines of 10 to 25 mm outside all parts are letters, arrows and test squares as a rule. If they are parts, name their pen as a knife.\n  cutc compile marker.plt --cut-pens 1");
     /// Lines that are drawn twice.

@@ -1,5 +1,7 @@
 //! Notches that are drawn as strokes of their own: from the edge of a part inwards.
 
+use std::collections::BTreeMap;
+
 use arrayvec::ArrayVec;
 
 use super::line::{Class, Line, ROUNDING, SHORTEST_NOTCH, is_straight};
@@ -266,7 +268,7 @@ pub(super) enum Lie {
     Joins,
     /// An open line goes along it.
     Along,
-    /// A small closed line has an edge on it.
+    /// A small closed line touches it, nearly does or lies across it.
     Stands,
     /// A straight stroke of up to twice the length of a notch crosses it, and ends on none.
     Crosses,
@@ -342,16 +344,29 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
 
 /// Short straight strokes across an outline that end at none: each at the first outline that it crosses.
 fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Budget) -> Vec<EdgeLine> {
-    let Search { lines, vertices, outlines, .. } = search;
+    let Search { lines, vertices, .. } = search;
     strokes.retain(|&(line, _)| {
         let length = lines[line].length;
         (SHORTEST_NOTCH..=LONGEST_ACROSS).contains(&length) && is_straight(lines[line].vertices(vertices))
     });
+    edge_lines(&strokes, Lie::Crosses, 0.0, search, work)
+}
+
+/// Lines of which a stroke comes within `reach` of an outline, mm: each once, with the first such outline.
+fn edge_lines(
+    strokes: &[(usize, [Point; 2])],
+    lie: Lie,
+    reach: f64,
+    search: Search,
+    work: &mut Budget,
+) -> Vec<EdgeLine> {
+    let Search { lines, vertices, outlines, .. } = search;
     if strokes.is_empty() {
         return Vec::new();
     }
-    let boxes = Boxes::new(strokes.iter().map(|(_, [a, b])| Extent::between(*a, *b)).collect());
-    let mut crossed: Vec<Option<usize>> = vec![None; strokes.len()];
+    let around = |[a, b]: [Point; 2]| Extent::between(a, b).grown(reach);
+    let boxes = Boxes::new(strokes.iter().map(|stroke| around(stroke.1)).collect());
+    let mut found: BTreeMap<usize, usize> = BTreeMap::new();
     'all: for &outline in outlines {
         let extent = lines[outline].extent;
         if !work.spend(boxes.cost_near(&extent)) || !boxes.near(extent).any(|_| true) {
@@ -362,19 +377,14 @@ fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Bu
             if !work.spend(1 + boxes.cost_near(&beside)) {
                 break 'all;
             }
-            for k in boxes.near(beside) {
-                if crossed[k].is_none() && work.spend(1) && distance_of_segments(strokes[k].1, edge) == 0.0 {
-                    crossed[k] = Some(outline);
+            for (line, stroke) in boxes.near(beside).map(|k| strokes[k]) {
+                if !found.contains_key(&line) && work.spend(1) && distance_of_segments(stroke, edge) <= reach {
+                    found.insert(line, outline);
                 }
             }
         }
     }
-    let crossing = |(k, outline): (usize, Option<usize>)| {
-        Some(EdgeLine { line: strokes[k].0, outline: outline?, other: None, lie: Lie::Crosses })
-    };
-    let mut found: Vec<EdgeLine> = crossed.into_iter().enumerate().filter_map(crossing).collect();
-    found.sort_by_key(|edge| edge.line);
-    found
+    found.into_iter().map(|(line, outline)| EdgeLine { line, outline, other: None, lie }).collect()
 }
 
 /// Lie of a line whose ends both lie on an outline.
@@ -415,29 +425,17 @@ fn as_notch(places: &[Point]) -> Lie {
     }
 }
 
-/// Small closed lines with an edge on an outline: notches that somebody closed, or signs.
+/// Small closed lines that touch an outline, nearly do or lie across it: notches that somebody closed, or signs.
 fn standing(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
-    let mut candidates = Vec::new();
     let may_be = |line: &Line| match line.class {
         Class::Sign => true,
         Class::Inner | Class::SmallOutline => line.size() <= Notch::LONGEST + TOUCH,
         _ => false,
     };
-    for line in (0..lines.len()).filter(|&i| may_be(&lines[i])) {
-        let edges = lines[line].vertices(vertices).windows(2);
-        let edges = edges.filter(|ends| (ends[1].at - ends[0].at).norm() >= SHORTEST_NOTCH);
-        candidates.extend(edges.map(|ends| Candidate::whole(line, [ends[0].at, ends[1].at])));
-    }
-    if candidates.is_empty() {
-        return Vec::new();
-    }
-    meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
-    let stands = |Candidate { line, on, .. }: &Candidate| {
-        let (_, outline) = *on[0].iter().find(|(_, outline)| on[1].iter().any(|(_, other)| other == outline))?;
-        Some(EdgeLine { line: *line, outline, other: None, lie: Lie::Stands })
-    };
-    let mut found: Vec<EdgeLine> = candidates.iter().filter_map(stands).collect();
-    found.dedup_by_key(|edge| edge.line);
-    found
+    let small = (0..lines.len()).filter(|&i| may_be(&lines[i]));
+    let edges =
+        |line: usize| lines[line].vertices(vertices).windows(2).map(move |ends| (line, [ends[0].at, ends[1].at]));
+    let edges: Vec<(usize, [Point; 2])> = small.flat_map(edges).collect();
+    edge_lines(&edges, Lie::Stands, Notch::MISS + ROUNDING * unit, search, work)
 }

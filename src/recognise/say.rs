@@ -11,7 +11,7 @@ use super::nest::middle;
 use super::parts::Parts;
 use super::pens::Use;
 use super::sheet::{self, Sheet};
-use super::torn;
+use super::{signs, torn};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
@@ -77,6 +77,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     }
     inner_lines(sheet, job, out);
     unsaid_holes(sheet, job, out);
+    crosses(sheet, out);
     lines_outside(sheet, out);
     outside_frames(sheet, out);
     frames(sheet, job, out);
@@ -229,6 +230,35 @@ fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     out.push(
         found.hint(format!("if they are holes, `--set hpgl.drill_max_mm={}`", fixed((size - sheet.unit).ceil(), 0))),
     );
+}
+
+/// Crosses in parts, which mark holes as a rule; a circle around one has a finding of its own.
+fn crosses(sheet: &Sheet, out: &mut Diagnostics) {
+    let mut work = Budget::of_a_marker();
+    let crosses = signs::crosses(sheet.search(&[]), &mut work);
+    if crosses.is_empty() {
+        return; // as in most plots
+    }
+    let closed = sheet.indices(|line| line.is_closed && !line.is_set_aside());
+    let boxes = Boxes::new(closed.iter().map(|&i| sheet.lines[i].extent).collect());
+    let mut is_alone = |at: Point| {
+        let around = |k: usize| &sheet.lines[closed[k]];
+        let is_part =
+            |line: &Line| line.class == Class::Part && line.is_cut && ring::contains(&line.points(&sheet.vertices), at);
+        work.spend(boxes.cost_at(at))
+            && !boxes.at(at).any(|k| around(k).size() <= Notch::LONGEST)
+            && boxes.at(at).any(|k| work.spend(around(k).as_drawn(&sheet.vertices).len()) && is_part(around(k)))
+    };
+    let found: Vec<&Line> =
+        crosses.iter().filter(|cross| is_alone(cross.1)).map(|cross| &sheet.lines[cross.0]).collect();
+    let Some(first) = found.first() else { return };
+    let mm = fixed(found.iter().map(|line| line.length).fold(0.0, f64::max), 1);
+    let crosses = match found.len() {
+        1 => format!("one cross of {mm} mm in a part"),
+        n => format!("{n} crosses of up to {mm} mm in parts"),
+    };
+    let finding = finding(&code::DRAWING_HOLES, format!("not drilled: {crosses}"), first, sheet);
+    out.push(finding.hint("if they mark holes, let the CAD draw circles, and set `hpgl.drill_max_mm`"));
 }
 
 /// Whether one part takes nearly all the area, beside test squares and titles: it may be the edge of the cloth.

@@ -145,7 +145,7 @@ impl Sheet {
         (0..self.lines.len()).filter(|&i| is(&self.lines[i])).collect()
     }
 
-    fn search<'a>(&'a self, outlines: &'a [usize]) -> Search<'a> {
+    pub(super) fn search<'a>(&'a self, outlines: &'a [usize]) -> Search<'a> {
         Search { lines: &self.lines, vertices: &self.vertices, unit: self.unit, outlines }
     }
 

@@ -53,6 +53,37 @@ pub(super) fn among(marks: &[Mark], search: Search, touch: f64, work: &mut Budge
     signs
 }
 
+/// Crosses among the lines that were taken for nothing: the first stroke of each, and their middle.
+pub(super) fn crosses(search: Search, work: &mut Budget) -> Vec<(usize, Point)> {
+    let Search { lines, vertices, .. } = search;
+    let may_be = |&i: &usize| {
+        let line = &lines[i];
+        !line.is_closed
+            && line.is_open_question()
+            && line.length <= Notch::LONGEST
+            && is_straight(line.vertices(vertices))
+    };
+    let strokes: Vec<usize> = (0..lines.len()).filter(may_be).collect();
+    let boxes = Boxes::new(strokes.iter().map(|&i| lines[i].extent).collect());
+    let ends = |k: usize| {
+        let places = lines[strokes[k]].vertices(vertices);
+        [places[0].at, places[places.len() - 1].at]
+    };
+    let mut found = Vec::new();
+    for k in 0..strokes.len() {
+        if !work.spend(boxes.cost_near(&boxes.all()[k])) {
+            break;
+        }
+        let own = ends(k);
+        let crossing = boxes.near(boxes.all()[k]).filter(|&other| other > k).map(ends).find(|&other| {
+            let is_half = |at: [f64; 2]| at.iter().all(|at| (HALF[0]..=HALF[1]).contains(at));
+            are_alike([own, other].map(length), LONGER) && halves(own, other).is_some_and(is_half)
+        });
+        found.extend(crossing.map(|_| (strokes[k], own[0] + (own[1] - own[0]) / 2.0)));
+    }
+    found
+}
+
 /// Finds the marks that are barbs of arrows, or their stem.
 fn arrows(marks: &[Mark], touch: f64, signs: &mut BTreeSet<usize>, work: &mut Budget) {
     let roots = Boxes::new(marks.iter().map(|mark| Extent::between(mark.cut[0], mark.cut[0]).grown(touch)).collect());

@@ -4,6 +4,7 @@ use cutc::ir::Marker;
 use cutc::ir::marker::{NotchKind, OutlineNotch};
 use cutc::machine::plot::Inner;
 use cutc::machine::{Job, OrderPolicy};
+use cutc::verify::{DrawingCuts, drawing_audit};
 
 use super::audit::audit;
 use super::closing::found;
@@ -243,4 +244,116 @@ fn a_stroke_that_stands_askew_on_its_edge_is_the_notch_that_it_draws() {
         let words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect();
         assert_eq!((words, codes), (vec![word], vec![]), "case {case}: {stroke:?}");
     }
+}
+
+/// Strokes through places in mm, in a plot of units of 0.025 mm.
+fn strokes(all: &[Vec<[f64; 2]>]) -> String {
+    let place = |[x, y]: [f64; 2]| format!("{},{}", ((x + 400.0) * 40.0).round(), ((y + 400.0) * 40.0).round());
+    let stroke = |places: &Vec<[f64; 2]>| {
+        let places: Vec<String> = places.iter().map(|&at| place(at)).collect();
+        format!("PU{};PD{};", places[0], places[1..].join(","))
+    };
+    all.iter().map(stroke).collect()
+}
+
+/// The words of the notches of the one part of a plot that is told nothing about.
+fn words(all: &[Vec<[f64; 2]>], case: &str) -> Vec<&'static str> {
+    let (marker, codes) = found(&strokes(all), &Job::default());
+    assert_eq!((marker.contours().count(), codes), (1, vec![]), "{case}");
+    marker.pieces[0].outline_notches.iter().map(OutlineNotch::word).collect()
+}
+
+const OUTLINE: [[f64; 2]; 5] = [[-90.0, 0.0], [110.0, 0.0], [110.0, 120.0], [-90.0, 120.0], [-90.0, 0.0]];
+
+#[test]
+fn a_stroke_of_any_shape_from_edge_to_edge_has_a_row_and_is_the_notch_of_its_twin() {
+    let mut random = fastrand::Rng::with_seed(44);
+    for case in 0..120 {
+        let mut between = |least: f64, most: f64| least + (most - least) * random.f64();
+        let (half, lean) = (between(1.25, 2.5), between(-0.7, 0.7));
+        let depth = between(2.8 * half + 0.5, 9.0);
+        let round = |k: i32| {
+            let angle = std::f64::consts::PI * f64::from(k) / 12.0;
+            [-half * angle.cos(), depth - half + half * angle.sin()]
+        };
+        let (word, places) = match case % 3 {
+            0 => ("v", vec![[-half, 0.0], [0.0, depth], [half, 0.0]]),
+            1 => ("castle", vec![[-half, 0.0], [-half, depth], [half, depth], [half, 0.0]]),
+            _ => ("u", [&[[-half, 0.0]][..], &(0..=12).map(round).collect::<Vec<_>>(), &[[half, 0.0]]].concat()),
+        };
+        // Sheared along the edge, or turned with the walls led to the edge.
+        let led_on = |[x, y]: [f64; 2]| {
+            let [x, y] = [x * lean.cos() + y * lean.sin(), y * lean.cos() - x * lean.sin()];
+            if y.abs() < half * lean.sin().abs() + 1e-9 { [x - y * lean.tan(), 0.0] } else { [x, y] }
+        };
+        let is_sheared = case % 2 == 0 || word == "v";
+        let notch: Vec<[f64; 2]> = if is_sheared {
+            places.iter().map(|[x, y]| [x + y * lean.sin(), y * lean.cos()]).collect()
+        } else {
+            places.iter().map(|&at| led_on(at)).collect()
+        };
+        let turn = between(-std::f64::consts::PI, std::f64::consts::PI);
+        let turned = |places: &[[f64; 2]]| {
+            let turned = |[x, y]: [f64; 2]| [x * turn.cos() - y * turn.sin(), x * turn.sin() + y * turn.cos()];
+            places.iter().map(|&at| turned(at)).collect::<Vec<_>>()
+        };
+        let case = format!("case {case}: {word} {half} {depth} leans {lean}");
+        assert_eq!(words(&[turned(&OUTLINE), turned(&notch)], &case), [word], "{case}");
+        let drawn = [&OUTLINE[..1], &notch, &OUTLINE[1..]].concat();
+        assert_eq!(words(&[turned(&drawn)], &case), [word], "{case}, in the outline");
+    }
+}
+
+#[test]
+fn strokes_that_touch_are_as_many_notches_in_one_stroke_or_in_several() {
+    let v = |k: f64| vec![[4.0 * k, 0.0], [4.0 * k + 2.0, 5.0], [4.0 * k + 4.0, 0.0]];
+    let touching = |count: i32| (0..count).map(|k| v(f64::from(k))).collect::<Vec<_>>();
+    let outline = || vec![OUTLINE.to_vec()];
+    for count in [2, 3] {
+        let apart = [outline(), touching(count)].concat();
+        let mut one = touching(count).concat();
+        one.dedup();
+        for (all, how) in [(apart, "apart"), ([outline(), vec![one]].concat(), "in one")] {
+            assert_eq!(words(&all, how), vec!["v"; count as usize], "{count} {how}");
+        }
+    }
+}
+
+#[test]
+fn a_stroke_over_a_corner_or_at_one_has_a_row() {
+    for stroke in [
+        vec![[-90.0, 3.0], [-86.0, 4.0], [-87.0, 0.0]],
+        vec![[-90.0, 0.0], [-88.0, 5.0], [-86.0, 0.0]],
+        vec![[-90.0, 6.0], [-85.0, 8.0], [-90.0, 10.0]],
+    ] {
+        assert_eq!(words(&[OUTLINE.to_vec(), stroke.clone()], "corner"), ["v"], "{stroke:?}");
+    }
+}
+
+#[test]
+fn closed_marks_at_an_edge_and_crosses_in_a_part_are_named() {
+    let edge = "drawing/line-from-edge";
+    for (mark, code) in [
+        ("PU7920,4008;PD8000,4200,8080,4008,7920,4008;", edge), // 0.2 mm off the edge
+        ("PU7920,4000;PD8000,4080,8080,4000,8000,3920,7920,4000;", edge), // a diamond across it
+        ("PU8000,4000;PD8080,4080,8000,4160,7920,4080,8000,4000;", edge), // a diamond on its tip
+        ("PU8000,8000;PD8240,8000;PU8120,7880;PD8120,8120;", "drawing/holes"),
+    ] {
+        let codes = read(&source(format!("IN;SP1;{}{mark}PU;SP0;", part())), &Job::default()).1;
+        assert_eq!(codes, [code], "{mark}");
+    }
+}
+
+#[test]
+fn a_stroke_of_touching_notches_that_is_not_cut_is_caught() {
+    let text = strokes(&[OUTLINE.to_vec(), vec![[0.0, 0.0], [2.0, 5.0], [4.0, 0.0], [6.0, 5.0], [8.0, 0.0]]]);
+    let source = source(format!("IN;SP1;{text}PU;SP0;"));
+    let mut marker = as_read(&source, &Job::default());
+    let judged = |marker: &Marker| {
+        let found = drawing_audit("hpgl", source.bytes(), &DrawingCuts::of(marker), &Job::default());
+        found.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule.name).collect::<Vec<_>>()
+    };
+    assert_eq!(judged(&marker), [""; 0]);
+    marker.pieces[0].contours.retain(|contour| contour.closed);
+    assert_eq!(judged(&marker), ["source/strokes"]);
 }
