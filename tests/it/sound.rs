@@ -21,6 +21,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("dense-hole.cut", ""),            // the same around a hole narrower than the blade
     ("dense-ring.cut", LONG_OVERLAPS), // a ring that is longer than the way along it
     ("flat-ellipse.cut", ""),          // the end of a cut in a tight curve
+    ("fold-in-a-curve.dxf", ""),       // a curve that goes on over the fold
     ("inch-hole.cut", ""),             // a ring whose end must run over its start
     ("inch-nest.cut", ""),             // two cuts that end at one corner and go on the same way
     ("led-to-one-end.ggt", "knife.width_mm=8.89"), // two cuts that are led on to one place, where the drawing has neither

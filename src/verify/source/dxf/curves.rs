@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::again::once;
+use super::fold::Fold;
 use super::lines::{MEETS, Measure, Path, Stroke, clusters, paths, strokes};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
@@ -93,7 +94,7 @@ impl Curves {
     }
 
     /// What becomes of lines that belong together, whose fine lines are mostly on another layer.
-    pub(super) fn course(&self, coarse: &[Path], usual: u32, is_on_fold: impl Fn(Point) -> bool) -> Course {
+    pub(super) fn course(&self, coarse: &[Path], usual: u32, fold: Option<Fold>) -> Course {
         let (bare, spikes): (Vec<Path>, Vec<Path>) = {
             let (mut bare, mut spikes) = (Vec::new(), Vec::new());
             for (path, is_twig) in coarse.iter().zip(twigs(coarse)) {
@@ -107,6 +108,7 @@ impl Curves {
             }
             (bare, spikes)
         };
+        let is_on_fold = |at: Point| fold.is_some_and(|fold| fold.off(at).abs() <= MEETS);
         let places: Vec<Point> = bare.iter().flat_map(|path| path.points.iter().copied()).collect();
         let open: Vec<Point> = free_ends(&bare).into_iter().map(|end| end.1).filter(|at| !is_on_fold(*at)).collect();
         let order = self.fine.iter().filter(|(layer, _)| *layer == usual);
@@ -129,7 +131,7 @@ impl Curves {
         let (mut bows, mut bends, mut passed, mut smooth) = (Vec::new(), Vec::new(), Vec::new(), 0);
         if self.may_bow {
             for path in &bare {
-                smooth += self.see(path, &mut bows, &mut bends);
+                smooth += self.see(path, fold, &mut bows, &mut bends);
                 passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
             }
         }
@@ -156,7 +158,7 @@ impl Curves {
 
     /// Adds the edges that may bow, and the curve points whose chords a curve leaves by [`HIGH`] at least. Returns the count of
     /// all curve points between chords.
-    fn see(&self, path: &Path, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) -> usize {
+    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) -> usize {
         let mut smooth = 0;
         let count = path.points.len();
         for k in 0..path.curves.len() {
@@ -168,6 +170,7 @@ impl Curves {
                 continue;
             }
             let [before, at, behind] = [path.points[(k + count - 1) % count], ends[0], ends[1]];
+            let [before, behind] = fold.map_or([before, behind], |fold| fold.neighbours(at, [before, behind]));
             let turn = polyline::turn_at(before, at, behind).abs();
             let is_smooth = self.is_smooth(at) && !self.is_notched(at) && !path.doubled.contains(&at);
             // A round curve that turns so much from chord to chord stands an eighth of that over each, in parts of its length.

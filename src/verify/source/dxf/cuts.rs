@@ -2,12 +2,13 @@
 
 use super::again::once;
 use super::curves::{Bend, Bow, Course, Curves, standing, twigs};
+use super::fold::Fold;
 use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, strokes};
 use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
 use std::f64::consts::FRAC_PI_2;
 
-use crate::geom::{Point, Vector, cross, left};
+use crate::geom::Point;
 
 /// The layer that mostly has the curves of outlines.
 const FINE_OUTLINE: u32 = 84;
@@ -57,80 +58,6 @@ pub(super) struct Mark {
     pub(super) block: u32,
 }
 
-/// A fold line as it is drawn, and about what a half is mirrored.
-#[derive(Debug, Clone, Copy)]
-struct Fold {
-    drawn: Axis,
-    length: f64,
-    about: Axis,
-}
-
-/// A place on a straight line, and its direction.
-#[derive(Debug, Clone, Copy)]
-struct Axis {
-    from: Point,
-    along: Vector,
-}
-
-impl Axis {
-    fn between(from: Point, to: Point) -> Self {
-        Self { from, along: (to - from) / (to - from).norm() }
-    }
-
-    fn off(&self, at: Point) -> f64 {
-        cross(self.along, at - self.from)
-    }
-
-    fn station(&self, at: Point) -> f64 {
-        (at - self.from).dot(&self.along)
-    }
-}
-
-impl Fold {
-    /// Whether a line between two places lies on the fold: it is in line with it, and goes some way along it.
-    fn has(&self, ends: [Point; 2]) -> bool {
-        let [a, b] = ends.map(|end| self.drawn.station(end));
-        let both = a.max(b).min(self.length) - a.min(b).max(0.0);
-        ends.iter().all(|end| self.drawn.off(*end).abs() <= MEETS) && both >= (a - b).abs().min(MEETS)
-    }
-
-    /// Whether an edge lies on it; a curve does so with its middle, too.
-    fn has_edge(&self, ends: [Point; 2], curve: Option<Round>) -> bool {
-        let middle = curve.map_or(ends[0], |round| round.at(0.5));
-        self.has(ends) && self.drawn.off(middle).abs() <= MEETS
-    }
-
-    fn off(&self, at: Point) -> f64 {
-        self.about.off(at)
-    }
-
-    fn across(&self, at: Point) -> Point {
-        at - left(self.about.along) * (2.0 * self.off(at))
-    }
-
-    /// Whether lines lie on one side, and not all of them on the fold itself: then they are half of something.
-    fn halves(&self, paths: &[Path]) -> bool {
-        let middles = |path: &Path| path.curves.iter().flatten().map(|round| round.at(0.5)).collect::<Vec<_>>();
-        let places = || paths.iter().flat_map(|path| path.points.iter().copied().chain(middles(path)));
-        let offs = || places().map(|at| self.drawn.off(at));
-        offs().any(|off| off > MEETS) != offs().any(|off| off < -MEETS)
-    }
-
-    /// The fold of a half: where an edge of its outline is as long on the line as that is, the cloth is folded along the longest.
-    fn of_half(self, outlines: &[Path]) -> Self {
-        let edges = outlines.iter().flat_map(|path| (0..path.curves.len()).map(|k| (path.edge(k), path.curves[k])));
-        let mut longest = self.length - 2.0 * MEETS;
-        let mut fold = self;
-        for (ends, _) in edges.filter(|(ends, curve)| self.has_edge(*ends, *curve)) {
-            let length = (ends[1] - ends[0]).norm();
-            if length > longest || (length >= longest && fold.about.from == self.about.from) {
-                (longest, fold.about) = (length, Axis::between(ends[0], ends[1]));
-            }
-        }
-        fold
-    }
-}
-
 impl Cuts {
     /// What a block cuts.
     pub(super) fn of(sheet: &Sheet, lent: Option<&[Vec<Point>; 2]>, measure: Measure) -> Self {
@@ -141,12 +68,7 @@ impl Cuts {
         if outlines.is_empty() {
             return cuts;
         }
-        let fold = paths(6).iter().find_map(|path| {
-            let (first, last) = (path.points.first()?, path.points.last()?);
-            let way = last - first;
-            let drawn = Axis::between(*first, *last);
-            (way.norm() > MEETS).then(|| Fold { drawn, length: way.norm(), about: drawn })
-        });
+        let fold = paths(6).iter().find_map(Fold::of);
         let fold = fold.filter(|fold| fold.halves(&outlines)).map(|fold| fold.of_half(&outlines));
         let curves = lent.map(|lent| Curves::of(sheet, lent, measure));
         for (layer, usual) in [(1, FINE_OUTLINE), (11, 86)] {
@@ -211,9 +133,7 @@ impl Cuts {
         let edges = |paths: &[Path]| -> Vec<[Point; 2]> {
             paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k)).collect::<Vec<_>>()).collect()
         };
-        match curves.map(|curves| {
-            curves.course(&paths, usual, |at| halving.fold.is_some_and(|fold| fold.off(at).abs() <= MEETS))
-        }) {
+        match curves.map(|curves| curves.course(&paths, usual, halving.fold)) {
             Some(Course::Fine(fine)) => {
                 self.chords.extend(edges(&paths).into_iter().flat_map(both_ends));
                 self.add(&fine, &[], halving);
@@ -299,11 +219,4 @@ fn double(paths: &mut [Path], usual: u32) {
     }
     let twigs = twigs(paths);
     paths.iter_mut().zip(twigs).filter(|(_, is_twig)| *is_twig).for_each(|(path, _)| path.times = 2.0);
-}
-
-impl Round {
-    fn across(&self, fold: Fold) -> Self {
-        let start = fold.across(self.at(0.0)) - fold.across(self.centre);
-        Self { centre: fold.across(self.centre), start: start.y.atan2(start.x), sweep: -self.sweep, ..*self }
-    }
 }

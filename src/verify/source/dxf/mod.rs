@@ -9,6 +9,7 @@ mod compare;
 mod curve;
 mod curves;
 mod cuts;
+mod fold;
 mod left_out;
 mod letters;
 mod lines;
