@@ -55,6 +55,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("tabs.cut", ""),         // a curve that begins at a reflex corner
     ("touching-seam.plt", "--cut-all"), // a line that touches another and goes on along it
     ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end
+    ("u-half-as-deep-as-wide.dxf", ""), // a notch that is half a circle
     ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
     ("u-past-edge.plt", ""),  // a notch whose stroke overshoots its edge
 ];

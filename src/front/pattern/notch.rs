@@ -322,7 +322,7 @@ impl Site {
         let depth = self.mark.depth;
         let radius = if depth >= half { half } else { (half * half + depth * depth) / (2.0 * depth) };
         let centre = from + (to - from) / 2.0 + self.inwards * (depth - radius);
-        let opening = if depth >= half { PI / 2.0 } else { (half / radius).asin() };
+        let opening = if depth >= half { PI / 2.0 } else { (half / radius).min(1.0).asin() };
         let place = |k: usize| {
             let angle = opening * (2.0 * k as f64 / ROUND as f64 - 1.0);
             centre + along * (radius * angle.sin()) + self.inwards * (radius * angle.cos())
