@@ -7,7 +7,7 @@
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -135,7 +135,25 @@ impl Nesting {
         };
         let lines = contours.par_iter().map(line).collect();
         let points = |line: usize| list.points(contours[line].1.range);
-        Self::new(lines, hold, points, &mut Budget::of_a_marker())
+        let mut nesting = Self::new(lines, hold, points, &mut Budget::of_a_marker());
+        nesting.part_overlaid();
+        nesting
+    }
+
+    /// Takes lines of other groups from those around a line that holds a line of theirs: around their cut-out it lies over their
+    /// part, not in it.
+    fn part_overlaid(&mut self) {
+        let group = |line: usize| self.lines[line].group;
+        let pairs =
+            self.around.iter().flat_map(|(&line, outer)| outer.iter().map(move |&outer| (outer as usize, line)));
+        let held: BTreeSet<(usize, u32)> = pairs.map(|(outer, line)| (outer, group(line))).collect();
+        let lines = &self.lines;
+        for (line, outer) in &mut self.around {
+            let own = lines[*line].group;
+            let lies_over = |of: u32| of != own && held.contains(&(*line, of));
+            outer.retain(|&outer| !lies_over(lines[outer as usize].group));
+        }
+        self.around.retain(|_, outer| !outer.is_empty());
     }
 
     /// The lines.

@@ -41,6 +41,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
     ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
+    ("part-around-a-cut-out.dxf", ""),           // a part over another, around a cut-out of that
     ("polygon.cut", ""),                         // edges shorter than the blade
     ("scallops.cut", COARSE), // a chord that the blade before covers and the one behind does not meet
     ("seam-out-of-part.plt", "--cut-all"), // a seam line that sticks out of its part into another one
