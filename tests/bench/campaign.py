@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compile shapes of thirty classes with twenty machines, and count what is refused and why.
+"""Compile shapes of thirty classes and drawings of five dialects with twenty machines, and count what is refused and why.
 
 A program that is refused by its verification after a compile without errors is a fault of the compiler or of the verifier:
 at most one in two thousand may be.
@@ -189,10 +189,91 @@ def iso(pieces, rnd):
     return "*".join(out) + "*M0*\n"
 
 
+def tricky(rnd):
+    """Pieces with what drawings have at their worst: lines, each a list of places with whether it is closed, and holes."""
+    u = rnd.uniform
+    pieces, x = [], 0
+    for _ in range(rnd.randint(1, 3)):
+        size = rnd.choice([6, 20, 60, 150]); w, h = size * u(0.6, 1.4), size * u(0.6, 1.4)
+        kind = rnd.choice(["blob", "blob", "box", "needle", "short"])
+        if kind == "blob": outline = moved(ring(rnd, rnd.choice([3, 5, 8, 14, 40]), lambda a: size * u(0.3, 0.6)), size, size)
+        elif kind == "box": outline = [(0, 0), (w, 0), (w, h), (0, h)]
+        elif kind == "needle": outline = [(0, 0), (w + 40, u(-1, 1)), (w + 40, u(1.5, 8)), (0, h)]
+        else: outline = [(0, 0), (w, 0), (w + u(0.2, 3), u(0.2, 3)), (w + u(0.2, 3), h), (u(0, 4), h + u(0.1, 4)), (0, h)]
+        left, right = min(p[0] for p in outline), max(p[0] for p in outline)
+        outline = moved(outline, x - left, 0); x += right - left + rnd.choice([0, 0.1, 0.5, 1, 3, 20])
+        at = lambda share: (lambda k, t: tuple(a + (b - a) * t for a, b in zip(outline[k], outline[(k + 1) % len(outline)])))(int(share) % len(outline), share % 1)
+        middle = tuple(sum(p[k] for p in outline) / len(outline) for k in (0, 1))
+        inwards = lambda p, way: tuple(a + (b - a) * way / max(way, math.dist(p, middle)) for a, b in zip(p, middle))
+        lines, holes = [(outline, True)], []
+        for _ in range(rnd.choice([0, 0, 1, 2, 4])):
+            p = at(rnd.randrange(len(outline)) + rnd.choice([0, 0.01, 0.3, 0.5, 0.98])); lines.append(([p, inwards(p, u(1, 9))], False))
+        for _ in range(rnd.choice([0, 0, 1, 2])):
+            p, r = rnd.choice([middle, at(u(0, 9)), inwards(at(u(0, 9)), u(1, 12))]), u(1, 6)
+            lines.append((moved(rnd.choice([ring(rnd, rnd.choice([3, 4, 12]), lambda a: r), [(0, 0), (r, 0), (r, r), (0, r)]]), *p), True))
+        if rnd.random() < 0.4: holes.append(rnd.choice([middle, outline[0], inwards(outline[-1], u(0.2, 3))]))
+        pieces.append((lines, holes))
+    return pieces
+
+
+def drawn(dialect, pieces, rnd):
+    """A drawing in a dialect."""
+    low = [min(p[k] for lines, _ in pieces for line, _ in lines for p in line) - 20 for k in (0, 1)]
+    all = [([([(x - low[0], y - low[1]) for x, y in line], closed) for line, closed in lines], [(x - low[0], y - low[1]) for x, y in holes]) for lines, holes in pieces]
+    whole = [(line + line[:1] if closed else line) for lines, _ in all for line, closed in lines]
+    if dialect == "svg":
+        paths = "".join(f'<path d="M{" L".join(f"{x:.3f} {y:.3f}" for x, y in line)}"/>' for line in whole)
+        return f'<svg xmlns="http://www.w3.org/2000/svg" width="900mm" height="900mm" viewBox="0 0 900 900">{paths}</svg>\n'
+    if dialect == "plt":
+        place = lambda p: f"{round(40 * p[0])},{round(40 * p[1])}"
+        return "IN;SP1;" + "".join(f"PU{place(line[0])};PD{','.join(map(place, line[1:]))};" for line in whole) + "PU;SP0;\n"
+    if dialect == "cut":
+        out, place = ["H1*G71"], lambda p: f"X{round(10 * p[0])}Y{round(10 * p[1])}"
+        for i, (lines, holes) in enumerate(all, 1):
+            out += [f"N{i}*M15*M15"] + [f"{place(p)}*M43" for p in holes]
+            for line, closed in lines[::-1]: out += [place(line[0]), "M14", *map(place, line[1:] + line[: closed]), "M15"]
+        return "*".join(out) + "*M0*\n"
+    pairs, add = [], lambda *more: pairs.extend(more)
+    point = lambda layer, p, *more: add((0, "POINT"), (8, layer), (10, f"{p[0]:.2f}"), (20, f"{p[1]:.2f}"), *more)
+    def poly(layer, line):
+        add((0, "POLYLINE"), (8, layer), (66, 1), (70, 0))
+        for x, y in line: add((0, "VERTEX"), (8, layer), (10, f"{x:.2f}"), (20, f"{y:.2f}"))
+        add((0, "SEQEND"), (8, layer))
+    if dialect == "lines":
+        add((0, "SECTION"), (2, "ENTITIES"))
+        for line in whole: poly("CUT", line)
+        add((0, "ENDSEC"), (0, "EOF"))
+    else:
+        add((0, "SECTION"), (2, "BLOCKS"))
+        for i, (lines, holes) in enumerate(all):
+            add((0, "BLOCK"), (8, 1), (2, f"P{i}"), (70, 0), (10, 0), (20, 0))
+            for text in (f"PIECE NAME: P{i}", rnd.choice(["QUANTITY: 1", "QUANTITY: 1,1", "QUANTITY: 2"])): add((0, "TEXT"), (8, 1), (10, 0), (20, 0), (40, 5), (1, text))
+            outline = lines[0][0]
+            poly(1, outline + outline[: rnd.choice([1, 1, 1, 2, len(outline)])])
+            for p in outline if rnd.random() < 0.5 else []: point(rnd.choice([2, 3, 3]), p)
+            for line, closed in lines[1:]:
+                if closed: poly(11, line + line[:1])
+                else:
+                    angle = ((50, rnd.choice([0, 45, 90, 180])),) if rnd.random() < 0.4 else ()
+                    point(rnd.choice([4, 4, 80, 81, 82, 83]), line[0], (30, rnd.choice([3, 5, 8])), (39, rnd.choice([0, 3, 6])), *angle)
+            for p in holes: point(13, p)
+            if rnd.random() < 0.3:
+                add((0, "LINE"), (8, 6)); add(*zip((10, 20, 11, 21), (f"{c:.2f}" for p in outline[:2] for c in p)))
+            add((0, "ENDBLK"), (8, 1))
+        add((0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES"))
+        for i in range(len(all)) if rnd.random() < 0.5 else []: add((0, "INSERT"), (8, 1), (2, f"P{i}"), (10, rnd.choice([0, i * 400])), (20, 0))
+        for text in ("UNITS: METRIC", "AUTHOR: " + rnd.choice(["Gerber", "CLO", "Optitex", "Richpeace"])): add((0, "TEXT"), (8, 1), (10, 0), (20, 0), (40, 5), (1, text))
+        add((0, "ENDSEC"), (0, "EOF"))
+    return "".join(f"{code}\n{value}\n" for code, value in pairs)
+
+
+DRAWN = {"tricky-cut": "cut", "tricky-plot": "plt", "tricky-pattern": "dxf", "tricky-lines": "lines", "tricky-svg": "svg"}
+
+
 def main():
     ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ap.add_argument("cutc"); ap.add_argument("--shapes", type=int, default=1000)
-    ap.add_argument("--profiles", default=",".join(PROFILES)); ap.add_argument("--classes", default=",".join(KINDS))
+    ap.add_argument("--profiles", default=",".join(PROFILES)); ap.add_argument("--classes", default=",".join([*KINDS, *DRAWN]))
     ap.add_argument("--keep", help="folder for the shapes, the refused ones by profile")
     ap.add_argument("--show", type=int, default=2, help="refused files that are named for each rule")
     a = ap.parse_args()
@@ -200,7 +281,9 @@ def main():
     room = tempfile.mkdtemp(); source = os.path.join(room, "in"); os.mkdir(source)
     for i in range(a.shapes):
         kind = kinds[i % len(kinds)]; rnd = random.Random(f"{kind} {i}")
-        with open(os.path.join(source, f"{kind}-{i}.cut"), "w") as f: f.write(iso(shape(kind, rnd), rnd))
+        dialect = DRAWN.get(kind, "cut")
+        text = drawn(dialect, tricky(rnd), rnd) if kind in DRAWN else iso(shape(kind, rnd), rnd)
+        with open(os.path.join(source, f"{kind}-{i}.{'dxf' if dialect == 'lines' else dialect}"), "w") as f: f.write(text)
     if a.keep:
         os.makedirs(a.keep, exist_ok=True); shutil.copytree(source, os.path.join(a.keep, "in"), dirs_exist_ok=True)
     total = collections.Counter(); by_rule = collections.defaultdict(list); errors = collections.Counter()
