@@ -1,13 +1,13 @@
-//! Arcs (G02, G03) as chords.
+//! Conversion of arcs (G02, G03) to chords.
 
 use std::f64::consts::TAU;
 
 use crate::geom::{Point, Vector, cross};
 
-/// Longest arc, mm: no table is as long, and the chords of a damaged number would fill the memory.
+/// Maximum length of an arc, mm. No table is as long, and the chords of a damaged number would exhaust the memory.
 const LONGEST: f64 = 100_000.0;
 
-/// Which way an arc goes round its centre.
+/// Direction of an arc around its centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Turn {
     /// G02.
@@ -16,12 +16,12 @@ pub(super) enum Turn {
     Counterclockwise,
 }
 
-/// How a file gives the centre of an arc, mm.
+/// Centre of an arc as given in a file, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Centre {
-    /// I and J: relative to the start.
+    /// I and J: centre relative to the start.
     At(Vector),
-    /// R: by the radius; a negative one takes the longer way round.
+    /// R: radius; a negative one selects the longer arc.
     Radius(f64),
 }
 
@@ -35,8 +35,8 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// The ends of its chords, whose sagitta is below `sagitta`, its own end last and exact. What is wrong, in words, when
-    /// its ends differ in radius by more than `unit`. An arc that ends where it starts is a full circle.
+    /// The ends of its chords with a sagitta below `sagitta`; the last one is the exact end. The error describes the fault,
+    /// such as radii at both ends that differ by more than `unit`. An arc that ends at its start point is a full circle.
     pub(super) fn flatten(&self, unit: f64, sagitta: f64) -> Result<Vec<Point>, String> {
         let centre = self.centre(unit)?;
         let (start, end) = (self.from - centre, self.to - centre);
@@ -83,7 +83,7 @@ impl Arc {
         if half <= 0.0 || half > radius.abs() + unit {
             return Err(format!("no arc of radius {:.3} mm joins points {:.3} mm apart", radius.abs(), 2.0 * half));
         }
-        // The centre lies on the bisector: left of the chord for the shorter way counter-clockwise.
+        // The centre lies on the perpendicular bisector: left of the chord for the shorter counter-clockwise arc.
         let height = (radius * radius - half * half).max(0.0).sqrt();
         let left = (self.turn == Turn::Counterclockwise) == (radius > 0.0);
         let across = Vector::new(-chord.y, chord.x) / (2.0 * half);
@@ -102,7 +102,7 @@ mod tests {
         Arc { from: Point::new(100.0, 0.0), to: Point::from(to), turn, centre }.flatten(UNIT, SAGITTA)
     }
 
-    /// Length of the chords, which must keep to a circle of 50 mm around `centre` within the sagitta.
+    /// Total length of the chords, which must keep to a circle of 50 mm around `centre` within the sagitta.
     fn check(to: [f64; 2], turn: Turn, centre: Centre, around: [f64; 2], length: f64) {
         let mut points = vec![Point::new(100.0, 0.0)];
         points.extend(arc(to, turn, centre).expect("an arc"));

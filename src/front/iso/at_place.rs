@@ -1,34 +1,34 @@
-//! What a block asks for at the place where it ends.
+//! Actions of a block at its end position.
 
 use super::arc::Turn;
 use super::syntax::Code;
 use crate::source::Span;
 
-/// What a block asks for at the place where it ends.
+/// Actions of a block at its end position.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct AtPlace {
-    /// Whether the knife stays where it is: the point is none to go to.
+    /// True if the knife does not move: the point of the block is not a destination.
     pub(super) rests: bool,
-    /// A hole, by its tool.
+    /// Tool number of a hole.
     pub(super) drill: Option<u8>,
     pub(super) label: Option<Texts>,
-    /// An arc leads there.
+    /// Direction of an arc to the position.
     pub(super) turn: Option<Turn>,
-    /// The radius of the arc.
+    /// Radius code of the arc.
     pub(super) radius: Option<Code>,
-    /// Whether a code of the end stands there, obeyed or not, and whether it is the end.
+    /// True if the block has an end code, obeyed or not, and true if it ends the file.
     pub(super) names_end: bool,
     pub(super) ends: bool,
 }
 
-/// A drill code: which drill, and its block.
+/// A drill code: its tool and its block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hole {
     pub(super) tool: u8,
     pub(super) span: Span,
 }
 
-/// Whether a label is obeyed, or only passed over because the profile ignores M31.
+/// Treatment of a label: kept, or skipped because the profile ignores M31.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Texts {
     Kept,

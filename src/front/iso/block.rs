@@ -1,4 +1,4 @@
-//! Cuts the bytes into blocks: what ends in `*`, without line breaks, blanks and deleted passages.
+//! Splitting of the bytes into blocks, which end with `*`, without line breaks, blanks and deleted passages.
 
 use nom::Err;
 
@@ -9,53 +9,53 @@ use crate::source::Span;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Walks over the blocks of a file. A clone looks ahead.
+/// Iterator over the blocks of a file. A clone looks ahead.
 #[derive(Debug)]
 pub(super) struct Blocks<'a> {
     bytes: &'a [u8],
     at: usize,
     number: u32,
     ended: bool,
-    /// The first line of a file that says nothing but `%`, or the last.
+    /// A line of the file that contains only `%`: the first line, otherwise the last.
     frame: Option<Span>,
-    /// Room for the block that is read, without its blanks, and for the offsets of its bytes.
+    /// Buffers for the current block without its blanks, and for the offsets of its bytes.
     text: Vec<u8>,
     origins: Vec<usize>,
 }
 
 impl Clone for Blocks<'_> {
-    /// The same place, without what the room holds: one damaged block may have filled it with megabytes.
+    /// The same position with empty buffers: one damaged block may have filled them with megabytes.
     fn clone(&self) -> Self {
         Self { text: Vec::new(), origins: Vec::new(), ..*self }
     }
 }
 
-/// A block that is not text.
+/// A block of codes and coordinates, not of text.
 #[derive(Debug)]
 pub(super) struct Block {
     /// Its bytes, without the asterisk.
     pub(super) span: Span,
-    /// What it holds, or what is wrong with it.
+    /// Its content or its fault.
     pub(super) words: Result<Words, Diagnostic>,
 }
 
-/// Line breaks, blanks, NUL and the end mark of old systems carry no meaning outside text.
+/// Line breaks, blanks, NUL and the end mark of old systems have no meaning outside text.
 fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a)
 }
 
-/// Blanks that may stand for a lost digit: none but line breaks stand inside numbers, and NULs and end marks only between
+/// Blanks that may replace a lost digit. Only line breaks are permitted inside numbers, and NULs and end marks only between
 /// blocks.
 #[derive(Debug, Default)]
 struct Gaps {
     blank: Option<usize>,
     mark: Option<usize>,
-    /// The first that is no gap between words.
+    /// The first one that is not a gap between words.
     wrong: Option<usize>,
 }
 
 impl Gaps {
-    /// Sees a blank behind a byte of the block.
+    /// Records a blank inside the block.
     fn see(&mut self, byte: u8, at: usize) {
         match byte {
             b'\r' | b'\n' => {}
@@ -64,7 +64,7 @@ impl Gaps {
         }
     }
 
-    /// Sees that the block goes on, or ends, behind blanks.
+    /// Judges the recorded blanks at the next byte or the end of the block.
     fn close(&mut self, before: u8, behind: u8) {
         let is_number = |byte: u8| byte.is_ascii_digit() || byte == b'.';
         let is_amid = is_number(behind) && (is_number(before) || matches!(before, b'+' | b'-'));
@@ -97,7 +97,7 @@ impl<'a> Blocks<'a> {
         Self { bytes, at, number: 0, ended: true, frame, text: Vec::new(), origins: Vec::new() }
     }
 
-    /// A line at the start or the end of the file that holds nothing but `%`: senders put it there for other machines.
+    /// A line at the start or the end of the file that contains only `%`, written for other machines.
     pub(super) fn frame(&self) -> Option<Span> {
         self.frame
     }
@@ -107,19 +107,19 @@ impl<'a> Blocks<'a> {
         self.at
     }
 
-    /// Whether every block so far had its asterisk.
+    /// True if every block so far had its asterisk.
     pub(super) fn all_ended(&self) -> bool {
         self.ended
     }
 
-    /// The next block; `None` at the end.
+    /// The next block; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Option<Block> {
         if let Some((code, span)) = self.next_code() {
             let words = Words { codes: std::iter::once(code).collect(), ahead: 1, point: None };
             return Some(Block { span, words: Ok(words) });
         }
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
-        // Nearly every block has no blanks inside and is read where it stands.
+        // Nearly every block has no blanks inside and is parsed in place.
         let plain = syntax::plain_point_and_code(rest);
         if let Some((after, words)) = plain.or_else(|| syntax::block(rest).ok()) {
             return Some(Block { span: self.step_to(after), words: Ok(words) });
@@ -127,16 +127,16 @@ impl<'a> Blocks<'a> {
         self.next_with_blanks()
     }
 
-    /// The next block if it is one code alone; otherwise it stays the next one. Reads what [`Self::next`] reads, without
-    /// making room for other codes.
+    /// The next block if it is a single code; any other block is not consumed. Same result as [`Self::next`], without
+    /// allocation for other codes.
     pub(super) fn next_code(&mut self) -> Option<(Code, Span)> {
         self.skip_blanks();
         let (after, code) = syntax::plain_code(self.bytes.get(self.at..)?)?;
         Some((code, self.step_to(after)))
     }
 
-    /// Next blocks of X and Y alone, which most of a file is, put into a run; `false` when the next block is another.
-    /// It takes far fewer steps than [`Self::next_point`], which reads the very last ones.
+    /// Fills a run with the following blocks of X and Y only, which most of a file consists of; false if the next block is
+    /// another. Much faster than [`Self::next_point`], which reads the last blocks of a file.
     #[inline(never)] // apart, all that it works with stays in registers
     pub(super) fn next_run(&mut self, run: &mut Run) -> bool {
         let Self { bytes, mut at, number, .. } = *self;
@@ -160,8 +160,8 @@ impl<'a> Blocks<'a> {
         count > 0
     }
 
-    /// The next block if it is a point alone; otherwise it stays the next one. Reads what [`Self::next`] reads, without
-    /// making room for codes and faults.
+    /// The next block if it is a point only; any other block is not consumed. Same result as [`Self::next`], without allocation
+    /// for codes and faults.
     pub(super) fn next_point(&mut self) -> Option<(Point, Span)> {
         self.skip_blanks();
         let rest = self.bytes.get(self.at..)?;
@@ -176,7 +176,7 @@ impl<'a> Blocks<'a> {
         Some((point, self.step_to(after)))
     }
 
-    /// The span of the next block, which ends where `after` begins. Goes there.
+    /// The span of the next block, which ends before `after`. Advances to `after`.
     fn step_to(&mut self, after: &[u8]) -> Span {
         let end = self.bytes.len() - after.len();
         self.number += 1;
@@ -205,7 +205,7 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// The next block, copied without blanks and deleted passages.
+    /// The next block, read from a copy without blanks and deleted passages.
     fn next_with_blanks(&mut self) -> Option<Block> {
         let (mut text, mut origins) = (std::mem::take(&mut self.text), std::mem::take(&mut self.origins));
         text.clear();
@@ -307,7 +307,7 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// What to do about a byte that leaves the grammar; `None` = the end of the file.
+/// Remedy for a byte that violates the grammar; `None` stands for the end of the file.
 fn remedy(byte: Option<u8>) -> &'static str {
     match byte {
         None => "the file is most likely cut short; export it again",

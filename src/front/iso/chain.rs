@@ -1,4 +1,4 @@
-//! Chains of vertices: what the knife cuts between two interruptions, and beyond them.
+//! Chains of vertices: the path of the knife between interruptions, and across them.
 
 use super::vertex::Vertices;
 use crate::geom::Point;
@@ -6,42 +6,42 @@ use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::Notch;
 use crate::source::Span;
 
-/// Most vertices of a stroke: one that goes to and fro more often is no slit.
+/// Maximum number of vertices of a stroke; one that reverses more often is not a slit.
 const STROKE_VERTICES: usize = 8;
 
-/// Whether the lift at the end of a chain goes past it.
+/// Permission of overcut at the lift that ends a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Overcut {
-    /// As at any end.
+    /// Overcut as at any end.
     Usual,
-    /// Not: M18, M19 or a slit.
+    /// No overcut: M18, M19 or a slit.
     Forbidden,
 }
 
-/// What is cut from a plunge on, and gone on with behind interruptions.
+/// A cut that begins at a plunge and may continue after interruptions.
 #[derive(Debug)]
 pub(super) struct Chain {
-    /// In a file without N, a stroke has none before a contour claims it.
+    /// Index of the piece. In a file without N, a stroke has none until a contour claims it.
     pub(super) piece: Option<usize>,
     pub(super) vertices: Vertices,
-    /// Whether it is a slit: those are cut before the outlines.
+    /// True for a slit, which is cut before the outlines.
     pub(super) slit: bool,
-    /// The lift at its end, if it was left by one that is meant, not for a slit.
+    /// Overcut of the lift at its end; `None` if the knife left it for a slit.
     pub(super) lift: Option<Overcut>,
 }
 
 impl Chain {
-    /// The points that it goes through.
+    /// The points of the chain.
     pub(super) fn points(&self) -> &[Point] {
         self.vertices.points()
     }
 
-    /// Where it starts in the source.
+    /// Location of its start in the source.
     pub(super) fn start(&self) -> Span {
         self.vertices.get(0).expect("a chain has a vertex").span
     }
 
-    /// Whether it has no extent: all of its points are equal.
+    /// True if all of its points are equal.
     pub(super) fn is_point(&self) -> bool {
         self.points().iter().all(|&at| at == self.points()[0])
     }
@@ -51,7 +51,7 @@ impl Chain {
         (points[0], points[points.len() - 1])
     }
 
-    /// Whether it goes between two near places only, as slits and crossbars do.
+    /// True if it runs only between two near points, as slits and crossbars do.
     pub(super) fn is_stroke(&self) -> bool {
         if self.points().len() > STROKE_VERTICES {
             return false;
@@ -61,8 +61,8 @@ impl Chain {
         (second - first).norm() <= Notch::LONGEST && self.points().iter().all(|&at| at == first || at == second)
     }
 
-    /// Writes it into a list. The joint of its first segment speaks for the plunge at the start and for the lift at the
-    /// end.
+    /// Writes the chain into a list. The joint of its first segment holds the flags of the plunge at the start and of the lift
+    /// at the end.
     pub(super) fn write(&mut self, list: &mut SegmentList) -> Option<Range> {
         if self.lift == Some(Overcut::Forbidden) {
             self.vertices.joint_mut(0).no_overcut = true;

@@ -1,7 +1,7 @@
-//! The marker in the making: what the knife of the file does, gathered into contours, slits and pieces.
+//! The marker under construction: the motions of the knife are assembled into contours, slits and pieces.
 //!
-//! Files interrupt an outline for slit notches and corner lifts. When the knife goes down where an open chain of the
-//! same piece ends, that chain goes on; a map from end points makes that one look-up.
+//! Files interrupt an outline for slit notches and corner lifts. If the knife plunges at the end of an open chain of the same
+//! piece, that chain continues; a map from end points to chains makes this a single look-up.
 
 use std::collections::HashMap;
 
@@ -15,37 +15,37 @@ use crate::ir::list::{FULL_SPEED, Joint, SegmentList};
 use crate::ir::marker::{Contour, Drill, Event, Label, Marker, Notch, NotchKind, Piece};
 use crate::source::Span;
 
-/// A marker in the making: follows the knife.
+/// A marker under construction, driven by the motions of the knife.
 #[derive(Debug)]
 pub(super) struct Draft {
     state: State,
-    /// Where the knife is, mm.
+    /// Position of the knife, mm.
     at: Point,
-    /// Asked for by M17, M18 and M46, until obeyed.
+    /// Pending requests of M17, M18 and M46.
     advance: bool,
     no_overcut: bool,
     corner_lift: bool,
-    /// Speeds in percent, both until the next piece: M25's and that of M60 to M67.
+    /// Speeds in percent, valid until the next piece: that of M25 and that of M60 to M67.
     slow: u8,
     of_piece: u8,
-    /// Both together: the speed of a cut that is made now, percent of the feed.
+    /// Product of both: the current cutting speed, percent of the feed.
     percent: u8,
-    /// The feed of F, mm/s, from there on.
+    /// The feed set by F, mm/s.
     feed: Option<f64>,
-    /// What happens before the next piece that is cut.
+    /// Events before the next piece with a cut.
     events: Vec<Event>,
-    /// Chains of the pieces that are not finished.
+    /// Chains of the unfinished pieces.
     chains: Vec<Chain>,
-    /// Room of those that are, for the next ones: it need not grow again for each.
+    /// Vertex buffers of finished chains, kept for reuse.
     room: Vec<Vertices>,
-    /// The open ones, by the bits of their end.
+    /// Open chains, by the bits of their end point.
     open: HashMap<[u64; 2], usize>,
-    /// The piece that N began; `None` in a file without N.
+    /// The piece begun by N; `None` in a file without N.
     current: Option<usize>,
-    /// In a file without N: what waits for the contour that it belongs to, and the chains that do.
+    /// For a file without N: items that wait for their contour, and the waiting chains.
     waiting: Piece,
     strokes: Vec<usize>,
-    /// The chain that was left last, strokes not counted.
+    /// The chain left last, ignoring strokes.
     left: Option<usize>,
     deferred: Option<Deferred>,
     uncut: Uncut,
@@ -58,16 +58,16 @@ pub(super) struct Draft {
 enum State {
     #[default]
     Up,
-    /// Down, and not moved yet.
+    /// Down, without a motion since.
     Plunged { joint: Joint, span: Span },
-    /// Cutting the chain of this index.
+    /// Cutting the chain with this index.
     Cutting(usize),
     /// Cutting a slit from its root, which lies on a contour of this piece.
     Slit { points: Vec<Vertex>, piece: Option<usize>, span: Span },
 }
 
 impl Draft {
-    /// Up, at the origin, with room for so many segments and pieces.
+    /// A raised knife at the origin, with capacity for a number of segments and pieces.
     pub(super) fn with_room(segments: usize, pieces: usize) -> Self {
         let mut list = SegmentList::default();
         list.reserve(segments, 0);
@@ -97,17 +97,17 @@ impl Draft {
         }
     }
 
-    /// Whether it is down.
+    /// True if the knife is down.
     pub(super) fn is_down(&self) -> bool {
         !matches!(self.state, State::Up)
     }
 
-    /// Where it is, mm.
+    /// Position of the knife, mm.
     pub(super) fn at(&self) -> Point {
         self.at
     }
 
-    /// A move, mm.
+    /// Moves the knife to a point, mm.
     pub(super) fn go(&mut self, to: Point, span: Span) {
         let percent = self.percent;
         match &mut self.state {
@@ -139,8 +139,8 @@ impl Draft {
         self.at = to;
     }
 
-    /// Lets `add` add what is cut next: where no code stands between moves, the cut that is being made goes on through
-    /// them. Gives the block of its last place; `None` when nothing is cut.
+    /// Continues the current cut: `add` appends vertices between which no code stands. Returns the block of the last point;
+    /// `None` if the knife is not cutting.
     pub(super) fn cut_on(&mut self, add: impl FnOnce(&mut Vertices)) -> Option<Span> {
         let State::Cutting(chain) = self.state else { return None };
         let vertices = &mut self.chains[chain].vertices;
@@ -152,7 +152,7 @@ impl Draft {
         Some(last.span)
     }
 
-    /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
+    /// The piece of a chain that begins at `span`. Without N every contour is a piece.
     fn piece_of_new_chain(&mut self, span: Span) -> usize {
         if let Some(piece) = self.current {
             self.give_events(piece);
@@ -164,7 +164,7 @@ impl Draft {
         self.pieces.len() - 1
     }
 
-    /// What happens before a piece goes to the first one that is begun behind it; inside a piece it waits for the next.
+    /// Moves pending events to a piece if it is still empty. Events inside a piece wait for the next one.
     fn give_events(&mut self, piece: usize) {
         if self.events.is_empty() {
             return;
@@ -197,7 +197,7 @@ impl Draft {
         self.feed = Some(feed);
     }
 
-    /// M01 and M69.
+    /// Records an event (M01, M69).
     pub(super) fn event(&mut self, event: Event) {
         self.events.push(event);
     }
@@ -223,7 +223,7 @@ impl Draft {
             }
         }
         let full_advance = std::mem::take(&mut self.advance);
-        // Mostly there is none, and to look for it would take longer than to see that.
+        // The map is mostly empty, and this check is faster than a look-up.
         let open = if self.open.is_empty() { None } else { self.open.remove(&bits(self.at)) };
         if let Some(index) = open.or_else(|| self.take_spur()) {
             if self.chains[index].piece.is_none() {
@@ -237,7 +237,7 @@ impl Draft {
             joint.full_advance |= full_advance;
             joint.no_overcut |= lift == Some(Overcut::Forbidden);
             let piece = &mut self.pieces[chain.piece.expect("it was given one")];
-            // Without N: what the file holds while it interrupts a contour belongs to that contour.
+            // Without N, items in the file while it interrupts a contour belong to that contour.
             piece.drills.append(&mut self.waiting.drills);
             piece.notches.append(&mut self.waiting.notches);
             cap(piece, self.waiting.feed.take());
@@ -275,7 +275,7 @@ impl Draft {
         }
     }
 
-    /// Refuses a piece that waits for a lift while the knife cuts what may be its outline.
+    /// Reports a piece that waits for a lift while the knife continues on its possible outline.
     fn check_deferred(&self, out: &mut Diagnostics) {
         if let (State::Cutting(chain), Some(deferred)) = (&self.state, &self.deferred)
             && deferred.leads_on(&self.chains[*chain])
@@ -284,8 +284,8 @@ impl Draft {
         }
     }
 
-    /// The knife leaves the chain, by a lift that is meant or (`None`) for a slit. One that closed on itself is finished;
-    /// any other may go on where it ends.
+    /// Ends cutting a chain, by an explicit lift or (`None`) for a slit. A closed chain is finished; any other may be continued
+    /// at its end.
     fn leave(&mut self, index: usize, lift: Option<Overcut>) {
         let chain = &mut self.chains[index];
         chain.lift = lift;
@@ -304,8 +304,8 @@ impl Draft {
         }
     }
 
-    /// In a file without N a stroke is no piece: it belongs to the contour that it interrupts, or to the next one, as
-    /// slits and drills do. (Whether it is a slit is for the passes to tell.)
+    /// In a file without N a stroke is not a piece: it belongs to the contour that it interrupts, or to the next one, as slits
+    /// and drills do. (The passes decide whether it is a slit.)
     fn let_wait(&mut self, index: usize) {
         let chain = &mut self.chains[index];
         let begun = self.pieces.pop_if(|piece| piece.span == chain.start());
@@ -317,16 +317,16 @@ impl Draft {
         }
     }
 
-    /// Gives the strokes that wait to a piece.
+    /// Assigns the waiting strokes to a piece.
     fn claim_strokes(&mut self, piece: Option<usize>) {
         for index in self.strokes.drain(..) {
-            // One that the knife went on from is a contour of its own by now.
+            // A stroke that the knife has continued is a contour of its own.
             self.chains[index].piece = self.chains[index].piece.or(piece);
         }
     }
 
-    /// A slit whose M19 is lost: the knife went on from here to a near place and came back through the air. Takes the slit
-    /// off its chain, which goes on from here.
+    /// Handles a slit with a lost M19: the knife left this point for a near one and returned in the air. Removes the slit from
+    /// its chain, which continues from here.
     fn take_spur(&mut self) -> Option<usize> {
         let index = self.left?;
         let chain = &mut self.chains[index];
@@ -335,7 +335,7 @@ impl Draft {
         if root.at != self.at || root.at == tip.at || (tip.at - root.at).norm() > Notch::LONGEST {
             return None;
         }
-        // One that closed, or went on meanwhile, is not waiting.
+        // A chain that was closed or continued is no longer waiting.
         self.open.get(&bits(tip.at)).filter(|&&open| open == index)?;
         self.open.remove(&bits(tip.at));
         chain.vertices.pop();
@@ -371,11 +371,11 @@ impl Draft {
         }
     }
 
-    /// Ends a slit: a straight one is a notch, any other an open contour.
+    /// Ends a slit: a straight one becomes a notch, any other an open contour.
     fn end_slit(&mut self) {
         (self.advance, self.no_overcut) = (false, false);
         let State::Slit { mut points, piece, .. } = std::mem::take(&mut self.state) else { return };
-        // One that goes nowhere is kept as it stands in the file: dropping it is for the passes, which say so.
+        // A slit of no length is kept as in the file; a pass drops and reports it.
         let damaged = points.len() > 1 && points.iter().all(|vertex| bits(vertex.at) == bits(points[0].at));
         if damaged {
             points.truncate(2);
@@ -415,7 +415,7 @@ impl Draft {
         self.advance = true;
     }
 
-    /// The place where it is, in the air, is that of a label.
+    /// Marks the current position in the air as that of a label.
     pub(super) fn settle(&mut self) {
         self.uncut.settle();
     }
@@ -430,7 +430,7 @@ impl Draft {
         self.corner_lift = true;
     }
 
-    /// A hole, with the knife up.
+    /// Adds a hole; the knife is up.
     pub(super) fn drill(&mut self, at: Point, tool: u8, span: Span) {
         if let Some(piece) = self.current {
             self.give_events(piece);
@@ -439,18 +439,18 @@ impl Draft {
         self.target().drills.push(Drill { at, tool, span });
     }
 
-    /// A text.
+    /// Adds a text.
     pub(super) fn label(&mut self, label: Label) -> LabelId {
         self.uncut.settle();
         let piece = self.current;
         let labels = &mut self.target().labels;
-        // Most pieces have one, and a vector begins with room for four.
+        // Most pieces have one label, and a vector starts with a capacity of four.
         labels.reserve_exact(usize::from(labels.is_empty()));
         labels.push(label);
         LabelId { piece, index: labels.len() - 1 }
     }
 
-    /// The last label that was added with that id, as long as no other piece began.
+    /// The label with an id, as long as no other piece has begun.
     pub(super) fn label_mut(&mut self, id: LabelId) -> Option<&mut Label> {
         if id.piece != self.current {
             return None;
@@ -458,7 +458,7 @@ impl Draft {
         self.target().labels.get_mut(id.index)
     }
 
-    /// Where notches, drills and labels go.
+    /// The piece that receives notches, drills and labels.
     fn target(&mut self) -> &mut Piece {
         match self.current {
             Some(piece) => &mut self.pieces[piece],
@@ -466,7 +466,7 @@ impl Draft {
         }
     }
 
-    /// N. With the knife down it takes effect at the next lift: controllers insert some.
+    /// Begins a piece (N). While the knife is down this is deferred to the next lift: controllers insert some.
     pub(super) fn begin_piece(&mut self, number: Option<u32>, span: Span, out: &mut Diagnostics) {
         match &self.state {
             State::Up => {}
@@ -487,7 +487,7 @@ impl Draft {
         self.start_piece(number, span);
     }
 
-    /// A piece ends. Where something is cut of it, a way in the air behind that may lead anywhere.
+    /// Ends a piece. If the piece has a cut, moves in the air after it may lead anywhere.
     fn end_piece(&mut self) {
         let is_empty = |piece: usize| self.pieces[piece].notches.is_empty() && self.pieces[piece].drills.is_empty();
         if self.chains.is_empty() && self.current.is_some_and(is_empty) {
@@ -508,7 +508,7 @@ impl Draft {
         self.finish_chains();
     }
 
-    /// Writes the chains into the list: first the slits, as they are cut before the outlines.
+    /// Writes the chains into the list, the slits first, because they are cut before the outlines.
     fn finish_chains(&mut self) {
         self.open.clear();
         self.left = None;
@@ -519,7 +519,7 @@ impl Draft {
                     self.extent.join(&self.list.extent(range));
                     let piece = chain.piece.expect("every stroke was claimed");
                     let contours = &mut self.pieces[piece].contours;
-                    // Most pieces have one.
+                    // Most pieces have one contour.
                     contours.reserve_exact(usize::from(contours.is_empty()));
                     contours.push(Contour { range, closed: first == last });
                 }
@@ -531,8 +531,8 @@ impl Draft {
         }
     }
 
-    /// The end of the file: what was cut, and the box around it. (The box that a marker can give of itself would cost
-    /// another walk over all segments.) Its numbers are multiples of `unit` mm.
+    /// Ends the file and returns the marker and its bounding box. (Computing the box from the marker would cost another pass
+    /// over all segments.) Its coordinates are multiples of `unit` mm.
     pub(super) fn finish(mut self, last: Span, unit: f64, out: &mut Diagnostics) -> (Marker, Extent) {
         match &self.state {
             State::Up => {}
@@ -576,14 +576,14 @@ impl Draft {
     }
 }
 
-/// A piece is cut at the least feed in force while any of it is cut.
+/// Limits the feed of a piece, which is cut at the minimum of the feeds in force during its cuts.
 fn cap(piece: &mut Piece, feed: Option<f64>) {
     if let Some(feed) = feed {
         piece.feed = Some(piece.feed.map_or(feed, |before| before.min(feed)));
     }
 }
 
-/// Names a label of the piece that is being read.
+/// Identifies a label of the current piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct LabelId {
     piece: Option<usize>,

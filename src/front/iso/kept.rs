@@ -1,9 +1,9 @@
-//! Drops pieces without anything to cut.
+//! Removal of pieces without anything to cut.
 
 use crate::ir::marker::{Event, Piece};
 
-/// An N without anything to cut is no piece (controllers insert some); its labels and events go to the next piece, the
-/// events of the last one to `closing`.
+/// Drops pieces without anything to cut; controllers insert such an N. Their labels and events move to the next piece; the
+/// events of the last ones move to `closing`.
 pub(super) fn drop_empty(pieces: &mut Vec<Piece>, closing: &mut Vec<Event>) {
     let mut labels = Vec::new();
     pieces.retain_mut(|piece| {

@@ -12,20 +12,20 @@ use super::meaning::{Meaning, meaning};
 use super::syntax::{Point, Words};
 use crate::source::Span;
 
-/// What follows M31.
+/// The blocks after M31.
 #[derive(Debug, PartialEq)]
 pub(super) struct Layout {
-    /// Where it stands, in the file's numbers; `None` when the file gives no place.
+    /// Position, in numbers of the file; `None` if the file gives none.
     pub(super) at: Option<Point>,
-    /// The text; `None` when the file ends before it.
+    /// The text; `None` if the file ends before it.
     pub(super) text: Option<Span>,
-    /// Its second point.
+    /// The second point, which gives the angle.
     pub(super) second: Option<Point>,
-    /// The text as mirrored pieces have it.
+    /// The text for mirrored pieces.
     pub(super) mirrored: Option<Span>,
 }
 
-/// Reads the blocks that belong to an M31 whose own block holds `point`.
+/// Reads the blocks of an M31 whose own block holds `point`.
 pub(super) fn read(blocks: &mut Blocks<'_>, point: Option<Point>) -> Layout {
     let Some(at) = point else {
         let at = next_if(blocks, |words| words.codes.is_empty() && is_place(words));
@@ -36,8 +36,8 @@ pub(super) fn read(blocks: &mut Blocks<'_>, point: Option<Point>) -> Layout {
     Layout { at: Some(at), text, second, mirrored }
 }
 
-/// The mirrored text and the second point of the fourth layout. A text may look like codes, and codes like text, so all
-/// three blocks must fit: one that is no codes, a point with M31, and codes again.
+/// The mirrored text and the second point of the fourth layout. Texts may look like codes and codes like texts, so all three
+/// blocks must fit: one that is not codes, a point with M31, and codes again.
 fn mirrored(blocks: &mut Blocks<'_>) -> Option<(Span, Point)> {
     let mut ahead = blocks.clone();
     if ahead.next().is_none_or(|block| is_known(&block)) {
@@ -56,7 +56,7 @@ fn mirrored(blocks: &mut Blocks<'_>) -> Option<(Span, Point)> {
     Some((text, second))
 }
 
-/// Takes the next block when it is the one that is looked for, and gives its point.
+/// Consumes the next block if it matches, and returns its point.
 fn next_if(blocks: &mut Blocks<'_>, wanted: impl Fn(&Words) -> bool) -> Option<Point> {
     let mut ahead = blocks.clone();
     let words = ahead.next()?.words.ok()?;
@@ -71,7 +71,7 @@ fn is_place(words: &Words) -> bool {
     words.point.is_some_and(|point| point.x.is_some() && point.y.is_some() && !point.has_centre())
 }
 
-/// Whether a block holds known codes and coordinates and nothing else.
+/// True if a block holds only known codes and coordinates.
 fn is_known(block: &Block) -> bool {
     block.words.as_ref().is_ok_and(|words| words.codes.iter().all(|&code| meaning(code) != Meaning::Unknown))
 }
@@ -80,7 +80,7 @@ fn is_known(block: &Block) -> bool {
 mod tests {
     use super::*;
 
-    /// Reads the label whose M31 block is the first, and gives its text, its places and the block that follows.
+    /// Reads the label whose M31 block is the first, and gives its text, its points and the block that follows.
     fn check(bytes: &str, text: &str, at: Option<f64>, second: Option<f64>, next_block: u32) {
         let mut blocks = Blocks::new(bytes.as_bytes());
         let words = blocks.next().expect("M31").words.expect("sound");

@@ -1,4 +1,4 @@
-//! The meaning of a file: follows block after block and makes the marker.
+//! The meaning of a file: executes block after block and builds the marker.
 
 use std::ops::ControlFlow;
 
@@ -23,18 +23,17 @@ use crate::machine::Job;
 use crate::source::{Source, Span};
 use crate::units::{MM_PER_INCH, MM_PER_M};
 
-/// Farthest that the chords of an arc may lie off it, mm: far below what cloth shows, and coarse enough for few chords.
+/// Maximum deviation of chords from their arc, mm: far below what shows on cloth, and coarse enough for few chords.
 const SAGITTA_MAX: f64 = 0.01;
-/// The chords of an arc may take this part of the tolerance: the rest is for the knife.
+/// Fraction of the tolerance available to the chords of an arc; the rest is for the knife.
 const SAGITTA_SHARE: f64 = 0.25;
 const SECONDS_PER_MINUTE: f64 = 60.0;
-/// Bytes of a large file for each of its segments: fewer than most have, since to move them all takes longer than room that
-/// nothing comes into.
+/// Bytes of a large file per segment, a low estimate: moving all segments takes longer than allocating unused capacity.
 const BYTES_A_SEGMENT: usize = 12;
-/// Bytes that a piece takes at the least, as a rule: room is made for so many pieces, and grows where they are shorter.
+/// Usual minimum number of bytes per piece. It sets the initial capacity, which grows if pieces are shorter.
 const BYTES_A_PIECE: usize = 512;
 
-/// Reads a file as the job's profile asks.
+/// Reads a file as the job's profile requires.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
     let mut lowering = Lowering {
         source,
@@ -69,34 +68,36 @@ struct Lowering<'a> {
     knife: Draft,
     unit: Unit,
     run: Run,
-    /// The last X and Y, in units of the file: one that a block does not write keeps its value.
+    /// The last X and Y, in units of the file; a coordinate that a block omits keeps its value.
     place: [Option<f64>; 2],
-    /// Whether a block could not be read: it may have held the place that is missing.
+    /// True if a block was unreadable: it may have held the missing coordinates.
     damaged: bool,
-    /// The first place beyond [`FARTHEST`](super::unit::FARTHEST), mm, and its block.
+    /// The first point beyond [`FARTHEST`](super::unit::FARTHEST), mm, and its block.
     far: Option<(geom::Point, Span)>,
-    /// Whether the knife was moved here in the air and nothing was done here yet: a drill code without a point means here.
+    /// True if the knife has moved here in the air and nothing has been done here yet: a drill code without a point applies
+    /// here.
     fresh: bool,
     /// A drill code that waits for its point.
     waiting: Option<Hole>,
-    /// A label that may get a second point, and one that has got it if the knife does not go down there.
+    /// A label that may still get a second point, and a label whose second point is the current position unless the knife
+    /// plunges there.
     awaiting: Option<LabelId>,
     second: Option<LabelId>,
     title: Option<Title>,
-    /// The code that sets the size of a bite, the size in units of the file, and its block.
+    /// Bite size: its code, the size in units of the file, and its block.
     bite: Option<(Code, f64, Span)>,
-    /// Which way blocks with I or J go: the last G02 or G03, until G01.
+    /// Direction of blocks with I or J: that of the last G02 or G03; `None` after G01.
     turn: Option<Turn>,
-    /// Where the file ended by its M0.
+    /// Offset after the M0 that ended the file.
     ended: Option<usize>,
     tally: Tally,
-    /// Offset behind the last block that cuts or drills, once it was looked for.
+    /// Offset after the last block that cuts or drills; `None` until it is searched for.
     last_cut: Option<usize>,
     out: &'a mut Diagnostics,
 }
 
 impl Lowering<'_> {
-    /// Follows the file to its end and gives its last block.
+    /// Executes the file to its end and returns its last block.
     fn run(&mut self) -> Span {
         let mut ended = false;
         let mut last = Span::default();
@@ -146,8 +147,9 @@ impl Lowering<'_> {
         last
     }
 
-    /// Cuts on as far as blocks are X and Y alone: most of a file, and nothing but vertices, since the first block behind a
-    /// code has what that asked for. Gives the last of them; `None` when there is none, or the knife is not cutting.
+    /// Continues the current cut over the following blocks of X and Y only. These are most of a file and only add vertices,
+    /// since the first block after a code has already applied that code. Returns the last block; `None` if there is none or the
+    /// knife is not cutting.
     fn cut_on(&mut self) -> Option<Span> {
         let Self { knife, blocks, unit, far, run, .. } = self;
         let mut last = None;
@@ -161,7 +163,7 @@ impl Lowering<'_> {
         span
     }
 
-    /// What was read, judged as a whole.
+    /// Finishes the marker and checks it as a whole.
     fn finish(mut self, last: Span) -> Marker {
         self.settle_second_point();
         let (mut marker, extent) = self.knife.finish(last, self.unit.mm(), self.out);
@@ -186,7 +188,7 @@ impl Lowering<'_> {
             self.out
                 .push(finding.hint("export the marker with its cut lines, or see what `codes` of the profile ignores"));
         }
-        // A place that is a kilometre off says it all.
+        // A point beyond a kilometre makes further findings on size redundant.
         if self.far.is_none() {
             let (title, bytes) = (self.title.as_ref(), self.source.bytes());
             let sized = Sized { unit: &self.unit, extent: &extent, title, bytes };
@@ -195,7 +197,7 @@ impl Lowering<'_> {
         marker
     }
 
-    /// A block of coordinates alone.
+    /// Executes a block of coordinates only.
     fn go(&mut self, point: Point, span: Span) {
         if point.has_centre() {
             self.arc(point, None, span);
@@ -205,7 +207,7 @@ impl Lowering<'_> {
         self.go_to(to, span);
     }
 
-    /// A move in a straight line.
+    /// Moves in a straight line.
     fn go_to(&mut self, to: geom::Point, span: Span) {
         if self.knife.is_down() {
             self.knife.go(to, span);
@@ -214,7 +216,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// A move with the knife up.
+    /// Moves with the knife up.
     fn land(&mut self, to: geom::Point, span: Span) {
         if let Some(hole) = self.waiting.take() {
             self.move_in_air(to, span);
@@ -236,17 +238,16 @@ impl Lowering<'_> {
         self.fresh = true;
     }
 
-    /// Obeys the codes of a block, then its move; labels and drills belong to the place where the block ends. (A knife
-    /// code that stands before the place of its block acts before the move, says the vendor; no file seen has one.)
+    /// Executes the codes of a block, then its move; labels and drills apply at the end position of the block. (According to
+    /// the vendor, a knife code before the point of its block acts before the move; no known file has one.)
     fn obey(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> ControlFlow<()> {
         let asked = self.obey_codes(codes, point, span);
         self.obey_place(&asked, point, span);
-        // What shares the block of the end is obeyed, too.
+        // Everything in the block of the end is executed, too.
         if asked.ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Refuses a code behind the place of its block that lowers or lifts the knife: controllers differ in whether it then moves
-    /// first.
+    /// Refuses a code after the point of its block that lowers or lifts the knife: some controllers move first, others do not.
     fn see_order(&mut self, words: &Words, span: Span) {
         let is_down = self.knife.is_down();
         let acts =
@@ -260,7 +261,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Obeys the codes of a block, but for what they ask for at its place.
+    /// Executes the codes of a block and returns the actions for its end position.
     fn obey_codes(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> AtPlace {
         let names_end = || codes.iter().any(|&code| meaning(code) == Meaning::End);
         let mut asked = AtPlace::default();
@@ -319,18 +320,18 @@ impl Lowering<'_> {
         asked
     }
 
-    /// Does what a block asks for at its place, and goes there.
+    /// Executes the actions of a block at its end position, and the move to it.
     fn obey_place(&mut self, asked: &AtPlace, point: Option<Point>, span: Span) {
         let AtPlace { rests, drill, label, radius, names_end, .. } = *asked;
         let point = point.filter(|_| !rests);
-        // G02 and G03 last, so a radius alone makes an arc as well as a centre does.
+        // The direction of the last G02 or G03 also applies to a block with only a radius.
         let turn = asked.turn.or(radius.and(self.turn));
         if let Some(code) = radius.filter(|_| turn.is_none() || drill.is_some() || label.is_some()) {
             self.tally.unknown(code, span);
         }
         if let Some(tool) = drill {
             let hole = Hole { tool, span };
-            // Behind the end no place follows, and the one behind M31 is the label's.
+            // No point follows the end of the file, and the point after M31 is that of the label.
             let may_wait = label.is_none() && !names_end;
             match point {
                 _ if self.knife.is_down() => self.refuse_hole(hole),
@@ -364,14 +365,14 @@ impl Lowering<'_> {
             let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
             self.out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
         }
-        // The place is where a contour starts, not the second point of a label.
+        // This position is the start of a contour, not the second point of a label.
         self.second = None;
         self.awaiting = None;
         self.fresh = false;
         self.knife.down(span, self.out);
     }
 
-    /// F: a cap on the speed, or a fault when it is none.
+    /// F: caps the speed; without a valid speed it is reported.
     fn feed(&mut self, code: Code, span: Span) {
         match code.number {
             Some(feed) if feed > 0.0 => self.knife.feed(feed * MM_PER_INCH / SECONDS_PER_MINUTE),
@@ -379,16 +380,16 @@ impl Lowering<'_> {
         }
     }
 
-    /// G04 and M70: before the first place of the file the origin is where it always is. What it should be later the
-    /// vendors leave open, and all coordinates are absolute.
+    /// G04 and M70: before the first point of the file they set the usual origin and have no effect. Vendors do not define
+    /// later ones, and all coordinates are absolute, so those are reported.
     fn origin(&mut self, code: Code, point: Option<Point>, span: Span) {
         if self.place != [None, None] || point.is_some() {
             self.tally.ignore(code, "origin amid the file", span);
         }
     }
 
-    /// The end of an arc whose centre stands beside it, or with a radius. Its chords keep the block; with the knife up
-    /// it is a move like any other.
+    /// A block with the end of an arc and its centre or radius. All chords keep the block. With the knife up it is an ordinary
+    /// move.
     fn arc(&mut self, point: Point, radius: Option<f64>, span: Span) {
         let from = self.knife.at();
         let to = self.locate(point, span);
@@ -423,7 +424,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// A hole where the knife is.
+    /// Adds a hole at the position of the knife.
     fn drill(&mut self, Hole { tool, span }: Hole) {
         self.second = None;
         self.fresh = false;
@@ -436,7 +437,7 @@ impl Lowering<'_> {
         self.out.push(finding.hint("an M15 may be missing before it"));
     }
 
-    /// Whether the next block is a point, and not the start of a contour.
+    /// True if the next block is a point other than the start of a contour.
     fn point_of_drill_follows(&self) -> bool {
         let mut ahead = self.blocks.clone();
         let words = |ahead: &mut Blocks<'_>| ahead.next().and_then(|block| block.words.ok());
@@ -458,7 +459,7 @@ impl Lowering<'_> {
         true
     }
 
-    /// A label whose block holds `point`.
+    /// Reads a label; `point` is the point in the block of its M31.
     fn label(&mut self, point: Option<Point>, texts: Texts) {
         self.settle_second_point();
         self.awaiting = None;
@@ -468,11 +469,11 @@ impl Lowering<'_> {
         let second = text.second.map(|second| self.peek(second));
         let heading = at.zip(second).and_then(|(at, second)| direction(at, second));
         let id = self.knife.label(Label { at, heading, span, mirrored: text.mirrored });
-        // Only the layout that starts with the point may have its second point later.
+        // Only the layout that starts with the point can have its second point later.
         self.awaiting = (point.is_some() && second.is_none()).then_some(id);
     }
 
-    /// The knife was moved on in the air, so the place where it was is the second point of the label before it.
+    /// Uses the position as the second point of the pending label: the knife has not plunged there.
     fn settle_second_point(&mut self) {
         let place = self.knife.at();
         if let Some(id) = self.second.take()
@@ -482,26 +483,26 @@ impl Lowering<'_> {
         }
     }
 
-    /// The text behind M20.
+    /// Reads the text after M20.
     fn message(&mut self) {
         if let Some(span) = self.blocks.next_text() {
             self.title = self.title.or(Title::read(self.source.slice(span), span));
         }
     }
 
-    /// Whether anything is cut or drilled in the blocks ahead. The file is searched once.
+    /// True if any later block cuts or drills. The file is searched only once.
     fn more_to_cut(&mut self) -> bool {
         let last = *self.last_cut.get_or_insert_with(|| last_cut(self.blocks.clone()));
         last > self.blocks.offset()
     }
 
-    /// A point of the file, mm; the knife is there from now on.
+    /// Converts a point of the file to mm and makes it the current position.
     fn locate(&mut self, point: Point, span: Span) -> geom::Point {
         self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
         convert(self.place.map(Option::unwrap_or_default), self.unit.convert(), span, &mut self.far)
     }
 
-    /// A point of the file, mm.
+    /// Converts a point of the file to mm.
     fn peek(&mut self, point: Point) -> geom::Point {
         let place = [point.x.or(self.place[0]), point.y.or(self.place[1])].map(Option::unwrap_or_default);
         scale(place, self.unit.convert())
@@ -512,7 +513,7 @@ fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {
     (from != to).then(|| Heading::of(to - from))
 }
 
-/// Offset behind the last block that puts the knife or a drill down; 0 when there is none.
+/// Offset after the last block that lowers the knife or drills; 0 if there is none.
 fn last_cut(mut blocks: Blocks<'_>) -> usize {
     let mut last = 0;
     while let Some(block) = blocks.next() {
@@ -537,7 +538,7 @@ mod tests {
 
     const SQUARE: &str = "H1*G71*M15*N1*X0Y0*M14*X1000Y0*X1000Y1000*M19*X800Y800*M15*X1000Y1000*M14*X0Y0*M15*M0*";
 
-    /// Reads with a profile; gives the marker and the codes of what was found.
+    /// Reads with a profile; gives the marker and the codes of the findings.
     fn check(text: &str, edit: impl Fn(&mut Job), found: &[&str]) -> Marker {
         let source = Source::new("a", text.as_bytes().to_vec()).expect("small");
         let mut job = Job::default();

@@ -1,38 +1,38 @@
-//! What the codes mean: the table of the family, as its vendors and the files of real machines agree on it.
+//! Meanings of the codes: the table of the family, as agreed by its vendors and the files of real machines.
 
 use super::arc::Turn;
 use super::syntax::Code;
 use crate::ir::toolpath::Event;
 use crate::machine::FileUnit;
 
-/// What a code asks for.
+/// Meaning of a code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
     /// Knife down.
     Down,
     /// Knife up.
     Up,
-    /// A piece begins; its number.
+    /// A piece begins, with its number.
     Piece,
     /// The unit of all numbers.
     Unit(FileUnit),
-    /// A hole, with this drill.
+    /// A hole, by its drill number.
     Drill(u8),
     /// The next block is a message to the operator.
     Message,
     /// The next text block is a label.
     Label,
-    /// With the knife down a slit begins; with the knife up neither full advance nor overcut.
+    /// With the knife down, a slit begins; with the knife up, full advance and no overcut.
     Slit,
-    /// The next plunge goes without heel overlap.
+    /// The next plunge has no heel overlap.
     FullAdvance,
-    /// The next lift goes without front overlap.
+    /// The next lift has no front overlap.
     NoOvercut,
     /// The knife is lifted at the next corner.
     CornerLift,
     /// End of the file, unless cuts follow.
     End,
-    /// The coordinates of the block are a place to park or a size, not a move.
+    /// The coordinates of the block are a park position or a size, not a move.
     Park,
     /// Length of a bite of the conveyor, along X.
     BiteSize,
@@ -40,25 +40,25 @@ pub(super) enum Meaning {
     Arc(Turn),
     /// Straight lines again.
     Line,
-    /// Straight lines again, as fast as the machine can: here the knife decides which are cut.
+    /// Straight lines at rapid speed. Only the knife state decides whether a move cuts.
     Rapid,
-    /// Speed of the cut until normal speed or the next piece.
+    /// Reduced cutting speed until normal speed or the next piece.
     Slow,
     /// Normal speed.
     Normal,
     /// Speed of the piece, percent.
     SpeedOfPiece(u8),
-    /// Greatest speed of the tip from there on, inches per minute.
+    /// Maximum speed of the tip from here on, inches per minute.
     Feed,
-    /// Something for the operator or the controller.
+    /// An event for the operator or the controller.
     Event(Event),
     /// The origin of all numbers.
     Origin,
-    /// Known, changes the cut, and is not obeyed; its name in words.
+    /// A known code that changes the cut but is not obeyed, with a description.
     NotObeyed(&'static str),
-    /// Known, and of no consequence for the cut.
+    /// A known code without effect on the cut.
     Housekeeping,
-    /// Not known.
+    /// An unknown code.
     Unknown,
 }
 
@@ -96,7 +96,7 @@ pub(super) fn meaning(code: Code) -> Meaning {
     }
 }
 
-/// A number that is whole and not negative.
+/// Converts a number that is whole and not negative; `None` for any other.
 pub(super) fn whole(number: f64) -> Option<u32> {
     let whole = number as u32;
     (f64::from(whole) == number).then_some(whole)
@@ -136,14 +136,14 @@ fn m_code(number: u32) -> Meaning {
     }
 }
 
-/// The code without its number where that is a value and not a part of the name.
+/// The code, without its number if the number is a value and not part of the name.
 pub(super) fn kind(code: Code) -> Code {
     let is_value = matches!(code.letter, b'F' | b'H' | b'N' | b'Z');
     let number = if is_value { None } else { code.number };
     Code { number, ..code }
 }
 
-/// The code as the profile and messages name it: without leading zeros.
+/// Name of the code in the profile and in messages: without leading zeros.
 pub(super) fn name(code: Code) -> String {
     match kind(code).number {
         None => char::from(code.letter).to_string(),

@@ -1,15 +1,14 @@
 //! ISO cut files: the family of codes that garment CAD writes for knife cutters.
 //!
-//! Receives bytes: blocks that end in `*`, with line breaks and blanks anywhere, free text behind some codes, three
-//! possible units. Promises a marker in mm whose outlines are whole again where the file interrupts them for slits and
-//! corner lifts, whose slits are notches, whose equal points are equal to the bit, and whose texts were never executed.
-//! Codes that are not obeyed are reported with their count. Never closes a contour that the file leaves open, and never
-//! recognises a notch by its shape: that is for the passes.
+//! Receives bytes: blocks that end with `*`, with line breaks and blanks anywhere, free text after some codes, three possible
+//! units. Promises a marker in mm: outlines that the file interrupts for slits and corner lifts are whole again, slits are
+//! notches, equal points have equal bits, and texts are never executed. Ignored codes are reported with their count. Never
+//! closes a contour that the file leaves open, and never recognises a notch by its shape: that is left to the passes.
 //!
-//! Arcs are chords. [`block`] cuts the bytes into blocks, plain ones in [`run`]s, [`syntax`] is the grammar of one,
-//! [`mod@meaning`] the table of codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`]
-//! follows the file, [`draft`] gathers what it cuts in [`chain`]s of places ([`vertex`]), [`lost`] finds signs of lost knife
-//! codes, and [`owner`] says whose slits are whose where pieces have no numbers.
+//! Arcs become chords. [`block`] splits the bytes into blocks, plain ones in [`run`]s; [`syntax`] is the grammar of a block,
+//! [`mod@meaning`] the table of codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end. [`lower`]
+//! executes the file, [`draft`] assembles its cuts from [`chain`]s of vertices ([`vertex`]), [`lost`] finds signs of lost knife
+//! codes, and [`owner`] assigns slits to pieces in files without piece numbers.
 
 mod arc;
 mod at_place;
@@ -49,10 +48,10 @@ pub(super) const DIALECT: Dialect = Dialect {
     words: words::WORDS,
 };
 
-/// Blocks that are looked at to recognise a file, and bytes of it.
+/// Number of blocks and of bytes examined to recognise a file.
 const SNIFFED_BLOCKS: usize = 64;
 const SNIFFED_BYTES: usize = 4096;
-/// Blocks that must be sound for a file to be recognised without doubt.
+/// Number of sound blocks from which a file is recognised for certain.
 const SURE_BLOCKS: usize = 3;
 
 fn sniff(bytes: &[u8]) -> Likeness {
@@ -74,7 +73,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
     }
 }
 
-/// Whether every block follows the grammar.
+/// Checks every block against the grammar.
 fn check_syntax(source: &Source, out: &mut Diagnostics) {
     let mut blocks = Blocks::new(source.bytes());
     while let Some(block) = blocks.next() {

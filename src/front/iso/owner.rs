@@ -1,7 +1,7 @@
-//! In a file without piece numbers: whose slits are whose.
+//! Assignment of slits to pieces in files without piece numbers.
 //!
-//! Such files write slits before the outline that they belong to, or behind it. Where they stand does not tell, but their
-//! roots do: a slit starts on an outline of its piece.
+//! Such files write slits before or after the outline that they belong to. Their order is ambiguous, but their roots are not: a
+//! slit starts on an outline of its piece.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
@@ -9,22 +9,22 @@ use crate::geom::near::{Near, sorted};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Notch, NotchStroke, Piece};
 
-/// What may have come to the wrong piece.
+/// A slit or stroke that may be assigned to the wrong piece.
 #[derive(Debug, Clone, Copy)]
 struct Loose {
-    /// The piece that it came to.
+    /// Index of its current piece.
     piece: usize,
-    /// From its root to its tip.
+    /// The stroke from its root to its tip.
     stroke: NotchStroke,
-    /// Its piece, once it is known.
+    /// Index of the right piece, once known.
     owner: Option<usize>,
-    /// A contour, if it is no notch.
+    /// The contour, if it is not a notch.
     contour: Option<Contour>,
 }
 
-/// Gives slits, and strokes that may be slits, to the piece on whose outline they start: to the one that they came to, if
-/// it is among several. A crossbar goes with its slit, and what starts on no outline stays. `unit` is the grid of the
-/// file, mm. Where they are too many to look at each, what is left stays.
+/// Assigns slits, and strokes that may be slits, to the piece whose outline they start on; the current piece has priority. A
+/// crossbar goes with its slit. Strokes that start on no outline stay. `unit` is the grid of the file, mm. The remaining ones
+/// stay if there are too many to examine.
 pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64, out: &mut Diagnostics) {
     let mut loose = gather(list, pieces);
     if pieces.len() < 2 || loose.is_empty() {
@@ -58,7 +58,7 @@ pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64, out: &
     }
     for Loose { piece, stroke, owner, contour } in loose {
         let Some(owner) = owner.filter(|&owner| owner != piece) else { continue };
-        // A cut is no faster in another piece than in the one that it came to.
+        // Moving a cut to another piece must not make it faster.
         let feed = [pieces[piece].feed, pieces[owner].feed].into_iter().flatten().reduce(f64::min);
         pieces[owner].feed = feed;
         if let Some(contour) = contour {
@@ -71,7 +71,7 @@ pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64, out: &
     }
 }
 
-/// All notches, and contours that are strokes. Too long ones are looked at as well: M19 says what they are.
+/// All notches, and contours that are strokes. Overlong notches are included, because M19 declares them.
 fn gather(list: &SegmentList, pieces: &[Piece]) -> Vec<Loose> {
     let mut loose = Vec::new();
     for (piece, Piece { notches, contours, .. }) in pieces.iter().enumerate() {
@@ -83,7 +83,7 @@ fn gather(list: &SegmentList, pieces: &[Piece]) -> Vec<Loose> {
     loose
 }
 
-/// A contour as a stroke, if it goes between two near places only.
+/// The contour as a stroke, if it runs only between two near points.
 fn stroke(list: &SegmentList, contour: &Contour) -> Option<NotchStroke> {
     let mut segments = list.walk(contour.range).map(|(_, segment)| segment);
     let first = segments.find(|segment| segment.from != segment.to)?;

@@ -1,11 +1,11 @@
-//! Runs of plain blocks, gathered before they are converted: what is done for many at once takes few steps for each.
+//! Runs of plain blocks, gathered before conversion: processing many at once takes fewer steps per block.
 
 use crate::source::Span;
 
-/// Blocks that a run holds at the most.
+/// Maximum number of blocks in a run.
 const MOST: usize = 64;
 
-/// Places of blocks that stand behind one another, in units of the file, and their spans.
+/// Points of consecutive blocks, in units of the file, and their spans.
 #[derive(Debug)]
 pub(super) struct Run {
     places: [[i32; 2]; MOST],
@@ -20,7 +20,7 @@ impl Default for Run {
 }
 
 impl Run {
-    /// Takes what `next` gives for each place in place of what is here, until there is no more or no room: how many.
+    /// Refills the run from `next`, until it returns `None` or the run is full. Returns the number of points.
     #[inline] // most of a file comes here
     pub(super) fn fill(&mut self, mut next: impl FnMut(usize) -> Option<([i32; 2], Span)>) -> usize {
         let mut count = 0;
@@ -34,19 +34,19 @@ impl Run {
         count
     }
 
-    /// The places.
+    /// The points.
     pub(super) fn places(&self) -> impl DoubleEndedIterator<Item = [f64; 2]> + ExactSizeIterator {
         self.places[..self.count].iter().map(|place| place.map(f64::from))
     }
 
-    /// Their spans.
+    /// The spans of the points.
     pub(super) fn spans(&self) -> &[Span] {
         &self.spans[..self.count]
     }
 
-    /// A number that none of the places has a greater one than, whatever its sign.
+    /// An upper bound on the absolute values of all coordinates.
     pub(super) fn bound(&self) -> f64 {
-        // The bits of all together take fewer steps than the greatest of all.
+        // Combining the bits of all coordinates takes fewer steps than finding the maximum.
         let bits = self.places[..self.count].iter().fold(0, |bits, place| bits | place[0] | place[1]);
         f64::from(bits.cast_unsigned())
     }

@@ -1,7 +1,7 @@
-//! The grammar of a block, without meaning: one function a rule of `grammar/iso.bnf`, in its order.
+//! The grammar of a block, without meaning: one function per rule of `grammar/iso.bnf`, in its order.
 //!
-//! The rules see a block without line breaks and blanks. The choice of a rule never needs more than one byte of
-//! look-ahead, so the first fault is also the furthest.
+//! The rules see a block without line breaks and blanks. Choosing a rule never needs more than one byte of look-ahead, so the
+//! first fault is also the furthest.
 
 use arrayvec::ArrayVec;
 use nom::IResult;
@@ -12,37 +12,37 @@ use nom::{Err, Parser};
 
 use crate::units::digits;
 
-/// Codes that one block can hold; the standard asks for one, files have three (`H1G71D2`).
+/// Maximum number of codes in a block; the standard has one, files have three (`H1G71D2`).
 const MOST_CODES: usize = 6;
 
-/// Largest number that is read, in units of the file: 25 km in the smallest unit, far beyond any table, and small
-/// enough for whole numbers to be exact.
+/// Largest accepted number, in units of the file: 25 km in the smallest unit, far beyond any table. It is small enough for
+/// whole numbers to be exact.
 pub(super) const VALUE_MAX: f64 = 1e8;
 
-/// Decimals that count: with nine digits before them, all are exact in `f64`.
+/// Number of decimals that are used: with nine digits before them, all are exact in `f64`.
 const MOST_DECIMALS: usize = 6;
 const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// What a rule gives.
+/// Result of a rule.
 pub(super) type Out<'a, T> = IResult<&'a [u8], T, Fault<'a>>;
 
-/// Where a block leaves the grammar.
+/// Violation of the grammar.
 #[derive(Debug, PartialEq)]
 pub(super) struct Fault<'a> {
-    /// What is left of the block from the fault on.
+    /// The rest of the block from the fault on.
     pub(super) at: &'a [u8],
-    /// What is wrong there.
+    /// Kind of fault.
     pub(super) kind: FaultKind,
 }
 
-/// What is wrong with a block.
+/// Kind of fault in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FaultKind {
-    /// Something else should stand here.
+    /// Unexpected content; the text names the expected content.
     Expected(&'static str),
-    /// An axis has no number.
+    /// An axis without a number.
     NoValue,
-    /// A number is beyond [`VALUE_MAX`].
+    /// A number beyond [`VALUE_MAX`].
     Overflow,
 }
 
@@ -59,15 +59,15 @@ impl<'a> ParseError<&'a [u8]> for Fault<'a> {
 /// The words of a block.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Words {
-    /// Its codes in the order of the file.
+    /// The codes, in the order of the file.
     pub(super) codes: ArrayVec<Code, MOST_CODES>,
-    /// Number of codes before its place.
+    /// Number of codes before the point.
     pub(super) ahead: usize,
-    /// Its place.
+    /// The point.
     pub(super) point: Option<Point>,
 }
 
-/// The coordinates of a block, in units of the file; one that is not written keeps its last value.
+/// The coordinates of a block, in units of the file; an omitted one keeps its last value.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Point {
     /// Along the table.
@@ -76,11 +76,11 @@ pub(super) struct Point {
     pub(super) y: Option<f64>,
     /// Centre of an arc along the table, relative to its start.
     pub(super) i: Option<f64>,
-    /// The same across the table.
+    /// Centre of an arc across the table, relative to its start.
     pub(super) j: Option<f64>,
 }
 
-/// A letter and, mostly, a number.
+/// A letter and usually a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Code {
     /// The letter, upper case.
@@ -89,7 +89,7 @@ pub(super) struct Code {
     pub(super) number: Option<f64>,
 }
 
-/// `<block>`: up to its asterisk.
+/// `<block>`, including its asterisk.
 pub(super) fn block(i: &[u8]) -> Out<'_, Words> {
     let mut words = Words::default();
     let i = codes(i, &mut words)?;
@@ -104,7 +104,7 @@ pub(super) fn block(i: &[u8]) -> Out<'_, Words> {
     }
 }
 
-/// `<codes>`: none or more of them, added to `words`.
+/// `<codes>`: any number of codes, appended to `words`.
 fn codes<'a>(mut i: &'a [u8], words: &mut Words) -> Result<&'a [u8], Err<Fault<'a>>> {
     while let (rest, Some(code)) = opt(code).parse(i)? {
         if words.codes.try_push(code).is_err() {
@@ -116,18 +116,18 @@ fn codes<'a>(mut i: &'a [u8], words: &mut Words) -> Result<&'a [u8], Err<Fault<'
 }
 
 impl Point {
-    /// X and Y, both whole numbers.
+    /// A point with whole X and Y.
     pub(super) fn whole(x: i32, y: i32) -> Self {
         Self { x: Some(x.into()), y: Some(y.into()), ..Self::default() }
     }
 
-    /// Whether it is written as the end of an arc: with a centre.
+    /// True for the end of an arc: a centre is given.
     pub(super) fn has_centre(&self) -> bool {
         self.i.is_some() || self.j.is_some()
     }
 }
 
-/// Whether a code begins with a letter.
+/// True if a code can begin with a letter.
 pub(super) fn is_code_letter(letter: u8) -> bool {
     letter.is_ascii_uppercase() && !matches!(letter, b'X' | b'Y' | b'I' | b'J')
 }
@@ -159,16 +159,15 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
     if i.len() < start { Ok((i, point)) } else { expected(i, "a point") }
 }
 
-/// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with
-/// care.
+/// Number of bytes examined for a plain block: more than it can have, so that no index needs a bounds check.
 const PLAIN_BYTES: usize = 40;
 
-/// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`]
-/// says of it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
+/// Fast path for a `<block>` of X and Y only, both whole numbers, as nearly all blocks are. Returns its length and the numbers,
+/// equal to those of [`block`]. `None` for any other block, which [`block`] and [`point`] must decide.
 #[inline] // most of a file is read here, and from one place only: from more the compiler would not inline it
 pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let [b'X', rest @ ..] = i else { return None };
-    // First as if there were no signs, as there mostly are none.
+    // Numbers without signs are tried first, as they are the most common.
     let digits = rest.first_chunk()?;
     match digits::pair(digits) {
         Some(([x, y], [middle, end])) if digits[middle] == b'Y' && digits[end] == b'*' => {
@@ -178,21 +177,21 @@ pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     }
 }
 
-/// `<block>`, when it is X and Y, both whole numbers with signs or none: where it ends, and the numbers.
+/// A `<block>` of X and Y only, both whole numbers with optional signs: its length and the numbers.
 #[inline(never)] // apart, it is not in the way of the others
 pub(super) fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let (at, x, y) = plain_place(i)?;
     (i[at] == b'*').then_some((at + 1, x, y))
 }
 
-/// X and Y, both whole numbers: where they end, and the numbers.
+/// X and Y as whole numbers: the offset after them, and the numbers.
 fn plain_place(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let (at, x) = plain_coordinate(i, 0, b'X')?;
     let (at, y) = plain_coordinate(i, at, b'Y')?;
     Some((at, x, y))
 }
 
-/// A letter at a place and a whole number of at most eight digits, below [`VALUE_MAX`]: where it ends, and the number.
+/// A letter at an offset and a whole number of at most eight digits, below [`VALUE_MAX`]: the offset after it, and the number.
 fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usize, i32)> {
     if i[at] != letter {
         return None;
@@ -204,7 +203,8 @@ fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usi
     Some((start + count, if is_negative { -value } else { value }))
 }
 
-/// `<block>`, when it is one code alone, with a whole number or none, as most others are: likewise.
+/// Fast path for a `<block>` of a single code, with a whole number or none, as most other blocks are: the rest after it, and
+/// the code.
 pub(super) fn plain_code(i: &[u8]) -> Option<(&[u8], Code)> {
     let (&letter, rest) = i.split_first().filter(|(letter, _)| is_code_letter(**letter))?;
     let (rest, number) = match digits::leading(rest) {
@@ -215,14 +215,14 @@ pub(super) fn plain_code(i: &[u8]) -> Option<(&[u8], Code)> {
     Some((rest, Code { letter, number }))
 }
 
-/// `<block>`, when it is X and Y and one code behind them, as on labels: the rest, and its words.
+/// Fast path for a `<block>` of X, Y and one code after them, as for labels: the rest after it, and its words.
 pub(super) fn plain_point_and_code(i: &[u8]) -> Option<(&[u8], Words)> {
     let (at, x, y) = plain_place(i.first_chunk()?)?;
     let (rest, code) = plain_code(&i[at..])?;
     Some((rest, Words { codes: std::iter::once(code).collect(), ahead: 0, point: Some(Point::whole(x, y)) }))
 }
 
-/// `<coordinate>`: the letter stands at `i`, its number at `rest`. From the letter on the branch is certain.
+/// `<coordinate>`: `i` starts at the letter, `rest` at its number. After the letter the branch is certain.
 fn coordinate<'a>(i: &'a [u8], rest: &'a [u8]) -> Out<'a, Option<f64>> {
     match number(rest) {
         Ok((rest, value)) => Ok((rest, Some(value))),
@@ -231,14 +231,14 @@ fn coordinate<'a>(i: &'a [u8], rest: &'a [u8]) -> Out<'a, Option<f64>> {
     }
 }
 
-/// `<number>`: whole numbers in units of the file; a plus sign and decimals are tolerated.
+/// `<number>`: a whole number in units of the file; a plus sign and decimals are tolerated.
 fn number(i: &[u8]) -> Out<'_, f64> {
     let (negative, unsigned) = match i.split_first() {
         Some((b'-', rest)) => (true, rest),
         Some((b'+', rest)) => (false, rest),
         _ => (false, i),
     };
-    // As nearly all are: whole, and far below the largest.
+    // The usual case: a whole number far below the largest.
     if let Some((magnitude, count)) = digits::leading(unsigned)
         && unsigned[count..].first() != Some(&b'.')
     {
@@ -252,7 +252,7 @@ fn number(i: &[u8]) -> Out<'_, f64> {
         rest = after;
         if let (after, Some(decimals)) = opt(digits).parse(after)? {
             rest = after;
-            // One division of two exact integers: the nearest number to what is written.
+            // One division of two exact integers gives the nearest number.
             let kept = &decimals[..decimals.len().min(MOST_DECIMALS)];
             magnitude = append(mantissa, kept) as f64 / POWERS_OF_TEN[kept.len()];
         }
@@ -260,11 +260,11 @@ fn number(i: &[u8]) -> Out<'_, f64> {
     if magnitude > VALUE_MAX {
         return Err(Err::Failure(Fault { at: i, kind: FaultKind::Overflow }));
     }
-    // The negative of zero is another bit pattern than zero, though the same place.
+    // -0.0 becomes 0.0: both are the same position but have different bit patterns.
     Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
 }
 
-/// The number whose digits are those of `value` and then `digits`. Saturates: what is too large stays too large.
+/// The number with the digits of `value` followed by `digits`; saturates.
 fn append(value: u64, digits: &[u8]) -> u64 {
     digits.iter().fold(value, |value, digit| value.saturating_mul(10).saturating_add(u64::from(digit - b'0')))
 }
@@ -308,7 +308,7 @@ mod tests {
         check("M00*", None, None, "M0");
     }
 
-    /// The start of a file: behind its text bytes that no block holds.
+    /// The start of a file, followed by bytes that no block holds.
     fn padded(text: &[u8]) -> [u8; PLAIN_BYTES] {
         let mut start = [0; PLAIN_BYTES];
         start[..text.len()].copy_from_slice(text);

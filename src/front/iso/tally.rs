@@ -1,4 +1,4 @@
-//! Codes that are not obeyed, each reported once, with its count and first block.
+//! Ignored codes, each reported once, with its count and first block.
 
 use std::collections::BTreeMap;
 
@@ -7,29 +7,29 @@ use super::syntax::Code;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// Counts codes that are not obeyed.
+/// Counts of ignored codes.
 #[derive(Debug, Default)]
 pub(super) struct Tally {
-    /// By letter and the bits of the number.
+    /// Entries by letter and by the bits of the number.
     codes: BTreeMap<(u8, Option<u64>), Entry>,
 }
 
 #[derive(Debug)]
 struct Entry {
     code: Code,
-    /// What it is; `None` for an unknown code.
+    /// Description; `None` for an unknown code.
     what: Option<&'static str>,
     first: Span,
     count: usize,
 }
 
 impl Tally {
-    /// A known code that changes the cut: `what` it is, in words.
+    /// Counts a known code that changes the cut but is ignored; `what` describes it.
     pub(super) fn ignore(&mut self, code: Code, what: &'static str, span: Span) {
         self.add(code, Some(what), span);
     }
 
-    /// A code that is not known.
+    /// Counts an unknown code.
     pub(super) fn unknown(&mut self, code: Code, span: Span) {
         self.add(code, None, span);
     }
@@ -40,7 +40,7 @@ impl Tally {
         self.codes.entry(key).or_insert(Entry { code, what, first, count: 0 }).count += 1;
     }
 
-    /// Reports them, in the order of the file.
+    /// Reports the codes in the order of the file.
     pub(super) fn report(self, out: &mut Diagnostics) {
         let mut entries: Vec<Entry> = self.codes.into_values().collect();
         entries.sort_by_key(|entry| entry.first);
@@ -64,7 +64,7 @@ impl Tally {
     }
 }
 
-/// The finding of a code that is not known, with its count.
+/// The finding on an unknown code, with its count.
 fn unknown(code: Code, count: &str) -> Diagnostic {
     let message = format!("{} is not known and was ignored: {count}", name(code));
     let finding = Diagnostic::new(&code::ISO_UNKNOWN_CODE, message);

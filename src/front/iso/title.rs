@@ -3,19 +3,19 @@
 use crate::source::Span;
 use crate::units::{MM_PER_INCH, MM_PER_M};
 
-/// The size that a title states, mm.
+/// The size stated by a title, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Title {
-    /// Along the table.
+    /// Length along the table.
     pub(super) length: Option<f64>,
-    /// Across the table.
+    /// Width across the table.
     pub(super) width: Option<f64>,
-    /// Where it stands in the source.
+    /// Location in the source.
     pub(super) span: Span,
 }
 
 impl Title {
-    /// Reads the sizes of a title; `None` when it states none with a unit.
+    /// Reads the sizes of a title; `None` if none is stated with a unit.
     pub(super) fn read(text: &[u8], span: Span) -> Option<Self> {
         let text = String::from_utf8_lossy(text);
         let field = |key: &str| {
@@ -26,7 +26,7 @@ impl Title {
     }
 }
 
-/// A number with its unit, mm. Titles are often cut off, so that `c` stands for `cm`.
+/// A positive number with its unit, converted to mm. Titles are often cut off, so `c` stands for `cm`.
 fn millimetres(value: &str) -> Option<f64> {
     let end = value.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(value.len());
     let (number, unit) = value.split_at(end);

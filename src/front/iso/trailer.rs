@@ -1,7 +1,7 @@
-//! The list of labels behind M0: a line a field, `N,0001` to `L0*`.
+//! The list of labels after M0: one field per line, from `N,0001` to `L0*`.
 //!
-//! A record goes to the piece that its L names, or, when it has none, to the one of its N. What stands before the first L
-//! belongs to the first record.
+//! A record belongs to the piece named by its L or, without an L, by its N. Fields before the first L belong to the first
+//! record.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Field, Piece};
 use crate::source::{Source, Span};
 
-/// Adds the fields behind `offset` to their pieces.
+/// Adds the fields after `offset` to their pieces.
 pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Piece], out: &mut Diagnostics) {
     let bytes = source.bytes();
     if bytes.get(offset..).is_none_or(|behind| behind.trim_ascii().is_empty()) {
@@ -59,12 +59,12 @@ pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Pie
     }
 }
 
-/// Where the fields go.
+/// Destination of the fields.
 struct Target<'a> {
     pieces: &'a mut [Piece],
-    /// The place of each number among the pieces.
+    /// Index of the piece with each number.
     places: BTreeMap<u32, usize>,
-    /// The first field that found no piece.
+    /// The first field without a piece.
     lost: Option<Span>,
 }
 
@@ -76,7 +76,7 @@ struct Record {
 }
 
 impl Record {
-    /// Gives the fields to their piece and starts anew.
+    /// Adds the fields to their piece and clears the record.
     fn close(&mut self, target: &mut Target<'_>) {
         let Self { by_l, by_n, mut fields } = std::mem::take(self);
         let Some(first) = fields.first() else { return };

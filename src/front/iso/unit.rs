@@ -1,4 +1,4 @@
-//! The unit of the numbers: what the file says, what the profile says, and whether the result is plausible.
+//! The unit of the numbers, from the file or the profile, and the plausibility of the resulting size.
 
 use super::run::Run;
 use super::title::Title;
@@ -10,50 +10,50 @@ use crate::machine::FileUnit;
 use crate::source::Span;
 use crate::units::MM_PER_INCH;
 
-/// The unit of a file that names none (1/100 inch), mm. That is no finding: the standard has it so, and most files of the
-/// older cutters name none. Where it is wrong the drawing fits neither its title nor a table, which [`check_plausible`]
-/// says with the unit that would fit.
+/// Default unit (1/100 inch), mm. Its use is not a finding: the standard defines it, and most files of older cutters state no
+/// unit. With a wrong unit the drawing fits neither its title nor a table; [`check_plausible`] reports that and the unit that
+/// would fit.
 const DEFAULT_MM: f64 = MM_PER_INCH / 100.0;
 
-/// Farthest place from the origin, mm: a kilometre, far beyond any table.
+/// Maximum distance of a point from the origin along an axis, mm: a kilometre, far beyond any table.
 pub(super) const FARTHEST: f64 = 1e6;
 
-/// Widest marker that a table takes, longest one that is spread, and the smallest thing worth cutting, mm. Tables are up to
-/// some 3 m wide, and cloth is spread over a few dozen metres.
+/// Maximum width of a marker on a table, maximum length of a lay, and minimum size of a part, mm. Tables are up to some 3 m
+/// wide, and cloth is spread over a few dozen metres.
 const WIDEST: f64 = 3500.0;
 const LONGEST: f64 = 100_000.0;
 const SMALLEST: f64 = 5.0;
-/// Drawings in units of an inch whose numbers have decimals are doubted below this side, mm: that is what ten metres
-/// in inches are when they are read as thousandths.
+/// Side below which a drawing in inch units with decimals is doubted, mm. Ten metres written in inches and read as thousandths
+/// have that size.
 const SMALLEST_OF_DECIMALS: f64 = 10.0;
-/// A drawing fills between 40 % and 102 % of what its title says.
+/// Range of the ratio of the drawing to the size in its title: 40 % to 102 %.
 const LEAST_FILL: f64 = 0.40;
 const MOST_FILL: f64 = 1.02;
-/// What a drawing shrinks to at the most without a place that lies far from all others: half.
+/// Maximum ratio of a side without the outlying point to the side with it.
 const FAR: f64 = 0.5;
 
-/// The units that a file can have, with the value of the profile's key.
+/// The possible units of a file, with the values of the profile key.
 const CANDIDATES: [(FileUnit, &str); 3] =
     [(FileUnit::TenthMm, "mm/10"), (FileUnit::HundredthInch, "in/100"), (FileUnit::ThousandthInch, "in/1000")];
 
-/// What the size of a drawing is judged by.
+/// Input of the plausibility check.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sized<'a> {
     pub(super) unit: &'a Unit,
-    /// The box around all that is cut.
+    /// The bounding box of all cuts.
     pub(super) extent: &'a Extent,
     pub(super) title: Option<&'a Title>,
     /// The bytes of the file.
     pub(super) bytes: &'a [u8],
 }
 
-/// The unit in force.
+/// The current unit.
 #[derive(Debug)]
 pub(super) struct Unit {
     mm: f64,
-    /// Whether the profile gives it, whatever the file says.
+    /// True if the profile sets it; the file cannot change it.
     by_profile: bool,
-    /// Whether a coordinate was converted: from then on it may not change.
+    /// True after a coordinate was converted; the unit may then not change.
     in_use: bool,
 }
 
@@ -62,23 +62,23 @@ impl Unit {
         Self { mm: profile.mm().unwrap_or(DEFAULT_MM), by_profile: profile.mm().is_some(), in_use: false }
     }
 
-    /// Its length, mm, for a coordinate.
+    /// Length of the unit, mm; marks the unit as used.
     pub(super) fn convert(&mut self) -> f64 {
         self.in_use = true;
         self.mm
     }
 
-    /// Its length, mm.
+    /// Length of the unit, mm.
     pub(super) fn mm(&self) -> f64 {
         self.mm
     }
 
-    /// Whether it is a part of an inch.
+    /// True if the unit is a fraction of an inch.
     fn is_of_inches(&self) -> bool {
         FileUnit::TenthMm.mm() != Some(self.mm)
     }
 
-    /// The file names a unit.
+    /// Sets the unit stated in the file.
     pub(super) fn set(&mut self, unit: FileUnit, span: Span, out: &mut Diagnostics) {
         let Some(mm) = unit.mm().filter(|_| !self.by_profile) else { return };
         if self.in_use && mm.to_bits() != self.mm.to_bits() {
@@ -94,10 +94,10 @@ impl Unit {
     }
 }
 
-/// A place of the drawing, and its block.
+/// A point of the drawing, and its block.
 type DrawnPlace = (Point, Span);
 
-/// All that the box around a marker holds, with the blocks.
+/// All points in the bounding box of a marker, with their blocks.
 fn places(marker: &Marker) -> impl Iterator<Item = DrawnPlace> + '_ {
     let cut = marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range));
     let of_piece = marker.pieces.iter().flat_map(|piece| {
@@ -107,8 +107,8 @@ fn places(marker: &Marker) -> impl Iterator<Item = DrawnPlace> + '_ {
     cut.chain(of_piece)
 }
 
-/// The places that have a half of a box to themselves: left, right, lower or upper. `None` when each half has two,
-/// which may be known long before the last place.
+/// Points that are alone in a half of a box: left, right, lower or upper. `None` if each half has at least two, which may be
+/// known long before the last point.
 fn alone(extent: &Extent, places: impl Iterator<Item = DrawnPlace>) -> Option<Vec<DrawnPlace>> {
     let middle = extent.min + (extent.max - extent.min) / 2.0;
     let mut first: [Option<DrawnPlace>; 4] = [None; 4];
@@ -130,9 +130,9 @@ fn alone(extent: &Extent, places: impl Iterator<Item = DrawnPlace>) -> Option<Ve
     Some(uncrowded.filter_map(|(place, _)| place).collect())
 }
 
-/// The only place that makes a drawing too large: without it the rest `fits`. It has a half of the box to itself.
+/// The single point that makes a drawing too large: without it the rest `fits`. It is alone in a half of the box.
 fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> bool) -> Option<DrawnPlace> {
-    // That there is none the first places of the contours tell nearly always, and soon from both ends of the marker.
+    // The first points of the contours, taken from both ends of the marker, usually rule out such a point quickly.
     let both = marker.pieces.iter().zip(marker.pieces.iter().rev()).flat_map(|(one, other)| [one, other]);
     let contours = both.flat_map(|piece| &piece.contours);
     alone(extent, contours.flat_map(|contour| marker.list.vertices(contour.range).take(2)))?;
@@ -143,7 +143,7 @@ fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> b
     })
 }
 
-/// Whether most coordinates of a file have decimal points.
+/// True if most coordinates of a file have decimal points.
 fn has_decimals(bytes: &[u8]) -> bool {
     let (mut all, mut decimal) = (0, 0);
     for at in memchr::memchr2_iter(b'X', b'Y', bytes) {
@@ -156,7 +156,7 @@ fn has_decimals(bytes: &[u8]) -> bool {
     2 * decimal > all
 }
 
-/// The fault of a file whose numbers are most likely inches with decimals.
+/// The error for a file whose numbers are most likely inches with decimals.
 fn of_decimals(unit: &Unit, extent: &Extent) -> Diagnostic {
     let (length, width) = extent.size();
     let per_inch = (MM_PER_INCH / unit.mm).round();
@@ -168,7 +168,7 @@ fn of_decimals(unit: &Unit, extent: &Extent) -> Diagnostic {
     finding.hint(format!("let the CAD write whole numbers, {per_inch:.0} an inch; or as mm with G71, 10 a mm"))
 }
 
-/// The doubt about a file whose numbers are most likely mm with decimals.
+/// The warning for a file whose numbers are most likely mm with decimals.
 fn of_decimal_mm(unit: &Unit, extent: &Extent) -> Diagnostic {
     let (length, width) = extent.size();
     let message =
@@ -179,7 +179,7 @@ fn of_decimal_mm(unit: &Unit, extent: &Extent) -> Diagnostic {
     finding.hint("let the CAD write whole numbers, 10 a mm; where it is right, `--set units=mm/10` says so")
 }
 
-/// The doubt about the unit of a drawing that fits neither its title nor any table.
+/// The warning for a drawing that fits neither its title nor any table.
 fn doubt(Sized { unit, extent, title, .. }: Sized) -> Diagnostic {
     let (length, width) = extent.size();
     let drawn = format!("{length:.0} x {width:.0} mm");
@@ -203,7 +203,7 @@ fn doubt(Sized { unit, extent, title, .. }: Sized) -> Diagnostic {
     }
 }
 
-/// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
+/// Warns if the drawing fits neither its title nor any table, and names the units that would fit.
 pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnostics) {
     let Sized { unit, extent, title, bytes } = sized;
     if extent.is_empty() {
@@ -257,7 +257,7 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
     out.push(finding);
 }
 
-/// A place of the file, mm; the first that is too far is kept, to be reported in the end.
+/// Converts a point of the file to mm. The first point that is too far away is recorded in `far`, for a later report.
 pub(super) fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(Point, Span)>) -> Point {
     let to = scale(place, unit);
     if (to.x.abs() > FARTHEST) | (to.y.abs() > FARTHEST) {
@@ -266,7 +266,8 @@ pub(super) fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(
     to
 }
 
-/// The places of a run, mm, added to some vertices; likewise. Gives the last of them.
+/// Converts the points of a run to mm and appends them to `vertices`. The first point that is too far away is recorded in
+/// `far`. Returns the last point, in units of the file.
 pub(super) fn convert_run(
     run: &Run,
     unit: f64,
@@ -287,7 +288,7 @@ fn keep_first(far: &mut Option<(Point, Span)>, to: Point, span: Span) {
     far.get_or_insert((to, span));
 }
 
-/// One multiplication, so that equal numbers of the file are equal to the bit.
+/// Converts with a single multiplication, so that equal numbers of the file give equal bits.
 pub(super) fn scale(place: [f64; 2], unit: f64) -> Point {
     Point::new(place[0] * unit, place[1] * unit)
 }

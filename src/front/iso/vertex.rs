@@ -1,21 +1,21 @@
-//! The places that the knife comes to, kept as the segment list takes them: points, blocks, and what codes ask for, each
-//! beside the others.
+//! Vertices of the knife path, stored in the layout of the segment list: separate vectors of points, blocks, and requests of
+//! codes.
 
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Range, SegmentList};
 use crate::source::Span;
 
-/// A place that the knife comes to.
+/// A vertex of the knife path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Vertex {
     pub(super) at: Point,
     pub(super) span: Span,
     pub(super) joint: Joint,
-    /// Speed of the way to it, percent.
+    /// Speed of the motion to it, percent.
     pub(super) percent: u8,
 }
 
-/// What codes ask for at a vertex: as most do, nothing.
+/// Requests of codes at a vertex; the default is none, as at most vertices.
 #[derive(Debug, Clone, Copy)]
 struct Asked {
     joint: Joint,
@@ -39,7 +39,7 @@ impl Asked {
 pub(super) struct Vertices {
     points: Vec<Point>,
     spans: Vec<Span>,
-    /// Only as long as it takes to hold all that is asked.
+    /// Requests up to the last vertex that has one; may be shorter than `points`.
     asked: Vec<Asked>,
 }
 
@@ -53,13 +53,13 @@ impl Vertices {
         self.spans.push(span);
     }
 
-    /// Adds some, each with its span, at which nothing is asked for.
+    /// Appends vertices without requests.
     pub(super) fn extend(&mut self, points: impl ExactSizeIterator<Item = Point>, spans: &[Span]) {
         self.points.extend(points);
         self.spans.extend_from_slice(spans);
     }
 
-    /// Gives the way to each vertex from `first` on a speed, percent.
+    /// Sets the speed of the motion to each vertex from index `first` on, percent.
     pub(super) fn set_speed(&mut self, first: usize, percent: u8) {
         if percent != FULL_SPEED {
             (first..self.points.len()).for_each(|i| self.asked_mut(i).percent = percent);
@@ -76,7 +76,7 @@ impl Vertices {
         Some(Vertex { at, span, joint, percent })
     }
 
-    /// What is asked for at the joint of a vertex, to change.
+    /// The joint of a vertex, for changes.
     pub(super) fn joint_mut(&mut self, i: usize) -> &mut Joint {
         &mut self.asked_mut(i).joint
     }
@@ -92,21 +92,21 @@ impl Vertices {
         &mut self.asked[i]
     }
 
-    /// Takes the last one away.
+    /// Removes the last vertex.
     pub(super) fn pop(&mut self) {
         self.points.pop();
         self.spans.pop();
         self.asked.truncate(self.points.len());
     }
 
-    /// Takes all away; their room stays.
+    /// Removes all vertices and keeps the capacity.
     pub(super) fn clear(&mut self) {
         self.points.clear();
         self.spans.clear();
         self.asked.clear();
     }
 
-    /// Writes the segments between them into a list; `None` when there are none.
+    /// Writes the segments between the vertices into a list; `None` if there are none.
     pub(super) fn write(&self, list: &mut SegmentList) -> Option<Range> {
         let mut range = list.append_line(&self.points, &self.spans)?;
         let mut cursor = list.cursor(&mut range);

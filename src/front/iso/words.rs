@@ -1,8 +1,8 @@
-//! The codes of cut files, and what is done about them.
+//! Manual entries on the codes of cut files.
 
 use crate::front::Word;
 
-/// The codes of cut files, and what is done about them.
+/// The codes of cut files and their effects.
 #[rustfmt::skip] // a table: a row a line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down" },
