@@ -1,9 +1,9 @@
-//! How often something happens in a plot.
+//! Counter of occurrences in a plot.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// How often something happens, and where first.
+/// Number of occurrences, and the location of the first.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Count {
     pub(super) count: usize,
@@ -11,7 +11,7 @@ pub(super) struct Count {
 }
 
 impl Count {
-    /// Once more.
+    /// Adds an occurrence.
     pub(super) fn add(&mut self, span: Span) {
         self.count += 1;
         self.first.get_or_insert(span);
@@ -22,7 +22,7 @@ impl Count {
         if self.count == 1 { "once".to_owned() } else { format!("{} times", self.count) }
     }
 
-    /// A finding where it happens first.
+    /// A diagnostic at the first occurrence.
     pub(super) fn diagnostic(&self, code: &'static Code, message: String) -> Diagnostic {
         Diagnostic { span: self.first, ..Diagnostic::new(code, message) }
     }

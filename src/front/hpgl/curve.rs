@@ -1,30 +1,30 @@
-//! Arcs and Bezier curves as chords, in units of the plotter.
+//! Arcs and Bezier curves as chords, in plotter units.
 //!
-//! Arcs are circular in the units of the file: a scale with two factors makes ellipses of them. (Hewlett-Packard, "HP-GL/2
-//! and HP RTL Reference Guide", CI: with anisotropic scaling the figure drawn is an ellipse.)
+//! Arcs are circular in units of the file; a scale with two factors turns them into ellipses. (Hewlett-Packard, "HP-GL/2 and HP
+//! RTL Reference Guide", CI: with anisotropic scaling the figure drawn is an ellipse.)
 
 use std::f64::consts::TAU;
 
 use super::scale::{Pair, Stretch};
 
-/// The most chords of one curve: a damaged number must not fill the memory.
+/// Maximum number of chords of one curve, so that a damaged number cannot exhaust the memory.
 const MOST_CHORDS: f64 = 100_000.0;
-/// Three places whose triangle is lower than this, in units of the plotter, lie on a line: hundred times what rounding
-/// leaves of places within a kilometre.
+/// Height of a triangle, in plotter units, below which its corners are collinear: a hundred times the rounding of coordinates
+/// within a kilometre.
 const LINE_EPSILON: f64 = 1e-6;
 
-/// An arc of a circle, or of the ellipse that a scale makes of it.
+/// An arc of a circle, or of the ellipse that the scale turns it into.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
     pub(super) from: Pair,
     pub(super) centre: Pair,
-    /// rad, counter-clockwise positive before it is stretched; more than a full turn is a full turn.
+    /// Sweep, rad, counter-clockwise positive, before the stretch; more than a full turn counts as a full turn.
     pub(super) sweep: f64,
     pub(super) stretch: Stretch,
 }
 
 impl Arc {
-    /// The ends of its chords, none farther from it than `sagitta`. A full turn ends where it starts, to the bit.
+    /// The ends of its chords, each within `sagitta` of the arc. A full turn ends exactly at its start point.
     pub(super) fn flatten(&self, sagitta: f64) -> impl DoubleEndedIterator<Item = Pair> + use<> {
         let Self { from, centre, sweep, stretch } = *self;
         let start = stretch.undone(centre, from);
@@ -45,26 +45,27 @@ impl Arc {
         })
     }
 
-    /// The arc by way of some places; `None` when they lie on a line, or the arc bows out of its chord by no more than
-    /// `sagitta`: the chord stands for it.
+    /// The arc through three points. `None` if they are collinear, or if the arc deviates from its chord by at most `sagitta`;
+    /// the chord then replaces it.
     pub(super) fn through(Through { from, middle, to, stretch }: Through, sagitta: f64) -> Option<Self> {
         let (a, b) = (stretch.undone(from, middle), stretch.undone(from, to));
         let (square_a, square_b) = (a[0] * a[0] + a[1] * a[1], b[0] * b[0] + b[1] * b[1]);
         let epsilon = LINE_EPSILON * stretch.unevenness();
         if square_b.sqrt() <= epsilon && square_a.sqrt() > epsilon {
-            // A full circle: the middle lies opposite.
+            // A full circle: the middle point is diametrically opposite.
             let centre = [f64::midpoint(from[0], middle[0]), f64::midpoint(from[1], middle[1])];
             return Some(Self { from, centre, sweep: TAU, stretch });
         }
         let doubled = 2.0 * (a[0] * b[1] - a[1] * b[0]);
         let along = a[0] * b[0] + a[1] * b[1];
         let square_c = square_a + square_b - 2.0 * along;
-        // Twice the area of the triangle is its longest side by its height on it.
+        // Twice the area of the triangle equals its longest side times its height.
         let height = doubled.abs() / 2.0 / square_a.max(square_b).max(square_c).sqrt();
-        // The product of the sides is four times the area by the radius; an arc bows out of its chord b by b2 / (8 r).
+        // The product of the sides is four times the area times the circumradius; an arc deviates from its chord b by b2 / (8
+        // r).
         let deviation = square_b * doubled.abs() / (8.0 * (square_a * square_b * square_c).sqrt());
         let is_between = (0.0..=square_b).contains(&along);
-        // Three equal places have no height at all.
+        // Three equal points have no height; it is NaN.
         if height.is_nan() || height <= epsilon || is_between && deviation <= sagitta {
             return None;
         }
@@ -72,12 +73,12 @@ impl Arc {
         let angle = |p: Pair| (p[1] - seen[1]).atan2(p[0] - seen[0]);
         let turned = (angle(b) - angle([0.0, 0.0])).rem_euclid(TAU);
         let centre = [from[0] + stretch.0[0] * seen[0], from[1] + stretch.0[1] * seen[1]];
-        // Counter-clockwise when the end lies left of the way from the start to the middle.
+        // Counter-clockwise if the end lies left of the line from the start to the middle point.
         Some(Self { from, centre, sweep: if doubled > 0.0 { turned } else { turned - TAU }, stretch })
     }
 }
 
-/// The places that an arc is led through, in their order.
+/// The points of a three-point arc, in order.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Through {
     pub(super) from: Pair,
@@ -86,13 +87,13 @@ pub(super) struct Through {
     pub(super) stretch: Stretch,
 }
 
-/// A cubic Bezier curve by its four control points.
+/// A cubic Bezier curve, by its four control points.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bezier(pub(super) [Pair; 4]);
 
 impl Bezier {
-    /// The ends of its chords, none farther from it than `sagitta`, the last one exact. Their number is Wang's bound for
-    /// equal steps: the root of 6 m / (8 s), m the greatest second difference of the control points. (Wang, "The
+    /// The ends of its chords, each within `sagitta` of the curve; the last one is exact. Their number is Wang's bound for
+    /// equal steps: the square root of 6 m / (8 s), with m the maximum second difference of the control points. (Wang, "The
     /// subdivision method for finding the intersection between two Bezier curves or surfaces", 1984.)
     pub(super) fn flatten(&self, sagitta: f64) -> impl DoubleEndedIterator<Item = Pair> + use<> {
         let p = self.0;
@@ -159,7 +160,7 @@ mod tests {
             let mut before = from;
             for to in arc.flatten(SAGITTA) {
                 assert!(((to[0] / 1000.0).hypot(to[1] / 250.0) - 1.0).abs() < 1e-12 && to[1] < 1e-9, "{to:?}");
-                // The farthest place of an ellipse from its chord is where the angles of its ends are halved.
+                // The deviation of an ellipse from its chord is largest midway between the angles of its ends.
                 let (sin, cos) = (before[1] / 250.0 + to[1] / 250.0, before[0] / 1000.0 + to[0] / 1000.0);
                 let (sin, cos) = (sin / sin.hypot(cos), cos / sin.hypot(cos));
                 let (way, deviation) =
@@ -209,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_bezier_is_as_long_as_its_arc() {
-        // A quarter of a circle, 0.5523 of the radius to each control point.
+        // A quarter of a circle; the control points are 0.5523 of the radius from the ends.
         let quarter = Bezier([[1000.0, 0.0], [1000.0, 552.3], [552.3, 1000.0], [0.0, 1000.0]]);
         let found = length([1000.0, 0.0], quarter.flatten(0.01));
         assert!((found - 1000.0 * TAU / 4.0).abs() < 0.5, "{found}");

@@ -1,30 +1,30 @@
-//! Decimal commas: plots of programs that write numbers as the language of the computer has them. Their pairs read as
-//! four numbers, all of them at other places.
+//! Detection of decimal commas, written by programs that format numbers in the language of the computer. A pair of such numbers
+//! reads as four numbers with wrong values.
 
-/// Bytes that are looked at.
+/// Number of bytes examined.
 const LOOKED_AT: usize = 4096;
-/// Numbers that show it: fewer may be chance.
+/// Minimum number of numbers as evidence; fewer may be chance.
 const LEAST: usize = 4;
-/// Decimals of a number at the least where blanks part the numbers: one digit behind a comma may as well be a
-/// coordinate.
+/// Minimum number of decimals where blanks separate the numbers; a single digit after a comma may be a coordinate.
 const LEAST_DECIMALS: usize = 2;
-/// Height below which a drawing is flat, mm: the digits behind the commas, read as Y, stay within it.
+/// Height below which a drawing is flat, mm. Decimals that are read as Y stay below it.
 const FLAT: f64 = 3.0;
-/// Places of a flat drawing at the least, and how much longer than high it is: a square in which commas are read wrong.
+/// Minimum number of points of a flat drawing, and its minimum ratio of length to height. A square with misread commas reaches
+/// both.
 const LEAST_PLACES: usize = 6;
 const FLAT_RATIO: f64 = 8.0;
 
-/// Whether the places of a plot have commas for points. Behind each comma stand as many digits, and some of these begin
-/// with a zero, which no coordinate does; or all digits behind commas read as Y make a drawing that is flat. `unit` is
-/// that of the file, mm.
+/// True if the coordinates of a plot have decimal commas. Either all numbers have equally many digits after the comma, some of
+/// which begin with a zero, as no coordinate does; or the digits after the commas, read as Y, make a flat drawing. `unit` is
+/// the unit of the file, mm.
 pub(super) fn has(bytes: &[u8], unit: f64) -> bool {
     let head = &bytes[..bytes.len().min(LOOKED_AT)];
-    // The last instruction may go on behind what is looked at.
+    // The last instruction may be truncated.
     let end = memchr::memrchr(b';', head).unwrap_or(0);
     are_parted_by_blanks(places(&head[..end])) || is_flat(bytes, unit)
 }
 
-/// The numbers of each instruction that leads the pen, where there are some.
+/// The numbers of each pen instruction that has some.
 fn places(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let instructions = bytes.split(|&byte| byte == b';').map(<[u8]>::trim_ascii);
     let places = instructions.filter_map(|instruction| match instruction {
@@ -34,7 +34,7 @@ fn places(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     places.filter(|places| !places.is_empty())
 }
 
-/// Whether each number has a comma, with as many digits behind it, some of which begin with a zero.
+/// True if every number has a comma with equally many digits after it, and some of these begin with a zero.
 fn are_parted_by_blanks<'a>(places: impl Iterator<Item = &'a [u8]>) -> bool {
     let numbers = places.flat_map(|places| places.split(|&byte| byte == b' '));
     let (mut count, mut decimals, mut has_zero) = (0, None, false);
@@ -53,9 +53,9 @@ fn are_parted_by_blanks<'a>(places: impl Iterator<Item = &'a [u8]>) -> bool {
     has_zero && count >= LEAST
 }
 
-/// Whether all places of a plot, read in pairs, have a Y without a sign and of as many digits, so that all of it is as
-/// good as one line, which some of them leave. Small relative moves and scales are another matter. Nearly all plots end
-/// the search at one of their first places.
+/// True if all points of a plot, read as pairs, have a Y without a sign and with equally many digits, so that the drawing is
+/// nearly a line but not exactly one. Plots with relative moves or scales are excluded. In nearly all plots one of the first
+/// points ends the search.
 fn is_flat(bytes: &[u8], unit: f64) -> bool {
     let (mut x, mut y) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, 0.0_f64]);
     let (mut digits, mut count) = (None, 0);

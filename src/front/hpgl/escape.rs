@@ -1,4 +1,4 @@
-//! Escape sequences of plotters and printers, and the job language around a plot: all of it is passed over but resets.
+//! Escape sequences of plotters and printers, and the job language around a plot. All are skipped except resets.
 
 use nom::bytes::complete::{take, take_while, take_while1};
 use nom::character::complete::{char, one_of, satisfy};
@@ -6,36 +6,36 @@ use nom::combinator::{opt, recognize, value};
 use nom::sequence::{preceded, terminated};
 use nom::{AsChar, IResult, Parser, branch::alt};
 
-/// What a sequence does.
+/// Effect of a sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Escape {
-    /// The plotter is as switched on.
+    /// Resets the plotter to its power-on state.
     Reset,
-    /// Nothing that matters for lines.
+    /// No effect on lines.
     Other,
 }
 
 type Out<'a> = IResult<&'a [u8], Escape>;
 
-/// `<escape>`: what begins with the escape character.
+/// `<escape>`: a sequence that begins with the escape character.
 pub(super) fn escape(i: &[u8]) -> Out<'_> {
     preceded(char('\u{1b}'), alt((value(Escape::Reset, char('E')), device, language, parametrised, two))).parse(i)
 }
 
-/// `<device>`: `.` and a letter, for interfaces. Numbers behind it end in a colon.
+/// `<device>`: `.` and a letter, for interfaces; optional numbers end in a colon.
 fn device(i: &[u8]) -> Out<'_> {
     let numbers = terminated(take_while(|byte: u8| byte.is_ascii_digit() || byte == b';' || byte == b','), char(':'));
     value(Escape::Other, (char('.'), satisfy(|c| c.is_ascii_graphic()), opt(numbers))).parse(i)
 }
 
-/// `<language>`: `%`, a number and a letter: into HP-GL/2 (B), out of it (A), out of all (X).
+/// `<language>`: `%`, a number and a letter: enter HP-GL/2 (B), leave it (A), exit the language (X).
 fn language(i: &[u8]) -> Out<'_> {
     value(Escape::Other, (char('%'), opt(one_of("+-")), take_while1(AsChar::is_dec_digit), satisfy(AsChar::is_alpha)))
         .parse(i)
 }
 
-/// `<parametrised>`: a mark, a group, then numbers that end in letters, the last one in upper case. Data may stand behind
-/// it, which are no part of the grammar.
+/// `<parametrised>`: a mark, a group, then numbers that end in letters, the last one in upper case. Binary data may follow;
+/// they are outside the grammar.
 fn parametrised(i: &[u8]) -> Out<'_> {
     let body = take_while(|byte: u8| byte.is_ascii_digit() || byte.is_ascii_lowercase() || b"+-.".contains(&byte));
     let mut rule = (one_of("!\"#$&'()*+,/"), body, satisfy(|c| c.is_ascii_uppercase() || c == '@'));
@@ -44,8 +44,8 @@ fn parametrised(i: &[u8]) -> Out<'_> {
     value(Escape::Other, take(length)).parse(rest)
 }
 
-/// Whether data stand behind a sequence: those of W (raster rows, fonts, patterns, colours), planes of raster rows, and texts
-/// that are printed whatever they hold (Hewlett-Packard, "PCL 5 Printer Language Technical Reference Manual").
+/// True if data follow a sequence: those of W (raster rows, fonts, patterns, colours), planes of raster rows, and transparent
+/// texts, which are printed unparsed (Hewlett-Packard, "PCL 5 Printer Language Technical Reference Manual").
 fn has_data(mark: char, body: &[u8], last: char) -> bool {
     match last {
         'W' => true,
@@ -55,18 +55,18 @@ fn has_data(mark: char, body: &[u8], last: char) -> bool {
     }
 }
 
-/// The number at the end of a sequence, before its last letter: how many bytes of data stand behind it.
+/// The number before the last letter of a sequence: the length of the data after it, bytes.
 fn count(body: &[u8]) -> usize {
     let start = body.iter().rposition(u8::is_ascii_lowercase).map_or(0, |letter| letter + 1);
     let digits = std::str::from_utf8(&body[start..]).unwrap_or_default();
     if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
         return 0;
     }
-    // More than can be counted is more than any file has.
+    // A count beyond `usize` exceeds the size of any file.
     digits.parse().unwrap_or(usize::MAX)
 }
 
-/// `<two>`: any other letter or digit.
+/// `<two>`: a single letter or digit, or `=`.
 fn two(i: &[u8]) -> Out<'_> {
     value(Escape::Other, recognize(satisfy(|c| c.is_ascii_alphanumeric() || c == '='))).parse(i)
 }

@@ -1,17 +1,17 @@
-//! Every instruction that is known: a table.
+//! Table of the known instructions.
 
 use super::page::End;
 
-/// What an instruction does, as far as lines matter.
+/// Effect of an instruction on lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Instruction {
-    /// IN: as switched on.
+    /// IN: reset to the power-on state.
     Initialize,
-    /// BP: the same, with a title among its values.
+    /// BP: reset as by IN, with a title among its values.
     Begin,
-    /// DF: modes as switched on; pen, place, corners and turn stay.
+    /// DF: reset of modes; pen, position, corners and rotation stay.
     Default,
-    /// PA, PR: places from here on are absolute or relative.
+    /// PA, PR: the following coordinates are absolute or relative.
     Absolute,
     Relative,
     /// PU, PD.
@@ -21,7 +21,7 @@ pub(super) enum Instruction {
     Pen,
     /// PE.
     Encoded,
-    /// AA, AR: an arc by its centre and sweep.
+    /// AA, AR: an arc, by centre and sweep.
     ArcAbsolute,
     ArcRelative,
     /// AT, RT: an arc through two points.
@@ -52,50 +52,50 @@ pub(super) enum Instruction {
     /// LB, DT.
     Label,
     Terminator,
-    /// BL keeps a text, PB writes it.
+    /// BL stores a text, PB draws it.
     Buffer,
     PrintBuffer,
     /// WD: a text for the plotter's display.
     Display,
-    /// CO, MG: a text that is not drawn.
+    /// CO, MG: a text without output on paper.
     Comment,
-    /// SM: a character that is drawn at each place.
+    /// SM: a character drawn at each point.
     Symbol,
     /// DI, DR: direction of labels.
     Direction,
-    /// Something that draws and is left out: what it is.
+    /// Draws but is ignored, with a description.
     LeftOut(&'static str),
-    /// The same, and it moves the pen by the size of letters, which nobody knows.
+    /// Draws but is ignored, with a description; also moves the pen by the size of letters, which is unknown.
     Letters(&'static str),
     /// No effect on lines.
     Housekeeping,
-    /// Not in the table.
+    /// Missing in this table.
     Unknown,
 }
 
-/// What stands behind a mnemonic.
+/// Content after a mnemonic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tail {
     /// Numbers, or nothing.
     Numbers,
-    /// A text up to the terminator of labels.
+    /// A text up to the label terminator.
     Text,
-    /// A text in quotes, or up to that terminator.
+    /// A text in quotes, or up to the label terminator.
     Display,
-    /// A byte that becomes that terminator.
+    /// A byte that becomes the label terminator.
     Terminator,
-    /// A byte.
+    /// One byte.
     Character,
     /// A text in quotes.
     Quoted,
-    /// Numbers, and texts in quotes among them.
+    /// Numbers and quoted texts.
     Values,
-    /// Numbers in digits of base 64 or 32.
+    /// Numbers with digits of base 64 or 32.
     Encoded,
 }
 
 impl Instruction {
-    /// What stands behind its mnemonic.
+    /// Content after its mnemonic.
     pub(super) fn tail(self) -> Tail {
         match self {
             Self::Label | Self::Buffer => Tail::Text,
@@ -140,7 +140,7 @@ impl Instruction {
     }
 }
 
-/// The instruction of a mnemonic in upper case.
+/// The instruction with a mnemonic, which must be in upper case.
 pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
     match &mnemonic {
         b"PD" => Instruction::Down,

@@ -1,44 +1,44 @@
-//! Texts: those of labels, up to the terminator that DT gives, and those in quotes.
+//! Texts: labels up to the terminator defined by DT, and quoted texts.
 
-/// The terminator of a label unless DT gives another: ETX.
+/// Default terminator of labels: ETX.
 const ETX: u8 = 3;
-/// Longest text that a label has, bytes: a longer one has lost its terminator and would swallow what is drawn.
+/// Maximum length of a label, bytes. A longer one has lost its terminator and would hide drawing instructions.
 const LONGEST: usize = 1024;
-/// Fewest pen-down places of an outline: a text that holds a move and as many places has lost its terminator.
+/// Minimum number of pen-down points of an outline. A text that contains a move and that many points has lost its terminator.
 const OUTLINE: usize = 3;
 
-/// The terminator in force.
+/// The current label terminator.
 #[derive(Debug)]
 pub(super) struct Terminator {
     byte: u8,
 }
 
-/// A text, and where the file goes on.
+/// A text and the position after it.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Text {
-    /// One past its last byte.
+    /// Offset after its last byte.
     pub(super) end: usize,
-    /// The next byte behind its terminator.
+    /// Offset after its terminator.
     pub(super) next: usize,
-    /// Whether its terminator is missing.
+    /// True if the terminator is missing.
     pub(super) is_open: bool,
 }
 
 impl Terminator {
-    /// As switched on.
+    /// The power-on terminator.
     pub(super) fn new() -> Self {
         Self { byte: ETX }
     }
 
-    /// DT: the byte behind it, whatever it is, but a semicolon; where the file goes on.
+    /// DT: the next byte of any value, except a semicolon, becomes the terminator. Returns the offset after it.
     pub(super) fn define(&mut self, bytes: &[u8], at: usize) -> usize {
         let given = bytes.get(at).copied().filter(|&byte| byte != b';');
         self.byte = given.unwrap_or(ETX);
         at + usize::from(given.is_some())
     }
 
-    /// The text that starts at `at`. One whose terminator is missing ends with its line or at a semicolon; the terminator
-    /// behind an outline is that of a later text.
+    /// The text that starts at `at`. Without a terminator it ends at its line end or at a semicolon. A terminator after an
+    /// outline belongs to a later text.
     pub(super) fn text(&self, bytes: &[u8], at: usize) -> Text {
         let window = &bytes[at..bytes.len().min(at + LONGEST)];
         if let Some(length) = memchr::memchr(self.byte, window)
@@ -51,7 +51,7 @@ impl Terminator {
     }
 }
 
-/// Whether a text holds instructions that draw an outline.
+/// True if a text contains instructions that draw an outline.
 fn holds_outline(text: &[u8]) -> bool {
     let (mut is_placed, mut down) = (false, 0);
     for instruction in text.split(|byte| b";\r\n".contains(byte)) {
@@ -67,8 +67,8 @@ fn holds_outline(text: &[u8]) -> bool {
     down >= OUTLINE
 }
 
-/// Where the file goes on behind the quoted text of CO or MG. One without its second quote, or without any, ends with its
-/// line, at a semicolon, or at ETX, which ends texts of plotters whatever DT says.
+/// Offset after the quoted text of CO or MG. A text without both quotes ends at its line end, at a semicolon, or at ETX, which
+/// ends texts on plotters whatever DT defines.
 pub(super) fn quoted(bytes: &[u8], at: usize) -> usize {
     in_quotes(bytes, at).unwrap_or_else(|| {
         let rest = &bytes[at..];
@@ -76,8 +76,8 @@ pub(super) fn quoted(bytes: &[u8], at: usize) -> usize {
     })
 }
 
-/// Where the file goes on behind a text in quotes: a quote within it stands twice. `None` without both of its quotes, and
-/// where an outline stands between them: then one is lost.
+/// Offset after a text in quotes, in which a doubled quote stands for one. `None` if a quote is missing, or if an outline
+/// between the quotes shows that one was lost.
 pub(super) fn in_quotes(bytes: &[u8], at: usize) -> Option<usize> {
     let at = at + bytes[at..].iter().take_while(|byte| **byte == b' ').count();
     if bytes.get(at) != Some(&b'"') {

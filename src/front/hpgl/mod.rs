@@ -1,14 +1,13 @@
-//! HPGL plots: HP-GL and HP-GL/2 as garment CAD writes them (a subset is ASTM D6959).
+//! HPGL plots: HP-GL and HP-GL/2 as written by garment CAD (a subset is ASTM D6959).
 //!
-//! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact
-//! encodings, curves, scales. Promises a drawing in mm: strokes with the numbers of their pens, texts, and how the file
-//! ends. Equal places are equal to the bit; curves are chords within a quarter of the tolerance. Never decides what is
-//! cut.
+//! Receives bytes: two-letter instructions with numbers, in all the spellings that plotters tolerate, compact encodings,
+//! curves, scales. Promises a drawing in mm: strokes with their pen numbers, texts, and the kind of end of the file. Equal
+//! points have equal bits; curves are chords within a quarter of the tolerance. Never decides what is cut.
 //!
-//! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the
-//! table of what they mean; [`decimal_comma`] tells files whose numbers are none; [`mod@lower`] follows them with the
-//! [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the size, [`page`] drawings that lie on each other;
-//! [`tally`] counts what was not obeyed, [`lost`] what may be lost.
+//! [`reader`] parses statements with [`syntax`], [`escape`], [`label`] and [`encoded`]. [`instruction`] is the table of their
+//! meanings. [`decimal_comma`] detects files with decimal commas. [`mod@lower`] executes the statements with the [`plotter`],
+//! its [`scale`] and [`curve`]. [`mod@unit`] checks the size, [`page`] finds overlapping pages, [`tally`] counts ignored
+//! statements, [`lost`] handles lost characters.
 
 mod count;
 mod curve;
@@ -47,16 +46,16 @@ pub(super) const DIALECT: Dialect = Dialect {
     words: words::WORDS,
 };
 
-/// Statements that are looked at to recognise a file, and bytes of it.
+/// Number of statements and of bytes examined to recognise a file.
 const SNIFFED_STATEMENTS: usize = 64;
 const SNIFFED_BYTES: usize = 4096;
-/// Instructions that must be known for a file to be recognised without doubt.
+/// Number of known instructions from which a file is recognised for certain.
 const SURE_INSTRUCTIONS: usize = 3;
-/// Farthest that the chords of a curve may lie off it, as a part of the tolerance.
+/// Maximum deviation of chords from their curve, as a fraction of the tolerance.
 const SAGITTA: f64 = 0.25;
 
 fn sniff(bytes: &[u8]) -> Likeness {
-    // A raster picture may stand before the lines; its data are counted, and passed over.
+    // A raster picture may precede the lines; its data are counted and skipped.
     let most = if bytes.starts_with(b"\x1b") { bytes.len() } else { SNIFFED_BYTES };
     let mut reader = Reader::new(&bytes[..bytes.len().min(most)]);
     let (mut known, mut all, mut moves) = (0, 0, false);
@@ -84,7 +83,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
     }
 }
 
-/// Whether the bytes are statements.
+/// Checks that the bytes are statements.
 fn check_syntax(source: &Source, out: &mut Diagnostics) {
     let mut reader = Reader::new(source.bytes());
     while let Some((statement, span)) = reader.next() {

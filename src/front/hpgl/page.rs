@@ -1,25 +1,25 @@
-//! Pages: drawing that goes on behind the end of one, and so lies on the drawing before it.
+//! Pages: drawing after the end of a page, which overlaps the drawing before it.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
 use crate::ir::Drawing;
 use crate::source::Span;
 
-/// End of a page, a lesser one before a greater one.
+/// End of a page, in order of increasing severity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum End {
-    /// IN, BP, `ESC E`: the plotter starts afresh, which programs write between plots that are joined.
+    /// IN, BP, `ESC E`: the plotter is reset; programs write these between concatenated plots.
     Afresh,
     /// EC: the paper is cut off.
     CutOff,
-    /// PG, AF, AH: the page goes out.
+    /// PG, AF, AH: the page is ejected.
     Out,
-    /// FR: the paper is moved on by a frame. Places behind it have the same numbers and lie a frame farther on.
-    /// (Hewlett-Packard, "HP 7585B and 7586B Interfacing and Programming Manual", FR.)
+    /// FR: the paper advances by a frame. Coordinates after it restart and lie one frame farther on. (Hewlett-Packard, "HP
+    /// 7585B and 7586B Interfacing and Programming Manual", FR.)
     Frame,
 }
 
-/// Ends of pages amid a plot.
+/// Ends of pages inside a plot.
 #[derive(Debug, Default)]
 pub(super) struct Pages {
     ends: Vec<PageEnd>,
@@ -34,7 +34,7 @@ struct PageEnd {
 }
 
 impl Pages {
-    /// Records an end behind `drawn` strokes. Several in a row count as the greatest of them.
+    /// Records an end after `drawn` strokes. Consecutive ends count as the most severe of them.
     pub(super) fn end(&mut self, kind: End, drawn: usize, span: Span) {
         match self.ends.last_mut().filter(|last| last.drawn == drawn) {
             Some(last) if last.kind < kind => (last.kind, last.span) = (kind, span),
@@ -43,7 +43,7 @@ impl Pages {
         }
     }
 
-    /// Reports the first end of each kind that is followed by drawing.
+    /// Reports the first end of each kind with drawing after it.
     pub(super) fn report(&self, drawing: &Drawing, out: &mut Diagnostics) {
         let drawn = drawing.strokes.len();
         let first = |kind| self.ends.iter().find(|end| end.kind == kind && end.drawn < drawn).map(|end| end.span);
@@ -63,7 +63,7 @@ impl Pages {
         }
     }
 
-    /// The first fresh start whose strokes up to the next end lie among those before it.
+    /// The first reset whose strokes, up to the next end, overlap the strokes before it.
     fn drawn_over(&self, drawing: &Drawing) -> Option<Span> {
         let extent = |from: usize, to: usize| {
             let mut extent = Extent::EMPTY;

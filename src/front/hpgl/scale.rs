@@ -1,88 +1,88 @@
-//! From the numbers of the file to units of the plotter: SC between the corners P1 and P2 of IP or IR, and RO.
+//! Conversion of file coordinates to plotter units: SC between the corners P1 and P2 of IP or IR, and RO.
 
-/// A place or a way, in units of the file or of the plotter.
+/// A point or a vector, in units of the file or of the plotter.
 pub(super) type Pair = [f64; 2];
 
-/// How numbers become places.
+/// Mapping of numbers to positions.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Frame {
-    /// The corners P1 and P2, in units of the plotter.
+    /// The corners P1 and P2, in plotter units.
     corners: [Pair; 2],
-    /// Whether the file says how far they are apart; without that the plotter does.
+    /// True if the file gives the distance between the corners; otherwise it depends on the plotter.
     are_corners_given: bool,
-    /// Size of the page (PS), in units of the plotter.
+    /// Size of the page (PS), in plotter units.
     page: Option<Pair>,
-    /// The numbers of SC in force; `None` = numbers are units of the plotter.
+    /// The ranges of SC in force; `None` if numbers are plotter units.
     ranges: Option<Ranges>,
-    /// What they make of the corners.
+    /// Scale from the ranges and the corners.
     scale: Option<Scale>,
     /// Quarter turns of RO, counter-clockwise.
     quarters: u8,
 }
 
-/// What SC says. It holds for whatever corners follow: a plotter moves and stretches the picture with them.
-/// (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", IP and SC.)
+/// Values of SC. They remain valid for later corners: a plotter moves and stretches the picture with them. (Hewlett-Packard,
+/// "HP-GL/2 and HP RTL Reference Guide", IP and SC.)
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Ranges {
     x: [f64; 2],
     y: [f64; 2],
     kind: f64,
-    /// Where the picture lies in what equal scales leave over: 0 = left and below, 1 = right and above.
+    /// Position of the picture in the space left over by equal scales: 0 = left and bottom, 1 = right and top.
     share: Pair,
 }
 
-/// `offset + number * factor`.
+/// A scale: `offset + number * factor`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Scale {
     offset: Pair,
     factor: Pair,
 }
 
-/// Something that the file leaves to the device.
+/// A value that depends on the plotter, or is unusable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Unknown {
-    /// SC without IP or IR: the corners differ from plotter to plotter.
+    /// SC without IP or IR: the corners depend on the plotter.
     Corners,
     /// IR without PS.
     Page,
-    /// A scale from or to a range without width.
+    /// A scale from or to an empty range.
     Range,
-    /// SC with fewer than four numbers, IP or IR with one or three.
+    /// SC with fewer than four numbers, or IP or IR with one or three.
     Incomplete,
-    /// RO by another angle than quarter turns.
+    /// RO by an angle other than quarter turns.
     Angle,
 }
 
 /// Percent.
 const HUNDRED: f64 = 100.0;
-/// The corners of a plotter for A4 paper, in units of 1/40 mm, when the file gives none (HP 7475A).
+/// Corners of a plotter for A4 paper, in units of 1/40 mm, used if the file gives none (HP 7475A).
 const USUAL_CORNERS: [Pair; 2] = [[250.0, 596.0], [10_250.0, 7796.0]];
-/// The third kind of SC: factors instead of ranges; the second keeps the two scales equal.
+/// Kinds of SC: equal scales on both axes, and factors instead of ranges.
 const ISOTROPIC: f64 = 1.0;
 const FACTORS: f64 = 2.0;
 
 impl Frame {
-    /// As switched on.
+    /// The power-on state.
     pub(super) const fn new() -> Self {
         Self { corners: USUAL_CORNERS, are_corners_given: false, page: None, ranges: None, scale: None, quarters: 0 }
     }
 
-    /// IN: a page size stays.
+    /// IN: reset, except the page size.
     pub(super) fn reset(&mut self) {
         *self = Self { page: self.page, ..Self::new() };
     }
 
-    /// DF: the scale ends; corners, page and turn stay.
+    /// DF: the scale ends; corners, page and rotation stay.
     pub(super) fn set_default(&mut self) {
         (self.ranges, self.scale) = (None, None);
     }
 
-    /// Whether numbers are places as they stand.
+    /// True if numbers are plotter units.
     pub(super) fn is_plain(&self) -> bool {
         self.scale.is_none()
     }
 
-    /// IP: P1 and P2. With P1 alone the box moves; without any it is the usual one.
+    /// IP: P1 and P2. P1 alone moves the box; no values restore the default box.
     pub(super) fn set_corners(&mut self, values: &[f64]) -> Result<(), Unknown> {
         let [p1, p2] = self.corners;
         match *values {
@@ -94,7 +94,7 @@ impl Frame {
         self.ranges.map_or(Ok(()), |ranges| self.put(ranges))
     }
 
-    /// IR: the same in percent of the page.
+    /// IR: P1 and P2 in percent of the page.
     pub(super) fn set_corners_percent(&mut self, values: &[f64]) -> Result<(), Unknown> {
         if values.is_empty() {
             return self.set_corners(values);
@@ -109,7 +109,7 @@ impl Frame {
         self.set_corners(&units)
     }
 
-    /// PS: length, then width; with one number both are equal.
+    /// PS: length, then width; a single number sets both.
     pub(super) fn set_page(&mut self, values: &[f64]) {
         self.page = match *values {
             [length, width, ..] => Some([length, width]),
@@ -118,7 +118,7 @@ impl Frame {
         };
     }
 
-    /// RO, degrees; anything but quarter turns is ignored, as plotters do.
+    /// RO, degrees. Angles other than quarter turns are ignored, as by plotters, and reported by the error.
     pub(super) fn rotate(&mut self, values: &[f64]) -> Result<(), Unknown> {
         self.quarters = match values.first().copied().unwrap_or(0.0) {
             0.0 | 360.0 => 0,
@@ -130,19 +130,19 @@ impl Frame {
         Ok(())
     }
 
-    /// SC: ranges that lie between the corners; `Err` when the drawing then has no size.
+    /// SC: ranges between the corners; an error if they give the drawing no size.
     pub(super) fn set_scale(&mut self, values: &[f64]) -> Result<(), Unknown> {
         let [x0, x1, y0, y1, ..] = *values else {
             (self.ranges, self.scale) = (None, None);
             return if values.is_empty() { Ok(()) } else { Err(Unknown::Incomplete) };
         };
         let kind = values.get(4).copied().unwrap_or(0.0);
-        // Half of what is left over if nothing is said.
+        // The default is half of the remaining space.
         let share = [values.get(5), values.get(6)].map(|p| p.copied().unwrap_or(HUNDRED / 2.0) / HUNDRED);
         self.put(Ranges { x: [x0, x1], y: [y0, y1], kind, share })
     }
 
-    /// Lays ranges between the corners; what was in force stays when they have no size.
+    /// Applies ranges to the corners. On an error the previous ones stay in force.
     fn put(&mut self, ranges: Ranges) -> Result<(), Unknown> {
         let Ranges { x: [x0, x1], y: [y0, y1], kind, share } = ranges;
         let [p1, p2] = self.corners;
@@ -170,13 +170,13 @@ impl Frame {
         Ok(())
     }
 
-    /// Whether the size of what is drawn is left to the device: a scale between corners that the file does not give.
-    /// Factors move the drawing to the corners, but its size is theirs alone.
+    /// True if the size of the drawing depends on the plotter: a scale between corners that the file does not give. With
+    /// factors only the position depends on the corners.
     pub(super) fn is_left_to_device(&self) -> bool {
         !self.are_corners_given && self.ranges.is_some_and(|ranges| ranges.kind != FACTORS)
     }
 
-    /// What the scale makes of circles.
+    /// Distortion of circles by the scale.
     pub(super) fn stretch(&self) -> Stretch {
         self.scale.map_or(Stretch::NONE, |Scale { factor: [x, y], .. }| {
             let greater = x.abs().max(y.abs());
@@ -184,7 +184,7 @@ impl Frame {
         })
     }
 
-    /// A place of the file, in units of the plotter before RO.
+    /// Converts a point to plotter units, before RO.
     pub(super) fn place(&self, [x, y]: Pair) -> Pair {
         match self.scale {
             None => [x, y],
@@ -192,7 +192,7 @@ impl Frame {
         }
     }
 
-    /// A way of the file, likewise.
+    /// Converts a vector to plotter units, before RO.
     pub(super) fn way(&self, [x, y]: Pair) -> Pair {
         match self.scale {
             None => [x, y],
@@ -200,7 +200,7 @@ impl Frame {
         }
     }
 
-    /// The same place after RO: turned about the origin, then moved so that a known page lies at the origin again.
+    /// Applies RO to a point: rotates about the origin, then shifts the known page back to the origin.
     pub(super) fn turned(&self, [x, y]: Pair) -> Pair {
         let [length, width] = self.page.unwrap_or([0.0, 0.0]);
         match self.quarters {
@@ -211,7 +211,7 @@ impl Frame {
         }
     }
 
-    /// The place that [`Frame::turned`] makes one of the table from.
+    /// Inverse of [`Frame::turned`].
     pub(super) fn turned_back(&self, [x, y]: Pair) -> Pair {
         let [length, width] = self.page.unwrap_or([0.0, 0.0]);
         match self.quarters {
@@ -222,27 +222,27 @@ impl Frame {
         }
     }
 
-    /// Whether RO turns places.
+    /// True if RO rotates the drawing.
     pub(super) fn is_turned(&self) -> bool {
         self.quarters != 0
     }
 }
 
-/// How far a unit of a circle goes along each axis of the plotter; no more than 1 along either, negative where the axis is
-/// mirrored. So what lies off the circle by some units lies off the ellipse by no more.
+/// Length of a unit of a circle along each axis of the plotter: at most 1, negative on a mirrored axis. A deviation from the
+/// circle is therefore never enlarged on the ellipse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stretch(pub(super) Pair);
 
 impl Stretch {
-    /// A circle stays one.
+    /// No distortion.
     pub(super) const NONE: Self = Self([1.0, 1.0]);
 
-    /// The way between two places of the plotter as it was before.
+    /// The vector between two plotter positions before the stretch.
     pub(super) fn undone(self, from: Pair, to: Pair) -> Pair {
         [(to[0] - from[0]) / self.0[0], (to[1] - from[1]) / self.0[1]]
     }
 
-    /// How much more than others the ways along one axis were stretched, so that their rounding is, too.
+    /// Factor by which rounding errors are enlarged along the axis with the smaller scale.
     pub(super) fn unevenness(self) -> f64 {
         1.0 / self.0[0].abs().min(self.0[1].abs())
     }
@@ -318,7 +318,7 @@ mod tests {
         }
         assert_eq!(frame.rotate(&[45.0]), Err(Unknown::Angle));
         assert_eq!(frame, Frame::new());
-        // P1 alone moves the box of the plotter, whose size nobody knows.
+        // P1 alone moves the box of the plotter, whose size is unknown.
         assert_eq!(frame.set_corners(&[0.0, 0.0]), Ok(()));
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
         assert!(frame.is_left_to_device());

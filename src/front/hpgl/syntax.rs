@@ -1,7 +1,7 @@
-//! The grammar of an instruction, without meaning: one function a rule of `grammar/hpgl.bnf`, in its order.
+//! The grammar of an instruction, without meaning: one function per rule of `grammar/hpgl.bnf`, in its order.
 //!
-//! What stands between instructions, and the bodies that follow rules of their own (labels, encoded polylines, escape
-//! sequences), are in [`super::reader`], [`super::label`], [`super::encoded`] and [`super::escape`].
+//! Bytes between instructions, and bodies with their own rules (labels, encoded polylines, escape sequences), are handled in
+//! [`super::reader`], [`super::label`], [`super::encoded`] and [`super::escape`].
 
 use nom::bytes::complete::take_while;
 use nom::combinator::opt;
@@ -10,15 +10,15 @@ use nom::{Err, IResult, Parser};
 
 use crate::units::digits;
 
-/// What a rule gives.
+/// Result of a rule.
 pub(super) type Out<'a, T> = IResult<&'a [u8], T, Fault>;
 
-/// Why a rule does not match.
+/// Reason why a rule does not match.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
-    /// Something else stands here.
+    /// Other content.
     Other,
-    /// A number is beyond [`VALUE_MAX`].
+    /// A number beyond [`VALUE_MAX`].
     Overflow,
 }
 
@@ -32,15 +32,15 @@ impl<'a> ParseError<&'a [u8]> for Fault {
     }
 }
 
-/// Largest number that is read, in units of the file: 2.5 km of 1/40 mm, far beyond any table, and small enough for
-/// whole numbers and their binary fractions to be exact.
+/// Largest accepted number, in units of the file: 2.5 km in 1/40 mm, far beyond any table. It is small enough for whole numbers
+/// and their binary fractions to be exact.
 pub(super) const VALUE_MAX: f64 = 1e8;
 
-/// Decimals that are read without a search for the nearest number: with nine digits before them, all are exact in `f64`.
+/// Number of decimals that need no search for the nearest number: with nine digits before them, all are exact in `f64`.
 const MOST_DECIMALS: usize = 6;
 const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// `<mnemonic>`: two letters, in upper case.
+/// `<mnemonic>`: two letters, converted to upper case.
 pub(super) fn mnemonic(i: &[u8]) -> Out<'_, [u8; 2]> {
     match i {
         [a, b, rest @ ..] if a.is_ascii_alphabetic() && b.is_ascii_alphabetic() => {
@@ -50,8 +50,8 @@ pub(super) fn mnemonic(i: &[u8]) -> Out<'_, [u8; 2]> {
     }
 }
 
-/// Two of `<parameter>`, when they are whole numbers, the second behind a comma, the first behind one or nothing: what
-/// [`parameter`] says of them, found with fewer steps. `None` = any others.
+/// Fast path for two of `<parameter>` that are whole numbers, separated by a comma and optionally preceded by one. The result
+/// equals that of [`parameter`]; `None` for anything else.
 #[inline] // nearly all of a plot is read here
 pub(super) fn plain_pair(i: &[u8]) -> Option<(&[u8], [f64; 2])> {
     let i = if let [b',', i @ ..] = i { i } else { i };
@@ -61,7 +61,7 @@ pub(super) fn plain_pair(i: &[u8]) -> Option<(&[u8], [f64; 2])> {
     Some((i, [x, y]))
 }
 
-/// A whole number of at most eight digits, which is below [`VALUE_MAX`], and no decimals behind it.
+/// A whole number of at most eight digits, hence below [`VALUE_MAX`], without decimals.
 fn plain_number(i: &[u8]) -> Option<(&[u8], f64)> {
     let (sign, unsigned) = if let [b'-', unsigned @ ..] = i { (-1, unsigned) } else { (1, i) };
     let (magnitude, count) = digits::leading(unsigned)?;
@@ -69,12 +69,12 @@ fn plain_number(i: &[u8]) -> Option<(&[u8], f64)> {
     (rest.first() != Some(&b'.')).then_some((rest, (sign * i64::from(magnitude)) as f64))
 }
 
-/// `<parameter>`: a number behind commas, blanks or nothing. Its sign separates it, too.
+/// `<parameter>`: a number after optional commas and blanks. A sign also separates numbers.
 pub(super) fn parameter(i: &[u8]) -> Out<'_, f64> {
     number(&i[separators(i)..])
 }
 
-/// How many bytes separate what stands before them from what stands behind.
+/// Number of leading separator bytes.
 pub(super) fn separators(i: &[u8]) -> usize {
     i.iter().position(|&byte| !is_separator(byte)).unwrap_or(i.len())
 }
@@ -83,7 +83,7 @@ fn is_separator(byte: u8) -> bool {
     matches!(byte, b',' | b' ' | b'\t' | b'\r' | b'\n')
 }
 
-/// `<number>`: decimals without exponents.
+/// `<number>`: a decimal number without an exponent.
 fn number(i: &[u8]) -> Out<'_, f64> {
     let (negative, unsigned) = match i.split_first() {
         Some((b'-', rest)) => (true, rest),
@@ -101,10 +101,10 @@ fn number(i: &[u8]) -> Out<'_, f64> {
         magnitude = match POWERS_OF_TEN.get(count) {
             Some(scale) => {
                 let (_, decimals) = opt(digits).parse(&after[..count])?;
-                // One division of two exact integers: the nearest number to what is written.
+                // One division of two exact integers gives the nearest number.
                 (magnitude * scale + decimals.unwrap_or_default() as f64) / scale
             }
-            // Digits with a point among them are always a number.
+            // Digits with one decimal point always parse as a number.
             None => nearest(&unsigned[..unsigned.len() - rest.len()]).unwrap_or(magnitude),
         };
     } else if whole.is_none() {
@@ -113,16 +113,16 @@ fn number(i: &[u8]) -> Out<'_, f64> {
     if magnitude > VALUE_MAX {
         return Err(Err::Failure(Fault::Overflow));
     }
-    // The negative of zero is another bit pattern than zero, though the same place.
+    // -0.0 becomes 0.0: both are the same position but have different bit patterns.
     Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
 }
 
-/// The nearest number to digits with a point among them, however many they are.
+/// The nearest number to a decimal with any number of digits.
 fn nearest(decimal: &[u8]) -> Option<f64> {
     std::str::from_utf8(decimal).ok()?.parse().ok()
 }
 
-/// What stands behind a number that [`parameter`] finds too large.
+/// The rest after a number that is too large for [`parameter`].
 pub(super) fn behind_number(i: &[u8]) -> &[u8] {
     let behind = |i: &[u8], is: &dyn Fn(u8) -> bool| i.iter().position(|&byte| !is(byte)).unwrap_or(i.len());
     let i = &i[behind(i, &is_separator)..];
@@ -132,7 +132,7 @@ pub(super) fn behind_number(i: &[u8]) -> &[u8] {
     &i[behind(i, &|byte| byte.is_ascii_digit())..]
 }
 
-/// `<digits>`: their number; `u64::MAX` when it would not fit.
+/// `<digits>`: their value; saturates at `u64::MAX`.
 fn digits(i: &[u8]) -> Out<'_, u64> {
     let (mut value, mut rest) = (0_u64, i);
     while let [digit @ b'0'..=b'9', behind @ ..] = rest {
@@ -142,7 +142,7 @@ fn digits(i: &[u8]) -> Out<'_, u64> {
     if rest.len() == i.len() { other() } else { Ok((rest, value)) }
 }
 
-/// `<end>`: a semicolon, behind blanks, or nothing: the next letter ends an instruction as well.
+/// `<end>`: an optional semicolon after optional blanks; a letter also ends an instruction.
 pub(super) fn end(i: &[u8]) -> Out<'_, ()> {
     let (i, _) = take_while(is_separator).parse(i)?;
     Ok((i.strip_prefix(b";").unwrap_or(i), ()))

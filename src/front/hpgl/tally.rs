@@ -1,4 +1,4 @@
-//! What is not obeyed, each thing reported once with its count and first place.
+//! Counts of ignored statements; each kind is reported once, with its count and first location.
 
 use std::collections::BTreeMap;
 
@@ -7,57 +7,57 @@ use super::plotter::Refusal;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// Statements of junk that end the reading when there are more of them than of sound ones: the file is no plot.
+/// Number of junk statements that ends reading if there are more of them than of sound ones: the file is not a plot.
 const MOST_JUNK: usize = 10_000;
-/// How many mnemonics are told apart: junk has hundreds.
+/// Maximum number of distinct mnemonics that are counted; junk has hundreds.
 const MOST_NAMES: usize = 40;
-/// How many of them a message names.
+/// Maximum number of mnemonics named in a message.
 const SHOWN_NAMES: usize = 8;
 
-/// Counts what is not obeyed.
+/// Counts of ignored and faulty statements.
 #[derive(Debug, Default)]
 pub(super) struct Tally {
     sound: usize,
     junk: Count,
     odd: Count,
-    /// The last number without its partner.
+    /// The last coordinate without a partner.
     pub(super) last_odd: Option<Span>,
     unknown: BTreeMap<[u8; 2], Count>,
     unknown_total: usize,
     left_out: BTreeMap<[u8; 2], (&'static str, Count)>,
     /// Numbers beyond any table.
     overflow: Count,
-    /// Places beyond any table.
+    /// Points beyond any table.
     too_far: Count,
-    /// Moves that were dropped because curves have filled the memory.
+    /// Moves dropped because curves exceeded the maximum number of chords.
     too_many: Count,
-    /// Lines that start where only the plotter knows.
+    /// Lines with a start that only the plotter knows.
     adrift: Count,
-    /// Lines that hang on what could not be read.
+    /// Lines that depend on unreadable bytes.
     lost: Count,
-    /// Encoded polylines that an editor made UTF-8 of.
+    /// Encoded polylines that an editor converted to UTF-8.
     repaired: Count,
     open_labels: Count,
 }
 
 impl Tally {
-    /// A known instruction.
+    /// Counts a known instruction.
     pub(super) fn sound(&mut self) {
         self.sound += 1;
     }
 
-    /// Bytes that begin no statement.
+    /// Counts bytes that begin no statement.
     pub(super) fn junk(&mut self, span: Span) {
         self.junk.add(span);
     }
 
-    /// A number without its partner.
+    /// Counts a coordinate without a partner.
     pub(super) fn odd(&mut self, span: Span) {
         self.odd.add(span);
         self.last_odd = Some(span);
     }
 
-    /// An instruction that is in no table.
+    /// Counts an unknown instruction.
     pub(super) fn unknown(&mut self, mnemonic: [u8; 2], span: Span) {
         self.unknown_total += 1;
         if self.unknown.len() < MOST_NAMES || self.unknown.contains_key(&mnemonic) {
@@ -65,17 +65,17 @@ impl Tally {
         }
     }
 
-    /// A known instruction that draws and is not obeyed: `what` it is, in words.
+    /// Counts a known instruction that draws but is ignored; `what` describes it.
     pub(super) fn left_out(&mut self, mnemonic: [u8; 2], what: &'static str, span: Span) {
         self.left_out.entry(mnemonic).or_insert((what, Count::default())).1.add(span);
     }
 
-    /// A number beyond any table.
+    /// Counts a number beyond any table.
     pub(super) fn overflow(&mut self, span: Span) {
         self.overflow.add(span);
     }
 
-    /// A move that the plotter refuses.
+    /// Counts a move that the plotter refuses.
     pub(super) fn refused(&mut self, refusal: Refusal, span: Span) {
         match refusal {
             Refusal::TooFar => self.too_far.add(span),
@@ -83,37 +83,37 @@ impl Tally {
         }
     }
 
-    /// Lines that were drawn from a place that only the plotter knows.
+    /// Sets the count of lines with a start that only the plotter knows.
     pub(super) fn adrift(&mut self, lines: Count) {
         self.adrift = lines;
     }
 
-    /// Lines that hang on something that could not be read.
+    /// Sets the count of lines that depend on unreadable bytes.
     pub(super) fn lost(&mut self, lines: Count) {
         self.lost = lines;
     }
 
-    /// An encoded polyline whose bytes were put together again.
+    /// Counts an encoded polyline whose bytes were restored.
     pub(super) fn repaired(&mut self, span: Span) {
         self.repaired.add(span);
     }
 
-    /// A label without terminator.
+    /// Counts a label without a terminator.
     pub(super) fn open_label(&mut self, span: Span) {
         self.open_labels.add(span);
     }
 
-    /// Whether more is junk than not.
+    /// True if junk statements outnumber sound ones.
     fn is_junk(&self) -> bool {
         self.junk.count + self.unknown_total > self.sound
     }
 
-    /// Whether this cannot be a plot, whatever follows.
+    /// True if the file cannot be a plot, whatever follows.
     pub(super) fn is_hopeless(&self) -> bool {
         self.junk.count + self.unknown_total > MOST_JUNK && self.is_junk()
     }
 
-    /// Reports all of it; `strokes` is how many lines were drawn.
+    /// Reports all counts; `strokes` is the number of drawn strokes.
     pub(super) fn report(&self, strokes: usize, out: &mut Diagnostics) {
         if self.is_hopeless() || (self.is_junk() && strokes == 0) {
             let message = format!(
@@ -134,7 +134,7 @@ impl Tally {
         }
     }
 
-    /// What is said of places and moves.
+    /// Findings on coordinates and moves.
     fn say_of_places(&self, found: &mut Vec<Diagnostic>) {
         if self.overflow.count > 0 {
             let message = format!("a number is beyond any table; this happens {}", self.overflow.times());
@@ -171,7 +171,7 @@ impl Tally {
         }
     }
 
-    /// What is said of statements: what is none, what is damaged, what is not known, what is not obeyed.
+    /// Findings on statements: junk, damaged, unknown and ignored ones.
     fn say_of_statements(&self, found: &mut Vec<Diagnostic>) {
         if self.junk.count > 0 {
             let message = format!("what stands here is no instruction; this happens {}", self.junk.times());

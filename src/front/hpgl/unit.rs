@@ -1,4 +1,4 @@
-//! Whether the unit of the numbers is plausible: plots do not say it, and some programs write another one.
+//! Plausibility of the unit: plots do not state it, and some programs use unusual ones.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
@@ -8,16 +8,16 @@ use crate::source::Source;
 use crate::units::MM_PER_INCH;
 use crate::units::number::{fixed, short};
 
-/// Widest plot that a table takes, mm, and the smallest thing worth cutting, mm.
+/// Maximum width of a plot on a table, mm, and minimum size of a part, mm.
 const WIDEST: f64 = 3500.0;
 const SMALLEST: f64 = 5.0;
-/// Shortest length of a marker that a title states, mm.
+/// Minimum stated length of a marker, mm; shorter lengths in texts are ignored.
 const SHORTEST_STATED: f64 = 500.0;
-/// How far the extent may be from the length that a title states, as a part of it: near enough to tell 1/40 mm from
-/// 1/1000 inch, which is 1.6 % more; and as far as another unit must be off before it is doubted.
+/// Relative differences between the extent and a stated length. Below the first they agree, which still distinguishes 1/40 mm
+/// from 1/1000 inch (1.6 % larger). Above the second the unit is doubted.
 const AGREES: f64 = 0.005;
 const DIFFERS: f64 = 0.012;
-/// Units that plots are written in, with the value of the profile's key.
+/// Units of plots, mm, with the values of the profile key.
 const CANDIDATES: [(f64, &str); 5] = [
     (0.025, "\"1/40 mm\""),
     (0.0254, "\"1/1000 in\""),
@@ -25,29 +25,29 @@ const CANDIDATES: [(f64, &str); 5] = [
     (0.01, "0.01"),
     (MM_PER_INCH / 300.0, "\"300 dpi\""),
 ];
-/// Units that a size without one may be in, mm: centimetres, millimetres, inches.
+/// Units of a size stated without one, mm: centimetres, millimetres, inches.
 const UNITS_OF_SIZES: [f64; 3] = [10.0, 1.0, MM_PER_INCH];
-/// The least number that may be the length of a marker in one of them.
+/// Minimum of the larger of two numbers that state a size.
 const SHORTEST_SIZE: f64 = 50.0;
-/// Digits of a group of thousands.
+/// Number of digits in a group of thousands.
 const GROUP: usize = 3;
-/// Longest text that is searched for a length, bytes.
+/// Number of bytes of a text that are searched for a length.
 const LONGEST_TITLE: usize = 200;
-/// A yard, a foot, mm.
+/// Lengths of a yard and a foot, mm.
 const MM_PER_YARD: f64 = 36.0 * MM_PER_INCH;
 const MM_PER_FOOT: f64 = 12.0 * MM_PER_INCH;
 
-/// What the size of a plot is judged by.
+/// Input of the plausibility check.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sized<'a> {
     pub(super) unit: &'a PlotUnit,
-    /// The box around all lines.
+    /// The bounding box of all lines.
     pub(super) extent: &'a Extent,
     pub(super) source: &'a Source,
     pub(super) labels: &'a [Label],
 }
 
-/// Warns when the drawing fits neither a length in its texts nor any table, and names the unit that would fit.
+/// Warns if the drawing contradicts a length in its texts or fits no table, and names the units that would fit.
 pub(super) fn check_plausible(sized: Sized, out: &mut Diagnostics) {
     let Sized { unit, extent, source, labels } = sized;
     if extent.is_empty() {
@@ -104,7 +104,7 @@ fn is_number(c: char) -> bool {
     c.is_ascii_digit() || c == '.' || c == ','
 }
 
-/// A number with a decimal point or a decimal comma. Three digits behind a comma may be thousands: then it says nothing.
+/// Value of a number with a decimal point or a decimal comma. Three digits after a comma may be thousands: `None`.
 fn value(number: &str) -> Option<f64> {
     let number = number.trim_end_matches('.');
     match number.split_once(',') {
@@ -114,14 +114,14 @@ fn value(number: &str) -> Option<f64> {
     }
 }
 
-/// The sizes that a text states as two numbers without a unit, the less first: `140.0 x 450.0`.
+/// Sizes stated as two numbers without a unit, the smaller first: `140.0 x 450.0`.
 fn sizes(text: &[u8]) -> Vec<[f64; 2]> {
     let text = String::from_utf8_lossy(&text[..text.len().min(LONGEST_TITLE)]).to_ascii_lowercase();
     let pair = |(at, _): (usize, &str)| {
         let (before, after) = (text[..at].trim_end(), text[at + 1..].trim_start());
         let (_, first) = before.split_at(before.trim_end_matches(is_number).len());
         let (second, behind) = after.split_at(after.find(|c| !is_number(c)).unwrap_or(after.len()));
-        // With a unit it is a length of its own.
+        // A number with a unit is a length of its own.
         let has_unit = behind.trim_start().starts_with(|c: char| c.is_ascii_alphabetic());
         let (a, b) = value(first).zip(value(second)).filter(|_| !has_unit)?;
         (a.max(b) >= SHORTEST_SIZE).then_some([a.min(b), a.max(b)])
@@ -129,10 +129,10 @@ fn sizes(text: &[u8]) -> Vec<[f64; 2]> {
     text.match_indices('x').filter_map(pair).collect()
 }
 
-/// The lengths that a text states, mm: `7 yd 3.18 in`, `6.48 m`, `6,48 m`, `6481.6mm`.
+/// Lengths stated in a text, mm: `7 yd 3.18 in`, `6.48 m`, `6,48 m`, `6481.6mm`.
 fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
     let text = String::from_utf8_lossy(&text[..text.len().min(LONGEST_TITLE)]).to_ascii_lowercase();
-    // Numbers with the word behind each, and whether they follow the word before them directly.
+    // Each number, the word after it, and whether it directly follows the previous word.
     let mut parts: Vec<(f64, String, bool)> = Vec::new();
     let mut rest = text.as_str();
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
@@ -156,7 +156,7 @@ fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
         _ => None,
     };
     let mut lengths: Vec<f64> = Vec::new();
-    // A smaller unit directly behind a larger one adds to it.
+    // A smaller unit directly after a larger one adds to it.
     let mut before: Option<f64> = None;
     for (number, word, follows) in parts {
         let unit = factor(&word);

@@ -1,8 +1,8 @@
-//! The instructions of plots, and what is done about them.
+//! Manual entries on the instructions of plots.
 
 use crate::front::Word;
 
-/// The instructions of plots, and what is done about them.
+/// The instructions of plots and their effects.
 #[rustfmt::skip] // a table: a row a line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`PU`, `PD`, `PA`, `PR`, `SP`", about: "moves; without `SP` pen 1 draws" },
