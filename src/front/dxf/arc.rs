@@ -1,14 +1,14 @@
-//! Arcs become chords.
+//! Conversion of arcs to chords.
 
 use std::f64::consts::TAU;
 
 use crate::geom::{Point, Vector, left};
 
-/// An arc.
+/// A circular arc.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::front) struct Arc {
     pub(in crate::front) centre: Point,
-    /// mm.
+    /// Radius, mm.
     pub(in crate::front) radius: f64,
     /// Start angle, rad from +X.
     pub(in crate::front) start: f64,
@@ -17,23 +17,23 @@ pub(in crate::front) struct Arc {
 }
 
 impl Arc {
-    /// Number of chords that keep within `sagitta` mm of it: a chord over an angle `a` is `r (1 - cos(a/2))` off.
+    /// Number of chords within `sagitta` mm of the arc. A chord over an angle `a` deviates by `r (1 - cos(a/2))`.
     pub(in crate::front) fn chords(&self, sagitta: f64) -> usize {
-        // The same by the half angle, which keeps its digits where the radius is large: 1 - cos(a/2) = 2 sin^2(a/4).
+        // The formula uses a quarter of the angle, which keeps its precision at large radii: 1 - cos(a/2) = 2 sin^2(a/4).
         let step = if sagitta < self.radius { 4.0 * (sagitta / (2.0 * self.radius)).sqrt().asin() } else { TAU / 4.0 };
-        // A curve that closes has an inside.
+        // At least four chords per turn, so that a closed curve has an interior.
         (self.sweep.abs() / step.min(TAU / 4.0)).ceil().max(1.0) as usize
     }
 
-    /// Its place after so much of its sweep.
+    /// Point at a fraction of the sweep.
     pub(in crate::front) fn place(&self, share: f64) -> Point {
         let (sin, cos) = (self.start + share * self.sweep).sin_cos();
         self.centre + self.radius * Vector::new(cos, sin)
     }
 }
 
-/// The arc from one place to another that bulges so much: the tangent of a quarter of its sweep (DXF reference, group 42).
-/// `None` for what its chord keeps to within `sagitta` mm: it is straight, and its centre may be beyond all numbers.
+/// Arc between two points with a bulge, the tangent of a quarter of its sweep (DXF reference, group 42). `None` if the arc
+/// stays within `sagitta` mm of its chord: it is then straight, and its centre may be beyond all numbers.
 pub(in crate::front) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64) -> Option<Arc> {
     let chord = to - from;
     if height(chord, bulge) <= sagitta {
@@ -46,7 +46,7 @@ pub(in crate::front) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64)
     Some(Arc { centre, radius: spoke.norm(), start: spoke.y.atan2(spoke.x), sweep })
 }
 
-/// Height of an arc of that bulge over its chord, mm: half the chord times the bulge.
+/// Height of an arc above its chord, mm: half the chord length times the bulge.
 pub(in crate::front) fn height(chord: Vector, bulge: f64) -> f64 {
     bulge.abs() * chord.norm() / 2.0
 }

@@ -1,54 +1,54 @@
-//! Circles and ellipses, and arcs of them, as chords.
+//! Conversion of circles, ellipses and their arcs to chords.
 
 use std::f64::consts::TAU;
 
 use crate::geom::affine::Affine;
 use crate::geom::{Point, Vector};
 
-/// Fewest chords of a whole turn: a curve that closes has an inside.
+/// Minimum number of chords per turn, so that a closed curve has an interior.
 const FEWEST: f64 = 8.0;
 
-/// An arc of an ellipse: `centre + cos(t) across + sin(t) up` for `t` from `start` on.
+/// An arc of an ellipse: `centre + cos(t) across + sin(t) up`, with `t` starting at `start`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Conic {
     pub(super) centre: Point,
-    /// Conjugate half axes of the ellipse, mm.
+    /// Conjugate semi-axes of the ellipse, mm.
     pub(super) across: Vector,
     pub(super) up: Vector,
-    /// Start, rad.
+    /// Start parameter, rad.
     pub(super) start: f64,
-    /// Sweep, rad; `TAU` = once around.
+    /// Sweep, rad; `TAU` for a full ellipse.
     pub(super) sweep: f64,
 }
 
 impl Conic {
-    /// This conic under a map.
+    /// Image of the conic under a map.
     pub(super) fn mapped(&self, map: &Affine) -> Self {
         let [across, up] = [self.across, self.up].map(|way| map.vector(way));
         Self { centre: map.point(self.centre), across, up, ..*self }
     }
 
-    /// Whether it comes back to where it starts.
+    /// True if the conic ends at its start point.
     pub(super) fn is_closed(&self) -> bool {
         self.sweep.abs() >= TAU
     }
 
-    /// Number of chords that keep within `sagitta` mm of it: of a circle of radius `r` a chord over an angle `a` is
-    /// `r (1 - cos(a/2))` off, and an ellipse is nowhere farther off than the circle around it.
+    /// Number of chords within `sagitta` mm of the conic. On a circle of radius `r` a chord over an angle `a` deviates by `r (1
+    /// - cos(a/2))`; on an ellipse the deviation is at most that of the circumscribed circle.
     pub(super) fn chords(&self, sagitta: f64) -> usize {
         let radius = self.reach();
-        // The same by the half angle, which keeps its digits where the radius is large: 1 - cos(a/2) = 2 sin^2(a/4).
+        // The formula uses a quarter of the angle, which keeps its precision at large radii: 1 - cos(a/2) = 2 sin^2(a/4).
         let step = if sagitta < radius { 4.0 * (sagitta / (2.0 * radius)).sqrt().asin() } else { TAU };
         (self.sweep.abs() / step.min(TAU / FEWEST)).ceil().max(1.0) as usize
     }
 
-    /// Its place after so much of its sweep.
+    /// Point at a fraction of the sweep.
     pub(super) fn place(&self, share: f64) -> Point {
         let (sin, cos) = (self.start + share * self.sweep).sin_cos();
         self.centre + self.across * cos + self.up * sin
     }
 
-    /// Half of its longest diameter, mm.
+    /// Half of the longest diameter, mm.
     pub(super) fn reach(&self) -> f64 {
         Affine::of([self.across, self.up]).stretch()
     }

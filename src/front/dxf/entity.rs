@@ -1,4 +1,4 @@
-//! Entities: groups become the sections of the file, its blocks and what they hold.
+//! Entities: groups are sorted into the sections and blocks of the file.
 
 use std::collections::BTreeMap;
 
@@ -9,67 +9,67 @@ use crate::geom::Point;
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
-/// Code of the group that begins an entity, and those of its name or text, its layer and its flags.
+/// Codes of the group that begins an entity, of its text, its name and its layer.
 const BEGINS: i32 = 0;
 pub(in crate::front) const TEXT: i32 = 1;
 pub(in crate::front) const NAME: i32 = 2;
 const LAYER: i32 = 8;
-/// Flags of polylines and vertices; of an insertion, how many columns of copies it puts.
+/// Code of the flags of polylines and vertices; for an insertion, of the number of columns.
 pub(in crate::front) const FLAGS: i32 = 70;
 
-/// Codes of the first place of an entity.
+/// Codes of the first point of an entity.
 pub(super) const X: i32 = 10;
 pub(super) const Y: i32 = 20;
 
-/// Code of the bulge of the arc that leads to the next vertex, and of the count of vertices of a light polyline.
+/// Codes of the bulge of the arc to the next vertex, and of the vertex count of a light polyline.
 pub(in crate::front) const BULGE: i32 = 42;
 const COUNT: i32 = 90;
 
-/// Code of the name of a variable of the header, and the names of the unit and of the code page of texts.
+/// Code of the name of a header variable, and the names of the variables for the unit and the code page.
 const VARIABLE: i32 = 9;
 const UNIT: &[u8] = b"$INSUNITS";
 const PAGE: &[u8] = b"$DWGCODEPAGE";
-/// Code of the colour of a layer, which is negative when that is off, and the flag of one that is frozen.
+/// Code of the colour of a layer, negative if the layer is off, and the flag of a frozen layer.
 const COLOUR: i32 = 62;
 const FROZEN: i64 = 1;
 /// Code of visibility; 1 = invisible.
 const INVISIBLE: i32 = 60;
 
-/// An entity: the group that begins it, and those behind it up to the next one.
+/// An entity: the group that begins it and all groups up to the next entity.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::front) struct Entity<'a> {
     groups: &'a [Group],
     source: &'a Source,
 }
 
-/// A block: a piece of the pattern set, in one size.
+/// A block. In a pattern file: a piece of the pattern set in one size.
 #[derive(Debug, Clone)]
 pub(in crate::front) struct Block<'a> {
-    /// Entity that begins the block: its name and its base point.
+    /// The entity that begins the block, with its name and base point.
     pub(in crate::front) head: Entity<'a>,
     pub(in crate::front) entities: Vec<Entity<'a>>,
 }
 
-/// A vertex, the bulge of the arc that leads to the next, and where it stands.
+/// A vertex, the bulge of the arc to the next vertex, and its span.
 pub(in crate::front) type Bulged = (Point, f64, Span);
 
-/// State of a layer that is not shown.
+/// State of a hidden layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::front) enum Hidden {
-    /// Blocks that are inserted on it show what they have on other layers.
+    /// Blocks inserted on it show their entities on other layers.
     Off,
-    /// Blocks that are inserted on it show nothing.
+    /// Blocks inserted on it are hidden completely.
     Frozen,
 }
 
-/// Sections of a file that are read.
+/// The sections of a file that are read.
 #[derive(Debug, Clone, Default)]
 pub(in crate::front) struct Sections<'a> {
-    /// The number of the unit that the header names.
+    /// Unit number in the header.
     pub(in crate::front) unit: Option<Span>,
-    /// The name of the code page that the header has.
+    /// Name of the code page in the header.
     pub(in crate::front) page: Option<Span>,
-    /// Layers that are not shown, by name.
+    /// Hidden layers, by name.
     pub(in crate::front) hidden: BTreeMap<&'a [u8], Hidden>,
     pub(in crate::front) blocks: Vec<Block<'a>>,
     /// Entities outside all blocks.
@@ -77,7 +77,7 @@ pub(in crate::front) struct Sections<'a> {
 }
 
 impl<'a> Entity<'a> {
-    /// The word that begins it, as it is written.
+    /// The word that begins the entity, as written.
     pub(in crate::front) fn kind(&self) -> &'a [u8] {
         self.source.slice(self.groups[0].value)
     }
@@ -86,49 +86,49 @@ impl<'a> Entity<'a> {
         self.kind().eq_ignore_ascii_case(kind.as_bytes())
     }
 
-    /// Where it begins.
+    /// Location of the word that begins the entity.
     pub(in crate::front) fn span(&self) -> Span {
         self.groups[0].value
     }
 
-    /// Its groups behind the one that begins it.
+    /// The groups after the first.
     pub(in crate::front) fn groups(&self) -> &'a [Group] {
         &self.groups[1..]
     }
 
-    /// The first value of a code.
+    /// The first value with a code.
     pub(in crate::front) fn value(&self, code: i32) -> Option<Span> {
         self.groups().iter().find(|group| group.code == code).map(|group| group.value)
     }
 
-    /// The bytes of the first value of a code; none when there is none.
+    /// The bytes of the first value with a code; empty if there is none.
     pub(in crate::front) fn bytes(&self, code: i32) -> &'a [u8] {
         self.value(code).map_or(b"", |span| self.source.slice(span))
     }
 
-    /// The number of its layer; `None` when the name of the layer is none.
+    /// Layer number; `None` if the layer name is not a number.
     pub(in crate::front) fn layer(&self) -> Option<u16> {
         let name = self.bytes(LAYER);
         let is_number = !name.is_empty() && name.iter().all(u8::is_ascii_digit);
         std::str::from_utf8(name).ok().filter(|_| is_number).and_then(|name| name.parse().ok())
     }
 
-    /// The name of its layer, as it is written.
+    /// Layer name, as written.
     pub(in crate::front) fn layer_bytes(&self) -> &'a [u8] {
         self.bytes(LAYER)
     }
 
-    /// The name of its layer, as it is shown.
+    /// Layer name, decoded for display.
     pub(in crate::front) fn layer_name(&self, letters: &Letters) -> String {
         letters.name(self.bytes(LAYER))
     }
 
-    /// The number of a code; `None` when there is none.
+    /// The number with a code; `None` if there is none. An error if it is malformed.
     pub(in crate::front) fn number(&self, code: i32) -> Result<Option<f64>, Diagnostic> {
         self.value(code).map(|span| number_at(self.source, span)).transpose()
     }
 
-    /// The number of a code that must be there.
+    /// The number with a code that is mandatory.
     pub(in crate::front) fn coordinate(&self, code: i32) -> Result<f64, Diagnostic> {
         self.number(code)?.ok_or_else(|| {
             let message =
@@ -138,7 +138,7 @@ impl<'a> Entity<'a> {
         })
     }
 
-    /// The whole number of a code, as flags and counts are; `None` when there is none.
+    /// The whole number with a code, used for flags and counts; `None` if there is none. An error if it is malformed.
     pub(in crate::front) fn whole(&self, code: i32) -> Result<Option<i64>, Diagnostic> {
         let read = |span: Span| {
             let bytes = self.source.slice(span);
@@ -147,18 +147,18 @@ impl<'a> Entity<'a> {
         self.value(code).map(read).transpose()
     }
 
-    /// The bits of its flags; none when they are missing.
+    /// The flag bits; 0 if the flags are missing.
     pub(in crate::front) fn flags(&self) -> Result<i64, Diagnostic> {
         Ok(self.whole(FLAGS)?.unwrap_or(0))
     }
 }
 
-/// The place of two codes, in the units of the file.
+/// The point given by two codes, in units of the file.
 pub(super) fn place(entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
     Ok(Point::new(entity.coordinate(x)?, entity.coordinate(y)?))
 }
 
-/// The number at a place.
+/// The number at a span.
 pub(in crate::front) fn number_at(source: &Source, span: Span) -> Result<f64, Diagnostic> {
     let bytes = source.slice(span);
     number(bytes).ok_or_else(|| no_number("a decimal number", bytes, span))
@@ -174,7 +174,7 @@ fn no_number(wanted: &str, bytes: &[u8], span: Span) -> Diagnostic {
     })
 }
 
-/// Bytes of a wrong number that are shown.
+/// Number of bytes of a wrong number that are shown.
 const SHOWN: usize = 20;
 
 /// Splits groups into entities.
@@ -184,18 +184,18 @@ fn entities<'a>(source: &'a Source, groups: &'a [Group]) -> impl Iterator<Item =
     chunks.map(move |groups| Entity { groups, source })
 }
 
-/// Section that is read.
+/// The current section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Within {
     Blocks,
     Entities,
     Tables,
-    /// The header and all others.
+    /// The header and all other sections.
     Others,
 }
 
 impl Entity<'_> {
-    /// Of the entity that begins the header: the value of a variable.
+    /// The value of a header variable. The entity is the one that begins the header.
     fn variable(&self, name: &[u8]) -> Option<Span> {
         let variable = self
             .groups()
@@ -204,7 +204,7 @@ impl Entity<'_> {
         self.groups().get(variable + 1).map(|group| group.value)
     }
 
-    /// Of an entry of the table of layers: the state of a layer that is not shown.
+    /// The state of the layer if this entry of the layer table hides it.
     fn hidden_layer(&self) -> Option<Hidden> {
         let is_off = self.whole(COLOUR).is_ok_and(|colour| colour.is_some_and(|colour| colour < 0));
         let is_frozen = self.flags().is_ok_and(|flags| flags & FROZEN != 0);
@@ -212,7 +212,7 @@ impl Entity<'_> {
         state.filter(|_| self.is("LAYER"))
     }
 
-    /// The vertices of a light polyline, which follow each other in one entity.
+    /// The vertices of a light polyline, which are consecutive groups of one entity.
     pub(in crate::front) fn light_vertices(&self) -> Result<Vec<Bulged>, Diagnostic> {
         let mut vertices: Vec<Bulged> = Vec::new();
         let mut x = None;
@@ -247,7 +247,7 @@ impl Entity<'_> {
         }
     }
 
-    /// Whether it is not shown, on whatever layer.
+    /// True if the entity itself is invisible, on whatever layer.
     pub(in crate::front) fn is_invisible(&self) -> bool {
         self.whole(INVISIBLE).is_ok_and(|flag| flag == Some(1))
     }
@@ -284,7 +284,7 @@ pub(in crate::front) fn sections<'a>(source: &'a Source, groups: &'a [Group], ou
         } else if entity.is("ENDSEC") {
             within = Within::Others;
         } else if entity.is("BLOCK") {
-            // Some writers end the section of blocks too early.
+            // Some writers end the section of blocks too early, so blocks are accepted anywhere.
             open = Some(Block { head: entity, entities: Vec::new() });
         } else if !is_end {
             match (&mut open, within) {

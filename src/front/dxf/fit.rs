@@ -1,17 +1,17 @@
-//! Curves through points, of splines that have no control points.
+//! Curves through fit points, for splines without control points.
 
 use super::nurbs::Nurbs;
 use crate::geom::{Point, Vector};
 
-/// Points of a closed curve that are laid once more before its start and behind its end, where there are as many: what the
-/// ends of a natural spline do fades by 0.27 a point (de Boor, *A Practical Guide to Splines*, ch. IV).
+/// Number of points of a closed curve that are repeated before its start and after its end, if there are that many. The end
+/// effects of a natural spline decay by 0.27 per point (de Boor, *A Practical Guide to Splines*, ch. IV).
 const AROUND: usize = 24;
 
-/// The cubic spline through points, over the lengths of its chords; without curvature at its ends unless it is closed. `None`
-/// of fewer than two places.
+/// The cubic spline through points, parametrised by chord length; it has no curvature at its ends unless it is closed. `None`
+/// for fewer than two distinct points.
 ///
-/// Each span is the Bezier curve of its ends and of the slopes there, which the tridiagonal equations of the natural spline
-/// give (de Boor, ch. IV).
+/// Each span is the Bezier curve given by its ends and the slopes there, which follow from the tridiagonal equations of the
+/// natural spline (de Boor, ch. IV).
 pub(super) fn through(points: &[Point], is_closed: bool) -> Option<Nurbs> {
     let mut points: Vec<Point> = points.to_vec();
     points.dedup();
@@ -40,7 +40,7 @@ pub(super) fn through(points: &[Point], is_closed: bool) -> Option<Nurbs> {
     Nurbs::of(3, knots, &control, &[]).ok()
 }
 
-/// The slopes of the natural cubic spline at its points, by the length of its chords.
+/// The slopes of the natural cubic spline at its points, by chord length.
 fn slopes(points: &[Point]) -> Vec<Vector> {
     let last = points.len() - 1;
     let chord = |k: usize| points[k + 1] - points[k];

@@ -1,4 +1,4 @@
-//! Groups: bytes become pairs of lines, a code and its value.
+//! Groups: bytes are split into pairs of lines, a code and its value.
 
 use super::syntax::code;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -8,18 +8,18 @@ use crate::source::{Source, Span, line_end};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::front) struct Group {
     pub(in crate::front) code: i32,
-    /// The bytes of the value, without blanks around it; its block is the number of the group in the file, from 1.
+    /// The bytes of the value, trimmed; the block number of the span is the number of the group in the file, from 1.
     pub(in crate::front) value: Span,
 }
 
 /// The value of the group that ends a file.
 const END_OF_FILE: &[u8] = b"EOF";
-/// What many programs write before text in UTF-8.
+/// Mark that many programs write before UTF-8 text.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// Faults of this kind that are told before reading ends: behind so many the file is something else.
+/// Maximum number of reported faults of one kind; a file with more is of another format.
 const MOST_FAULTS: usize = 20;
 
-/// The lines of a file, without line breaks, each with its first byte.
+/// The lines of a file without line breaks, each with the offset of its first byte.
 struct Lines<'a> {
     bytes: &'a [u8],
     end: u8,
@@ -36,15 +36,15 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// The bytes of a line without blanks around them.
+/// The span of a line, trimmed.
 fn trimmed(start: usize, line: &[u8], block: u32) -> Span {
     let blanks = line.len() - line.trim_ascii_start().len();
     let start = start + blanks;
     Span { start: start as u32, end: (start + line.trim_ascii().len()) as u32, block }
 }
 
-/// Reads the groups of a file up to its end, behind which nothing may stand. Lines that are no code are reported, and passed over up to the next group
-/// that begins an entity.
+/// Reads the groups of a file up to its end mark; nothing may follow it. A line that should be a code and is none is reported,
+/// and lines are skipped up to the next group that begins an entity.
 pub(in crate::front) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Group> {
     let bytes = source.bytes();
     let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
@@ -78,7 +78,7 @@ pub(in crate::front) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Gr
         is_lost = false;
         groups.push(Group { code, value });
         if code == 0 && source.slice(value).eq_ignore_ascii_case(END_OF_FILE) {
-            // Some programs leave a control character behind the end.
+            // Some programs leave a control character after the end mark.
             let is_more = bytes.get(lines.at..).unwrap_or_default().iter().any(u8::is_ascii_graphic);
             if is_more {
                 let finding = Diagnostic::new(&code::DXF_CUT_SHORT, "the file goes on behind its EOF").at(value);

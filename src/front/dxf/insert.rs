@@ -1,4 +1,4 @@
-//! Insertions: where a block is put, how often, and how it is turned there.
+//! Insertions: position, rotation and repetition of blocks.
 
 use super::entity::{Block, Entity, X, Y, place};
 use crate::diagnostic::Diagnostic;
@@ -6,13 +6,13 @@ use crate::geom::affine::Affine;
 use crate::geom::{Point, Vector};
 use crate::units::rad;
 
-/// Codes of the scale along each axis, the turn, the counts of columns and rows, and their distances.
+/// Codes of the scale along each axis, the rotation, the numbers of columns and rows, and their spacings.
 const SCALE: [i32; 2] = [41, 42];
 const ANGLE: i32 = 50;
 const COUNTS: [i32; 2] = [70, 71];
 const STEPS: [i32; 2] = [44, 45];
 
-/// The base point of a block; the origin where the file names none.
+/// Base point of a block; the origin if the file gives none.
 pub(super) fn base(block: &Block) -> Result<Point, Diagnostic> {
     let is_named = [X, Y].iter().any(|&code| block.head.value(code).is_some());
     if is_named { place(&block.head, [X, Y]) } else { Ok(Point::origin()) }
@@ -23,9 +23,9 @@ pub(super) fn base(block: &Block) -> Result<Point, Diagnostic> {
 pub(super) struct Placing {
     at: Point,
     scale: [f64; 2],
-    /// rad.
+    /// Rotation, rad.
     turn: f64,
-    /// Columns and rows, and their distances.
+    /// Numbers of columns and rows, and their spacings.
     pub(super) counts: [usize; 2],
     steps: [f64; 2],
 }
@@ -46,7 +46,7 @@ impl Placing {
         })
     }
 
-    /// The map of a block with that base point to the plane of the insertion, in a column and a row.
+    /// Map of the block to the plane of the insertion, for a base point, a column and a row.
     pub(super) fn map(&self, base: Point, [column, row]: [f64; 2]) -> Affine {
         let step = Vector::new(column * self.steps[0], row * self.steps[1]);
         Affine::shift(-base.coords)

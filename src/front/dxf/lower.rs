@@ -1,8 +1,8 @@
-//! Lowering: the entities of a plain drawing become strokes of named layers.
+//! Lowering: the entities of a plain drawing become strokes on named layers.
 //!
-//! Lines, ellipses and splines have their coordinates in space whichever side they are seen from; polylines, arcs, circles
-//! and insertions have them on their own plane (DXF reference, "Object Coordinate Systems (OCS)"), which is the cloth or its
-//! back: anything else is refused.
+//! Lines, ellipses and splines have their coordinates in world space, whatever side they are seen from. Polylines, arcs,
+//! circles and insertions have them on their own plane (DXF reference, "Object Coordinate Systems (OCS)"). That plane must be
+//! the cloth or its back; any other is refused.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -28,7 +28,7 @@ use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
-/// Codes of second places, of radius and angles, and of what splines have.
+/// Codes of second points, of radius and angles, and of the data of splines.
 const X2: i32 = 11;
 const Y2: i32 = 21;
 const RADIUS: i32 = 40;
@@ -41,39 +41,39 @@ const KNOT: i32 = 40;
 const WEIGHT: i32 = 41;
 const DEGREE: i32 = 71;
 const TANGENTS: [i32; 4] = [12, 22, 13, 23];
-/// Codes of the direction from which something is seen.
+/// Codes of the extrusion direction, from which an entity is seen.
 const EXTRUSION: [i32; 3] = [210, 220, 230];
-/// Rounding that is allowed in it.
+/// Permitted rounding of the extrusion direction.
 const EXTRUSION_EPSILON: f64 = 1e-6;
-/// Code that is 1 for what stands on the sheet around the drawing.
+/// Code of the flag of entities in paper space, the sheet around the drawing.
 const ON_PAPER: i32 = 67;
 
-/// Flags of polylines and splines: closed, places in space, and kinds that are no lines; of vertices: a control point.
+/// Flags of polylines and splines: closed, coordinates in space, and meshes; of vertices: a control point.
 const CLOSED: i64 = 1;
 const IN_SPACE: i64 = 8;
 const MESHES: i64 = 16 | 64;
 const CONTROL_POINT: i64 = 16;
 
-/// Kinds that only end others, stand for texts of insertions that follow, or draw nothing at all.
+/// Kinds without lines of their own: they end other entities, define texts of later insertions, or follow a polyline.
 const SILENT: [&str; 3] = ["SEQEND", "ATTDEF", "VERTEX"];
 /// Largest coordinate, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
-/// Sweep below which an arc is a whole circle, deg.
+/// Sweep below which an arc is a full circle, deg.
 const TURN_EPSILON_DEG: f64 = 1e-6;
-/// Difference of the angles of an arc from a whole turn, either way, with which it is a circle, deg: angles in rad are written
-/// with four decimals.
+/// Deviation of an arc from a full turn, either way, below which it is a circle, deg. Angles in rad are written with four
+/// decimals.
 const WHOLE_EPSILON_DEG: f64 = 0.012;
-/// Most places that a file draws: more come from damaged numbers, or from blocks in blocks in blocks.
+/// Maximum number of points of a drawing. Larger numbers result from damaged values or from deeply nested blocks.
 const MOST_PLACES: usize = 4_000_000;
 
-/// Insertions around an insertion: CAD systems nest a few, and one that holds itself has no end.
+/// Maximum nesting depth of insertions. CAD systems nest a few; a block that contains itself would never end.
 const DEEPEST: usize = 32;
-/// Insertions that are followed, those of rows and columns each.
+/// Maximum number of followed insertions, counting each row and column.
 const MOST_INSERTS: usize = 100_000;
-/// Entities that are looked at, those of a block each time that it is drawn.
+/// Maximum number of processed entities, counting those of a block each time it is drawn.
 const MOST_ENTITIES: usize = 8_000_000;
 
-/// Follows a file, or what of it can be read: with an error among the diagnostics the drawing is worth nothing.
+/// Lowers a file as far as it can be read. The drawing is meaningless if there is an error among the diagnostics.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     let groups = groups(source, out);
     let sections = sections(source, &groups, out);
@@ -84,38 +84,38 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawin
     drawing
 }
 
-/// Placement and layer of entities.
+/// Placement and layer of the entities being drawn.
 #[derive(Debug, Clone, Copy)]
 struct Within<'a> {
     map: Affine,
-    /// The layer of the insertion, which entities on layer 0 of a block are on.
+    /// Layer of the insertion, which entities on layer 0 of a block inherit.
     layer: Option<&'a [u8]>,
-    /// The insertions around it.
+    /// Number of enclosing insertions.
     depth: usize,
 }
 
-/// Name of the layer whose entities are on that of the insertion, where a block has them.
+/// Name of the layer whose entities inherit the layer of the insertion.
 const LAYER_OF_INSERT: &[u8] = b"0";
 
-/// A drawing in the making.
+/// State of the lowering.
 struct Lowering<'a, 'o> {
     source: &'a Source,
     entities: &'a [Entity<'a>],
     blocks: BTreeMap<Vec<u8>, &'a Block<'a>>,
     hidden: &'a BTreeMap<&'a [u8], Hidden>,
     letters: Letters,
-    /// Farthest that chords lie off their curve, mm.
+    /// Maximum deviation of chords from their curve, mm.
     sagitta: f64,
     drawing: Drawing,
     told: Told,
     out: &'o mut Diagnostics,
-    /// Whether more is drawn than any drawing needs: then nothing is read any more.
+    /// True once the drawing exceeds a size limit; reading then stops.
     is_full: bool,
     /// Insertions that may still be followed.
     inserts_left: usize,
-    /// Entities that may still be looked at, each as often as it is drawn.
+    /// Entities that may still be processed, each counted as often as it is drawn.
     entities_left: usize,
-    /// Pens of the layers that have drawn, by their names as written.
+    /// Pens of the layers used so far, by their names as written.
     pens: BTreeMap<&'a [u8], u16>,
 }
 
@@ -143,7 +143,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         }
     }
 
-    /// Drawing of the file; `unit` is the length of its unit, mm.
+    /// The drawing of the file; `unit` is the length of its unit, mm.
     fn drawn(mut self, unit: f64) -> Drawing {
         let within = Within { map: Affine::scale(unit, unit), layer: None, depth: 0 };
         self.entities(self.entities, &within);
@@ -151,7 +151,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         self.drawing
     }
 
-    /// Draws entities. Those that are at fault are reported.
+    /// Draws entities; faulty ones are reported.
     fn entities(&mut self, entities: &'a [Entity<'a>], within: &Within<'a>) {
         let mut rest = entities;
         while let [entity, behind @ ..] = rest {
@@ -196,7 +196,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         }
     }
 
-    /// Whether the layer of an entity hides it: an insertion on a layer that is off still shows the other layers of its block.
+    /// True if the layer of an entity hides it. An insertion on a layer that is off still shows the other layers of its block.
     fn is_hidden(&self, entity: &Entity<'a>, within: &Within<'a>) -> bool {
         match self.hidden.get(layer_of(entity, within)) {
             Some(Hidden::Off) => !entity.is("INSERT"),
@@ -205,7 +205,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         }
     }
 
-    /// Draws the block that an insertion names, once for each of its columns and rows.
+    /// Draws the block of an insertion once per column and row.
     fn insert(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
         let name = entity.bytes(NAME).to_ascii_uppercase();
         let Some(&block) = self.blocks.get(&name) else {
@@ -268,7 +268,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         }
     }
 
-    /// Keeps a text. One without a place is a text all the same.
+    /// Records a text. A text without a position is kept, too.
     fn text(&mut self, entity: &Entity<'a>, within: &Within<'a>) {
         let at = place(entity, [X, Y]).ok().map(|at| within.map.point(at));
         let turn = entity.number(ANGLE).ok().flatten().map(|degrees| Affine::turn(rad(degrees)).vector(Vector::x()));
@@ -277,7 +277,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         self.drawing.texts.extend(text.map(|span| Label { at, heading, span, mirrored: None }));
     }
 
-    /// Draws a polyline with its vertices.
+    /// Draws a polyline from its vertices.
     fn polyline(
         &mut self,
         entity: &Entity<'a>,
@@ -299,7 +299,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         self.chain(entity, &Within { map, ..*within }, &places, flags & CLOSED != 0)
     }
 
-    /// Draws from vertex to vertex; where one bulges, an arc leads to the next.
+    /// Draws the segments between vertices; a bulge makes an arc to the next vertex.
     fn chain(
         &mut self,
         entity: &Entity<'a>,
@@ -343,7 +343,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         self.draw(entity, within, &places)
     }
 
-    /// Draws a spline: along its control points, or where it has none, through the points that it was fitted to.
+    /// Draws a spline along its control points or, if it has none, through its fit points.
     fn spline(&mut self, entity: &Entity<'a>, within: &Within<'a>) -> Result<(), Diagnostic> {
         let is_closed = entity.flags()? & CLOSED != 0;
         let [control, fitted] = [[X, Y], [X2, Y2]].map(|codes| self.points(entity, codes));
@@ -374,7 +374,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         self.draw(entity, within, &places)
     }
 
-    /// The places of two codes, in the units of the file.
+    /// The points given by two codes, in units of the file.
     fn points(&self, entity: &Entity, [x_code, y_code]: [i32; 2]) -> Result<Vec<Point>, Diagnostic> {
         let (xs, ys) = (self.numbers(entity, x_code)?, self.numbers(entity, y_code)?);
         if xs.len() != ys.len() {
@@ -385,13 +385,13 @@ impl<'a, 'o> Lowering<'a, 'o> {
         Ok(xs.into_iter().zip(ys).map(|(x, y)| Point::new(x, y)).collect())
     }
 
-    /// All numbers of a code.
+    /// All numbers with a code.
     fn numbers(&self, entity: &Entity, code: i32) -> Result<Vec<f64>, Diagnostic> {
         let groups = entity.groups().iter().filter(|group| group.code == code);
         groups.map(|group| number_at(self.source, group.value)).collect()
     }
 
-    /// Checks that `count` more places fit into a drawing.
+    /// Checks that `count` more points fit into the drawing.
     fn room(&mut self, count: usize, span: Span) -> Result<usize, Diagnostic> {
         if self.drawing.vertices.len().saturating_add(count) > MOST_PLACES {
             return Err(self.full(span));
@@ -399,7 +399,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         Ok(count)
     }
 
-    /// The error that more is drawn than any drawing needs; nothing is read behind it.
+    /// Marks the drawing as full, which stops reading, and returns the error for it.
     fn full(&mut self, span: Span) -> Diagnostic {
         self.is_full = true;
         let message = "the file draws more places, or has more insertions, than any drawing needs";
@@ -407,7 +407,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
         finding.hint("look for a damaged radius or count, and for blocks that insert each other many times")
     }
 
-    /// Draws a stroke, in mm.
+    /// Draws a stroke; coordinates in mm.
     fn draw(&mut self, entity: &Entity<'a>, within: &Within<'a>, places: &[(Point, Span)]) -> Result<(), Diagnostic> {
         let is_far = |at: &Point| !(at.x.abs() <= FARTHEST && at.y.abs() <= FARTHEST);
         if let Some(&(_, span)) = places.iter().find(|(at, _)| is_far(at)) {
@@ -427,7 +427,7 @@ impl<'a, 'o> Lowering<'a, 'o> {
     }
 }
 
-/// The layer that an entity is on.
+/// The layer of an entity.
 fn layer_of<'a>(entity: &Entity<'a>, within: &Within<'a>) -> &'a [u8] {
     let own = entity.layer_bytes();
     within.layer.filter(|_| own == LAYER_OF_INSERT || own.is_empty()).unwrap_or(own)
@@ -437,7 +437,7 @@ fn is_text(entity: &Entity) -> bool {
     ["TEXT", "MTEXT", "ATTRIB"].iter().any(|kind| entity.is(kind))
 }
 
-/// A circle or an arc, in the units of the file. An arc that ends where it starts is a circle.
+/// A circle or an arc, in units of the file. An arc that ends at its start point is a circle.
 fn round(entity: &Entity) -> Result<Conic, Diagnostic> {
     let (centre, radius) = (place(entity, [X, Y])?, entity.coordinate(RADIUS)?.abs());
     let [start, end] =
@@ -446,15 +446,15 @@ fn round(entity: &Entity) -> Result<Conic, Diagnostic> {
     Ok(Conic { centre, across: Vector::new(radius, 0.0), up: Vector::new(0.0, radius), start: rad(start), sweep })
 }
 
-/// Sweep from one angle to another, rad: a whole turn where they are one, or about a turn apart.
+/// Sweep from one angle to another, rad; a full turn if the angles are equal or about a turn apart.
 fn sweep(start: f64, end: f64) -> f64 {
     let (apart, sweep) = ((end - start).abs(), (end - start).rem_euclid(TAU));
     let is_one = sweep.min(TAU - sweep) <= rad(TURN_EPSILON_DEG);
     if is_one || (apart - TAU).abs() <= rad(WHOLE_EPSILON_DEG) { TAU } else { sweep }
 }
 
-/// An ellipse or an arc of one, in the units of the file: its second axis is the first turned left as it is seen from its
-/// own side, times a ratio.
+/// An ellipse or an arc of one, in units of the file. The second axis is the first, turned left as seen from the side of the
+/// ellipse, times a ratio.
 fn ellipse(entity: &Entity) -> Result<Conic, Diagnostic> {
     let (centre, major) = (place(entity, [X, Y])?, place(entity, [X2, Y2])?.coords);
     let ratio = entity.coordinate(RATIO)?.abs();
@@ -464,12 +464,12 @@ fn ellipse(entity: &Entity) -> Result<Conic, Diagnostic> {
     Ok(Conic { centre, across: major, up: minor, start, sweep })
 }
 
-/// Map of an entity whose coordinates are on its own plane: seen from the back, X goes to the left.
+/// Map of an entity with coordinates on its own plane. Seen from the back, X points left.
 fn on_plane(entity: &Entity, within: &Within) -> Result<Affine, Diagnostic> {
     Ok(if is_from_below(entity)? { Affine::scale(-1.0, 1.0).then(&within.map) } else { within.map })
 }
 
-/// Whether an entity is seen from the back of the cloth; an error where it stands on another plane.
+/// True if an entity is seen from the back of the cloth. An error if its plane is not that of the cloth.
 fn is_from_below(entity: &Entity) -> Result<bool, Diagnostic> {
     let mut normal = [0.0, 0.0, 1.0];
     for (value, code) in normal.iter_mut().zip(EXTRUSION) {

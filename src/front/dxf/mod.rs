@@ -1,13 +1,12 @@
-//! DXF: groups, entities and blocks of any such file, and plain drawings of CAD systems.
+//! DXF: groups, entities and blocks of any DXF file, and plain drawings of CAD systems.
 //!
-//! Receives bytes: pairs of lines in sections, in which entities stand on named layers and insertions put blocks anywhere.
-//! Promises a drawing in mm: strokes with their layers as pens, curves as chords, and texts. Layers are names and no
-//! convention: [`pattern`](super::pattern) reads files of those, with [`group`], [`syntax`], [`entity`] and [`arc`] of here.
-//! Never decides what is cut, and draws nothing that is not shown: frozen layers, the sheet around the drawing, blocks that
-//! nobody inserts.
+//! Receives bytes: pairs of lines in sections, with entities on named layers and insertions that place blocks anywhere.
+//! Promises a drawing in mm: strokes with their layers as pens, curves as chords, and texts. Layers are names without a
+//! convention; [`pattern`](super::pattern) reads files with one and uses [`group`], [`syntax`], [`entity`] and [`arc`] of this
+//! module. Never decides what is cut. Never draws hidden content: frozen layers, paper space, blocks without an insertion.
 //!
-//! [`lower`] follows the entities, [`insert`] puts blocks where they are inserted, [`conic`] and [`nurbs`] make chords of
-//! curves, `fit` lays a curve through points, [`mod@unit`] has the table of units, [`told`] says what is not drawn.
+//! [`lower`] follows the entities, [`insert`] places inserted blocks, [`conic`] and [`nurbs`] convert curves to chords, `fit`
+//! lays a curve through points, [`mod@unit`] has the table of units, [`told`] reports the parts that are not drawn.
 
 pub(in crate::front) mod arc;
 mod conic;
@@ -43,7 +42,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
     if foreign::is_dxf(bytes) { Likeness::Sure } else { Likeness::No }
 }
 
-/// Whether the bytes are groups whose values are what their codes say.
+/// Checks that the bytes are groups whose values have the type of their codes.
 pub(super) fn check_syntax(source: &Source, out: &mut Diagnostics) {
     for group in group::groups(source, out) {
         if !syntax::fits(group.code, source.slice(group.value)) {

@@ -1,15 +1,16 @@
 //! Splines: rational B-splines of any degree as chords.
 //!
-//! Places by de Boor's algorithm in homogeneous coordinates (Piegl & Tiller, *The NURBS Book*, 2nd ed., sections 3.1, 4.2).
+//! Points are evaluated by de Boor's algorithm in homogeneous coordinates (Piegl & Tiller, *The NURBS Book*, 2nd ed., sections
+//! 3.1, 4.2).
 
 use crate::geom::affine::Affine;
 use crate::geom::{Point, Vector, polyline};
 
-/// Highest degree that is read; CAD systems write 2 to 5, and none beyond 11.
+/// Maximum degree. CAD systems write 2 to 5, and never more than 11.
 const HIGHEST_DEGREE: usize = 11;
-/// Halvings of a span between two knots: far more than a curve on a table needs.
+/// Maximum number of bisections of a knot span, far more than a curve on a table needs.
 const MOST_HALVINGS: u32 = 16;
-/// Places at which a chord is held against its curve, as parts of it.
+/// Parameters at which a chord is compared with its curve, as fractions of the stretch.
 const LOOKED_AT: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A rational B-spline.
@@ -21,11 +22,11 @@ pub(super) struct Nurbs {
     control: Vec<(Vector, f64)>,
 }
 
-/// Fault of a spline, in words that follow "it has".
+/// Fault of a spline, worded to follow "it has".
 pub(super) type Flaw = &'static str;
 
 impl Nurbs {
-    /// A spline of its numbers; no weights = all are one.
+    /// Checks and creates a spline; empty `weights` means that all are 1.
     pub(super) fn of(degree: usize, knots: Vec<f64>, points: &[Point], weights: &[f64]) -> Result<Self, Flaw> {
         if !(1..=HIGHEST_DEGREE).contains(&degree) {
             return Err("a degree below 1 or above 11");
@@ -53,18 +54,18 @@ impl Nurbs {
         Ok(Self { degree, knots, control })
     }
 
-    /// This spline under a map.
+    /// Image of the spline under a map.
     pub(super) fn mapped(&self, map: &Affine) -> Self {
         let place = |&(point, weight): &(Vector, f64)| (map.point(Point::from(point / weight)).coords * weight, weight);
         Self { control: self.control.iter().map(place).collect(), ..self.clone() }
     }
 
-    /// The places of its chords, none farther off it than `sagitta` mm, from its start to its end; `None` when they would be
-    /// more than `most`.
+    /// The points of its chords from start to end, each chord within `sagitta` mm of the spline. `None` if there are more than
+    /// `most`.
     pub(super) fn flatten(&self, sagitta: f64, most: usize) -> Option<Vec<Point>> {
         let (first, last) = (self.degree, self.control.len());
         let mut places = vec![self.place(self.knots[first])];
-        // Spans of no length, as repeated knots make them, have no part of the curve.
+        // Spans of zero length, caused by repeated knots, have no part of the curve.
         for span in (first..last).filter(|&span| self.knots[span + 1] > self.knots[span]) {
             let [from, to] = [self.knots[span], self.knots[span + 1]];
             let parts = self.degree.max(2);
@@ -80,7 +81,7 @@ impl Nurbs {
         Some(places)
     }
 
-    /// Adds the places behind the start of a stretch of the curve, halved until its chords are near enough.
+    /// Adds the points after the start of a stretch, which is bisected until its chords are within `sagitta`.
     fn halve(&self, stretch: [f64; 2], sagitta: f64, places: &mut Vec<Point>) {
         let mut waiting = vec![(stretch, 0)];
         while let Some(([from, to], depth)) = waiting.pop() {
@@ -99,7 +100,7 @@ impl Nurbs {
         }
     }
 
-    /// The place at a parameter of its domain.
+    /// The point at a parameter of the domain.
     fn place(&self, at: f64) -> Point {
         let (p, last) = (self.degree, self.control.len() - 1);
         let span = self.knots.partition_point(|&knot| knot <= at).saturating_sub(1).clamp(p, last);

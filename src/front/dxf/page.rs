@@ -1,13 +1,13 @@
-//! Code pages of texts, as the header names them.
+//! Code pages of texts, by their names in the header.
 
 use crate::machine::letters::Letters;
 
 /// Prefix of a numbered code page in the header.
 const NUMBERED: &[u8] = b"ANSI_";
-/// Numbers of code pages that are no `windows-` encoding, each with the name of its encoding.
+/// Numbers of code pages without a `windows-` encoding, and the names of their encodings.
 const PAGES: [(&str, &str); 4] = [("932", "shift_jis"), ("936", "gbk"), ("949", "euc-kr"), ("950", "big5")];
 
-/// The encoding of a code page by its name in the header.
+/// The encoding of a code page, by its name in the header.
 pub(in crate::front) fn page(name: &[u8]) -> Option<Letters> {
     let name = std::str::from_utf8(name).ok()?;
     let number = name.get(..NUMBERED.len()).filter(|start| start.as_bytes().eq_ignore_ascii_case(NUMBERED));

@@ -1,12 +1,12 @@
-//! The grammar of a group, without meaning: one function a rule of `grammar/dxf.bnf`, in its order.
+//! The grammar of a group, without meaning: one function per rule of `grammar/dxf.bnf`, in its order.
 
-/// Most digits of a code: 1071 is the greatest that is in use.
+/// Maximum number of digits of a code; 1071 is the largest code in use.
 const CODE_DIGITS: usize = 4;
-/// Codes whose values are decimal numbers, and whole numbers: coordinates, sizes and angles; flags and counts.
+/// Codes with decimal numbers (coordinates, sizes and angles) and with whole numbers (flags and counts).
 const NUMBER_CODES: std::ops::RangeInclusive<i32> = 10..=59;
 const WHOLE_CODES: std::ops::RangeInclusive<i32> = 60..=79;
 
-/// `<code>`: a whole number alone in its line.
+/// `<code>`: a whole number alone on its line.
 pub(in crate::front) fn code(line: &[u8]) -> Option<i32> {
     let line = line.trim_ascii();
     let digits = line.strip_prefix(b"-").or(line.strip_prefix(b"+")).unwrap_or(line);
@@ -16,7 +16,7 @@ pub(in crate::front) fn code(line: &[u8]) -> Option<i32> {
     parsed(line)
 }
 
-/// Whether `<value>` may stand behind a code.
+/// True if the code permits `<value>`.
 pub(in crate::front) fn fits(code: i32, value: &[u8]) -> bool {
     match code {
         code if NUMBER_CODES.contains(&code) => number(value).is_some(),
@@ -25,22 +25,22 @@ pub(in crate::front) fn fits(code: i32, value: &[u8]) -> bool {
     }
 }
 
-/// `<number>`: a decimal number, with an exponent or without; always finite.
+/// `<number>`: a finite decimal number with an optional exponent.
 pub(in crate::front) fn number(value: &[u8]) -> Option<f64> {
-    // The standard library also reads `inf` and `nan`: they are not finite, so they are refused.
+    // The standard library also accepts `inf` and `nan`; they are refused as not finite.
     let number: Option<f64> = parsed(value.trim_ascii());
-    // The negative of zero is another bit pattern than zero, though the same place.
+    // Adding zero turns -0.0 into 0.0: both are the same position but have different bit patterns.
     number.filter(|number| number.is_finite()).map(|number| number + 0.0)
 }
 
-/// `<whole>`: a whole number. Some programs write decimals behind it.
+/// `<whole>`: a whole number. Some programs append decimals of zero.
 pub(in crate::front) fn whole(value: &[u8]) -> Option<i64> {
     number(value)
         .filter(|number| number.fract() == 0.0 && number.abs() < f64::from(i32::MAX))
         .map(|number| number as i64)
 }
 
-/// The number that a text stands for.
+/// Parses a text as a number.
 fn parsed<T: std::str::FromStr>(text: &[u8]) -> Option<T> {
     std::str::from_utf8(text).ok()?.parse().ok()
 }

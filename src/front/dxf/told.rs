@@ -1,4 +1,4 @@
-//! Entities that are not drawn: what is said of them.
+//! Report on entities that are not drawn.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,49 +6,49 @@ use super::entity::Entity;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// Kinds that a message names.
+/// Maximum number of kinds or layers named in a message.
 const SHOWN: usize = 8;
 
-/// Count of entities, and where the first begins.
+/// Number of entities, and the location of the first.
 type Count = (usize, Span);
 
-/// Entities of a drawing that are not drawn, counted.
+/// Counts of the entities that are not drawn.
 #[derive(Debug, Default)]
 pub(super) struct Told {
-    /// Those of kinds that draw no line, or are drawn about lines.
+    /// Entities of kinds that draw no line, or annotate lines.
     kinds: BTreeMap<String, Count>,
-    /// Those in paper space, those that are not shown, and insertions of blocks that are not there.
+    /// Entities in paper space, hidden entities, and insertions of missing blocks.
     on_paper: Option<Count>,
     hidden: Option<Count>,
-    /// Names of the layers that are not shown, as they are written.
+    /// Names of the hidden layers, as shown to the user.
     hidden_layers: BTreeSet<String>,
     unnamed: Option<Count>,
 }
 
 impl Told {
-    /// Counts an entity of a kind that is not read.
+    /// Counts an entity of an unsupported kind.
     pub(super) fn kind(&mut self, entity: &Entity) {
         let kind = entity.kind().escape_ascii().to_string().to_ascii_uppercase();
         self.kinds.entry(kind).or_insert((0, entity.span())).0 += 1;
     }
 
-    /// Counts an entity that stands on the sheet around the drawing.
+    /// Counts an entity in paper space.
     pub(super) fn on_paper(&mut self, entity: &Entity) {
         self.on_paper.get_or_insert((0, entity.span())).0 += 1;
     }
 
-    /// Counts an entity that is not shown.
+    /// Counts a hidden entity.
     pub(super) fn hidden(&mut self, entity: &Entity, layer: String) {
         self.hidden_layers.insert(layer);
         self.hidden.get_or_insert((0, entity.span())).0 += 1;
     }
 
-    /// Counts an insertion of a block that the file does not have.
+    /// Counts an insertion of a block that is missing in the file.
     pub(super) fn unnamed(&mut self, entity: &Entity) {
         self.unnamed.get_or_insert((0, entity.span())).0 += 1;
     }
 
-    /// Says what is not drawn.
+    /// Reports the entities that are not drawn.
     pub(super) fn say(&self, out: &mut Diagnostics) {
         let are = |count: usize, one: &str, many: &str| {
             if count == 1 { format!("1 {one} is") } else { format!("{count} {many} are") }

@@ -1,4 +1,4 @@
-//! The unit of a plain drawing, and the table of units that headers name.
+//! The unit of a plain drawing, and the table of header units.
 
 use super::syntax;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -7,30 +7,30 @@ use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
 use crate::units::MM_PER_INCH;
 
-/// Units of the header by their numbers, and their lengths, mm (DXF reference, `$INSUNITS`).
+/// Header units: number and length, mm (DXF reference, `$INSUNITS`).
 pub(in crate::front) const UNITS: [(i64, f64); 7] =
     [(1, MM_PER_INCH), (2, 304.8), (4, 1.0), (5, 10.0), (6, 1000.0), (10, 914.4), (14, 100.0)];
-/// The number that names none.
+/// Number for an unspecified unit.
 pub(in crate::front) const NO_UNIT: i64 = 0;
-/// Greatest side of a drawing in the unit of its header, mm: no table is so long.
+/// Maximum side of a drawing in the unit of its header, mm: no table is longer.
 const LONGEST: f64 = 3e4;
-/// Width of cloth, mm, beyond which a drawing is doubted that is wider both ways: that of wide decoration fabric.
+/// Width of cloth, mm, that of wide decoration fabric. A drawing larger than this in both directions is doubted.
 const WIDEST_CLOTH: f64 = 3300.0;
-/// Largest side of a drawing, mm, below which it is doubted.
+/// Minimum of the longer side of a drawing, mm; a smaller drawing is doubted.
 const SMALLEST: f64 = 20.0;
-/// Hint where nobody knows the unit.
+/// Hint for a drawing with an unknown unit.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
-/// Unit of a drawing: its length, and whether the file does not say it.
+/// Unit of a drawing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unit {
-    /// mm.
+    /// Length of the unit, mm.
     pub(super) mm: f64,
     is_unsaid: bool,
 }
 
-/// The unit that the profile names, else the header; mm where neither does, and where a drawing whose box in its own unit
-/// `extent` finds would be longer than any table.
+/// The unit of the profile, otherwise that of the header, otherwise mm. A header unit that would make the drawing longer than
+/// any table is replaced by mm. `extent` computes the box of the drawing in its own unit.
 pub(super) fn unit(
     dxf: &Dxf,
     of_header: Option<Span>,
@@ -62,7 +62,7 @@ pub(super) fn unit(
 }
 
 impl Unit {
-    /// Says how large a drawing is whose unit the file does not say, and doubts one that is larger or smaller than parts are.
+    /// Reports the size of a drawing without a unit, and doubts one that is larger or smaller than parts are.
     pub(super) fn doubt(&self, extent: &Extent, out: &mut Diagnostics) {
         if extent.is_empty() {
             return;

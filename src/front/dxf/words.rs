@@ -1,8 +1,8 @@
-//! Rows of the manual on plain DXF.
+//! Manual entries on plain DXF.
 
 use crate::front::Word;
 
-/// The entities of plain DXF, and what is done about them.
+/// The entities of plain DXF and their effects.
 #[rustfmt::skip] // a table: a row a line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC`, `CIRCLE`, `ELLIPSE`, `SPLINE`", about: "drawn; arcs, bulges and splines as chords within a quarter of the tolerance. Splines may be rational, closed, and without control points: then the curve goes through their fit points" },
