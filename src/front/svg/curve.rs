@@ -1,4 +1,4 @@
-//! Curves as chords, in mm.
+//! Conversion of curves to chords, in mm.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use super::path::Arc;
 use super::transform::{Pair, led, placed};
 use crate::geom::affine::Affine;
 
-/// The most chords of one curve: a damaged number must not fill the memory.
+/// Maximum number of chords of one curve, so that a damaged number cannot exhaust the memory.
 const MOST_CHORDS: f64 = 100_000.0;
 
 /// A curve, mm.
@@ -22,38 +22,38 @@ pub(super) enum Curve {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Elliptic {
     pub(super) centre: Pair,
-    /// Two conjugate half axes.
+    /// Two conjugate semi-axes.
     pub(super) axes: [Pair; 2],
     /// Start angle, rad.
     pub(super) start: f64,
     /// Sweep, rad.
     pub(super) sweep: f64,
-    /// Its end, exact.
+    /// Exact end point.
     pub(super) to: Pair,
 }
 
 impl Curve {
-    /// Number of chords of equal steps that keep within `sagitta` mm of it.
+    /// Number of chords of equal steps within `sagitta` mm of the curve.
     pub(super) fn chords(&self, sagitta: f64) -> usize {
         let needed = match self {
-            // Wang's bound: the root of 6 m / (8 s), m the greatest second difference of the control points.
+            // Wang's bound: the square root of 6 m / (8 s), with m the maximum second difference of the control points.
             Self::Cubic(p) => {
                 let bend = |i: usize, axis: usize| p[i][axis] - 2.0 * p[i + 1][axis] + p[i + 2][axis];
                 let second = |i: usize| bend(i, 0).hypot(bend(i, 1));
                 (0.75 * second(0).max(second(1)) / sagitta).sqrt()
             }
-            // The farthest place of a chord over the step a lies r (1 - cos(a / 2)) off, r the longer half axis.
+            // A chord over the step a deviates by at most r (1 - cos(a / 2)), with r the semi-major axis.
             Self::Elliptic(arc) => {
                 let share = sagitta / longest(arc.axes);
                 let step = if share < 1.0 { 4.0 * (share / 2.0).sqrt().asin() } else { TAU / 4.0 };
                 arc.sweep.abs() / step.min(TAU / 4.0)
             }
         };
-        // Not a number: one chord.
+        // NaN gives one chord.
         if needed.is_nan() { 1 } else { needed.ceil().clamp(1.0, MOST_CHORDS) as usize }
     }
 
-    /// Its place behind so many of its chords.
+    /// Point at the end of a chord, counted from 1.
     pub(super) fn place(&self, chord: usize, chords: usize) -> Pair {
         let share = chord as f64 / chords as f64;
         match self {
@@ -73,13 +73,13 @@ impl Curve {
     }
 }
 
-/// Longer half axis of the ellipse with two conjugate half axes: the greater singular value of their matrix, mm.
+/// Semi-major axis of the ellipse with two conjugate semi-axes: the larger singular value of their matrix, mm.
 fn longest([u, v]: [Pair; 2]) -> f64 {
     let (sum, product) = (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1], u[0] * v[1] - u[1] * v[0]);
     f64::midpoint(sum, ((sum + 2.0 * product) * (sum - 2.0 * product)).max(0.0).sqrt()).sqrt()
 }
 
-/// The arc of a path from a place, in mm; `None` for a straight line, as one with a radius of zero is (SVG 2, B.2).
+/// The arc of a path from its start point, in mm. `None` for a straight line; an arc with a zero radius is one (SVG 2, B.2).
 pub(super) fn arc(from: Pair, arc: Arc, map: Affine) -> Option<Curve> {
     let Arc { radii, turn, is_large, is_growing, to } = arc;
     let [rx, ry] = radii.map(f64::abs);
@@ -87,15 +87,15 @@ pub(super) fn arc(from: Pair, arc: Arc, map: Affine) -> Option<Curve> {
         return None;
     }
     let (sin, cos) = turn.to_radians().sin_cos();
-    // The ends seen from their middle, as if the ellipse were a circle of radius 1.
+    // Half the vector between the ends, in coordinates in which the ellipse is a unit circle.
     let half = [(from[0] - to[0]) / 2.0, (from[1] - to[1]) / 2.0];
     let unit = [(cos * half[0] + sin * half[1]) / rx, (cos * half[1] - sin * half[0]) / ry];
     let square = unit[0] * unit[0] + unit[1] * unit[1];
-    // Radii so large that their squares vanish make a straight line.
+    // Radii so large that the square underflows give a straight line.
     if square == 0.0 {
         return None;
     }
-    // An ellipse that does not reach both ends grows until it does.
+    // An ellipse too small to reach both ends is enlarged until it does.
     let grown = square.sqrt().max(1.0);
     let height = if square < 1.0 { ((1.0 - square) / square).sqrt() } else { 0.0 };
     let side = if is_large == is_growing { -height } else { height };
@@ -105,7 +105,7 @@ pub(super) fn arc(from: Pair, arc: Arc, map: Affine) -> Option<Curve> {
     let turned = (end - start).rem_euclid(TAU);
     let sweep = if is_growing { turned } else { turned - TAU };
     let axes = [[rx * grown * cos, rx * grown * sin], [-ry * grown * sin, ry * grown * cos]];
-    // The middle of a grown ellipse is that of the ends.
+    // The centre of an enlarged ellipse is the midpoint of the ends.
     let centre = [0, 1].map(|axis| {
         f64::midpoint(from[axis], to[axis]) + (middle[0] * axes[0][axis] + middle[1] * axes[1][axis]) / grown
     });
@@ -120,7 +120,7 @@ mod tests {
     const SAGITTA: f64 = 0.01;
 
     fn check(curve: &Curve) {
-        // Each chord is compared with places between its ends.
+        // Each chord is compared with points of the curve between its ends.
         let chords = curve.chords(SAGITTA);
         for chord in 0..chords {
             let [a, b] = [chord, chord + 1].map(|chord| curve.place(chord, chords));

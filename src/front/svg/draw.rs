@@ -1,4 +1,4 @@
-//! Shapes and texts: what an element draws by itself.
+//! Drawing of shapes and texts: the elements with content of their own.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -17,7 +17,7 @@ use crate::geom::Point;
 use crate::ir::marker::Label;
 use crate::source::Span;
 
-/// Steps, each with the letters of its attribute.
+/// Steps, each with its byte range in the attribute.
 type Steps = Result<Vec<(Step, Range<usize>)>, Fault>;
 
 impl<'a, 'input> Walk<'a, 'input, '_> {
@@ -59,13 +59,13 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
         Ok(())
     }
 
-    /// Draws what an attribute lists.
+    /// Draws the path data or points in an attribute.
     fn listed(&mut self, node: Node<'a, 'input>, name: &str, read: fn(&str) -> Steps, scene: Scene<'a>) {
         let Some(attribute) = node.attribute_node(name) else { return };
         let number = self.number(node);
         let range = attribute.range_value();
         let text = self.data(&attribute);
-        // Letters that stand for others move all behind them; their places are those of the attribute then.
+        // Character references shift the text after them; its ranges are clamped to the attribute.
         let at = |place: usize| (range.start + place).min(range.end);
         let spot = |letters: Range<usize>| at(letters.start)..at(letters.end);
         match read(text) {
@@ -84,13 +84,13 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
         }
     }
 
-    /// The value of an attribute; as it stands in the file where nothing in it stands for other letters.
+    /// The value of an attribute: the raw text of the file unless it contains references.
     fn data(&self, attribute: &Attribute<'a, 'input>) -> &'a str {
         let raw = &self.letters.text[attribute.range_value()];
         if raw.contains('&') { attribute.value() } else { raw }
     }
 
-    /// Draws steps of a path.
+    /// Draws the steps of a path.
     fn trace(&mut self, steps: impl Iterator<Item = (Step, Span)>, scene: Scene) {
         for (step, span) in steps {
             if let Err(fault) = self.pencil.draw(step, scene.map, span) {
@@ -114,7 +114,7 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
         self.pencil.lift();
     }
 
-    /// Makes labels of a text.
+    /// Makes the labels of a text.
     pub(super) fn text(&mut self, text: Node<'a, 'input>, scene: Scene<'a>) {
         if !scene.is_visible {
             self.tally.hide(self.span(text));
@@ -123,7 +123,7 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
         let parts =
             text.descendants().filter(|node| node.is_text() && node.text().is_some_and(|t| !t.trim().is_empty()));
         for part in parts {
-            // Bytes of another encoding than the labels would show as other letters.
+            // Text in another encoding would give wrong labels.
             if !self.letters.are_plain() {
                 let span = self.span(text);
                 self.tally.leave_out("text", span);

@@ -6,16 +6,16 @@ use crate::units::MM_PER_INCH;
 /// A length as written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Length {
-    /// mm.
+    /// Length in mm.
     Mm(f64),
-    /// Numbers without a unit, and pixels.
+    /// Number without a unit, or in pixels.
     Px(f64),
-    /// Hundredths of what it is a part of.
+    /// Percentage of a reference length.
     Percent(f64),
 }
 
 impl Length {
-    /// A length; `None` of what is none, and of those by the size of letters.
+    /// Parses a length; `None` if it is malformed or relative to the font size.
     pub(super) fn read(text: &str) -> Option<Self> {
         let mut scan = Scan::of(text.trim());
         let number = scan.number()?;
@@ -32,7 +32,7 @@ impl Length {
         })
     }
 
-    /// In units of the file, for pixels of that many mm; `whole` is what percents are of.
+    /// Length in units of the file, for a pixel of `pixel` mm; `whole` is the reference of percentages.
     pub(super) fn units(self, pixel: f64, whole: f64) -> f64 {
         match self {
             Self::Mm(mm) => mm / pixel,

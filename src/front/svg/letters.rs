@@ -1,7 +1,7 @@
-//! Letters of an SVG file as UTF-8, in which XML is read, and where each stands among the bytes of the file.
+//! The text of an SVG file in UTF-8, as XML is parsed, and the mapping of its offsets to bytes of the file.
 //!
-//! The encoding is told by a mark at the start, or by the declaration of XML; without either it is UTF-8. UTF-16 and
-//! encodings with one byte a letter are converted.
+//! The encoding is given by a byte order mark or by the XML declaration; the default is UTF-8. UTF-16 and single-byte encodings
+//! are converted.
 
 use std::borrow::Cow;
 
@@ -10,29 +10,29 @@ use encoding_rs::{Encoding, UTF_16BE, UTF_16LE};
 use crate::diagnostic::{Diagnostic, code};
 use crate::source::{Source, Span};
 
-/// Bytes at the start of a file in which its declaration stands.
+/// Number of bytes at the start of a file that may hold its declaration.
 const DECLARED: usize = 200;
-/// Letters between two places whose bytes are noted.
+/// Number of letters between recorded offsets.
 const STRIDE: usize = 256;
 
-/// The letters of a file.
+/// The text of a file.
 pub(super) struct Letters<'a> {
-    /// All of them.
+    /// The complete text.
     pub(super) text: Cow<'a, str>,
-    /// Encoding in which they stand in the file.
+    /// Width of letters in the file.
     width: Width,
-    /// Places in the text and in the file, in order, where both differ.
+    /// Pairs of offsets in the text and in the file, in order; empty if both are equal.
     marks: Vec<[usize; 2]>,
 }
 
-/// Bytes of a letter in the file.
+/// Width of letters in the file, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Width {
-    /// Those of the text.
+    /// As in the text.
     Same,
-    /// One each.
+    /// One byte each.
     One,
-    /// Two, or four.
+    /// Two bytes or four.
     Two,
 }
 
@@ -44,7 +44,7 @@ enum Found {
 }
 
 impl<'a> Letters<'a> {
-    /// The letters of a file, or why they cannot be told.
+    /// Decodes a file; the error says why it cannot be decoded.
     pub(super) fn of(source: &'a Source) -> Result<Self, Diagnostic> {
         let bytes = source.bytes();
         match encoding(bytes) {
@@ -72,7 +72,7 @@ impl<'a> Letters<'a> {
         }
     }
 
-    /// Place among the bytes of the file of a place in the text.
+    /// Offset in the file of an offset in the text.
     pub(super) fn byte(&self, at: usize) -> u32 {
         if self.width == Width::Same {
             return at as u32;
@@ -83,19 +83,19 @@ impl<'a> Letters<'a> {
         (byte + letters.map(|letter| self.width.of(letter)).sum::<usize>()) as u32
     }
 
-    /// Bytes of the file that a stretch of the text stands for.
+    /// Span in the file of a range of the text.
     pub(super) fn span(&self, range: std::ops::Range<usize>, block: u32) -> Span {
         Span { start: self.byte(range.start), end: self.byte(range.end), block }
     }
 
-    /// Whether the bytes of the file are those of the text.
+    /// True if offsets in the file and in the text are equal.
     pub(super) fn are_plain(&self) -> bool {
         self.width == Width::Same
     }
 }
 
 impl Width {
-    /// Bytes of a letter.
+    /// Width of a letter, bytes.
     fn of(self, letter: char) -> usize {
         match self {
             Self::Same => letter.len_utf8(),
@@ -105,7 +105,7 @@ impl Width {
     }
 }
 
-/// Places in the text and in the file, one every few letters.
+/// Pairs of offsets in the text and in the file, one every [`STRIDE`] letters.
 fn marks(text: &str, width: Width, start: usize) -> Vec<[usize; 2]> {
     let (mut marks, mut byte) = (Vec::new(), start);
     for (count, (at, letter)) in text.char_indices().enumerate() {
@@ -117,7 +117,7 @@ fn marks(text: &str, width: Width, start: usize) -> Vec<[usize; 2]> {
     if marks.is_empty() { vec![[0, start]] } else { marks }
 }
 
-/// The encoding that a file is in.
+/// The encoding of a file.
 fn encoding(bytes: &[u8]) -> Found {
     match bytes {
         [0xef, 0xbb, 0xbf, ..] => return Found::Utf8,
@@ -127,7 +127,7 @@ fn encoding(bytes: &[u8]) -> Found {
     }
     let Some(name) = declared(&bytes[..bytes.len().min(DECLARED)]) else { return Found::Utf8 };
     match Encoding::for_label(name) {
-        // A text of ASCII is the same in all of them.
+        // ASCII is the same in all supported encodings.
         _ if bytes.is_ascii() => Found::Utf8,
         Some(encoding) if encoding == encoding_rs::UTF_8 => Found::Utf8,
         Some(encoding) if encoding.is_single_byte() => Found::Other(encoding),
@@ -135,7 +135,7 @@ fn encoding(bytes: &[u8]) -> Found {
     }
 }
 
-/// The name behind `encoding=` in the declaration of XML.
+/// The name after `encoding=` in the XML declaration.
 fn declared(head: &[u8]) -> Option<&[u8]> {
     let head = head.trim_ascii_start();
     let end = memchr::memmem::find(head, b"?>").filter(|_| head.starts_with(b"<?xml"))?;

@@ -1,12 +1,12 @@
-//! SVG drawings, as Inkscape, Illustrator, `CorelDRAW`, Affinity and programs for sewing patterns save them.
+//! SVG drawings, as saved by Inkscape, Illustrator, `CorelDRAW`, Affinity and programs for sewing patterns.
 //!
-//! Receives XML. Promises a drawing in mm with y upwards: strokes with the names of their layers, groups or colours, and
-//! texts. Every transform, copy and view box is done with; curves are chords within a quarter of the tolerance and
-//! 0.02 mm; a subpath that comes back to its start ends there to the bit. Never decides what is cut.
+//! Receives XML. Promises a drawing in mm with y upwards: strokes with the names of their layers, groups or colours, and texts.
+//! All transforms, copies and view boxes are resolved; curves are chords within a quarter of the tolerance and 0.02 mm; a
+//! subpath that returns to its start ends exactly there. Never decides what is cut.
 //!
-//! [`mod@letters`] makes UTF-8 of the bytes, [`mod@page`] tells the size, [`walk`] goes through the elements with the
-//! [`scene`] around each, whose [`style`] sheets and attributes say; [`draw`] makes steps of [`mod@path`] and [`mod@shape`],
-//! which the [`pencil`] follows, and makes chords of each [`curve`]; [`scan`] finds numbers; [`tally`] counts what is not cut.
+//! [`mod@letters`] decodes the bytes, [`mod@page`] gives the size, [`walk`] traverses the elements with the [`scene`] of each,
+//! which depends on [`style`] sheets and attributes. [`draw`] makes steps from [`mod@path`] and [`mod@shape`], which the
+//! [`pencil`] draws, with chords for each [`curve`]. [`scan`] parses numbers; [`tally`] counts elements that are not cut.
 
 mod curve;
 mod draw;
@@ -46,10 +46,10 @@ pub(super) const DIALECT: Dialect = Dialect {
     words: words::WORDS,
 };
 
-/// Farthest that the chords of a curve may lie off it: as a part of the tolerance, and mm.
+/// Maximum deviation of chords from their curve: as a fraction of the tolerance, and in mm.
 const SAGITTA: f64 = 0.25;
 const MOST_SAGITTA: f64 = 0.02;
-/// Nodes that a file may have.
+/// Maximum number of XML nodes of a file.
 const MOST_NODES: u32 = 20_000_000;
 const SVG: &str = "http://www.w3.org/2000/svg";
 
@@ -57,7 +57,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
     if foreign::is_svg(bytes) { Likeness::Sure } else { Likeness::No }
 }
 
-/// Whether the bytes are XML.
+/// Checks that the bytes are XML.
 fn check_syntax(source: &Source, out: &mut Diagnostics) {
     match Letters::of(source) {
         Err(fault) => out.push(fault),
@@ -110,18 +110,18 @@ fn read_xml(source: &Source, job: &Job, out: &mut Diagnostics) -> Result<Drawing
     Ok(drawing)
 }
 
-/// Whether cutc made a picture: its root and its style sheet tell.
+/// True for a picture made by cutc, recognised by its root and style sheet.
 fn is_own_picture(root: Node) -> bool {
     let mut sheets = root.children().filter(|node| node.has_tag_name((SVG, "style"))).filter_map(|node| node.text());
     root.attribute("id") == Some("marker") && sheets.any(|sheet| sheet.contains(".doubt-sign{"))
 }
 
-/// A name as a message shows it.
+/// A name, shortened for a message.
 fn shown(name: &str) -> String {
     name.chars().take(40).collect()
 }
 
-/// A fault of XML, where it is.
+/// The finding on an XML error, with its location.
 fn not_xml(fault: &Error, letters: &Letters) -> Diagnostic {
     let span = || {
         let at = fault.pos();
@@ -148,7 +148,7 @@ fn not_xml(fault: &Error, letters: &Letters) -> Diagnostic {
         }
         fault => {
             let text = fault.to_string();
-            // The place is told beside the message.
+            // The location is reported beside the message.
             let text = text.rsplit_once(" at ").map_or(text.as_str(), |(text, _)| text);
             let finding = Diagnostic::new(&code::SVG_NOT_XML, format!("the file is no XML: {}", shown_fault(text)));
             finding.at(span()).hint("the file was damaged or cut short: save the drawing again")
@@ -156,7 +156,7 @@ fn not_xml(fault: &Error, letters: &Letters) -> Diagnostic {
     }
 }
 
-/// The words of a library, within a line.
+/// The message of a library, as a single line.
 fn shown_fault(text: &str) -> String {
     text.chars().take(120).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -1,7 +1,6 @@
-//! The page: how large a unit of the file is, and where the drawing lies in mm, with y upwards.
+//! The page: size of a unit of the file, and position of the drawing in mm, with y upwards.
 //!
-//! Pixels are 1/96 inch as CSS says, but 1/90 inch in files of Inkscape before 0.92 and 1/72 inch in those of Adobe
-//! Illustrator.
+//! A pixel is 1/96 inch by CSS, but 1/90 inch in files of Inkscape before 0.92 and 1/72 inch in those of Adobe Illustrator.
 
 use roxmltree::{Document, Node};
 
@@ -14,31 +13,31 @@ use crate::geom::affine::Affine;
 use crate::units::MM_PER_INCH;
 use crate::units::number::{fixed, short};
 
-/// Namespaces of Inkscape, and the start of those of Adobe.
+/// Namespace of Inkscape, and the prefix of those of Adobe.
 pub(super) const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 const ADOBE: &str = "http://ns.adobe.com/";
 /// The first version of Inkscape with 96 pixels to the inch.
 const INKSCAPE_96: (u32, u32) = (0, 92);
-/// A drawing that is wider than this both ways is doubted, mm; so is one that is smaller than this.
+/// Limits of plausible drawings, mm: a drawing is doubted if both sides exceed the first, or neither reaches the second.
 const WIDEST: f64 = 3000.0;
 const SMALLEST: f64 = 20.0;
 
 /// A page.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Page {
-    /// From units of the file to mm.
+    /// Map from units of the file to mm.
     pub(super) map: Affine,
     /// Size of a pixel, mm.
     pub(super) pixel: f64,
-    /// Width and height that percents are of, in units of the file.
+    /// Reference width and height of percentages, in units of the file.
     pub(super) whole: Pair,
-    /// Pixels to the inch, and the source of that.
+    /// Pixels per inch, and the reason for the number.
     dots: Dots,
-    /// Whether the size of the drawing depends on that.
+    /// True if the size of the drawing depends on the pixels per inch.
     is_by_pixels: bool,
 }
 
-/// Pixels to the inch.
+/// Pixels per inch, and the reason for the number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Dots {
     to_the_inch: f64,
@@ -46,7 +45,7 @@ struct Dots {
 }
 
 impl Dots {
-    /// Those of the program that wrote a file.
+    /// Pixels per inch of the program that wrote a file.
     fn of(document: &Document) -> Self {
         let root = document.root_element();
         if root.attribute((INKSCAPE, "version")).and_then(version).is_some_and(|version| version < INKSCAPE_96) {
@@ -69,7 +68,7 @@ fn version(text: &str) -> Option<(u32, u32)> {
     Some((numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?))
 }
 
-/// A fault of the attribute of the root of that name.
+/// A fault of an attribute of the root: its name and a description.
 type Fault = (&'static str, &'static str);
 
 impl Page {
@@ -93,7 +92,7 @@ impl Page {
             Length::Mm(mm) | Length::Percent(mm) => mm,
         };
         let mm = asked.map(|length| length.map(millimetres));
-        // One side alone gives the other the shape of the view box; without any a unit is a pixel.
+        // A single side determines the other by the aspect ratio of the view box; without any, a unit is a pixel.
         let mm = match (mm, view) {
             ([Some(width), Some(height)], _) => [width, height],
             ([Some(width), None], Some(view)) => [width, width * view.size[1] / view.size[0]],
@@ -117,7 +116,7 @@ impl Page {
         Ok(Self { map, pixel, whole, dots, is_by_pixels })
     }
 
-    /// Tells what the size hangs on, and doubts one that no garment has.
+    /// Reports a size that depends on the pixels per inch, and doubts an implausible one.
     pub(super) fn check_size(&self, extent: &Extent, out: &mut Diagnostics) {
         if extent.is_empty() {
             return;
@@ -140,7 +139,7 @@ impl Page {
     }
 }
 
-/// Width or height of the page; `None` where it is left to the reader.
+/// Width or height of the page; `None` if it is automatic.
 fn size(root: Node, name: &'static str) -> Result<Option<Length>, Fault> {
     let Some(text) = root.attribute(name).map(str::trim).filter(|text| !text.is_empty() && *text != "auto") else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! Path data: commands of one letter with numbers (SVG 2, 9.3).
+//! Path data: single-letter commands with numbers (SVG 2, 9.3).
 
 use std::ops::Range;
 
@@ -8,53 +8,53 @@ use super::transform::Pair;
 /// A step of a path, in units of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Step {
-    /// A subpath begins.
+    /// Start of a subpath.
     Move(Pair),
     /// A straight line.
     Line(Pair),
-    /// A cubic Bezier curve: two control points and its end.
+    /// A cubic Bezier curve: two control points and the end point.
     Cubic([Pair; 3]),
     /// An arc of an ellipse.
     Arc(Arc),
-    /// Back to the start of the subpath.
+    /// Return to the start of the subpath.
     Close,
 }
 
-/// An arc of an ellipse by its ends.
+/// An arc of an ellipse, by its end point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Arc {
-    /// Half axes.
+    /// Semi-axes.
     pub(super) radii: Pair,
-    /// Turn of the first one from the axis of x, degrees.
+    /// Angle from the x axis to the first semi-axis, degrees.
     pub(super) turn: f64,
-    /// Whether it is the arc of more than half a turn.
+    /// True for the arc of more than half a turn.
     pub(super) is_large: bool,
-    /// Whether its angle grows, from x to y.
+    /// True if its angle increases, from x to y.
     pub(super) is_growing: bool,
-    /// Its end.
+    /// End point.
     pub(super) to: Pair,
 }
 
-/// A fault of path data: the byte, and words for it.
+/// A fault of path data: its byte offset and a description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Fault {
     pub(super) at: usize,
     pub(super) what: &'static str,
 }
 
-/// The pen while a path is read.
+/// State of the path parser.
 struct Reader<'a> {
     text: &'a str,
     scan: Scan<'a>,
     at: Pair,
     /// Start of the subpath.
     start: Pair,
-    /// The last control point, when the step before was a curve: cubic, and quadratic.
+    /// The last control point if the previous step was a curve: cubic, and quadratic.
     controls: [Option<Pair>; 2],
     steps: Vec<(Step, Range<usize>)>,
 }
 
-/// The steps of a path, each with the bytes that it stands in.
+/// The steps of a path, each with its byte range.
 pub(super) fn read(text: &str) -> Result<Vec<(Step, Range<usize>)>, Fault> {
     let mut reader =
         Reader { text, scan: Scan::of(text), at: [0.0; 2], start: [0.0; 2], controls: [None; 2], steps: Vec::new() };
@@ -91,7 +91,7 @@ pub(super) fn read(text: &str) -> Result<Vec<(Step, Range<usize>)>, Fault> {
 }
 
 impl Reader<'_> {
-    /// Reads the numbers of a command that begins at a byte.
+    /// Parses the numbers of a command; `from` is the offset of the command or of its first number.
     fn step(&mut self, byte: u8, from: usize) -> Result<(), Fault> {
         let origin = if byte.is_ascii_lowercase() { self.at } else { [0.0; 2] };
         let mut controls = [None; 2];
@@ -135,7 +135,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The control point that goes on smoothly from the last curve of its kind.
+    /// The control point that continues the last curve of a kind smoothly.
     fn mirrored(&self, kind: usize) -> Pair {
         self.controls[kind].map_or(self.at, |last| [0, 1].map(|axis| 2.0 * self.at[axis] - last[axis]))
     }
@@ -153,7 +153,7 @@ impl Reader<'_> {
         Ok([self.number()? + origin[0], self.number()? + origin[1]])
     }
 
-    /// A flag of an arc: one digit, which the next number may follow at once.
+    /// A flag of an arc: a single digit, which the next number may follow directly.
     fn flag(&mut self) -> Result<bool, Fault> {
         self.scan.pass_blanks();
         let is_set = match self.scan.next() {

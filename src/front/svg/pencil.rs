@@ -9,34 +9,34 @@ use crate::geom::affine::Affine;
 use crate::ir::Drawing;
 use crate::source::Span;
 
-/// The most chords of a file: a damaged radius must not fill the memory.
+/// Maximum number of chords of a file, so that a damaged radius cannot exhaust the memory.
 const MOST_CHORDS: usize = 4_000_000;
-/// Farthest coordinate, mm: a kilometre, far beyond any table.
+/// Maximum coordinate, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
-/// Shortest line, mm: sums of relative places come back to their start within a thousandth of that.
+/// Minimum length of a line, mm. Sums of relative coordinates return to their start within a thousandth of this.
 const SHORTEST: f64 = 1e-6;
 
-/// Pencil that makes strokes of the steps of paths.
+/// Converts the steps of paths to strokes.
 pub(super) struct Pencil {
     pub(super) drawing: Drawing,
-    /// Farthest that a chord may lie off its curve, mm.
+    /// Maximum deviation of a chord from its curve, mm.
     sagitta: f64,
-    /// Chords that were drawn.
+    /// Number of chords so far.
     chords: usize,
-    /// Start of the subpath, in units of the file, and its place in the source.
+    /// Start of the subpath, in units of the file, and its location in the source.
     start: (Pair, Span),
-    /// Place of the pencil, in units of the file.
+    /// Current position, in units of the file.
     at: Pair,
 }
 
 impl Pencil {
-    /// A pencil whose chords keep within `sagitta` mm of curves.
+    /// A pencil with chords within `sagitta` mm of curves.
     pub(super) fn new(sagitta: f64) -> Self {
         let start = ([0.0; 2], Span::default());
         Self { drawing: Drawing::default(), sagitta, chords: 0, start, at: [0.0; 2] }
     }
 
-    /// Draws a step of a path that a map takes to mm.
+    /// Draws a step of a path; `map` converts it to mm.
     pub(super) fn draw(&mut self, step: Step, map: Affine, span: Span) -> Result<(), Diagnostic> {
         let from = self.at;
         let place = |at: Pair| placed(&map, at);
@@ -74,7 +74,7 @@ impl Pencil {
         Ok(())
     }
 
-    /// Draws a curve from where the pencil is.
+    /// Draws a curve from the current position.
     pub(super) fn curve(&mut self, curve: &Curve, map: Affine, span: Span) -> Result<(), Diagnostic> {
         let chords = curve.chords(self.sagitta);
         self.chords += chords;
@@ -86,7 +86,7 @@ impl Pencil {
         (1..=chords).try_for_each(|chord| self.line(map, curve.place(chord, chords), span))
     }
 
-    /// Draws a line to a place, mm. Whoever draws gives the strokes to their layers.
+    /// Draws a line to a point, mm. The caller assigns the strokes to their layers.
     fn line(&mut self, map: Affine, to: Pair, span: Span) -> Result<(), Diagnostic> {
         check(to, span)?;
         if self.drawing.is_lifted() {
@@ -101,7 +101,7 @@ impl Pencil {
         Ok(())
     }
 
-    /// Ends a subpath. One that comes back to its start ends there to the bit.
+    /// Ends a subpath. A subpath that returns to its start ends exactly there.
     pub(super) fn lift(&mut self) {
         if !self.drawing.is_lifted()
             && let Some(stroke) = self.drawing.strokes.last()
@@ -117,7 +117,7 @@ impl Pencil {
     }
 }
 
-/// Refuses a place that is none, or that no table has.
+/// Refuses a point with NaN or with coordinates beyond any table.
 fn check(at: Pair, span: Span) -> Result<(), Diagnostic> {
     if at.iter().all(|number| number.abs() <= FARTHEST) {
         return Ok(());

@@ -1,6 +1,6 @@
-//! Numbers one behind the other, as attributes list them, with the byte of each.
+//! Scanner for the numbers in an attribute, with the byte offset of each.
 
-/// A place in the text of an attribute.
+/// A position in the text of an attribute.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scan<'a> {
     text: &'a str,
@@ -8,12 +8,12 @@ pub(super) struct Scan<'a> {
 }
 
 impl<'a> Scan<'a> {
-    /// The start of a text.
+    /// A scanner at the start of a text.
     pub(super) fn of(text: &'a str) -> Self {
         Self { text, at: 0 }
     }
 
-    /// The byte that comes next.
+    /// Offset of the next byte.
     pub(super) fn byte(&self) -> usize {
         self.at
     }
@@ -27,12 +27,12 @@ impl<'a> Scan<'a> {
         self.at >= self.text.len()
     }
 
-    /// The letter that comes next, if it is one of ASCII; 0 otherwise.
+    /// The next letter if it is ASCII, otherwise 0.
     pub(super) fn next(&self) -> u8 {
         self.rest().bytes().next().filter(u8::is_ascii).unwrap_or(0)
     }
 
-    /// Passes over a letter of ASCII.
+    /// Skips an ASCII letter.
     pub(super) fn pass(&mut self) {
         self.at += usize::from(self.next() != 0);
     }
@@ -41,7 +41,7 @@ impl<'a> Scan<'a> {
         self.at += self.count(|byte| b" \t\r\n".contains(&byte));
     }
 
-    /// Passes over blanks and one comma.
+    /// Skips blanks and at most one comma.
     pub(super) fn pass_separator(&mut self) {
         self.pass_blanks();
         if self.next() == b',' {
@@ -50,7 +50,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// A number behind blanks; `None` without one that is finite, and then nothing is passed over but blanks.
+    /// Parses a number after blanks. `None` without a finite number; only the blanks are then skipped.
     pub(super) fn number(&mut self) -> Option<f64> {
         self.pass_blanks();
         let start = self.at;
@@ -61,7 +61,7 @@ impl<'a> Scan<'a> {
         found
     }
 
-    /// The letters of a number: a sign, digits with a point, and an exponent.
+    /// The text of a number: a sign, digits with a point, and an exponent.
     fn digits(&mut self) -> Option<&'a str> {
         let start = self.at;
         if b"+-".contains(&self.next()) {

@@ -1,4 +1,4 @@
-//! What an element has from those around it.
+//! Inherited properties of an element.
 
 use roxmltree::Node;
 use svgtypes::Color;
@@ -8,27 +8,27 @@ use super::style::{self, Style};
 use super::transform::Pair;
 use crate::geom::affine::Affine;
 
-/// Properties that an element has from those around it.
+/// Inherited properties of an element.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scene<'a> {
-    /// From its units to mm.
+    /// Map from its units to mm.
     pub(super) map: Affine,
-    /// Width and height that percents are of, in its units.
+    /// Reference width and height of percentages, in its units.
     pub(super) whole: Pair,
     stroke: &'a str,
     fill: &'a str,
     pub(super) is_visible: bool,
-    /// Name of the layer of Inkscape, and of the outermost group with a name.
+    /// Names of the Inkscape layer and of the outermost named group.
     layer: Option<&'a str>,
     group: Option<&'a str>,
-    /// Elements around it.
+    /// Number of enclosing elements.
     pub(super) depth: usize,
-    /// Whether it is a copy that `use` makes.
+    /// True inside a copy made by `use`.
     pub(super) is_copy: bool,
 }
 
 impl<'a> Scene<'a> {
-    /// The scene of a page.
+    /// The initial properties on a page.
     pub(super) fn of_page(map: Affine, whole: Pair) -> Self {
         Self {
             map,
@@ -43,7 +43,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// With the style of an element.
+    /// The properties after applying the style of an element.
     #[must_use]
     pub(super) fn styled(self, style: &Style<'a>) -> Self {
         let own = |property: usize| style[property].filter(|value| *value != "inherit");
@@ -56,7 +56,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// With the name of a group.
+    /// The properties inside a named group.
     #[must_use]
     pub(super) fn named(self, node: Node<'a, '_>) -> Self {
         if node.attribute((INKSCAPE, "groupmode")) == Some("layer")
@@ -68,17 +68,17 @@ impl<'a> Scene<'a> {
         Self { group: self.group.or(id), ..self }
     }
 
-    /// Whether a line along a shape is seen.
+    /// True if the stroke of a shape is visible.
     pub(super) fn has_stroke(&self) -> bool {
         is_paint(self.stroke)
     }
 
-    /// Whether the area of a shape is.
+    /// True if the fill of a shape is visible.
     pub(super) fn has_fill(&self) -> bool {
         is_paint(self.fill)
     }
 
-    /// Name of the layer that a shape is in, or the colour of its line or area.
+    /// Name of the layer of a shape, otherwise the colour of its stroke or fill.
     pub(super) fn layer(&self) -> String {
         if let Some(name) = self.layer.or(self.group) {
             return name.to_owned();

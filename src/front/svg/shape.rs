@@ -1,4 +1,4 @@
-//! Basic shapes as steps of paths (SVG 2, 10).
+//! Basic shapes as path steps (SVG 2, 10).
 
 use std::ops::Range;
 
@@ -9,19 +9,19 @@ use super::path::{Arc, Fault, Step};
 use super::scan::Scan;
 use super::transform::Pair;
 
-/// A fault of an attribute: its name, and words for it.
+/// A fault of an attribute: its name and a description.
 pub(super) type BadValue = (&'static str, &'static str);
 
-/// Measures of the lengths of an element.
+/// Reference sizes for the lengths of an element.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     /// Size of a pixel, mm.
     pub(super) pixel: f64,
-    /// Width and height that percents are of, in units of the file.
+    /// Reference width and height of percentages, in units of the file.
     pub(super) whole: Pair,
 }
 
-/// Base of a percentage.
+/// Reference of a percentage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     Width,
@@ -30,7 +30,7 @@ pub(super) enum Of {
 }
 
 impl Measure {
-    /// An attribute as a length in units of the file; `None` without one, and for `auto`.
+    /// An attribute as a length in units of the file; `None` if it is missing or `auto`.
     pub(super) fn length(self, node: Node, name: &'static str, of: Of) -> Result<Option<f64>, BadValue> {
         let text = node.attribute(name).map(str::trim).filter(|text| !text.is_empty() && *text != "auto");
         let Some(text) = text else { return Ok(None) };
@@ -44,12 +44,12 @@ impl Measure {
         Ok(Some(length.units(self.pixel, whole)))
     }
 
-    /// A length, or 0.
+    /// An attribute as a length, by default 0.
     pub(super) fn place(self, node: Node, name: &'static str, of: Of) -> Result<f64, BadValue> {
         Ok(self.length(node, name, of)?.unwrap_or(0.0))
     }
 
-    /// A length that is not below 0.
+    /// An attribute as a length; an error if negative.
     pub(super) fn size(self, node: Node, name: &'static str, of: Of) -> Result<Option<f64>, BadValue> {
         match self.length(node, name, of)? {
             Some(size) if size < 0.0 => Err((name, "a size must not be negative")),
@@ -58,7 +58,7 @@ impl Measure {
     }
 }
 
-/// A rectangle, its corners rounded or not; nothing without a size.
+/// A rectangle with optional rounded corners; empty if a side is zero.
 pub(super) fn rectangle(node: Node, by: Measure) -> Result<Vec<Step>, BadValue> {
     let (x, y) = (by.place(node, "x", Of::Width)?, by.place(node, "y", Of::Height)?);
     let width = by.size(node, "width", Of::Width)?.unwrap_or(0.0);
@@ -89,7 +89,7 @@ pub(super) fn rectangle(node: Node, by: Measure) -> Result<Vec<Step>, BadValue> 
     ])
 }
 
-/// Centre and half axes of a circle or an ellipse; `None` without a size.
+/// Centre and semi-axes of a circle or an ellipse; `None` if a semi-axis is zero.
 pub(super) fn ellipse(node: Node, by: Measure) -> Result<Option<[Pair; 2]>, BadValue> {
     let centre = [by.place(node, "cx", Of::Width)?, by.place(node, "cy", Of::Height)?];
     let radii = if node.tag_name().name() == "circle" {
@@ -109,7 +109,7 @@ pub(super) fn line(node: Node, by: Measure) -> Result<Vec<Step>, BadValue> {
     Ok(vec![Step::Move(from), Step::Line(to)])
 }
 
-/// The places of a polyline or polygon, each with its bytes.
+/// The points of a polyline or polygon, each with its byte range.
 pub(super) fn points(text: &str) -> Result<Vec<(Step, Range<usize>)>, Fault> {
     let mut scan = Scan::of(text);
     let mut steps = Vec::new();

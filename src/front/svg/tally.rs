@@ -1,17 +1,17 @@
-//! Counts of what is not cut, told once a kind.
+//! Counts of elements that are not cut, reported once per kind.
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// Names of selectors that a message lists.
+/// Maximum number of selectors named in a message.
 const MOST_NAMED: usize = 3;
 
-/// Counts, each with the first place.
+/// Counts, each with the location of the first element.
 #[derive(Debug, Default)]
 pub(super) struct Tally {
     hidden: Option<(usize, Span)>,
     without_line: Option<(usize, Span)>,
-    /// Kinds that are left out, in the order in which they first appear.
+    /// Unsupported kinds, in the order of their first use.
     kinds: Vec<(String, usize, Span)>,
 }
 
@@ -19,23 +19,23 @@ fn count(counted: &mut Option<(usize, Span)>, span: Span) {
     counted.get_or_insert((0, span)).0 += 1;
 }
 
-/// A word for so many things.
+/// A count with its noun.
 fn many(count: usize, one: &str, several: &str) -> String {
     if count == 1 { format!("1 {one}") } else { format!("{count} {several}") }
 }
 
 impl Tally {
-    /// An element is not displayed.
+    /// Counts an element that is not displayed.
     pub(super) fn hide(&mut self, span: Span) {
         count(&mut self.hidden, span);
     }
 
-    /// A shape has neither stroke nor fill.
+    /// Counts a shape with neither stroke nor fill.
     pub(super) fn lack_line(&mut self, span: Span) {
         count(&mut self.without_line, span);
     }
 
-    /// Something of a kind is drawn and not read.
+    /// Counts an unsupported element that draws something.
     pub(super) fn leave_out(&mut self, kind: &str, span: Span) {
         match self.kinds.iter_mut().find(|(known, _, _)| known == kind) {
             Some((_, count, _)) => *count += 1,
@@ -43,7 +43,7 @@ impl Tally {
         }
     }
 
-    /// Tells all of it.
+    /// Reports all counts.
     pub(super) fn tell(self, strange: &[&str], out: &mut Diagnostics) {
         let mut say = |code: &'static Code, span: Option<Span>, message: String, hint: &str| {
             let finding = Diagnostic::new(code, message).hint(hint);
@@ -81,7 +81,7 @@ impl Tally {
     }
 }
 
-/// A selector, shortened to a few letters.
+/// A selector, shortened for a message.
 fn shown(text: &str) -> String {
     text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

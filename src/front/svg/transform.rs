@@ -1,4 +1,4 @@
-//! Transforms of SVG: lists of them as one map.
+//! Transform lists of SVG, combined to one map.
 
 use svgtypes::{TransformListParser, TransformListToken};
 
@@ -6,20 +6,20 @@ use crate::geom::affine::Affine;
 use crate::geom::{Point, Vector};
 use crate::units::rad;
 
-/// A place or a way, in units of the file or in mm.
+/// A point or a vector, in units of the file or in mm.
 pub(super) type Pair = [f64; 2];
 
-/// Image of a place.
+/// Image of a point.
 pub(super) fn placed(map: &Affine, [x, y]: Pair) -> Pair {
     map.point(Point::new(x, y)).into()
 }
 
-/// Image of a way.
+/// Image of a vector.
 pub(super) fn led(map: &Affine, [x, y]: Pair) -> Pair {
     map.vector(Vector::new(x, y)).into()
 }
 
-/// The map of a list of transforms, the first of them outermost; `None` of what is no such list.
+/// The map of a list of transforms, the first of them outermost; `None` if the list is malformed.
 pub(super) fn transform(text: &str) -> Option<Affine> {
     let mut map = Affine::IDENTITY;
     for token in TransformListParser::from(text) {

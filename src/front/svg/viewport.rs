@@ -1,4 +1,4 @@
-//! Viewports: how a view box fills its place (SVG 2, 8.2).
+//! Viewports: fitting a view box into its area (SVG 2, 8.2).
 
 use svgtypes::{Align, AspectRatio};
 
@@ -15,7 +15,7 @@ pub(super) struct ViewBox {
 }
 
 impl ViewBox {
-    /// Four numbers, the size above zero; `None` of anything else.
+    /// Parses four numbers with a positive size; `None` for anything else.
     pub(super) fn read(text: &str) -> Option<Self> {
         let mut scan = Scan::of(text.trim());
         let mut number = || {
@@ -28,7 +28,7 @@ impl ViewBox {
     }
 }
 
-/// The map from a view box to a place of that size whose corner is the origin; `None` where the rule is none.
+/// The map from a view box to an area of a given size with its corner at the origin; `None` if the rule is malformed.
 pub(super) fn fit(view: ViewBox, size: Pair, rule: Option<&str>) -> Option<Affine> {
     let rule = rule.map(str::trim).filter(|rule| !rule.is_empty());
     let plain = AspectRatio { defer: false, align: Align::XMidYMid, slice: false };

@@ -1,8 +1,8 @@
-//! The elements of SVG, and what is done about them.
+//! Manual entries on the elements of SVG.
 
 use crate::front::Word;
 
-/// The elements of SVG, and what is done about them.
+/// The elements of SVG and their effects.
 #[rustfmt::skip] // a table: a row a line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`svg`", about: "`width` and `height` with mm, cm, in, pt, pc, q; `viewBox` and `preserveAspectRatio` as browsers read them; inner ones likewise" },
