@@ -1,4 +1,4 @@
-//! Chains: lines whose ends meet become one.
+//! Chains: lines whose ends meet are joined.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,14 @@ use crate::geom::Point;
 use crate::ir::drawing::Vertex;
 use crate::machine::patterns::Dxf;
 
-/// Farthest that ends that meet lie from each other, mm.
+/// Maximum distance of ends that meet, mm.
 pub(super) const REACH: f64 = Dxf::ENDS_MEET;
-/// Ends around one place that are compared: where more meet, others are drawn over each other.
+/// Maximum number of ends that are compared in a cell; larger numbers result from lines drawn over each other.
 const MOST_AROUND: usize = 16;
-/// Vertices of the least line with an inside.
+/// Minimum number of vertices of a line with an interior.
 const LEAST_RING: usize = 3;
 
-/// A line; of a closed one the last vertex leads to the first, which is not repeated.
+/// A line. In a closed line the last vertex leads to the first, which is not repeated.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Chain {
     pub(super) vertices: Vec<Vertex>,
@@ -21,36 +21,36 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    /// A line without equal places beside each other, closed where it ends where it starts; `None` when it has no length.
+    /// Creates a line without repeated consecutive points, closed if it ends at its start point. `None` if it has no length.
     pub(super) fn of(mut vertices: Vec<Vertex>, is_closed: bool) -> Option<Self> {
         vertices.dedup_by(|next, before| next.at == before.at);
         let gap = |vertices: &[Vertex]| (vertices[0].at - vertices[vertices.len() - 1].at).norm();
         let most = if is_closed { 0.0 } else { REACH };
         let meets = vertices.len() > 2 && gap(&vertices) <= most;
         if meets && let Some(last) = vertices.pop() {
-            // What led there leads to the first.
+            // The edge to the removed vertex now leads to the first one.
             vertices[0].span = last.span;
         }
         let is_closed = (is_closed || meets) && vertices.len() >= LEAST_RING;
         (vertices.len() > 1).then_some(Self { vertices, is_closed })
     }
 
-    /// Its places; of a closed one the first comes last again.
+    /// The vertices; those of a closed line end with the first one again.
     pub(super) fn round(&self) -> impl Iterator<Item = Vertex> + '_ {
         let again = if self.is_closed { self.vertices.first() } else { None };
         self.vertices.iter().chain(again).copied()
     }
 
-    /// The same, without what led there.
+    /// The points; those of a closed line end with the first one again.
     pub(super) fn points(&self) -> Vec<Point> {
         self.round().map(|vertex| vertex.at).collect()
     }
 }
 
-/// The end of a line: twice its place among the lines, and one more for its last vertex.
+/// An end of a line: twice the index of the line, plus one for its last vertex.
 type End = usize;
 
-/// Joins open lines whose ends meet, nearest ends first. Lines keep the order in which they begin.
+/// Joins open lines whose ends meet, nearest ends first. The lines keep the order of their starts.
 pub(super) fn chains(lines: Vec<Chain>) -> Vec<Chain> {
     let partner = partners(&lines);
     let mut left: Vec<Option<Chain>> = lines.into_iter().map(Some).collect();
@@ -62,7 +62,7 @@ pub(super) fn chains(lines: Vec<Chain>) -> Vec<Chain> {
             continue;
         }
         let mut vertices = line.vertices;
-        // On from its end, then, unless that comes round, on from its start.
+        // Extends the line from its end, then, unless it has closed, from its start.
         for end in [2 * first + 1, 2 * first] {
             let mut at = end;
             while let Some(next) = partner[at]
@@ -81,7 +81,7 @@ pub(super) fn chains(lines: Vec<Chain>) -> Vec<Chain> {
     joined
 }
 
-/// The end that each end meets.
+/// The partner of each end.
 fn partners(lines: &[Chain]) -> Vec<Option<End>> {
     let place = |end: End| {
         let vertices = &lines[end / 2].vertices;

@@ -1,4 +1,4 @@
-//! Which blocks are cut: those of the sizes that are asked for, and how often each.
+//! Selection of the blocks to cut: the requested sizes, and the quantity of each piece.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,37 +9,37 @@ use crate::machine::patterns::{Quantity, Sizes};
 use crate::machine::{Job, letters::Letters};
 use crate::source::{Source, Span};
 
-/// Sizes that a message names.
+/// Maximum number of sizes or pieces named in a message.
 const SHOWN: usize = 24;
 
-/// A file whose patterns a job asks for.
+/// A pattern file and the job that reads it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asked<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
-    /// How its texts are encoded.
+    /// Encoding of its texts.
     pub(super) letters: Letters,
-    /// What the file says of all of its blocks.
+    /// Facts that apply to all blocks of the file.
     pub(super) file: Facts,
 }
 
-/// The sizes of a file, and which of them are cut.
+/// The selected sizes of a file.
 #[derive(Debug)]
 pub(super) struct Chosen<'a> {
     source: &'a Source,
     letters: Letters,
-    /// `None` = all.
+    /// Sizes to cut; `None` for all.
     sizes: Option<Vec<String>>,
 }
 
-/// Sizes are the same whichever letters they are written in.
+/// Normalised form of a size; sizes are case-insensitive.
 fn same(text: &str) -> String {
     text.trim().to_uppercase()
 }
 
 impl<'a> Chosen<'a> {
-    /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which. Blocks that
-    /// insertions put beside each other are a marker: they are cut whatever their sizes.
+    /// Selects sizes by the job and the facts of the blocks. An error is reported if several sizes exist and none is selected.
+    /// `are_apart` is true for blocks that insertions place beside each other: they are a marker and cut whatever their sizes.
     pub(super) fn of(asked: &Asked<'a>, blocks: &[Facts], are_apart: bool, out: &mut Diagnostics) -> Self {
         let Asked { source, job, letters, file } = asked;
         let text = |span: Span| letters.name(source.slice(span));
@@ -101,7 +101,7 @@ impl<'a> Chosen<'a> {
         Self { source, letters: *letters, sizes }
     }
 
-    /// Whether a block is cut. One that is of no size goes with every size.
+    /// True if a block is cut. A block without a size goes with every size.
     pub(super) fn has(&self, facts: &Facts) -> bool {
         let text = |span: Span| same(&self.letters.name(self.source.slice(span)));
         match (&self.sizes, facts.size.first.map(text)) {
@@ -110,13 +110,13 @@ impl<'a> Chosen<'a> {
         }
     }
 
-    /// Tells which pieces are not cut, or cut twice, for what blocks with these texts say of their sizes.
+    /// Reports pieces that are not cut, or cut twice, because of the sizes of their blocks.
     pub(super) fn say(&self, facts: &[Facts], out: &mut Diagnostics) {
         self.say_missing(facts, out);
         self.say_unsaid(facts, out);
     }
 
-    /// Tells which pieces have none of the sizes that are cut.
+    /// Reports pieces that exist in none of the selected sizes.
     fn say_missing(&self, facts: &[Facts], out: &mut Diagnostics) {
         let mut pieces: BTreeMap<String, (bool, Span)> = BTreeMap::new();
         let facts = if self.sizes.is_some() { facts } else { &[] };
@@ -139,7 +139,7 @@ impl<'a> Chosen<'a> {
         out.push(finding.hint("see its sizes with `cutc info --size all`, and name those that are cut with `--size`"));
     }
 
-    /// Tells which pieces are cut of a block of a size and of another that says none.
+    /// Reports pieces that are cut twice: from a block with a size and from one without.
     fn say_unsaid(&self, facts: &[Facts], out: &mut Diagnostics) {
         let mut pieces: BTreeMap<String, [Option<Span>; 2]> = BTreeMap::new();
         for facts in facts.iter().filter(|facts| self.has(facts)) {
@@ -160,7 +160,7 @@ impl<'a> Chosen<'a> {
         out.push(finding.hint("see in `cutc info` which pieces they are, and leave the others out with `--skip`"));
     }
 
-    /// The sizes that are cut, as they are told; empty when all are.
+    /// Description of the selected sizes in messages; empty if all are cut.
     pub(super) fn told(&self) -> String {
         match self.sizes.as_deref() {
             None => String::new(),
@@ -178,7 +178,7 @@ fn its_sizes(known: &[String]) -> String {
     format!("its sizes are {}{dots}", known[..known.len().min(SHOWN)].join(", "))
 }
 
-/// Words that may follow the number of a quantity, in capitals: words for pieces, and names of materials.
+/// Words that may follow a quantity, in capitals: words for pieces, and names of materials.
 #[rustfmt::skip] // a table: a row a few languages
 const OF_PIECES: [&str; 51] = [
     "X", "×", "PC", "PCS", "PIECE", "PIECES", "ST", "STK", "STCK", "STÜCK", "STUECK", "PIÈCE", "PIÈCES",
@@ -188,20 +188,20 @@ const OF_PIECES: [&str; 51] = [
     "ON THE FOLD",
 ];
 
-/// Words for a right piece and a left one, in capitals.
+/// Words for a pair of a right and a left piece, in capitals.
 const PAIRS: [&str; 12] =
     ["PAIR", "PAIRS", "PR", "PRS", "PAAR", "PAARE", "PAIRE", "PAIRES", "PAIO", "PAIA", "PAR", "PARES"];
 
-/// How often a piece is wanted.
+/// Quantity of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Wanted {
-    /// As it is drawn, and mirrored: `1,1` is right and left.
+    /// Number of copies as drawn, and mirrored: `1,1` is one right and one left piece.
     pub(super) times: [u32; 2],
-    /// Finding on words behind the number.
+    /// Finding on words after the number.
     words: Option<Thing>,
 }
 
-/// How often a piece is cut. `None` when it is no such text or names none at all.
+/// Parses a quantity. `None` if the text is malformed or the quantity is zero.
 pub(super) fn quantity(text: &str) -> Option<Wanted> {
     // Some systems write whole numbers with decimals.
     let whole = |number: &str| number.trim_end_matches('0').strip_suffix('.').unwrap_or(number).parse::<u32>().ok();
@@ -215,7 +215,7 @@ pub(super) fn quantity(text: &str) -> Option<Wanted> {
     (times != [0, 0]).then_some(Wanted { times, words: None })
 }
 
-/// The number with which a text begins that has a word for pieces or pairs behind it, or something in parentheses.
+/// Parses a number at the start of a text, followed by a word for pieces or pairs, or by a remark in parentheses.
 fn worded(text: &str) -> Option<Wanted> {
     let text = text.trim();
     let digits = text.bytes().take_while(u8::is_ascii_digit).count();
@@ -238,13 +238,13 @@ fn worded(text: &str) -> Option<Wanted> {
 }
 
 impl Asked<'_> {
-    /// Texts of the file on the CAD system that wrote it.
+    /// Texts of the file that name its CAD system.
     pub(super) fn author(&self) -> String {
         let author = [self.file.author.first, self.file.author.other].into_iter().flatten();
         author.map(|span| self.letters.text(self.source.slice(span))).collect::<Vec<_>>().join(" ")
     }
 
-    /// How often a piece is cut of which texts say so; `None` where nobody wants to know, or nothing is said.
+    /// Quantity of a piece from its texts; `None` if the job ignores quantities or none is given.
     pub(super) fn quantity(&self, said: Said, tally: &mut Tally) -> Option<[u32; 2]> {
         let job = self.job;
         match job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) {

@@ -1,4 +1,4 @@
-//! Notches that are cut in another way than the file says, or left out: each kind reported once, with its pieces.
+//! Notches that are omitted or cut differently from the file; each kind is reported once, with its pieces.
 
 use std::collections::BTreeMap;
 
@@ -11,36 +11,36 @@ use crate::units::number::fixed;
 /// Decimals of lengths in messages, mm.
 const DECIMALS: u32 = 1;
 
-/// Reason for which a notch is cut in another way than the file says, or left out.
+/// Reason for omitting a notch or cutting it differently from the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Reason {
     /// Too far from all outlines.
     OffEdge,
-    /// Deeper than notches are.
+    /// Deeper than the maximum of notches.
     TooDeep,
-    /// Deeper than the part is there.
+    /// Deeper than the part at that position.
     LeavesPart,
-    /// In the mouth of another one, or at the place of one of another kind.
+    /// In the mouth of another notch, or at the position of one of another kind.
     InAnother,
-    /// A notch that the outline makes itself.
+    /// Drawn in the outline itself.
     Drawn,
-    /// Cut into the part, while its angle leads out of it.
+    /// Cut into the part although its angle points outwards.
     Turned,
     /// Cut as a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar that leaves the part.
     AsSlit,
 }
 
-/// Notch that is not cut as the file says.
+/// A notch that is not cut as in the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
     pub(super) reason: Reason,
-    /// Distance from the edge where that is the reason, else the depth of the notch, mm.
+    /// Distance from the edge for [`Reason::OffEdge`], otherwise the depth of the notch, mm.
     pub(super) mm: f64,
     pub(super) span: Span,
 }
 
 impl Doubt {
-    /// Whether the notch is left out.
+    /// True if the notch is omitted.
     pub(super) fn leaves_out(&self) -> bool {
         match self.reason {
             Reason::OffEdge | Reason::TooDeep | Reason::LeavesPart | Reason::InAnother | Reason::Drawn => true,
@@ -49,7 +49,7 @@ impl Doubt {
     }
 }
 
-/// Reports the doubts about the notches of pieces, which come with the numbers of their pieces: of each kind once.
+/// Reports the doubts about notches, given with the numbers of their pieces; each kind once.
 pub(super) fn say<'a>(doubts: impl Iterator<Item = (&'a Doubt, &'a [u32])>, out: &mut Diagnostics) {
     let mut kinds: BTreeMap<Reason, (Vec<&Doubt>, Vec<u32>)> = BTreeMap::new();
     for (doubt, numbers) in doubts {
@@ -70,7 +70,7 @@ pub(super) fn say<'a>(doubts: impl Iterator<Item = (&'a Doubt, &'a [u32])>, out:
     }
 }
 
-/// How a doubt is told.
+/// Wording of a doubt.
 struct Words {
     code: &'static Code,
     message: String,

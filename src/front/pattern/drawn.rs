@@ -1,4 +1,4 @@
-//! Notches that an outline makes itself: a point that marks one of them asks for no second cut.
+//! Notches drawn in an outline: a notch point at one of them requires no second cut.
 
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 
@@ -7,21 +7,21 @@ use crate::geom::{Point, Vector, polyline};
 use crate::ir::marker::Notch;
 use crate::machine::patterns::Dxf;
 
-/// Least depth of a notch in the outline, mm.
+/// Minimum depth of a notch in the outline, mm.
 pub(super) const LEAST_DEPTH: f64 = 1.5;
-/// Length of edge from which the direction beside a mouth is taken, mm.
+/// Length of edge that defines the direction beside a mouth, mm.
 const BESIDE: f64 = 1.0;
-/// Greatest angle between a mouth and the edge beside it, and greatest turn of the edge across a mouth, rad.
+/// Maximum angle between a mouth and the adjacent edge, and maximum turn of the edge across a mouth, rad.
 const MOUTH_ANGLE: f64 = FRAC_PI_6;
 const MOUTH_TURN: f64 = FRAC_PI_3;
-/// Narrowest mouth that has a direction, mm: the feet of a narrower one are one place.
+/// Minimum width of a mouth with a direction, mm; the ends of a narrower one count as one point.
 const NARROW: f64 = 0.5;
-/// Cosine of the least turn of an outline where a mouth begins, 12 degrees.
+/// Cosine of the minimum turn of an outline at the start of a mouth, 12 degrees.
 const TURN_COSINE: f64 = 0.978;
-/// Share of the depth of a notch from which on its bottom lies.
+/// Fraction of the depth of a notch below which its bottom begins.
 const BOTTOM: f64 = 0.7;
 
-/// Whether an outline has a notch of its own at a place: in the mouth, or at the bottom. The outline repeats its first point.
+/// True if an outline has a drawn notch with its mouth or bottom at a point. The outline repeats its first point.
 pub(super) fn makes_notch_at(outline: &[Point], at: Point, work: &mut Budget) -> bool {
     let ring = Ring(&outline[..outline.len() - 1]);
     let count = ring.0.len();
@@ -41,7 +41,7 @@ impl Ring<'_> {
         self.0[i % self.0.len()]
     }
 
-    /// Unit vector along the outline before or behind a vertex, taken over [`BESIDE`] at least.
+    /// Unit vector along the outline before or after a vertex, measured over at least [`BESIDE`].
     fn beside(&self, i: usize, is_before: bool) -> Option<Vector> {
         let count = self.0.len();
         let step = |k: usize| self.at(if is_before { i + count - k } else { i + k });
@@ -55,7 +55,7 @@ impl Ring<'_> {
         before.zip(behind).is_some_and(|(before, behind)| before.dot(&behind) < TURN_COSINE)
     }
 
-    /// Whether a notch that a place marks begins at a vertex.
+    /// True if a notch marked by a point begins at a vertex.
     fn notch_from(&self, first: usize, at: Point, work: &mut Budget) -> bool {
         let mut way = 0.0;
         for last in first + 1..first + self.0.len() {
@@ -70,7 +70,7 @@ impl Ring<'_> {
         false
     }
 
-    /// Whether two vertices are the ends of a mouth: the edge continues behind it in the same direction.
+    /// True if two vertices are the ends of a mouth: the edge continues after it in the same direction.
     fn is_mouth(&self, [first, last]: [usize; 2]) -> bool {
         let mouth = self.at(last) - self.at(first);
         let Some((before, after)) = self.beside(first, true).zip(self.beside(last, false)) else { return false };
@@ -80,7 +80,7 @@ impl Ring<'_> {
             && (mouth.norm() <= NARROW || is_along(before) && is_along(after))
     }
 
-    /// Whether a place lies in the mouth of a notch with these ends, or at its bottom.
+    /// True if a point lies in the mouth of the notch between two vertices, or at its bottom.
     fn is_marked(&self, [first, last]: [usize; 2], at: Point) -> bool {
         let mouth = [self.at(first), self.at(last)];
         let depth = |place: Point| polyline::distance_to_segment(place, mouth[0], mouth[1]);
@@ -122,7 +122,7 @@ mod tests {
     fn a_point_on_a_plain_edge_or_at_a_corner_marks_none() {
         assert!(!is_marked(&[(40.0, 0.0)], (40.0, 0.0)));
         assert!(!is_marked(&[], (0.0, 0.0)));
-        // A corner that goes in, as at a neck, and a step.
+        // An inward corner, as at a neck, and a step.
         assert!(!is_marked(&[(40.0, 0.0), (40.0, 6.0)], (40.0, 6.0)));
         assert!(!is_marked(&[(40.0, 0.0), (40.0, 6.0), (60.0, 6.0), (60.0, 0.0)], (40.0, 0.0)));
     }

@@ -1,4 +1,4 @@
-//! Half pieces: what is drawn on one side of a fold line is on the other, too, and the fold itself is no line.
+//! Half pieces: lines on one side of a fold line also exist on the other side; the fold itself is not a line of the piece.
 
 use super::chain::{Chain, REACH};
 use super::tally::{Tally, Thing};
@@ -8,26 +8,26 @@ use crate::geom::{Point, Vector, cross, left};
 use crate::ir::drawing::Vertex;
 use crate::machine::letters::Letters;
 
-/// Vertices of a chain from fold to fold that has an inside.
+/// Minimum number of vertices of a chain from fold to fold with an interior.
 const LEAST_HALF: usize = 3;
 
-/// Least ratio of the narrower side to the wider one, beside the fold of a whole piece. Below it the fold line was meant to
-/// lie on the edge.
+/// Minimum ratio of the narrower to the wider side of a whole piece at its fold. Below it the fold line was meant to lie on the
+/// edge.
 const LEAST_SIDE: f64 = 0.1;
 
 /// Layer of fold lines.
 const LAYER: u16 = 6;
-/// Words by which texts say that a piece is cut on the fold, in capitals.
+/// Phrases for a piece that is cut on the fold, in capitals.
 #[rustfmt::skip] // a table: a row a few languages
 const WORDS: [&str; 14] = [
     "ON FOLD", "ON THE FOLD", "STOFFBRUCH", "IM BRUCH", "AU PLI", "SUR LE PLI", "PLIURE", "SULLA PIEGA", "AL DOBLEZ",
     "EN DOBLEZ", "NA DOBRA", "STOFVOUW", "AAN DE VOUW", "НА СГИБЕ",
 ];
 
-/// Words that say it where they stand alone.
+/// Words with that meaning if they stand alone.
 const ALONE: [&str; 7] = ["FOLD", "BRUCH", "PLI", "PIEGA", "DOBLEZ", "DOBRA", "VOUW"];
 
-/// Counts the blocks that a text marks as cut on the fold and that have nothing on the layer of fold lines.
+/// Counts blocks that a text marks as cut on the fold but that have no fold line.
 pub(super) fn see_missing_lines(blocks: &[(&Block, &Facts)], letters: &Letters, tally: &mut Tally) {
     let is_fold = |entity: &Entity| entity.layer() == Some(LAYER);
     let says = |entity: &&Entity| is_text(entity) && is_said(&letters.text(entity.bytes(TEXT)));
@@ -38,7 +38,7 @@ pub(super) fn see_missing_lines(blocks: &[(&Block, &Facts)], letters: &Letters, 
     }
 }
 
-/// Whether a text says that its piece is cut on the fold.
+/// True if a text marks its piece as cut on the fold.
 fn is_said(text: &str) -> bool {
     let words = text.to_uppercase();
     let words = words.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
@@ -49,15 +49,15 @@ fn is_said(text: &str) -> bool {
 /// A fold line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fold {
-    /// The line as it is drawn.
+    /// The line as drawn.
     drawn: Axis,
-    /// mm.
+    /// Length of the drawn line, mm.
     length: f64,
-    /// About what is mirrored: the line, or the edge of the half that lies along it.
+    /// Mirror axis: the drawn line, or the edge of the half along it.
     axis: Axis,
 }
 
-/// A straight line without ends.
+/// An infinite straight line.
 #[derive(Debug, Clone, Copy)]
 struct Axis {
     from: Point,
@@ -66,27 +66,27 @@ struct Axis {
 }
 
 impl Axis {
-    /// How far a place lies to the left, mm.
+    /// Signed distance of a point from the axis, positive to the left, mm.
     fn offset(&self, at: Point) -> f64 {
         cross(self.along, at - self.from)
     }
 }
 
-/// Why an outline is not unfolded.
+/// Reason why an outline is not unfolded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Refusal {
-    /// It lies on both sides: both halves are drawn.
+    /// The outline lies on both sides: both halves are drawn.
     Across,
-    /// It lies on both sides, but less than [`LEAST_SIDE`] of it on one.
+    /// The outline lies on both sides, but with less than [`LEAST_SIDE`] of it on one.
     Lopsided,
-    /// Not one of its edges lies on the fold.
+    /// No edge of the outline lies on the fold.
     Beside,
-    /// Several of its edges do, with others between them.
+    /// Several separate edges of the outline lie on the fold.
     Several,
 }
 
 impl Fold {
-    /// The line from the first of some places to the last; `None` when it has no length.
+    /// The fold from the first of some vertices to the last; `None` if it has no length.
     pub(super) fn of(line: &[Vertex]) -> Option<Self> {
         let [first, .., last] = line else { return None };
         let way = last.at - first.at;
@@ -95,9 +95,9 @@ impl Fold {
         (length > REACH).then_some(Self { drawn, length, axis: drawn })
     }
 
-    /// The same fold about the longest edge of an outline along it, of those that are drawn. The cloth is folded where the half
-    /// ends, and CAD systems round the line beside it, or draw it a little aslant. An edge that is shorter than the line is
-    /// the less certain one.
+    /// Moves the axis to the longest edge along the fold, among the drawn edges of an outline. The cloth is folded at the end
+    /// of the half, and CAD systems round the fold line or draw it slightly skewed. An edge shorter than the fold line is less
+    /// reliable and ignored.
     pub(super) fn about_longest(self, edges: impl Iterator<Item = [Vertex; 2]>) -> Self {
         let along = edges.filter(|edge| self.is_along(edge.map(|vertex| vertex.at)));
         let folds = along.filter_map(|edge| Self::of(&edge));
@@ -106,7 +106,7 @@ impl Fold {
         edge.map_or(self, |edge| Self { axis: edge.axis, ..self })
     }
 
-    /// Whether another line is drawn over it.
+    /// True if another fold line coincides with it.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         let ends = [other.drawn.from, other.drawn.from + other.drawn.along * other.length];
         (other.length - self.length).abs() <= REACH
@@ -115,17 +115,17 @@ impl Fold {
                 .all(|end| self.is_in_line(end) && (-REACH..=self.length + REACH).contains(&self.station(end)))
     }
 
-    /// Where along the drawn line a place is, mm from where that begins.
+    /// Station of a point along the drawn line, mm from its start.
     fn station(&self, at: Point) -> f64 {
         self.drawn.along.dot(&(at - self.drawn.from))
     }
 
-    /// Whether a place lies on the fold, or on the line on which that goes on.
+    /// True if a point lies on the fold or its extension.
     fn is_in_line(&self, at: Point) -> bool {
         self.drawn.offset(at).abs() <= REACH
     }
 
-    /// Whether an edge lies along the fold, all of it or some; a slit that goes on where the fold ends does not.
+    /// True if an edge lies along the fold, at least in part. A slit that continues beyond the fold does not.
     fn is_along(&self, [from, to]: [Point; 2]) -> bool {
         let [from_station, to_station] = [from, to].map(|at| self.station(at));
         let [least, most] = [from_station.min(to_station), from_station.max(to_station)];
@@ -133,17 +133,17 @@ impl Fold {
         self.is_in_line(from) && self.is_in_line(to) && shared >= REACH.min(most - least)
     }
 
-    /// Whether a place has none on the other side.
+    /// True if a point lies on the axis and has no mirror image.
     pub(super) fn is_middle(&self, at: Point) -> bool {
         self.axis.offset(at).abs() <= REACH
     }
 
-    /// The same place on the other side.
+    /// Mirror image of a point.
     pub(super) fn mirror(&self, at: Point) -> Point {
         at - left(self.axis.along) * (2.0 * self.axis.offset(at))
     }
 
-    /// The same direction on the other side.
+    /// Mirror image of a direction.
     pub(super) fn mirror_way(&self, way: Vector) -> Vector {
         way - left(self.axis.along) * (2.0 * cross(self.axis.along, way))
     }
@@ -152,14 +152,14 @@ impl Fold {
         self.sides(line)[0] > REACH
     }
 
-    /// How far a line goes away from the fold to both sides, mm, to the nearer one first.
+    /// Extents of a line on both sides of the fold, mm, the smaller first.
     fn sides(&self, line: &Chain) -> [f64; 2] {
         let offsets = line.vertices.iter().map(|vertex| self.drawn.offset(vertex.at));
         let [left, right] = offsets.fold([0.0, 0.0_f64], |[left, right], off| [left.max(off), right.max(-off)]);
         [left.min(right), left.max(right)]
     }
 
-    /// The whole of an outline of which half is drawn; it may be open where the fold is.
+    /// The whole outline from a drawn half, which may be open at the fold.
     pub(super) fn unfold_outline(&self, outline: &Chain) -> Result<Chain, Refusal> {
         if self.is_across(outline) {
             let [less, more] = self.sides(outline);
@@ -174,8 +174,8 @@ impl Fold {
         }
     }
 
-    /// Whether what goes on in line with the fold begins where that ends: beside a fold that is drawn shorter than its edge nobody
-    /// can tell a slit from more of the fold.
+    /// True if stretches in line with the fold begin at its ends. Beside a fold drawn shorter than its edge a slit cannot be
+    /// distinguished from more of the fold.
     fn is_parted_well(&self, half: &[Vertex]) -> bool {
         let is_well = |end: Point, next: Point| {
             let station = self.station(end);
@@ -185,7 +185,7 @@ impl Fold {
         is_well(half[0].at, half[1].at) && is_well(half[count - 1].at, half[count - 2].at)
     }
 
-    /// A line inside a half piece, on both sides: one line where it meets the fold, else two.
+    /// The images of an inner line of a half piece on both sides: one line if it meets the fold, otherwise two.
     pub(super) fn unfold(&self, line: &Chain) -> Vec<Chain> {
         if self.is_across(line) {
             return vec![line.clone()];
@@ -224,18 +224,18 @@ impl Fold {
         lines
     }
 
-    /// Whether a chain starts and whether it ends on the fold.
+    /// True if a chain starts on the fold, and true if it ends there.
     fn ends_on(&self, half: &[Vertex]) -> [bool; 2] {
         [half.first(), half.last()].map(|vertex| vertex.is_some_and(|vertex| self.is_in_line(vertex.at)))
     }
 
-    /// What is left of a line without its edges on the fold.
+    /// The parts of a line without its edges on the fold.
     fn halves(&self, line: &Chain) -> Vec<Vec<Vertex>> {
         let vertices = &line.vertices;
         let count = vertices.len();
         let edges = if line.is_closed { count } else { count - 1 };
         let is_fold = |edge: usize| self.is_along([vertices[edge].at, vertices[(edge + 1) % count].at]);
-        // A ring is walked from behind an edge on the fold.
+        // A ring is traversed from after an edge on the fold.
         let first = if line.is_closed {
             (0..count).find(|&edge| is_fold(edge)).map(|edge| (edge + 1) % count)
         } else {
@@ -261,7 +261,7 @@ impl Fold {
         halves
     }
 
-    /// A chain from fold to fold, and back on the other side.
+    /// Closes a chain from fold to fold by its mirror image.
     fn whole(&self, half: &[Vertex]) -> Chain {
         let inner = &half[1..half.len() - 1];
         let back = inner.iter().rev().map(|vertex| Vertex { at: self.mirror(vertex.at), ..*vertex });
@@ -297,7 +297,7 @@ mod tests {
             line(&[[100.0, 0.0], [100.0, 50.0], [0.0, 50.0], [0.0, 0.0]], false),
             line(&[[40.0, 0.0], [100.0, 0.0], [100.0, 50.0], [0.0, 50.0], [0.0, 0.0]], true),
         ] {
-            // However much of its edge the line is drawn along.
+            // The result is independent of the overlap between the fold line and its edge.
             let short = Fold::of(&line(&[[30.0, 0.0], [80.0, 0.0]], false).vertices).expect("it has a length");
             let unfolded = short.unfold_outline(&drawn).expect("it has an edge on the fold");
             assert_eq!(places(&unfolded), whole);

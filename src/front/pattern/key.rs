@@ -1,6 +1,6 @@
-//! Keys: the words by which texts of a file say facts, in the languages of CAD systems.
+//! Keys: words that introduce facts in the texts of a file, in the languages of CAD systems.
 
-/// What a text says.
+/// Fact stated by a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Key {
     Size,
@@ -11,8 +11,8 @@ pub(super) enum Key {
     Author,
 }
 
-/// The keys in the languages of CAD systems, in capitals with one blank between words. Texts may leave out a full stop at the
-/// end, or add one. The manual lists them.
+/// The keys in the languages of CAD systems, in capitals with one blank between words. Texts may omit or add a final full stop.
+/// The manual lists them.
 #[rustfmt::skip] // a table: a row a fact
 pub(super) const KEYS: [(Key, &[&str]); 6] = [
     (Key::Size, &["SIZE", "SIZE NAME", "SIZE NO.", "SZ.", "GRÖSSE", "GROESSE", "GROSSE", "GR.", "TAILLE", "TAGLIA", "MISURA", "TALLA", "TAMAÑO", "TAMANO", "TAMANHO", "MAAT", "ROZMIAR", "VELIKOST", "VEĽKOSŤ", "VELKOST", "MÉRET", "MERET", "MĂRIME", "MĂRIMEA", "MARIME", "MARIMEA", "BEDEN", "STORLEK", "STØRRELSE", "STOERRELSE", "РАЗМЕР", "РОЗМІР", "尺码", "尺碼", "号型", "號型", "码数", "碼數", "サイズ", "사이즈", "치수"]),
@@ -23,9 +23,9 @@ pub(super) const KEYS: [(Key, &[&str]); 6] = [
     (Key::Author, &["AUTHOR", "PRODUCT", "PRODUCT NAME"]),
 ];
 
-/// The fact of a key that is written in any letters.
+/// The fact of a key, ignoring case.
 pub(super) fn key(text: &str) -> Option<Key> {
-    // Capitals of the sharp s are two letters, and so a key may be written either way.
+    // The capital form of the sharp s is two letters, so both spellings match.
     let text = text.to_uppercase();
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let text = text.trim_end_matches('.').trim_end();

@@ -1,5 +1,5 @@
-//! Laying: where the pieces lie on the cloth. A set of patterns is no marker: they lie in a row, unless the file itself
-//! puts its blocks somewhere.
+//! Laying: positions of the pieces on the cloth. A set of patterns is not a marker: pieces are laid in a row unless the file
+//! places its blocks.
 
 use std::ops::Range;
 
@@ -8,13 +8,13 @@ use super::piece::Piece;
 use super::shape::Insert;
 use crate::geom::{Extent, Heading, Point, Vector};
 
-/// How much rounding turns or scales, as a part: of an angle that is written with four decimals.
+/// Relative error of scales and axes by rounding: that of an angle with four decimals.
 pub(super) const AXIS_EPSILON: f64 = 1e-5;
 
-/// How a piece is moved from where its block draws it.
+/// Map from the drawn piece to the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Motion {
-    /// Where the unit vectors of X and Y go.
+    /// Images of the unit vectors of X and Y.
     x: Vector,
     y: Vector,
     offset: Vector,
@@ -27,36 +27,36 @@ pub(super) struct Laid<'p> {
     pub(super) motion: Motion,
 }
 
-/// What a block draws, or what stands in none.
+/// Content of a block, or the content outside all blocks.
 #[derive(Debug, Clone)]
 pub(super) struct Drawn {
-    /// Its pieces among those of the set; most blocks have one.
+    /// Indices of its pieces in the set; most blocks have one.
     pub(super) pieces: Range<usize>,
-    /// How often they are cut as they are drawn, and how often mirrored, where the file says so.
+    /// Number of copies as drawn and mirrored, if the file gives it.
     pub(super) quantity: Option<[u32; 2]>,
 }
 
 impl Drawn {
-    /// How often they are wanted as they are drawn, and how often mirrored: once where the file says nothing.
+    /// Number of copies as drawn and mirrored; one as drawn by default.
     fn wanted(&self) -> [u32; 2] {
         self.quantity.unwrap_or([1, 0])
     }
 
-    /// How often they are wanted in all.
+    /// Total number of copies.
     pub(super) fn times(&self) -> usize {
         self.wanted().iter().map(|&count| count as usize).sum()
     }
 }
 
 impl Motion {
-    /// As drawn, or mirrored from right to left.
+    /// Axes as drawn, and mirrored left to right.
     const DRAWN: [Vector; 2] = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)];
     const MIRRORED: [Vector; 2] = [Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0)];
 
-    /// Where it is drawn.
+    /// The identity.
     pub(super) const STILL: Self = Self { x: Self::DRAWN[0], y: Self::DRAWN[1], offset: Vector::new(0.0, 0.0) };
 
-    /// Where an insertion puts a block that is drawn about its base point: scaled, turned, moved (DXF reference, INSERT).
+    /// Map of an insertion for a block with a base point: scale, rotation, translation (DXF reference, INSERT).
     pub(super) fn of_insert(insert: &Insert, base: Point) -> Self {
         let along = Heading::new(insert.turn).unit();
         let [x, y] = [along * insert.scale[0], Vector::new(-along.y, along.x) * insert.scale[1]];
@@ -64,18 +64,18 @@ impl Motion {
         Self { x, y, offset }
     }
 
-    /// Whether it leaves everything where it is drawn, but for rounding.
+    /// True for the identity, within rounding.
     pub(super) fn is_still(&self) -> bool {
         let is_axis = |[found, drawn]: [Vector; 2]| (found - drawn).norm() <= AXIS_EPSILON;
         is_axis([self.x, Self::DRAWN[0]]) && is_axis([self.y, Self::DRAWN[1]]) && self.offset.norm() <= REACH
     }
 
     pub(super) fn place(&self, at: Point) -> Point {
-        // The negative of zero is another bit pattern than zero, though the same place.
+        // Adding zero turns -0.0 into 0.0: both are the same position but have different bit patterns.
         Point::from(self.x * at.x + self.y * at.y + self.offset).map(|value| value + 0.0)
     }
 
-    /// Where a place of the cloth is as the piece is drawn; nothing is scaled.
+    /// Maps a point of the cloth back to the drawn piece; valid for maps without scale.
     pub(super) fn back(&self, at: Point) -> Point {
         let way = at.coords - self.offset;
         Point::new(self.x.dot(&way), self.y.dot(&way))
@@ -87,7 +87,7 @@ impl Motion {
     }
 }
 
-/// The box around all that is cut of some pieces, but for notches, before it lies anywhere.
+/// The bounding box of the cuts of some pieces, without notches, before translation.
 fn extent(pieces: &[Piece], [x, y]: [Vector; 2]) -> Extent {
     let motion = Motion { x, y, offset: Vector::zeros() };
     let mut extent = Extent::EMPTY;
@@ -96,8 +96,7 @@ fn extent(pieces: &[Piece], [x, y]: [Vector; 2]) -> Extent {
     extent
 }
 
-/// Lays what blocks draw in a row along X, the lower edges on Y = 0, as often as each is wanted, so much room between them,
-/// mm.
+/// Lays the contents of blocks in a row along X with their lower edges on Y = 0, each as often as required, `gap` mm apart.
 pub(super) fn in_a_row<'p>(pieces: &'p [Piece], drawn: &[Drawn], gap: f64) -> Vec<Laid<'p>> {
     let mut laid = Vec::new();
     let mut x = 0.0;

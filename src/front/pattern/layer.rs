@@ -1,63 +1,63 @@
-//! The layers of the convention (AAMA DXF, ASTM D6673) and what is done about what is drawn on them.
+//! The layers of the convention (AAMA DXF, ASTM D6673) and their functions.
 
 use std::collections::BTreeMap;
 use std::ops::Deref;
 
-/// What is done about a layer.
+/// Function of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Does {
-    /// Its lines are outlines of pieces.
+    /// Outlines of pieces.
     Outline,
-    /// Its points are notches of outlines.
+    /// Notch points on outlines.
     Notch(Form),
-    /// Its line is where a half piece is mirrored.
+    /// Axis at which a half piece is mirrored.
     Fold,
-    /// Its lines are cut inside pieces.
+    /// Lines that are cut inside pieces.
     Inner,
-    /// Its points are holes.
+    /// Points of drilled holes.
     Drill,
-    /// Its lines are drawn on pieces, on both halves of one that is mirrored.
+    /// Lines that are drawn on pieces, on both halves of a mirrored one.
     Drawn,
-    /// The same; they are where parts are sewn together.
+    /// Seam lines, drawn as [`Does::Drawn`].
     Seam,
-    /// Its lines are drawn, once.
+    /// Lines that are drawn once, without mirroring.
     Sign,
-    /// Its points are corners of lines.
+    /// Points at corners of lines.
     Turn,
-    /// Its points are points of curves.
+    /// Points on curves.
     Curve,
-    /// Its lines are the curves of another layer in small chords.
+    /// Curves of another layer in small chords.
     Fine,
 }
 
-/// What a notch looks like.
+/// Form of a notch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
-    /// A slit when it has no width, else a V.
+    /// A slit if it has no width, otherwise a V.
     Plain,
     T,
     Castle,
-    /// A V with one straight leg, which is cut as a V.
+    /// A V with one perpendicular leg, which is cut as a symmetric V.
     Check,
     U,
 }
 
-/// A row of the table.
+/// An entry of the table.
 #[derive(Debug)]
 pub(super) struct Layer {
     pub(super) number: u16,
-    /// What its lines are called.
+    /// Name of its lines.
     pub(super) name: &'static str,
-    /// How they are told from others.
+    /// Description of how its lines are recognised.
     pub(super) about: &'static str,
     pub(super) does: Does,
 }
 
-/// A layer of a file: what is done about it, and its name.
+/// A layer of a file: its function and its name.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Named {
     pub(super) row: &'static Layer,
-    /// Place of its name in [`Names`].
+    /// Index of its name in [`Names`].
     pub(super) place: u16,
 }
 
@@ -69,7 +69,7 @@ impl Deref for Named {
     }
 }
 
-/// The names of the layers of a file: the numbers of the convention, else what the file calls them.
+/// The layer names of a file: the numbers of the convention, otherwise the names in the file.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Names {
     places: BTreeMap<String, u16>,
@@ -77,7 +77,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The layer of a number, or of the name that the file has for it. Beyond as many as plots have pens names are lost.
+    /// The layer of a number, or of the name in the file. Names beyond the maximum number of pens are lost.
     pub(super) fn layer(&mut self, number: Option<u16>, written: impl FnOnce() -> String) -> Named {
         let row = layer(number);
         let name = if row.number == OTHER.number { written() } else { row.number.to_string() };
@@ -89,20 +89,20 @@ impl Names {
         Named { row, place }
     }
 
-    /// What all of them are called.
+    /// All names.
     pub(super) fn all(&self) -> &[String] {
         &self.names
     }
 
-    /// What a layer is called.
+    /// Name of a layer.
     pub(super) fn of(&self, layer: Named) -> &str {
         self.names.get(usize::from(layer.place)).map_or("", String::as_str)
     }
 }
 
-/// The layer of seam lines.
+/// Number of the seam line layer.
 const SEAM: u16 = 14;
-/// Its name as a pen.
+/// Name of the seam line layer as a pen.
 pub(super) const SEAMS: &str = "14";
 
 /// The layers of the convention.
@@ -134,17 +134,17 @@ pub(super) const LAYERS: [Layer; 20] = [
 pub(super) const OUTLINE: &Layer = &LAYERS[0];
 pub(super) const CUT_OUT: &Layer = &LAYERS[8];
 
-/// What any other layer is.
+/// Entry for any other layer.
 pub(super) const OTHER: Layer =
     Layer { number: 0, name: "line of another layer", about: "any other layer", does: Does::Sign };
 
-/// The layer of a number; [`OTHER`] where the convention has none.
+/// The layer with a number; [`OTHER`] if the convention has none.
 pub(super) fn layer(number: Option<u16>) -> &'static Layer {
     LAYERS.iter().find(|layer| Some(layer.number) == number).unwrap_or(&OTHER)
 }
 
 impl Layer {
-    /// Whether a piece is cut wrongly when something on it is not read.
+    /// True if unread content on the layer would make the cut wrong.
     pub(super) fn is_cut(&self) -> bool {
         match self.does {
             Does::Outline | Does::Notch(_) | Does::Fold | Does::Inner | Does::Drill => true,
@@ -152,22 +152,22 @@ impl Layer {
         }
     }
 
-    /// Whether what is cut would be another shape when something on it is damaged.
+    /// True if damaged content on the layer would change the shape of a cut.
     pub(super) fn shapes_cuts(&self) -> bool {
         self.is_cut() || matches!(self.does, Does::Turn | Does::Curve | Does::Fine)
     }
 
-    /// Whether its lines may have curves between their vertices.
+    /// True if its lines may have curves between their vertices.
     pub(super) fn is_curved(&self) -> bool {
         self.fine().is_some()
     }
 
-    /// Whether its lines are the curves of another layer.
+    /// True if its lines are the curves of another layer.
     pub(super) fn is_fine(&self) -> bool {
         self.does == Does::Fine
     }
 
-    /// The layer that mostly has its curves in small chords.
+    /// The layer that usually has its curves in small chords.
     pub(super) fn fine(&self) -> Option<u16> {
         match self.does {
             Does::Outline => Some(84),

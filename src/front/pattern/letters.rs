@@ -1,4 +1,4 @@
-//! Letters: in which encoding the texts of a file are written.
+//! Encoding of the texts of a file.
 
 use super::key::Key;
 use super::text::{has_unread_key, is_text, keys};
@@ -9,7 +9,7 @@ use crate::machine::labels::Labels;
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
-/// Encodings in which a key that is not ASCII can be written, beside UTF-8. Where some read the same keys, the first holds.
+/// Encodings that can write non-ASCII keys, in addition to UTF-8. Of encodings that read the same keys, the first is used.
 const OF_KEYS: [&str; 13] = [
     "gbk",
     "windows-1252",
@@ -26,21 +26,21 @@ const OF_KEYS: [&str; 13] = [
     "euc-kr",
 ];
 
-/// The encoding of the texts of a file, and how it is known.
+/// The encoding of the texts of a file, and its origin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lettered {
     pub(super) letters: Letters,
-    /// Its name where neither the profile nor the header gives it, and more keys of the file are read in it than in any other.
+    /// Name of the encoding if it was found by its keys: more keys are readable in it than in the one of the profile or header.
     found: Option<&'static str>,
-    /// Texts whose keys have bytes that are no letters in it, and the first of them.
+    /// Number of texts whose keys have undecodable bytes, and the location of the first.
     unread: (usize, Option<Span>),
 }
 
-/// Places of texts among those that are not ASCII, each with a key that is read in it.
+/// Indices of non-ASCII texts, each with a key readable in an encoding.
 type Readings = Vec<(usize, Key)>;
 
-/// The encoding that somebody has set, else that of the header's code page. Many programs write a code page whatever they do, so
-/// where more keys can be read in another encoding, it is that.
+/// The encoding set by the profile, otherwise that of the header's code page. Many programs write a fixed code page, so another
+/// encoding is used if it makes more keys readable.
 pub(super) fn letters(sections: &Sections, source: &Source, labels: &Labels) -> Lettered {
     let of_header = || sections.page.and_then(|span| page(source.slice(span)));
     let first = labels.set().or_else(of_header).unwrap_or(Letters::utf_8()).with_codes();
@@ -68,13 +68,13 @@ pub(super) fn letters(sections: &Sections, source: &Source, labels: &Labels) -> 
     Lettered { letters, found: found.map(|(name, _)| name), unread }
 }
 
-/// Whether an entity is a text with other bytes than ASCII.
+/// True if an entity is a text with non-ASCII bytes.
 fn is_foreign(entity: &Entity) -> bool {
     is_text(entity) && !(entity.bytes(TEXT).is_ascii() && entity.bytes(NAME).is_ascii())
 }
 
 impl Lettered {
-    /// Says in which encoding the keys of the file are read where nobody gives it, and which are not read.
+    /// Reports an encoding that was found by its keys, and unreadable keys.
     pub(super) fn say(&self, out: &mut Diagnostics) {
         let say = "another encoding can be said: `--set labels.encoding=windows-1251`, `gbk`, `big5` ...";
         if let Some(name) = self.found {

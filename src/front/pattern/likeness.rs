@@ -1,8 +1,8 @@
-//! Likeness: what tells a set of patterns from a plain drawing.
+//! Distinction of pattern sets from plain drawings.
 //!
-//! Patterns have texts with keys of the convention and a line on one of its layers, or blocks with lines on layer 1, or outlines
-//! or seam lines outside all blocks where all lines are on layers of the convention. Anything else is a drawing, whose layers are
-//! names.
+//! A pattern set has texts with keys of the convention and a line on one of its layers; or blocks with lines on layer 1; or
+//! outlines or seam lines outside all blocks while all lines are on layers of the convention. Any other file is a drawing,
+//! whose layers are just names.
 
 use std::collections::BTreeSet;
 
@@ -12,37 +12,37 @@ use crate::front::{Likeness, foreign};
 use crate::machine::letters::Letters;
 use crate::source::line_end;
 
-/// Codes that begin an entity, and of its text, its name and its layer.
+/// Codes of the group that begins an entity, of its text and of its layer.
 const BEGINS: &[u8] = b"0";
 const TEXT: &[u8] = b"1";
 const LAYER: &[u8] = b"8";
 
-/// Kinds of entities that are texts, that are lines, and that are chains of lines.
+/// Kinds of entities that are texts, lines, and chains of lines.
 const TEXTS: [&[u8]; 4] = [b"TEXT", b"MTEXT", b"ATTRIB", b"ATTDEF"];
 const LINES: [&[u8]; 4] = [b"LINE", b"ARC", b"CIRCLE", b"SPLINE"];
 const CHAINS: [&[u8]; 2] = [b"POLYLINE", b"LWPOLYLINE"];
 
-/// Likeness of some bytes to a set of patterns.
+/// Likeness of bytes to a pattern set.
 pub(super) fn sniff(bytes: &[u8]) -> Likeness {
     if foreign::is_dxf(bytes) && Signs::of(bytes).are_of_patterns() { Likeness::Sure } else { Likeness::No }
 }
 
-/// A sign of the convention in a file, or against it.
+/// Evidence for or against a pattern set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Sign {
-    /// A text has a key of it.
+    /// A text has a key of the convention.
     Key,
-    /// A line is on a layer of it.
+    /// A line is on a layer of the convention.
     Line,
-    /// A block has a line on the layer of outlines.
+    /// A block has a line on the outline layer.
     Block,
-    /// A chain of lines stands there in no block, or on that of seam lines.
+    /// A chain of lines on the outline or seam line layer stands outside all blocks.
     Outline,
-    /// A line in no block is on a layer that the convention does not have, or has for points.
+    /// A line outside all blocks is on a layer that the convention lacks or uses for points.
     Other,
 }
 
-/// Signs that a file has.
+/// The evidence in a file.
 #[derive(Debug, Default)]
 struct Signs(BTreeSet<Sign>);
 
@@ -93,7 +93,7 @@ impl Signs {
         self.0.extend((!is_in_block && (!is_known || is_of_points)).then_some(Sign::Other));
     }
 
-    /// Whether nothing else in the file could say otherwise.
+    /// True if the rest of the file cannot change the result.
     fn are_sure(&self) -> bool {
         self.has(Sign::Block) || self.has(Sign::Key) && self.has(Sign::Line)
     }

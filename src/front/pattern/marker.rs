@@ -1,4 +1,4 @@
-//! What a set of patterns cuts, as a marker, and all of its lines by their layers, as a drawing.
+//! Conversion of a pattern set to a marker of its cuts, and to a drawing of all lines by layer.
 
 use super::chain::Chain;
 use super::lay::{Laid, Motion};
@@ -11,10 +11,10 @@ use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Pi
 use crate::ir::{Drawing, Marker};
 use crate::source::Span;
 
-/// The drill that makes the holes.
+/// Number of the drill for holes.
 const DRILL: u8 = 1;
 
-/// What is cut of a set: inside a piece first, its outline last.
+/// The marker of a set: inner lines of a piece come first, its outline last.
 pub(super) fn marker(set: &Set) -> Marker {
     let mut marker = Marker { letters: set.letters, ..Marker::default() };
     let mut account = Account { classes: classes(), ..Account::default() };
@@ -27,7 +27,7 @@ pub(super) fn marker(set: &Set) -> Marker {
     Marker { drawing: Some(account), ..marker }
 }
 
-/// A piece where it lies.
+/// A laid piece.
 fn piece(laid: &Laid, number: u32, list: &mut SegmentList, account: &mut Account) -> Piece {
     let Laid { piece, motion } = *laid;
     let mut made = Piece { number, span: piece.span, ..Piece::default() };
@@ -56,7 +56,7 @@ fn piece(laid: &Laid, number: u32, list: &mut SegmentList, account: &mut Account
     made
 }
 
-/// A row a layer for lines that are cut, and one for those that are not.
+/// One class per layer for cut lines, and one for other lines.
 fn classes() -> Vec<LineClass> {
     let row = |layer: &Layer, cut| LineClass { name: layer.name, about: layer.about, cut, count: 0, length: 0.0 };
     let all = || LAYERS.iter().chain([&OTHER]);
@@ -72,7 +72,7 @@ fn see(account: &mut Account, layer: &Layer, cut: bool, vertices: &[Vertex]) {
     }
 }
 
-/// The places of a line where it lies; of a closed one the first comes last again.
+/// The vertices of a laid line; those of a closed line end with the first one again.
 fn moved(line: &Chain, motion: Motion) -> Vec<Vertex> {
     line.round().map(|vertex| Vertex { at: motion.place(vertex.at), ..vertex }).collect()
 }
@@ -95,7 +95,7 @@ fn moved_label(label: &Label, motion: Motion) -> Label {
     }
 }
 
-/// All lines of a set where they lie, the layers as pens.
+/// The drawing of all laid lines, with layers as pens.
 pub(super) fn drawing(set: &Set) -> Drawing {
     let mut drawing = Drawing::default();
     let mut draw = |name: &str, line: &Chain, motion: Motion| {

@@ -1,23 +1,22 @@
-//! MTEXT: the lines of a text in which backslashes and braces say how its letters look.
+//! MTEXT: lines of texts with formatting codes in backslashes and braces.
 
 use std::ops::Range;
 
-/// Codes with an argument, up to a semicolon: alignment, colour, font, height, spacing, slant, tab stops, width.
+/// Codes with an argument up to a semicolon: alignment, colour, font, height, spacing, slant, tab stops, width.
 const WITH_ARGUMENT: &[u8] = b"ACcFfHQpTW";
-/// Codes that switch a line over, through or under the letters.
+/// Codes that toggle overline, strike-through and underline.
 const SWITCHES: &[u8] = b"LlOoKk";
 
-/// Beginnings of codes that stand for a letter, by its number.
+/// Prefixes of codes for a letter by its number.
 const LETTERS: [&[u8]; 2] = [b"\\U+", b"\\M+"];
 
-/// Whether codes or braces are left in a part of a text, other than codes of letters: then nobody knows what its letters are.
+/// True if codes or braces remain in a part of a text, apart from letter codes: its letters are then unknown.
 pub(super) fn has_codes(text: &[u8]) -> bool {
     let is_letter = |at: usize| LETTERS.iter().any(|code| text[at..].starts_with(code));
     text.iter().enumerate().any(|(at, byte)| b"{}\\".contains(byte) && !is_letter(at))
 }
 
-/// Where the lines of a text are, without the codes before their first and the braces behind their last letters. A line
-/// ends at `\P`.
+/// Ranges of the lines of a text, without leading codes and trailing braces. A line ends at `\P`.
 pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> {
     let ends: Vec<usize> = memchr::memmem::find_iter(text, b"\\P").chain([text.len()]).collect();
     let starts: Vec<usize> = [0].into_iter().chain(ends.iter().map(|end| end + 2)).collect();
@@ -29,7 +28,7 @@ pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// How many bytes at the beginning of a line, or of a part of it, are blanks and codes.
+/// Number of leading bytes of a line, or of a part of it, that are blanks or codes.
 pub(super) fn codes_before(line: &[u8]) -> usize {
     let mut at = 0;
     loop {

@@ -1,16 +1,18 @@
 //! Pattern DXF: sets of patterns as garment CAD exchanges them (AAMA DXF, ASTM D6673).
 //!
-//! Receives bytes: pairs of lines in sections, a block a piece and size, with layers by convention and drawings of other
-//! CAD systems that keep to it. Promises a marker in mm of the pieces of one size or several: half pieces unfolded, outlines
-//! closed, notches on them in the forms that passes know, laid in a row unless the file places them; and an account of
-//! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
+//! Receives bytes: pairs of lines in sections, one block per piece and size, with layers by convention, and drawings of other
+//! CAD systems that follow it. Promises a marker in mm of the pieces of one size or several: half pieces unfolded, outlines
+//! closed, notches in forms that the passes know, laid in a row unless the file places them; and an account of every line that
+//! is not cut. Never cuts lines that no layer marks as cut, and never guesses the size.
 //!
-//! [`likeness`] tells such files from plain drawings. [`dxf`] makes groups, sections and blocks, [`shape`] lines and
-//! points in mm in the [`mod@unit`]; [`text`] reads what texts say in their [`letters`](mod@letters) by their [`key`]s with [`markup`] and [`choice`] which blocks that
-//! lets be cut; [`unknown`] names keys that may be quantities, [`namesakes`] pieces that may be sizes. [`piece`] makes a piece of a block: [`outline`]s of [`chain`]s and each [`spur`], each gone round once ([`retrace`]), unfolded about their [`fold`], along their [`curves`], with each
-//! [`mod@notch`] by the table of [`layer`]s that is not [`drawn`] already. [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on
-//! the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`] and [`told`] what is
-//! not done as the file says.
+//! [`likeness`] distinguishes such files from plain drawings. [`dxf`] makes groups, sections and blocks, [`shape`] lines and
+//! points in mm in the [`mod@unit`]. [`text`] reads facts from texts in their [`letters`](mod@letters), by their [`key`]s and
+//! with [`markup`], and [`choice`] selects the blocks to cut. [`unknown`] names keys that may be quantities, [`namesakes`]
+//! pieces that may be sizes. [`piece`] makes a piece of a block: [`outline`]s from [`chain`]s and each [`spur`], each traversed
+//! once ([`retrace`]), unfolded at their [`fold`], along their [`curves`], with each [`mod@notch`] by the table of [`layer`]s
+//! that is not [`drawn`] already. [`set`] does all of this for a file, [`placing`] and [`lay`] position the pieces on the
+//! cloth, and [`over`] checks that none overlaps another. [`mod@marker`] makes the marker; [`tally`] and [`told`] report
+//! deviations from the file.
 
 mod chain;
 mod choice;

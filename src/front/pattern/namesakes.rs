@@ -1,5 +1,5 @@
-//! Pieces that may be of several sizes though none says a size: blocks of one name, or with names that differ in their last
-//! part alone, as `FRONT-S`, `FRONT-M` and `FRONT-L`.
+//! Pieces that may be sizes of one piece although none gives a size: blocks with equal names, or with names that differ only in
+//! their last part, such as `FRONT-S`, `FRONT-M` and `FRONT-L`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,16 +9,16 @@ use crate::front::dxf::entity::{Block, NAME};
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
-/// Characters before the last part of a name.
+/// Separators before the last part of a name.
 const BEFORE_LAST: [char; 5] = ['-', '_', '.', ' ', '/'];
-/// Last parts of two names that are sides and no sizes.
+/// Last parts of two names that are sides, not sizes.
 const SIDES: [[&str; 2]; 2] = [["L", "R"], ["LEFT", "RIGHT"]];
 
-/// Blocks of one name.
+/// Blocks with the same name.
 struct Namesakes {
     first: Span,
     count: usize,
-    /// Last parts of their names, in capitals; empty where a text gives the name of the piece.
+    /// Last parts of their names, in capitals; empty if a text gives the piece name.
     ends: BTreeSet<String>,
 }
 
@@ -28,7 +28,7 @@ impl Namesakes {
         self.count > 1 && !are_sides && !self.are_numbered()
     }
 
-    /// Whether the last parts count from 1.
+    /// True if the last parts count from 1.
     fn are_numbered(&self) -> bool {
         self.ends.len() == self.count && (1..=self.count).all(|number| self.ends.contains(&number.to_string()))
     }

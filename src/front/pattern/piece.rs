@@ -1,4 +1,4 @@
-//! Pieces: the shapes of a block become what is cut of a piece and what is only drawn on it, both halves of it.
+//! Pieces: the shapes of a block become the cut and drawn lines of a piece, on both halves.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,24 +20,24 @@ use crate::ir::drawing::Vertex;
 use crate::ir::marker::{Label, Notch};
 use crate::source::Span;
 
-/// A piece as the file draws it, mm; a half that is mirrored is whole here.
+/// A piece as drawn, mm; a mirrored half is already whole.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
     pub(super) span: Span,
-    /// Its outline without notches.
+    /// The outline without notches.
     pub(super) plain: Chain,
-    /// Its outline with the notches that it makes.
+    /// The outline with the notches that are part of it.
     pub(super) outline: Chain,
     pub(super) slits: Vec<Notch>,
-    /// Notches that are left out, or cut in another way.
+    /// Notches that are omitted or cut differently.
     pub(super) doubts: Vec<Doubt>,
     pub(super) drills: Vec<(Point, Span)>,
-    /// Lines that are cut inside it.
+    /// Lines that are cut inside the piece.
     pub(super) inner: Vec<Chain>,
-    /// Lines that are only drawn.
+    /// Lines that are drawn but not cut.
     pub(super) drawn: Vec<(Named, Chain)>,
     pub(super) labels: Vec<Label>,
-    /// Why it cannot be cut; mostly nothing.
+    /// Reasons why it cannot be cut; usually empty.
     pub(super) faults: Vec<Diagnostic>,
 }
 
@@ -64,34 +64,34 @@ impl Piece {
     }
 }
 
-/// What is looked at and found while pieces are made.
+/// Context and findings of making pieces.
 #[derive(Debug)]
 pub(super) struct Making<'o> {
-    /// Depth of notches without one, mm.
+    /// Depth of notches that give none, mm.
     pub(super) notch_depth: f64,
     pub(super) drafting: Drafting,
-    /// Where the pieces got their curves from.
+    /// Counts of the origins of curves.
     pub(super) curved: CurveCounts,
     pub(super) work: Budget,
     pub(super) tally: Tally,
-    /// Lines that run past their own start or go round again.
+    /// Lines that continue past their own start or repeat themselves.
     pub(super) retraced: Vec<Retraced>,
-    /// Lines of blocks that have no outline.
+    /// Lines of blocks without an outline.
     pub(super) apart: Vec<(Named, Chain)>,
     pub(super) out: &'o mut Diagnostics,
 }
 
-/// How the lines of a block become those of a whole piece.
+/// Fold and curves that turn the lines of a block into those of a whole piece.
 #[derive(Debug, Clone, Copy)]
 struct Wholes<'a> {
     fold: Option<Fold>,
     curves: &'a Curves,
 }
 
-/// What lies in one outline.
+/// Content of one outline.
 #[derive(Debug, Default)]
 struct Content {
-    /// Where that begins in the file.
+    /// Start of the content in the file.
     span: Span,
     lines: Vec<(Named, Chain)>,
     dots: Vec<Dot>,
@@ -99,7 +99,7 @@ struct Content {
 }
 
 impl Making<'_> {
-    /// The pieces of a block that begins at `span`, with what is to be said of them.
+    /// The pieces of a block that begins at `span`, with their findings separate.
     pub(super) fn pieces_apart(&mut self, shapes: Shapes, span: Span) -> (Vec<Piece>, Diagnostics) {
         let mut said = Diagnostics::default();
         std::mem::swap(self.out, &mut said);
@@ -108,7 +108,7 @@ impl Making<'_> {
         (pieces, said)
     }
 
-    /// The pieces of a block that begins at `span`; most have one.
+    /// The pieces of a block that begins at `span`; most blocks have one.
     fn pieces(&mut self, shapes: Shapes, span: Span) -> Vec<Piece> {
         let Shapes { lines, dots, texts, .. } = shapes;
         for line in &lines {
@@ -161,7 +161,8 @@ impl Making<'_> {
         pieces
     }
 
-    /// Tells lines where points alone ask for cuts: notches that are drawn as strokes, holes as crosses.
+    /// Reports lines on layers that only define cuts or curves by points, such as notches drawn as strokes or holes drawn as
+    /// crosses.
     fn see_stroke(&mut self, line: &Line) {
         let thing = match line.layer.does {
             Does::Notch(_) => Thing::StrokeOfNotch,
@@ -172,7 +173,7 @@ impl Making<'_> {
         self.tally.add(thing, line.vertices.first().map_or(Span::default(), |vertex| vertex.span));
     }
 
-    /// The whole of each outline, and the fold that it was unfolded about; `None` with an error where it does not close.
+    /// The whole of each outline, and the fold used to unfold it; `None`, with an error, if it is not closed.
     fn unfolded(
         &mut self,
         outlines: &[Outline],
@@ -210,7 +211,8 @@ impl Making<'_> {
         outlines.iter().map(closed).collect()
     }
 
-    /// What lies in which outline; what lies in none goes with the first.
+    /// Distributes content to the outlines that contain it. Lines and points outside all outlines go to the first; labels
+    /// outside all are dropped.
     fn sorted(&mut self, outlines: &[Outline], all: Content) -> Vec<Content> {
         if outlines.len() == 1 {
             return vec![all];
@@ -275,7 +277,7 @@ impl Making<'_> {
         Piece { span: content.span, plain, outline, slits, doubts, drills, inner, drawn, labels, faults }
     }
 
-    /// The notches and holes that points ask for, on both sides of a fold.
+    /// The notches and holes given by points, on both sides of a fold.
     fn points(&self, dots: &[Dot], fold: Option<Fold>) -> (Vec<Mark>, Vec<(Point, Span)>) {
         let mut marks: Vec<Mark> = Vec::new();
         let mut drills: Vec<(Point, Span)> = Vec::new();
@@ -293,7 +295,7 @@ impl Making<'_> {
                     }));
                 }
                 Does::Drill => {
-                    // A hole may be drawn twice, as a circle and as its middle.
+                    // A hole may be drawn twice, as a circle and as its centre.
                     if holes.is_new(dot.at) {
                         for at in [Some(dot.at), mirrored.map(|fold| fold.mirror(dot.at))].into_iter().flatten() {
                             holes.add(at);
@@ -315,7 +317,7 @@ impl Making<'_> {
         (marks, drills)
     }
 
-    /// Tells seam lines that go round their outline.
+    /// Reports seam lines that enclose their outline.
     fn see_seams(&mut self, around: &Outline, drawn: &[(Named, Chain)]) {
         let seams = drawn.iter().filter(|(layer, line): &&(Named, Chain)| layer.does == Does::Seam && line.is_closed);
         for (_, seam) in seams.filter(|(_, seam)| around.is_in(seam)) {
@@ -323,7 +325,7 @@ impl Making<'_> {
         }
     }
 
-    /// A line that is cut, on both sides of a fold, with its curves.
+    /// The images of a cut line on both sides of a fold, with their curves.
     fn wholes(&mut self, Wholes { fold, curves }: Wholes, layer: &Layer, line: &Chain) -> Vec<Chain> {
         let mut lines = Vec::new();
         for line in on_both_sides(fold, line) {
@@ -345,7 +347,7 @@ fn on_both_sides(fold: Option<Fold>, line: &Chain) -> Vec<Chain> {
     fold.map_or_else(|| vec![line.clone()], |fold| fold.unfold(line))
 }
 
-/// Where holes are, by cells as wide as they lie apart that are two.
+/// Positions of holes, in cells as wide as the minimum distance of separate holes.
 #[derive(Debug, Default)]
 struct Holes(BTreeMap<[i64; 2], Vec<Point>>);
 
@@ -354,7 +356,7 @@ impl Holes {
         [at.x, at.y].map(|value| (value / REACH).floor() as i64)
     }
 
-    /// Whether no hole is there yet.
+    /// True if there is no hole at the position yet.
     fn is_new(&self, at: Point) -> bool {
         let [x, y] = Self::cell(at);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
@@ -366,7 +368,7 @@ impl Holes {
     }
 }
 
-/// Lines with those of a layer joined that the convention lets be drawn in parts.
+/// Joins the lines of a layer where the convention allows them to be drawn in parts.
 fn joined(lines: Vec<Line>, retraced: &mut Vec<Retraced>) -> Vec<(Named, Chain)> {
     let mut layers: Vec<(Named, Vec<Chain>)> = Vec::new();
     let mut places: BTreeMap<u16, usize> = BTreeMap::new();
@@ -395,7 +397,7 @@ fn joined(lines: Vec<Line>, retraced: &mut Vec<Retraced>) -> Vec<(Named, Chain)>
     layers.into_iter().flat_map(join).collect()
 }
 
-/// Drops lines that are drawn a second time, either way round; of an open and a closed one the closed one stays.
+/// Drops lines that are drawn again, in either direction. Of an open and a closed one, the closed one stays.
 fn drop_doubled(lines: &mut Vec<Chain>) {
     let way = |line: &Chain| {
         let way: Vec<[u64; 2]> = line.vertices.iter().map(|vertex| bits(vertex.at)).collect();
@@ -410,7 +412,7 @@ fn drop_doubled(lines: &mut Vec<Chain>) {
     });
 }
 
-/// An outline that does not close.
+/// The error for an outline that does not close.
 fn open_outline(edge: &Chain) -> Diagnostic {
     let ends: [Vertex; 2] = [edge.vertices[0], edge.vertices[edge.vertices.len() - 1]];
     let gap = (ends[1].at - ends[0].at).norm();

@@ -1,4 +1,4 @@
-//! Placing: which blocks the insertions of a file put on the cloth, and where.
+//! Placing: positions of blocks on the cloth from the insertions of a file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,19 +13,19 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point};
 use crate::source::{Source, Span};
 
-/// Most pieces that are laid.
+/// Maximum number of laid pieces.
 pub(super) const MOST_PIECES: usize = 100_000;
-/// Most copies of one piece: an order of more is cut in plies.
+/// Maximum number of copies of one piece; larger orders are cut in plies.
 pub(super) const MOST_COPIES: usize = 2000;
 
-/// What a block holds, whichever piece it would be in.
+/// Summary of the content of a block, independent of its role in a piece.
 #[derive(Debug)]
 pub(super) struct Held {
-    /// Whether it holds anything to cut, or a block that may.
+    /// True if it has anything to cut, or insertions of blocks that may have.
     pub(super) is_cut: bool,
-    /// Whether it holds lines as pieces have them beside their outlines.
+    /// True if it has lines of the kinds that pieces have besides their outlines.
     pub(super) has_lines: bool,
-    /// The pens of what else is drawn in it.
+    /// Pens of the other drawn content.
     drawn: BTreeSet<String>,
 }
 
@@ -38,23 +38,23 @@ impl Held {
     }
 }
 
-/// The insertions of a file beside its blocks.
+/// The insertions of a file, with its blocks.
 #[derive(Debug)]
 pub(super) struct Placing<'a> {
-    /// Blocks by their names in capitals: of several with one name the first.
+    /// Indices of blocks by their names in capitals; the first of several with one name.
     names: BTreeMap<Vec<u8>, usize>,
-    /// Base point and beginning of each block.
+    /// Base point and location of each block.
     blocks: Vec<(Point, Span)>,
-    /// Which blocks have a name of their own, or are put somewhere.
+    /// True for blocks that have a name of their own or are inserted.
     is_piece: Vec<bool>,
-    /// What the attributes of its insertions say of each.
+    /// Facts from the attributes of the insertions of each block.
     attributes: Vec<Facts>,
-    /// Those that stand in no block.
+    /// Insertions outside all blocks.
     inserts: Vec<Inserted<'a>>,
 }
 
 impl<'a> Placing<'a> {
-    /// For blocks with their base points.
+    /// Creates the placing for blocks with their base points.
     pub(super) fn of(source: &Source, blocks: &[Block], bases: Vec<Point>, inserts: Vec<Inserted<'a>>) -> Self {
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
@@ -81,13 +81,13 @@ impl<'a> Placing<'a> {
         self.names.get(&name.to_ascii_uppercase()).copied()
     }
 
-    /// What is said of a block: by the attributes of its insertions, else by its own texts.
+    /// Facts of a block: those from the attributes of its insertions, otherwise those from its own texts.
     pub(super) fn facts(&self, block: usize, own: Facts) -> Facts {
         own.under_attributes(&self.attributes[block])
     }
 
-    /// Tells blocks that insertions in a block put there, though they have something to cut; what else of them may be sewn is
-    /// not read.
+    /// Reports blocks with cuts that are inserted in other blocks. Returns the other content of nested blocks, which is not
+    /// read.
     pub(super) fn nested(&self, inserts: &[Inserted], held: &[Held], tally: &mut Tally) -> Vec<Unread> {
         let mut unread = Vec::new();
         for insert in inserts {
@@ -108,8 +108,8 @@ impl<'a> Placing<'a> {
         unread
     }
 
-    /// Whether insertions put blocks beside each other, so that not one has its middle in the box of another; `boxes` are those
-    /// of their outlines as the blocks draw them. Then they are a marker, of whatever sizes.
+    /// True if insertions place blocks beside each other, so that the middle of none lies in the box of another. The file is
+    /// then a marker, whatever the sizes. `boxes` are the bounding boxes of the outlines as drawn in the blocks.
     pub(super) fn parts(&self, boxes: &[Extent]) -> bool {
         let mut laid = Vec::new();
         let mut is_placing = false;
@@ -132,13 +132,13 @@ impl<'a> Placing<'a> {
         is_placing && boxes.all().iter().enumerate().all(is_alone)
     }
 
-    /// Whether a block is a piece. CAD systems have blocks without a name of their own, which begin with `*`: for dimensions,
-    /// groups and sheets. Those are pieces where an insertion puts them.
+    /// True if a block is a piece. CAD systems use blocks without a name of their own, which begin with `*`, for dimensions,
+    /// groups and sheets. Those are only pieces if they are inserted.
     pub(super) fn is_piece(&self, block: usize) -> bool {
         self.is_piece[block]
     }
 
-    /// Where the insertions put the pieces that blocks draw; `None` when all of them put them nowhere, at the origin.
+    /// Maps of the pieces by the insertions; `None` if all insertions are identities.
     pub(super) fn placed(&self, drawn: &[Drawn], making: &mut Making) -> Option<Vec<(usize, Motion)>> {
         let mut is_placing = false;
         let mut placed = Vec::new();
@@ -163,14 +163,14 @@ impl<'a> Placing<'a> {
             }
             let motion = Motion::of_insert(insert, base);
             is_placing |= !pieces.is_empty() && !motion.is_still();
-            // Beyond so many the file is refused.
+            // A file with more pieces is refused.
             let pieces = pieces.take(MOST_PIECES + 1 - placed.len().min(MOST_PIECES + 1));
             placed.extend(pieces.map(|piece| (piece, motion)));
         }
         is_placing.then_some(placed)
     }
 
-    /// Wants pieces as often as insertions have them, as drawn and mirrored, where the file says no quantity.
+    /// Sets the quantities of pieces, as drawn and mirrored, to their numbers of insertions if the file gives none.
     pub(super) fn as_often(&self, drawn: &mut [Drawn]) {
         let mut counts = vec![[0_u32; 2]; self.blocks.len()];
         for insert in self.inserts.iter().flatten() {
@@ -183,7 +183,7 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Tells blocks that are placed more or less often than their quantities say.
+    /// Reports blocks whose number of insertions differs from their quantity.
     pub(super) fn count(&self, drawn: &[Drawn], tally: &mut Tally) {
         let mut counts = vec![0; self.blocks.len()];
         self.inserts.iter().flatten().filter_map(|insert| self.block(insert.name)).for_each(|k| counts[k] += 1);

@@ -1,7 +1,7 @@
-//! Retraced lines: one that runs past its own start, or goes round again, is the ring that it closes.
+//! Retraced lines: a line that continues past its own start, or repeats itself, is reduced to the ring that it closes.
 //!
-//! Other software draws the overcut of its own knife into an outline. Notches and folds need the ring itself, so what goes
-//! along it again is left out before they are looked at.
+//! Other software draws the overcut of its knife into an outline. Notches and folds need the ring itself, so the repeated
+//! stretch is removed first.
 
 use super::chain::Chain;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
@@ -9,30 +9,30 @@ use crate::geom::closing::{self, Retrace};
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Stretch of a line that was left out, since it goes along the line again.
+/// A removed stretch of a line that repeated the line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Retraced {
     /// Length past the start, mm.
     past: f64,
     rounds: usize,
     is_back: bool,
-    /// Where the line begins.
+    /// Location of the start of the line.
     span: Span,
 }
 
-/// How a line goes along itself again.
+/// The repetition in a line.
 fn retrace(line: &Chain) -> Option<Retrace> {
     let count = line.vertices.len();
     let round = count + usize::from(line.is_closed);
     closing::retrace(round, |k| line.vertices[if k < count { k } else { k - count }].at, Dxf::RETRACE_OFF)
 }
 
-/// Whether a line runs past its own start or goes round again.
+/// True if a line continues past its own start or repeats itself.
 pub(super) fn retraces(line: &Chain) -> bool {
     retrace(line).is_some()
 }
 
-/// Lines without what goes along them again; each one that had such a stretch is noted.
+/// Removes the repeated stretches of lines and records them.
 pub(super) fn once(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain> {
     let ring = |mut line: Chain| {
         if let Some(Retrace { last, rounds, is_back, past }) = retrace(&line) {
@@ -49,7 +49,7 @@ pub(super) fn once(lines: Vec<Chain>, retraced: &mut Vec<Retraced>) -> Vec<Chain
     lines.into_iter().map(ring).collect()
 }
 
-/// Says how many outlines and cut-outs run past their start, and how many go round again.
+/// Reports the numbers of outlines and cut-outs that continue past their start or repeat themselves.
 pub(super) fn say_retraced(retraced: &[Retraced], out: &mut Diagnostics) {
     let longest = retraced.iter().map(|line| line.past).fold(0.0, f64::max);
     let most = retraced.iter().filter(|line| !line.is_back).map(|line| line.rounds).max().unwrap_or(0);

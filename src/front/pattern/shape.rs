@@ -14,7 +14,7 @@ use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
-/// Codes of coordinates, and of what notches, arcs, attributes and insertions have beside them.
+/// Codes of coordinates, and of the data of notches, arcs, attributes and insertions.
 const X: i32 = 10;
 const Y: i32 = 20;
 const X2: i32 = 11;
@@ -28,39 +28,39 @@ const ANGLE: i32 = 50;
 const END_ANGLE: i32 = 51;
 /// Codes of the base point of a block.
 const BASE: [i32; 2] = [X, Y];
-/// Codes of how many columns and rows of copies an insertion puts.
+/// Codes of the numbers of columns and rows of an insertion.
 const ARRAY: [i32; 2] = [FLAGS, 71];
-/// Codes of the direction from which an entity is seen, and that of all flat drawings.
+/// Codes of the extrusion direction, from which an entity is seen, and its value in flat drawings.
 const EXTRUSION: [i32; 3] = [210, 220, 230];
 const FROM_ABOVE: [f64; 3] = [0.0, 0.0, 1.0];
-/// How far rounding may move it.
+/// Permitted rounding of the extrusion direction.
 const EXTRUSION_EPSILON: f64 = 1e-6;
-/// Code that is 1 for what stands on the sheet around a drawing and not in it.
+/// Code of the flag of entities in paper space, the sheet around the drawing.
 const ON_PAPER: i32 = 67;
 
-/// Flags of polylines: closed, and kinds that are no lines; of vertices: a control point of a spline.
+/// Flags of polylines: closed, and meshes; of vertices: a control point of a spline.
 const CLOSED: i64 = 1;
 const MESHES: i64 = 16 | 64;
 const CONTROL_POINT: i64 = 16;
 
 /// Largest coordinate, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
-/// An arc that turns less is a whole circle: an arc so short is nothing, at any radius on a table, deg.
+/// Sweep below which an arc is a full circle, deg: at any radius on a table so short an arc has no length.
 const TURN_EPSILON_DEG: f64 = 1e-6;
-/// Chords of all curves of a file: more come from a damaged radius.
+/// Maximum number of chords of a file; larger numbers result from a damaged radius.
 const MOST_CHORDS: usize = 4_000_000;
 
-/// A line with its layer.
+/// A line and its layer.
 #[derive(Debug, Clone)]
 pub(super) struct Line {
     pub(super) layer: Named,
     pub(super) vertices: Vec<Vertex>,
-    /// Whether the last vertex leads to the first.
+    /// True if the last vertex leads to the first.
     pub(super) is_closed: bool,
 }
 
 impl Line {
-    /// The edges of it, if it is of an outline.
+    /// Its edges if it is part of an outline, otherwise none.
     pub(super) fn edges_of_outline(&self) -> impl Iterator<Item = [Vertex; 2]> + '_ {
         let count = self.vertices.len();
         let edges = if self.layer.does != Does::Outline || count < 2 {
@@ -74,43 +74,43 @@ impl Line {
     }
 }
 
-/// A point with what it says of a notch.
+/// A point, with data of a notch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dot {
     pub(super) layer: &'static Layer,
     pub(super) at: Point,
-    /// mm; nothing where the file says nothing.
+    /// Depth, mm; 0 if the file gives none. The width likewise.
     pub(super) depth: f64,
     pub(super) width: f64,
     pub(super) heading: Option<Heading>,
     pub(super) span: Span,
 }
 
-/// Where a block is put.
+/// An insertion of a block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Insert<'a> {
     pub(super) name: &'a [u8],
     pub(super) at: Point,
     pub(super) scale: [f64; 2],
     pub(super) turn: f64,
-    /// What its attributes say.
+    /// Facts from its attributes.
     pub(super) facts: Facts,
     pub(super) span: Span,
 }
 
-/// An insertion, or one that puts its block nowhere: its name and why.
+/// An insertion, or the name of its block and the reason why it cannot be placed.
 pub(super) type Inserted<'a> = Result<Insert<'a>, (&'a [u8], Diagnostic)>;
 
-/// An entity of a kind that is not read, on a layer that is not cut.
+/// An unsupported entity on a layer that is not cut.
 #[derive(Debug, Clone)]
 pub(super) struct Unread {
-    /// The name of its layer, as [`Names`] has it.
+    /// Layer name, as in [`Names`].
     pub(super) pen: String,
     pub(super) kind: String,
     pub(super) span: Span,
 }
 
-/// Everything in a block.
+/// The content of a block.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Shapes<'a> {
     pub(super) lines: Vec<Line>,
@@ -118,43 +118,43 @@ pub(super) struct Shapes<'a> {
     pub(super) texts: Vec<Label>,
     pub(super) inserts: Vec<Inserted<'a>>,
     pub(super) unread: Vec<Unread>,
-    /// Whether something that is cut could not be read.
+    /// True if an entity that affects cuts was unreadable.
     pub(super) is_faulty: bool,
 }
 
 impl Shapes<'_> {
-    /// Whether it holds anything to cut, or a block that may.
+    /// True if there is anything to cut, or an insertion of a block that may have cuts.
     pub(super) fn is_cut(&self) -> bool {
         let lines = self.lines.iter().any(|line| line.layer.is_cut());
         lines || self.is_faulty || !self.inserts.is_empty() || self.dots.iter().any(|dot| dot.layer.is_cut())
     }
 }
 
-/// How numbers become places, and what is found on the way.
+/// Conversion of entities to shapes, and its findings.
 #[derive(Debug)]
 pub(super) struct Reader<'a, 'o> {
     pub(super) source: &'a Source,
-    /// How its texts are encoded.
+    /// Encoding of texts.
     pub(super) letters: Letters,
     /// Length of a unit, mm.
     pub(super) unit: f64,
-    /// Farthest that chords lie off their curve, mm.
+    /// Maximum deviation of chords from their curve, mm.
     pub(super) sagitta: f64,
-    /// Chords so far.
+    /// Number of chords so far.
     pub(super) chords: usize,
-    /// How much stands on the sheet around the drawing, and where it begins.
+    /// Number of entities in paper space, and the location of the first.
     pub(super) on_paper: Option<(usize, Span)>,
-    /// The layers on which lines are.
+    /// Names of the layers with entities.
     pub(super) names: Names,
-    /// Names of layers that are not shown.
+    /// Hidden layers, by name.
     pub(super) hidden_layers: &'a BTreeMap<&'a [u8], Hidden>,
-    /// How much is cut and not shown, and where it begins.
+    /// Number of hidden entities that are cut, and the location of the first.
     pub(super) hidden: Option<(usize, Span)>,
     pub(super) out: &'o mut Diagnostics,
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Reads the entities of a block. Those that are at fault are reported and left out.
+    /// Reads the entities of a block; faulty ones are reported and omitted.
     pub(super) fn shapes(&mut self, entities: &[Entity<'a>]) -> Shapes<'a> {
         let mut shapes = Shapes::default();
         let mut rest = entities;
@@ -176,7 +176,7 @@ impl<'a> Reader<'a, '_> {
                 }
                 self.polyline(entity, &behind[..count], &mut shapes)
             } else if entity.is("INSERT") {
-                // Only one of a block that is cut matters: that is known once all blocks are read.
+                // A fault only matters if the inserted block is cut, which is known after all blocks are read.
                 shapes.inserts.push(self.insert(entity, behind).map_err(|fault| (entity.bytes(NAME), fault)));
                 Ok(())
             } else {
@@ -189,7 +189,7 @@ impl<'a> Reader<'a, '_> {
         shapes
     }
 
-    /// Says what is at fault in an entity: of one that nothing cuts it refuses nothing.
+    /// Reports a fault of an entity. If the entity does not affect cuts, the fault is only a warning.
     fn say(&mut self, entity: &Entity, fault: Diagnostic) {
         if layer(entity.layer()).shapes_cuts() {
             self.out.push(fault);
@@ -201,7 +201,7 @@ impl<'a> Reader<'a, '_> {
         self.out.push(finding.hint("what is cut is whole; export the file again if the drawing is to be sewn"));
     }
 
-    /// Reads a block, with what is to be said of it: nothing of that matters unless it is a piece that is cut.
+    /// Reads a block and returns its findings separately; they only matter if the block is a piece that is cut.
     pub(super) fn block(&mut self, block: &Block<'a>) -> (Shapes<'a>, Diagnostics) {
         let mut said = Diagnostics::default();
         std::mem::swap(self.out, &mut said);
@@ -213,7 +213,7 @@ impl<'a> Reader<'a, '_> {
 
     fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
         let layer = self.names.layer(entity.layer(), || entity.layer_name(&self.letters));
-        // Lines and points have their coordinates in space whichever side they are seen from (DXF reference, OCS).
+        // Lines and points have their coordinates in world space, whatever side they are seen from (DXF reference, OCS).
         if layer.is_cut() && (entity.is("LWPOLYLINE") || entity.is("ARC") || entity.is("CIRCLE")) {
             flat(entity)?;
         }
@@ -248,7 +248,7 @@ impl<'a> Reader<'a, '_> {
             let (depth, width, span) = (size(DEPTH)?, size(WIDTH)?, entity.span());
             shapes.dots.push(Dot { layer: layer.row, at: self.place(entity, [X, Y])?, depth, width, heading, span });
         } else if is_text(entity) {
-            // A text without a place is a text all the same.
+            // A text without a position is kept, too.
             let at = self.place(entity, [X, Y]).ok();
             let heading = entity.number(ANGLE).ok().flatten().map(|degrees| Heading::new(rad(degrees)));
             let text = entity.value(TEXT).filter(|span| span.start < span.end);
@@ -259,7 +259,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// An insertion, with what the attributes behind it say.
+    /// An insertion, with facts from the attributes after it.
     fn insert(&self, entity: &Entity<'a>, behind: &[Entity<'a>]) -> Result<Insert<'a>, Diagnostic> {
         flat(entity)?;
         alone(entity)?;
@@ -275,7 +275,7 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// A polyline with its vertices.
+    /// Reads a polyline with its vertices.
     fn polyline(
         &mut self,
         entity: &Entity<'a>,
@@ -303,7 +303,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// A line; where a vertex bulges, an arc leads to the next.
+    /// A line through vertices; a bulge makes an arc to the next vertex.
     fn line(&mut self, layer: Named, places: &[(Vertex, f64)], is_closed: bool) -> Result<Line, Diagnostic> {
         let mut vertices: Vec<Vertex> = Vec::with_capacity(places.len());
         for (i, &(vertex, bulge)) in places.iter().enumerate() {
@@ -323,7 +323,8 @@ impl<'a> Reader<'a, '_> {
         Ok(Line { layer, vertices, is_closed })
     }
 
-    /// An arc or a circle, as chords; a circle where holes are is one. An arc that ends where it starts is a circle.
+    /// Reads an arc or a circle as chords; a circle on the layer of holes becomes a hole. An arc that ends at its start point
+    /// is a circle.
     fn arc(&mut self, entity: &Entity, layer: Named, shapes: &mut Shapes) -> Result<(), Diagnostic> {
         let centre = self.place(entity, [X, Y])?;
         let radius = self.unit * entity.coordinate(RADIUS)?.abs();
@@ -348,7 +349,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// How many chords an arc becomes.
+    /// Number of chords of an arc; an error beyond the maximum.
     fn chords_of(&mut self, arc: &Arc, span: Span) -> Result<usize, Diagnostic> {
         let count = arc.chords(self.sagitta);
         self.chords = self.chords.saturating_add(count);
@@ -359,7 +360,7 @@ impl<'a> Reader<'a, '_> {
         Ok(count)
     }
 
-    /// An entity of a kind that is not read: an error where a cut would be missing.
+    /// An unsupported entity; an error if its layer is cut.
     fn unread(&mut self, entity: &Entity) -> Result<Unread, Diagnostic> {
         let layer = self.names.layer(entity.layer(), || entity.layer_name(&self.letters));
         let kind = entity.kind().escape_ascii().to_string();
@@ -371,12 +372,12 @@ impl<'a> Reader<'a, '_> {
         Ok(Unread { pen: self.names.of(layer).to_owned(), kind, span: entity.span() })
     }
 
-    /// The place of two codes, mm.
+    /// The point given by two codes, mm.
     pub(super) fn place(&self, entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
         self.on_table([entity.coordinate(x)?, entity.coordinate(y)?], entity.value(x).unwrap_or(entity.span()))
     }
 
-    /// The base point of a block; the origin where the file names none.
+    /// Base point of a block; the origin if the file gives none.
     pub(super) fn base(&self, block: &Entity) -> Result<Point, Diagnostic> {
         if BASE.iter().all(|&code| block.value(code).is_none()) {
             return Ok(Point::origin());
@@ -384,7 +385,7 @@ impl<'a> Reader<'a, '_> {
         self.place(block, BASE)
     }
 
-    /// A depth or a width, mm, whatever its sign; nothing where the file says nothing.
+    /// Absolute value of a depth or width, mm; 0 if the file gives none.
     fn size(&self, entity: &Entity, code: i32) -> Result<f64, Diagnostic> {
         let size = self.unit * entity.number(code)?.unwrap_or(0.0).abs();
         if size > FARTHEST {
@@ -403,7 +404,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Refuses what is drawn on another plane than the cloth: seen from above it is mirrored or slanted.
+/// Refuses entities on another plane than the cloth: seen from above they are mirrored or slanted.
 fn flat(entity: &Entity) -> Result<(), Diagnostic> {
     for (code, wanted) in EXTRUSION.into_iter().zip(FROM_ABOVE) {
         if let Some(found) = entity.number(code)?
@@ -419,7 +420,7 @@ fn flat(entity: &Entity) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Refuses an insertion that puts rows and columns of copies.
+/// Refuses an insertion with several columns or rows.
 fn alone(entity: &Entity) -> Result<(), Diagnostic> {
     for code in ARRAY {
         if let Some(count) = entity.whole(code)?.filter(|count| !(0..=1).contains(count)) {

@@ -1,5 +1,5 @@
-//! Spurs: lines that stand off an outline. One end of a spur meets the outline and the others nothing, so it is a slit: the
-//! outline goes along it and back, branch by branch.
+//! Spurs: lines that stand off an outline. One end of a spur meets the outline and the others meet nothing, so it is a slit:
+//! the outline follows it out and back, branch by branch.
 
 use super::chain::{Chain, REACH, chains};
 use super::retrace::{Retraced, once};
@@ -8,7 +8,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::drawing::Vertex;
 
-/// Joins the lines of a layer. Each outline goes along the spurs that stand off it, and stretches that retrace it are dropped.
+/// Joins the lines of a layer. Each outline follows its spurs, and stretches that retrace it are dropped.
 pub(super) fn chains_with_spurs(lines: &[Chain], retraced: &mut Vec<Retraced>) -> Vec<Chain> {
     let graph = Graph::of(lines);
     let of =
@@ -47,7 +47,7 @@ pub(super) fn chains_with_spurs(lines: &[Chain], retraced: &mut Vec<Retraced>) -
     attached(joined, tours, lines)
 }
 
-/// Ways along lines that meet at one place of a ring and stand off it there, and nowhere else.
+/// Tours along lines that meet at a point of a ring and touch the ring only there.
 fn tours_from_edges(graph: &Graph, edges: &Edges) -> Vec<Tour> {
     let stands = |end: End| edges.standing(graph.place(end)).is_some();
     let are_spurs = |ends: &&[End]| {
@@ -57,26 +57,26 @@ fn tours_from_edges(graph: &Graph, edges: &Edges) -> Vec<Tour> {
     graph.meetings().filter(are_spurs).flatten().map(|&end| graph.tour(end)).collect()
 }
 
-/// Place of a spur on an outline.
+/// Attachment point of a spur on an outline.
 #[derive(Debug, Clone, Copy)]
 struct Foot {
     ring: usize,
     vertex: usize,
-    /// Distance from that vertex, as a part of the edge behind it; 0 at the vertex itself.
+    /// Position on the edge after that vertex, as a fraction of its length; 0 at the vertex.
     share: f64,
 }
 
-/// Index of the edges of outlines, closed ones and halves that end at a fold.
+/// Index of the edges of outlines: closed ones, and halves that end at a fold.
 struct Edges {
-    /// Ring, vertex and ends of each.
+    /// Ring, vertex and ends of each edge.
     all: Vec<(usize, usize, [Point; 2])>,
-    /// Vertices of each ring.
+    /// Number of vertices of each ring.
     counts: Vec<usize>,
     boxes: Boxes,
 }
 
 impl Edges {
-    /// Edges of some chains.
+    /// Indexes the edges of chains.
     fn of<'a>(rings: impl Iterator<Item = &'a Chain>) -> Self {
         let (mut all, mut counts) = (Vec::new(), Vec::new());
         for (ring, chain) in rings.enumerate() {
@@ -88,7 +88,7 @@ impl Edges {
         Self { all, counts, boxes }
     }
 
-    /// Place on the nearest outline within reach.
+    /// Attachment point on the nearest outline within [`REACH`].
     fn standing(&self, at: Point) -> Option<Foot> {
         let distance = |k: &usize| polyline::distance_to_segment(at, self.all[*k].2[0], self.all[*k].2[1]);
         let near = self.boxes.at(at).filter(|k| distance(k) <= REACH);
@@ -103,8 +103,8 @@ impl Edges {
     }
 }
 
-/// Outlines with spurs, and with open lines that stand on one of their edges; lines that stand nowhere stay as they are. Without
-/// a closed outline the longest line counts as one: it may be half of one, which ends at a fold.
+/// Attaches spurs, and open lines with one end on an edge, to their outlines; other lines stay as they are. Without a closed
+/// outline the longest line counts as one, as it may be half an outline that ends at a fold.
 fn attached(chains: Vec<Chain>, tours: Vec<Tour>, lines: &[Chain]) -> Vec<Chain> {
     let (mut rings, mut open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.is_closed);
     if rings.is_empty() {
@@ -149,7 +149,7 @@ fn attached(chains: Vec<Chain>, tours: Vec<Tour>, lines: &[Chain]) -> Vec<Chain>
     whole.into_iter().chain(left).collect()
 }
 
-/// Continues an outline along a spur, and back to the root of that.
+/// Extends an outline along a spur and back to its root.
 fn go_along(vertices: &mut Vec<Vertex>, root: Vertex, tour: Tour) {
     if vertices.last().is_none_or(|last| last.at != root.at) {
         vertices.push(root);
@@ -215,7 +215,7 @@ mod tests {
     fn lines_that_meet_at_one_place_of_a_ring_are_a_spur_each() {
         let square = [[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]];
         let [a, b, c] = [[3.0, 2.0], [4.0, 3.0], [5.0, 2.0]];
-        // On an edge, whichever way each is drawn.
+        // On an edge, for each direction of both lines.
         let foot = [4.0, 0.0];
         let way = [square[0], foot, a, foot, c];
         let rest = [foot, square[1], square[2], square[3]];

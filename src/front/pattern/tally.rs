@@ -1,65 +1,65 @@
-//! What is not done as the file says, each thing reported once with its count and first place.
+//! Deviations from the file; each kind is reported once, with its count and first location.
 
 use std::collections::BTreeMap;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// What is not done, beside what entities are not read.
+/// A kind of deviation, apart from unsupported entities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Thing {
-    /// A cut-out or a hole lies in no outline.
+    /// A cut-out or a hole lies outside all outlines.
     Outside,
-    /// A block has something to cut and no outline.
+    /// A block has cuts but no outline.
     NoOutline,
-    /// A line lies where points alone are notches, and where they are holes.
+    /// A line is on a layer where only points define notches, or holes.
     StrokeOfNotch,
     StrokeOfHole,
-    /// A line lies where points alone say how an outline runs.
+    /// A line is on a layer where only points define the course of outlines.
     StrokeOfPoints,
-    /// A quantity is no number, or none.
+    /// A quantity is zero or malformed.
     Quantity,
-    /// A quantity in pairs.
+    /// A quantity counts pairs.
     QuantityPairs,
-    /// Words stand behind the number of a quantity.
+    /// The number of a quantity is followed by words.
     QuantityWords,
-    /// Texts of a piece say different quantities.
+    /// Texts of a piece give different quantities.
     TwoQuantities,
-    /// A quantity is not how often insertions place its piece.
+    /// A quantity differs from the number of insertions of its piece.
     Placed,
-    /// An insertion names no block.
+    /// An insertion names a missing block.
     NoBlock,
-    /// A block inserts another one that has something to cut.
+    /// A block inserts another one that has cuts.
     Nested,
-    /// An insertion changes the size of a block.
+    /// An insertion scales a block.
     Scaled,
-    /// A block is put nowhere, while others are.
+    /// A block has no insertion while others have.
     NotPlaced,
-    /// A block without a name of its own has something to cut, and no insertion puts it anywhere.
+    /// A block without a name of its own has cuts but no insertion.
     Unnamed,
-    /// A piece is put where another one is.
+    /// A piece is placed on another one.
     OnAnother,
-    /// An outline takes most of another one, in which it lies.
+    /// An outline inside another one takes up most of it.
     LargeCutOut,
-    /// A seam line goes round its outline.
+    /// A seam line encloses its outline.
     SeamOutside,
     /// A piece is drawn on both sides of its fold line.
     FoldAcross,
-    /// A text says that a piece lies on the fold, and no line shows where.
+    /// A text marks a piece as cut on the fold, but there is no fold line.
     NoFoldLine,
 }
 
-/// Counts of what is not done.
+/// Counts of deviations.
 #[derive(Debug, Default)]
 pub(super) struct Tally(BTreeMap<Thing, (usize, Span)>);
 
 impl Tally {
-    /// Once more.
+    /// Counts a deviation.
     pub(super) fn add(&mut self, thing: Thing, span: Span) {
         self.0.entry(thing).or_insert((0, span)).0 += 1;
     }
 
-    /// Reports all of it.
+    /// Reports all deviations.
     pub(super) fn report(&self, out: &mut Diagnostics) {
         for (&thing, &(count, span)) in &self.0 {
             let Row { code, one, many, hint } = row(thing);
@@ -69,7 +69,7 @@ impl Tally {
     }
 }
 
-/// How a thing is told.
+/// Wording of a deviation.
 struct Row {
     code: &'static Code,
     one: &'static str,
@@ -112,7 +112,7 @@ mod tests {
     use crate::ir::marker::Notch;
     use crate::machine::patterns::Dxf;
 
-    /// Numbers stand in sentences as text: each is what is done.
+    /// The numbers in the sentences are plain text; each must be the value in use.
     #[test]
     fn what_is_told_of_measures_is_what_they_are() {
         let mm = |value: f64| format!("{value} mm");

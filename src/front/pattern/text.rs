@@ -1,4 +1,4 @@
-//! Texts: what a set of patterns and its pieces say of themselves, as `KEY: value`.
+//! Texts: facts about a pattern set and its pieces, written as `KEY: value`.
 
 use std::ops::Range;
 
@@ -8,43 +8,43 @@ use crate::front::dxf::entity::{Entity, NAME, TEXT};
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
-/// Code of all parts but the last of a text of more than 250 bytes.
+/// Code of all parts except the last of a text of more than 250 bytes.
 const PART: i32 = 3;
-/// The colon of texts in ideographs, as wide as one: in UTF-8, in GBK and EUC-KR, in Big5, and in Shift-JIS.
+/// The full-width colon of ideographic texts: in UTF-8, in GBK and EUC-KR, in Big5, and in Shift-JIS.
 const WIDE_COLONS: [&[u8]; 4] = ["：".as_bytes(), b"\xa3\xba", b"\xa1\x47", b"\x81\x46"];
-/// What a text says facts by.
+/// Words that indicate a fact in a text.
 const FACTS: [&str; 4] = ["SIZE", "UNIT", "QUANTITY", "QTY"];
 
-/// What the texts of a block, or of the file, say.
+/// Facts from the texts of a block or of the file.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Facts {
-    /// The size that a block is of.
+    /// Size of the block.
     pub(super) size: Said,
-    /// The size that the set was drawn in.
+    /// Sample size: the size in which the set was drawn.
     pub(super) sample_size: Said,
     /// Unit of all numbers.
     pub(super) units: Said,
-    /// How often a piece is cut: as it is drawn, and mirrored.
+    /// Quantity of a piece: as drawn, and mirrored.
     pub(super) quantity: Said,
-    /// What a piece is called, whatever its size.
+    /// Name of a piece, the same for all its sizes.
     pub(super) name: Said,
     /// The CAD system that wrote the file.
     pub(super) author: Said,
-    /// A text that says one of these and is in so many parts, or with such codes amid it, that it is not read.
+    /// A text that gives one of these facts but is unreadable: it has several parts, or formatting codes inside.
     pub(super) unread: Option<Span>,
 }
 
-/// What texts say under one key.
+/// Values under one key.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Said {
-    /// The first that is said.
+    /// The first value.
     pub(super) first: Option<Span>,
-    /// The first that differs from it: then nobody knows which is meant.
+    /// The first value that differs from it, which makes the fact ambiguous.
     pub(super) other: Option<Span>,
 }
 
 impl Said {
-    /// What is said here, with what the next text says under the same key.
+    /// Adds the value of the next text under the same key.
     fn and(self, next: Option<Span>, source: &Source) -> Self {
         let (Some(first), Some(next)) = (self.first, next) else {
             return Self { first: self.first.or(next), ..self };
@@ -53,19 +53,19 @@ impl Said {
         Self { other: self.other.or(if is_same { None } else { Some(next) }), ..self }
     }
 
-    /// What is said in two places, the first before the second.
+    /// Adds the values of a second source after those of the first.
     fn and_all(self, those: Self, source: &Source) -> Self {
         self.and(those.first, source).and(those.other, source)
     }
 }
 
-/// Whether an entity is a text.
+/// True if an entity is a text.
 pub(super) fn is_text(entity: &Entity) -> bool {
     ["TEXT", "ATTDEF", "ATTRIB", "MTEXT"].iter().any(|kind| entity.is(kind))
 }
 
 impl Facts {
-    /// What texts say.
+    /// Facts from the texts among entities.
     pub(super) fn of<'e, 'a: 'e>(
         entities: impl IntoIterator<Item = &'e Entity<'a>>,
         source: &'a Source,
@@ -92,13 +92,13 @@ impl Facts {
         facts
     }
 
-    /// Whether they say anything that the convention has.
+    /// True if any fact of the convention is given.
     pub(super) fn says_anything(&self) -> bool {
         let all = [self.size, self.sample_size, self.units, self.quantity, self.name];
         all.iter().any(|said| said.first.is_some())
     }
 
-    /// What is said in two places, the first before the second.
+    /// Adds the facts of a second source after those of the first.
     pub(super) fn and(self, those: Self, source: &Source) -> Self {
         Self {
             size: self.size.and_all(those.size, source),
@@ -111,7 +111,7 @@ impl Facts {
         }
     }
 
-    /// What the attributes of insertions say of a block, and where they say nothing its own texts.
+    /// Replaces size and quantity by those from the attributes of insertions, if these give them.
     pub(super) fn under_attributes(self, attributes: &Self) -> Self {
         let before = |told: Said, own: Said| if told.first.is_some() { told } else { own };
         let (size, quantity) = (before(attributes.size, self.size), before(attributes.quantity, self.quantity));
@@ -119,7 +119,7 @@ impl Facts {
     }
 }
 
-/// The beginning of a text of several parts, as DXF has those of more than 250 bytes, that may say a fact.
+/// The first part of a text of several parts, as DXF has for more than 250 bytes, if it may give a fact.
 fn long(entity: &Entity, source: &Source) -> Option<Span> {
     let parts = || entity.groups().iter().filter(|group| group.code == PART || group.code == TEXT);
     let says = |part: &[u8]| {
@@ -130,13 +130,13 @@ fn long(entity: &Entity, source: &Source) -> Option<Span> {
     entity.value(PART).filter(|_| is_long && parts().any(|part| says(source.slice(part.value))))
 }
 
-/// The keys that are not written in ASCII and that a text says something by when it is read in these letters.
+/// The non-ASCII keys of the facts in a text, decoded with an encoding.
 pub(super) fn keys(entity: &Entity, source: &Source, letters: &Letters) -> Vec<Key> {
     let said = said(entity, source, letters);
     said.into_iter().filter(|said| !said.name.is_ascii()).map(|said| said.key).collect()
 }
 
-/// Whether a text has bytes that are no letters before a colon, or before a number that stands behind a blank.
+/// True if a text has undecodable bytes before a colon, or before a number that follows a blank or `=`.
 pub(super) fn has_unread_key(entity: &Entity, letters: &Letters) -> bool {
     let line = entity.bytes(TEXT);
     let number = || (1..line.len()).find(|&at| line[at].is_ascii_digit() && matches!(line[at - 1], b' ' | b'='));
@@ -144,10 +144,10 @@ pub(super) fn has_unread_key(entity: &Entity, letters: &Letters) -> bool {
     end.is_some_and(|end| letters.text(&line[..end]).contains(char::REPLACEMENT_CHARACTER))
 }
 
-/// A fact that a text says.
+/// A fact from a text.
 struct Fact<'a> {
     key: Key,
-    /// The key as it is written.
+    /// The key, as written.
     name: &'a [u8],
     value: Span,
 }
@@ -161,7 +161,7 @@ fn said<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<F
     pairs(entity, source, letters).into_iter().filter_map(known).collect()
 }
 
-/// Names and values in the lines of a text, whether they are known or not; the name of an attribute without a colon is its tag.
+/// Names and values in the lines of a text, known or not. The name of an attribute without a colon is its tag.
 pub(super) fn pairs<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Letters) -> Vec<(&'a [u8], Span)> {
     let Some(span) = entity.value(TEXT) else { return Vec::new() };
     let part = |range: Range<usize>| {
@@ -184,8 +184,8 @@ pub(super) fn pairs<'a>(entity: &Entity<'a>, source: &'a Source, letters: &Lette
     lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).collect()
 }
 
-/// The name before the colon of a line, and the offset of the value behind it. A wide colon counts only behind a known key, and
-/// a number behind a quantity needs no colon.
+/// The name before the colon of a line, and the offset of the value after it. A full-width colon only counts after a known key,
+/// and a number after a quantity key needs no colon.
 fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     let is_key = |name: &[u8]| key(&letters.text(name)).is_some();
     let wide = WIDE_COLONS.iter().find_map(|colon| {
@@ -196,7 +196,7 @@ fn split<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     wide.or_else(colon).or_else(|| counted(line, letters)).or_else(|| sized(line, letters))
 }
 
-/// The name of a size before `=`, or before one word that begins with a digit, and the offset of the size.
+/// The name of a size before `=`, or before a single word that begins with a digit, and the offset of the size.
 fn sized<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     let (end, from) = if let Some(sign) = memchr::memchr(b'=', line) {
         (sign, sign + 1)
@@ -210,7 +210,8 @@ fn sized<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     matches!(key(&letters.text(name)), Some(Key::Size | Key::SampleSize)).then_some((name, at))
 }
 
-/// The name before a number that stands behind a quantity and a blank, `=` or `-`, and the offset of the number.
+/// The name of a quantity before a number after a blank or `=`, with an optional `=` or `-` between, and the offset of the
+/// number.
 fn counted<'a>(line: &'a [u8], letters: &Letters) -> Option<(&'a [u8], usize)> {
     let is_start = |at: &usize| line[*at].is_ascii_digit() && matches!(line[at - 1], b' ' | b'=');
     let at = (1..line.len()).find(is_start)?;

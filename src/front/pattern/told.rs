@@ -1,4 +1,4 @@
-//! Messages about entities that are not read, not in the drawing, or not shown.
+//! Messages on unsupported entities, entities in paper space, and hidden entities.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +10,11 @@ use super::shape::Unread;
 use crate::diagnostic::{Diagnostic, Diagnostics, PieceName, code};
 use crate::source::Span;
 
-/// Letters of names in a message.
+/// Maximum total length of names in a message, bytes.
 const SHOWN: usize = 50;
 
-/// For how many pieces a curve was taken or laid, and how far the curves leave the chords of layer 1.
+/// Reports the number of pieces with curves from fine lines or by a rule, and the distance of the curves from the chords of
+/// layer 1.
 pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Diagnostics) {
     if drafting.is_overfull() {
         let message = "the curves through the curve points (layer 3) have more places than a set of patterns can need";
@@ -63,7 +64,7 @@ pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Di
     }
 }
 
-/// Why a piece of this number cannot be cut, and what may be done without it.
+/// Reports the reasons why a piece cannot be cut, with a hint on cutting without it.
 pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked: &Asked, out: &mut Diagnostics) {
     let text = |span: Span| asked.letters.text(asked.source.slice(span));
     let label = piece.labels.first().map(|label| text(label.span));
@@ -74,7 +75,7 @@ pub(super) fn say_at_fault(piece: &Piece, number: u32, hint: Option<&str>, asked
     }
 }
 
-/// Names one behind the other, as many as a message has room for.
+/// Lists names, up to the length of a message.
 fn listed(names: impl Iterator<Item = String>) -> String {
     let mut shown = String::new();
     for name in names {
@@ -100,7 +101,7 @@ pub(super) fn plain(names: &Names) -> Diagnostic {
     finding.hint("leave `--from pattern` out: then it is cut as a drawing, whose layers are tools")
 }
 
-/// Blocks of pieces of which nothing is cut, by the texts that name them.
+/// Reports pieces without any cut; `names` are the texts with their names.
 pub(super) fn say_uncut(names: &[Span], asked: &Asked, out: &mut Diagnostics) {
     let Some(first) = names.first() else { return };
     let text = |span: &Span| asked.letters.name(asked.source.slice(*span));
@@ -114,7 +115,7 @@ pub(super) fn say_uncut(names: &[Span], asked: &Asked, out: &mut Diagnostics) {
     out.push(finding.hint("let the CAD system export each outline on layer 1"));
 }
 
-/// Says the kinds of entities that are not read, and their layers.
+/// Reports the kinds of unsupported entities and their layers.
 pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     let mut kinds: BTreeMap<&str, (Vec<&Unread>, BTreeSet<&str>)> = BTreeMap::new();
     for entity in unread {
@@ -132,13 +133,13 @@ pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     }
 }
 
-/// Warns of entities on the sheet around the drawing, and of cuts that nobody sees.
+/// Warns of entities in paper space and of hidden cuts.
 pub(super) fn say_unseen(on_paper: Option<(usize, Span)>, hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
     say_on_paper(on_paper, out);
     say_hidden(hidden, out);
 }
 
-/// Warns of entities on the sheet around the drawing.
+/// Warns of entities in paper space.
 fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
     if let Some((count, span)) = on_paper {
         let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
@@ -147,7 +148,7 @@ fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
     }
 }
 
-/// Says the number of cuts that nobody sees in the drawing.
+/// Reports the number of hidden cuts.
 fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
     if let Some((count, span)) = hidden {
         let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
@@ -158,7 +159,7 @@ fn say_hidden(hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
     }
 }
 
-/// A text that says what must be known, and is not read.
+/// Reports a text that gives a required fact but is unreadable.
 pub(super) fn say_text(unread: Option<Span>, out: &mut Diagnostics) {
     if let Some(span) = unread {
         let message = "a text that may say a size, a quantity or the unit is long, or has codes amid it";

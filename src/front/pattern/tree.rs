@@ -1,4 +1,4 @@
-//! Trees of lines: where the ends of open lines meet, which of the lines lead round, and which stand off those.
+//! Graph of open lines by their meeting ends: lines that are part of rings, and trees that stand off them.
 
 use std::collections::BTreeMap;
 
@@ -6,27 +6,27 @@ use super::chain::{Chain, REACH};
 use crate::geom::{Point, polyline};
 use crate::ir::drawing::Vertex;
 
-/// Ends that meet in a node of a line that goes on: where more meet, lines branch.
+/// Number of ends in the node of a continuing line; lines branch at nodes with more.
 const PASSING: usize = 2;
 
-/// The end of a line: twice its place among the lines, and one more for its last vertex.
+/// An end of a line: twice the index of the line, plus one for its last vertex.
 pub(super) type End = usize;
 
-/// A way along a spur and back.
+/// A path along a spur and back.
 #[derive(Debug)]
 pub(super) struct Tour {
-    /// Where it stands.
+    /// Start of the spur.
     pub(super) root: Vertex,
-    /// Its vertices behind the root, and the root once more.
+    /// Vertices after the root, ending with the root again.
     pub(super) way: Vec<Vertex>,
-    /// Its free ends.
+    /// Free ends.
     pub(super) tips: Vec<Point>,
-    /// Its lines.
+    /// Indices of its lines.
     pub(super) lines: Vec<usize>,
 }
 
 impl Tour {
-    /// Tour along a line and back.
+    /// A tour along one line and back.
     pub(super) fn along(vertices: &[Vertex]) -> Self {
         let last = vertices.len() - 1;
         let way = vertices[1..].iter().chain(vertices[1..last].iter().rev()).copied();
@@ -36,32 +36,32 @@ impl Tour {
     }
 }
 
-/// Part of a tour that is still to come.
+/// A remaining step of a tour.
 enum Step {
-    /// A line from one of its ends on, and all that stands off its other end.
+    /// Out along a line from one of its ends, then along everything attached to its other end.
     Out(End),
     Back(Vec<Vertex>),
 }
 
-/// Line that is reached from a free end of its tree.
+/// A line reached from a free end of its tree.
 #[derive(Debug, Clone, Copy)]
 struct Reached {
-    /// Its end by which it is reached.
+    /// The end at which it is entered.
     end: End,
-    /// Place of the line before it among those that are reached.
+    /// Index of the previous line in the list of reached lines.
     from: Option<usize>,
     /// Distance of its other end, mm along the lines.
     far: f64,
 }
 
-/// Open lines as edges between the places where their ends meet.
+/// Graph with open lines as edges and their meeting ends as nodes.
 pub(super) struct Graph<'a> {
     lines: &'a [Chain],
-    /// The node of each end of an open line.
+    /// Node of each end of an open line.
     of_end: Vec<Option<usize>>,
-    /// The ends in each node.
+    /// Ends at each node.
     ends: Vec<Vec<End>>,
-    /// Whether a line leads round, or from one ring to another: what is left without free ends.
+    /// True for lines in rings or between rings: those that remain after free ends are removed repeatedly.
     is_round: Vec<bool>,
 }
 
@@ -91,7 +91,7 @@ impl<'a> Graph<'a> {
         graph
     }
 
-    /// Finds what leads round: lines with a free end are taken away, again and again.
+    /// Finds the lines in rings by repeatedly removing lines with a free end.
     fn take_off_tips(&mut self) {
         let mut counts: Vec<usize> = self.ends.iter().map(Vec::len).collect();
         let mut free: Vec<usize> = (0..counts.len()).filter(|&node| counts[node] == 1).collect();
@@ -106,23 +106,23 @@ impl<'a> Graph<'a> {
         }
     }
 
-    /// Where an end of a line is.
+    /// Position of an end of a line.
     pub(super) fn place(&self, end: End) -> Point {
         let vertices = &self.lines[end / 2].vertices;
         vertices[if end.is_multiple_of(2) { 0 } else { vertices.len() - 1 }].at
     }
 
-    /// The ends that meet an end, but for itself.
+    /// The other ends that meet an end.
     fn others(&self, end: End) -> impl Iterator<Item = End> + '_ {
         self.of_end[end].into_iter().flat_map(|node| &self.ends[node]).copied().filter(move |&other| other != end)
     }
 
-    /// Ends of open lines in their order.
+    /// Ends of open lines, in order.
     fn open_ends(&self) -> impl Iterator<Item = End> + '_ {
         (0..self.of_end.len()).filter(|&end| self.of_end[end].is_some())
     }
 
-    /// Ways along what stands off lines that lead round.
+    /// Tours along the trees attached to rings.
     pub(super) fn tours_off_rings(&self) -> Vec<Tour> {
         let leads_round = |ends: &Vec<End>| ends.iter().any(|end| self.is_round[end / 2]);
         let is_of_ring: Vec<bool> = self.ends.iter().map(leads_round).collect();
@@ -130,18 +130,18 @@ impl<'a> Graph<'a> {
         self.open_ends().filter(is_root).map(|end| self.tour(end)).collect()
     }
 
-    /// Ends of lines that meet off all rings.
+    /// Groups of line ends that meet away from all rings.
     pub(super) fn meetings(&self) -> impl Iterator<Item = &[End]> {
         let is_off_rings = |ends: &&Vec<End>| ends.len() >= PASSING && !ends.iter().any(|end| self.is_round[end / 2]);
         self.ends.iter().filter(is_off_rings).map(Vec::as_slice)
     }
 
-    /// Whether a line leads round, or from one ring to another.
+    /// True if a line is part of a ring or connects two rings.
     pub(super) fn leads_round(&self, line: usize) -> bool {
         self.is_round[line]
     }
 
-    /// The ends of a line and of all that stands off its other end, from one of its ends on.
+    /// The far ends of a line, entered at `root`, and of everything attached to it.
     pub(super) fn ends_from(&self, root: End) -> Vec<End> {
         let (mut ends, mut next) = (Vec::new(), vec![root]);
         while let Some(end) = next.pop() {
@@ -151,7 +151,7 @@ impl<'a> Graph<'a> {
         ends
     }
 
-    /// Ways along what stands off some of the lines of a tree.
+    /// Tours along the branches attached to the trunk of a tree.
     pub(super) fn tours_off(&self, trunk: &[usize]) -> Vec<Tour> {
         let mut is_trunk = vec![false; self.lines.len()];
         for &line in trunk {
@@ -164,7 +164,7 @@ impl<'a> Graph<'a> {
         roots.into_iter().map(|end| self.tour(end)).collect()
     }
 
-    /// The way along a line from one of its ends, along all that stands off its other end, and back.
+    /// The tour that starts at an end of a line, follows the line and everything attached to its other end, and returns.
     pub(super) fn tour(&self, root: End) -> Tour {
         let first = self.from(root)[0];
         let mut tour = Tour { root: first, way: Vec::new(), tips: Vec::new(), lines: Vec::new() };
@@ -195,7 +195,7 @@ impl<'a> Graph<'a> {
         tour
     }
 
-    /// The vertices of a line from one of its ends on.
+    /// The vertices of a line, starting at one of its ends.
     fn from(&self, end: End) -> Vec<Vertex> {
         let mut vertices = self.lines[end / 2].vertices.clone();
         if !end.is_multiple_of(2) {
@@ -204,7 +204,7 @@ impl<'a> Graph<'a> {
         vertices
     }
 
-    /// The lines of each tree with branches that stands off no ring.
+    /// The lines of each branched tree that is not attached to a ring.
     pub(super) fn trees(&self) -> Vec<Vec<usize>> {
         let (mut is_seen, mut is_node_seen) = (self.is_round.clone(), vec![false; self.ends.len()]);
         let mut trees = Vec::new();
@@ -241,13 +241,13 @@ impl<'a> Graph<'a> {
         ends.filter(|&end| self.others(end).next().is_none()).collect()
     }
 
-    /// The longest way through a tree from one free end to another.
+    /// The lines of the longest path between two free ends of a tree.
     pub(super) fn trunk(&self, tree: &[usize]) -> Vec<usize> {
         let Some(&tip) = self.tips(tree).first() else { return tree.to_vec() };
         self.longest(self.longest(tip).0).1
     }
 
-    /// The free end that is farthest along a tree from another one, and the lines that lead there.
+    /// The free end farthest from another one along a tree, and the lines between them.
     fn longest(&self, tip: End) -> (End, Vec<usize>) {
         let mut reached: Vec<Reached> = Vec::new();
         let mut next = vec![Reached { end: tip, from: None, far: 0.0 }];

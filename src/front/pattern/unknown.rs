@@ -1,4 +1,4 @@
-//! Keys that are not known, and under which every piece has what looks like a quantity.
+//! Unknown keys under which every piece has a value that looks like a quantity.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::dxf::entity::Block;
 use crate::source::Span;
 
-/// The greatest number that is taken for a quantity: sizes and numbers of styles are greater.
+/// Largest number that may be a quantity; sizes and style numbers are larger.
 const MOST: u32 = 20;
-/// Keys of the convention, and of writers of it, that have numbers and are no quantities, in capitals.
+/// Keys of the convention, and of its writers, with numbers that are no quantities, in capitals.
 const OTHERS: [&str; 14] = [
     "ANNOTATION",
     "CATEGORY",
@@ -28,10 +28,10 @@ const OTHERS: [&str; 14] = [
     "TIME",
     "VERSION",
 ];
-/// Letters of a key that a message shows.
+/// Maximum length of a key in a message, characters.
 const SHOWN: usize = 30;
 
-/// Uses of a key: the number of pieces that have it, the first place, and whether any piece is wanted otherwise than once.
+/// Uses of a key: number of pieces with it, location of the first, and whether any value differs from a single piece as drawn.
 #[derive(Debug, Default)]
 struct Use {
     blocks: usize,
@@ -39,7 +39,7 @@ struct Use {
     is_more: bool,
 }
 
-/// Warns of a key that every piece has with the number of a quantity where none says one under a key that is known.
+/// Warns of an unknown key with a quantity-like number on every piece, if no piece gives a quantity under a known key.
 pub(super) fn say(pieces: &[(&Block, &Facts)], asked: &Asked, out: &mut Diagnostics) {
     if pieces.iter().any(|(_, facts)| facts.quantity.first.is_some()) {
         return;

@@ -1,8 +1,8 @@
-//! Rows of the manual on pattern DXF.
+//! Manual entries on pattern DXF.
 
 use crate::front::Word;
 
-/// The layers, entities and texts of pattern DXF, and what is done about them.
+/// The layers, entities and texts of pattern DXF and their effects.
 #[rustfmt::skip] // a table: a row a line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "layer 1; layer 11", about: "outlines and cut-outs, cut; polylines, or lines whose ends meet within 0.2 mm; an outline that does not close is refused. A line that stands off an outline with one end is a slit: the outline goes along it and back" },

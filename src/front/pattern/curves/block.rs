@@ -14,9 +14,9 @@ use crate::front::pattern::layer::{Layer, Named};
 use crate::geom::budget::Budget;
 use crate::geom::polyline;
 
-/// Least number of vertices of a ring.
+/// Minimum number of vertices of a ring.
 const LEAST_RING: usize = 3;
-/// Least height of a round curve over the chords at a vertex where a line is not fine, mm.
+/// Height of a round curve above the chords at a vertex, mm. A line with smaller heights has fine chords.
 const HIGH: f64 = 0.2;
 
 /// Curves of a block: its fine lines and its nodes.
@@ -27,7 +27,7 @@ pub(in crate::front::pattern) struct Curves {
 }
 
 impl Curves {
-    /// Curves of a block with these nodes and joined lines, on both sides of its fold.
+    /// Curves of a block from its nodes and joined lines, on both sides of its fold.
     pub(in crate::front::pattern) fn of(nodes: Nodes, joined: &[(Named, Chain)], fold: Option<&Fold>) -> Self {
         let fine = joined.iter().filter(|(layer, _)| layer.is_fine());
         let both = |(layer, line): &(Named, Chain)| {
@@ -41,7 +41,7 @@ impl Curves {
         Self { fine: fine.flat_map(both).collect(), nodes }
     }
 
-    /// Curve of a line on a layer.
+    /// The curve of a line on a layer.
     pub(in crate::front::pattern) fn curved(
         &self,
         line: &Chain,
@@ -53,14 +53,14 @@ impl Curves {
             return Curve::drawn(line);
         }
         let coarse = spikes::without(line);
-        // The usual pair of layers comes first, and of several lines the first in the file.
+        // Lines of the usual pair of layers come first, then the others in file order.
         let usual = layer.fine();
         let (own, others): (Vec<&FineLine>, Vec<&FineLine>) =
             self.fine.iter().partition(|fine| Some(fine.layer) == usual);
         if let Some(legs) = own.iter().chain(&others).find_map(|fine| fine.legs(&coarse.line, work)) {
             return Curve::of(&coarse, legs, Origin::Fine);
         }
-        // A control polygon has a few vertices of the line as its own: the line is fine itself.
+        // Most vertices of a control polygon are not on the line. If few vertices are shared, the line itself is the fine one.
         let vertices = &coarse.line.vertices;
         let shared = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.turns_at(vertex.at, work))).count();
         let is_fine_itself = shared > 0 && 2 * shared <= vertices.len() && self.has_small_chords(&coarse.line);
@@ -74,7 +74,7 @@ impl Curves {
         curved
     }
 
-    /// Whether chords are within [`HIGH`] of a round curve at half of the curve points of a line or more.
+    /// True if at least half of the curve points of a line have chords within [`HIGH`] of a round curve.
     fn has_small_chords(&self, line: &Chain) -> bool {
         let count = line.vertices.len();
         let inner = if line.is_closed { 0..count } else { 1..count - 1 };
@@ -83,14 +83,14 @@ impl Curves {
         for k in inner.filter(|&k| self.nodes.at(place(k)) == Node::Smooth) {
             let [before, at, behind] = [place(k + count - 1), place(k), place(k + 1)];
             let length = (at - before).norm().min((behind - at).norm());
-            // A curve stands an eighth of its turn over each chord, in parts of its length.
+            // A curve rises above each chord by an eighth of its turn, relative to the chord length.
             points += 1;
             high += usize::from(polyline::turn_at(before, at, behind).abs() * length / 8.0 >= HIGH);
         }
         2 * high <= points
     }
 
-    /// Curve by the rule of the CAD system, as one leg a vertex; `None` for a line without curve points.
+    /// The curve by the rule of the CAD system, one leg per vertex; `None` for a line without curve points.
     fn laid(&self, line: &Chain, drafting: &mut Drafting, work: &mut Budget) -> Option<Vec<Leg>> {
         if !self.nodes.has_curves {
             return None;

@@ -1,4 +1,4 @@
-//! Counts of the pieces that are cut along curves, by the origin of these.
+//! Counts of pieces that are cut along curves, by the origin of the curves.
 
 use super::curve::{Curve, Origin};
 use crate::source::Span;
@@ -8,9 +8,9 @@ use crate::source::Span;
 pub(in crate::front::pattern) struct CurveCounts {
     pub(in crate::front::pattern) fine: CurveCount,
     pub(in crate::front::pattern) laid: CurveCount,
-    /// Pieces with fine lines that miss vertices of the outline: those lines are not used.
+    /// Pieces with fine lines that miss vertices of the outline; those lines are ignored.
     pub(in crate::front::pattern) missed: CurveCount,
-    /// Pieces among them that are cut along the chords.
+    /// Pieces with such lines that are cut along the chords.
     pub(in crate::front::pattern) chords: CurveCount,
     /// Pieces with curve points that mark no vertex.
     pub(in crate::front::pattern) stray: CurveCount,
@@ -26,7 +26,7 @@ pub(in crate::front::pattern) struct CurveCount {
 }
 
 impl CurveCount {
-    /// Counts the lines of a piece as one.
+    /// Merges the count of lines of one piece, as one piece.
     fn add(&mut self, those: Self) {
         if those.pieces > 0 {
             self.first = if self.pieces == 0 { those.first } else { self.first };
@@ -57,7 +57,7 @@ impl CurveCounts {
         }
     }
 
-    /// Counts the lines of a piece as one.
+    /// Merges the counts of lines of one piece, as one piece.
     pub(in crate::front::pattern) fn add(&mut self, those: Self) {
         self.fine.add(those.fine);
         self.laid.add(those.laid);

@@ -1,4 +1,4 @@
-//! The curve of a line, and the places on it that belong to places beside its chords.
+//! The curve of a line, and the projection of points beside its chords onto the curve.
 
 use super::leg::Leg;
 use super::nodes::ON;
@@ -12,7 +12,7 @@ use crate::source::Span;
 /// Origin of the curve of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::front::pattern) enum Origin {
-    /// The line as it is drawn.
+    /// The line as drawn.
     Drawn,
     /// A line on layers 84 to 87.
     Fine,
@@ -27,23 +27,23 @@ pub(in crate::front::pattern) struct Curve {
     pub(in crate::front::pattern) origin: Origin,
     /// Largest distance of the curve from the chords of the coarse line, mm.
     pub(in crate::front::pattern) off: f64,
-    /// Start of a fine line near the line that misses some of its vertices.
+    /// Start of a nearby fine line that misses some vertices of the line.
     pub(in crate::front::pattern) missed: Option<Span>,
-    /// Curve point of its block that marks no vertex of a line.
+    /// Curve point of the block that marks no vertex.
     pub(in crate::front::pattern) stray: Option<Span>,
-    /// The coarse line, and the curve over each of its edges; empty for a line as it is drawn.
+    /// The coarse line, and the curve over each of its edges; empty for a line as drawn.
     coarse: Vec<Point>,
     legs: Vec<Vec<Point>>,
 }
 
 impl Curve {
-    /// Curve of a line without curves: the line itself.
+    /// The line itself, for a line without curves.
     pub(super) fn drawn(line: &Chain) -> Self {
         let line = line.clone();
         Self { line, origin: Origin::Drawn, off: 0.0, missed: None, stray: None, coarse: Vec::new(), legs: Vec::new() }
     }
 
-    /// Curve over the edges of a coarse line, one leg a vertex; its spikes are put back.
+    /// Curve over the edges of a coarse line, one leg per vertex; its spikes are restored.
     pub(super) fn of(coarse: &Base, mut legs: Vec<Leg>, origin: Origin) -> Self {
         let base = &coarse.line;
         let round: Vec<Point> = base.points();
@@ -63,8 +63,8 @@ impl Curve {
         Self { line, origin, off, missed: None, stray: None, coarse: round, legs: ways }
     }
 
-    /// Place on the curve straight above a place beside a chord of the coarse line. Other places stay where they are, and so
-    /// do those beside the curve.
+    /// Projects a point beside a chord of the coarse line perpendicularly onto the curve. Points elsewhere, and points already
+    /// near the curve, stay.
     pub(in crate::front::pattern) fn lifted(&self, at: Point, work: &mut Budget) -> Point {
         let vertices: usize = self.legs.iter().map(Vec::len).sum();
         let near = |way: &Vec<Point>| polyline::distance(at, way) <= Dxf::NOTCH_OFF;

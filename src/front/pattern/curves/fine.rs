@@ -1,5 +1,5 @@
-//! Fine lines: layers 84 to 87 have the curves of layers 1, 8, 11 and 14 in small chords. Lines are paired by their geometry,
-//! since CAD systems pair the layers in different ways.
+//! Fine lines: layers 84 to 87 contain the curves of layers 1, 8, 11 and 14 in small chords. Lines are paired by their
+//! geometry, because CAD systems pair the layers differently.
 
 use super::leg::Leg;
 use super::nodes::ON;
@@ -9,23 +9,22 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::source::Span;
 
-/// Largest number of places of a fine line at one vertex from which it is followed: it passes a vertex once, or twice at a
-/// seam.
+/// Maximum number of start stations tried at one vertex. A fine line passes a vertex once, or twice at a seam.
 const MOST_STARTS: usize = 4;
 
-/// Fine line with an index of its edges.
+/// A fine line with an index of its edges.
 #[derive(Debug, Clone)]
 pub(super) struct FineLine {
     pub(super) layer: u16,
     chain: Chain,
-    /// Places of the line, and the first once more at the end: a chord closes an open line.
+    /// Points of the line, with the first repeated at the end; an open line is closed by a chord.
     points: Vec<Point>,
     stations: Vec<f64>,
     edges: Boxes,
     extent: Extent,
 }
 
-/// Start of a coarse line on a fine one, and its direction.
+/// Start of a coarse line on a fine one, and its direction there.
 #[derive(Debug, Clone, Copy)]
 struct Start {
     station: f64,
@@ -41,12 +40,12 @@ impl FineLine {
         Self { layer, chain, stations, edges: Boxes::new(edges), extent, points }
     }
 
-    /// Start of the line in the file.
+    /// Location of its start in the file.
     pub(super) fn span(&self) -> Span {
         self.chain.vertices[0].span
     }
 
-    /// Whether its box overlaps that of a line.
+    /// True if its bounding box overlaps that of a line.
     pub(super) fn lies_about(&self, line: &Chain) -> bool {
         self.extent.overlaps(&Extent::of(&line.points()))
     }
@@ -55,7 +54,7 @@ impl FineLine {
         self.stations[self.stations.len() - 1]
     }
 
-    /// Stations at which the line passes a place, mm.
+    /// Stations at which the line passes a point, mm.
     fn stations_of(&self, at: Point, work: &mut Budget) -> Vec<f64> {
         if !self.extent.holds(at) || !work.spend(self.edges.cost_at(at)) {
             return Vec::new();
@@ -71,7 +70,7 @@ impl FineLine {
         stations
     }
 
-    /// Whether one of its own vertices is at a place.
+    /// True if one of its vertices lies at a point.
     pub(super) fn turns_at(&self, at: Point, work: &mut Budget) -> bool {
         if !self.extent.holds(at) || !work.spend(self.edges.cost_at(at)) {
             return false;
@@ -79,8 +78,8 @@ impl FineLine {
         self.edges.at(at).any(|k| self.points[k..=k + 1].iter().any(|end| (end - at).norm() <= ON))
     }
 
-    /// Legs from each vertex of a coarse line to the next one; `None` unless the fine line goes through all of them in their
-    /// order, exactly once round.
+    /// Legs from each vertex of a coarse line to the next. `None` unless the fine line passes all of them in order, exactly
+    /// once.
     pub(super) fn legs(&self, coarse: &Chain, work: &mut Budget) -> Option<Vec<Leg>> {
         let Chain { vertices, is_closed } = coarse;
         if self.chain.vertices.len() <= vertices.len() {
@@ -104,14 +103,14 @@ impl FineLine {
         Some(self.parted(start, &ways))
     }
 
-    /// Lengths along the line from the first vertex of a coarse one to each of them, mm; `None` where a vertex lies off the
-    /// line, or the order differs.
+    /// Lengths along the fine line from the first vertex of a coarse line to each vertex, mm. `None` if a vertex lies off the
+    /// fine line or the order differs.
     fn ways(&self, coarse: &Chain, start: Start, work: &mut Budget) -> Option<Vec<f64>> {
         let length = self.length();
         let (mut at, mut way, mut ways) = (start.station, 0.0, vec![0.0]);
         let ahead = |from: f64, to: f64| {
             let way = (if start.is_forward { to - from } else { from - to }).rem_euclid(length);
-            // Rounding alone makes a step back: it has no length.
+            // A step back results from rounding and has no length.
             if way > length - ON { 0.0 } else { way }
         };
         for vertex in &coarse.vertices[1..] {
@@ -127,7 +126,7 @@ impl FineLine {
         is_round.then_some(ways)
     }
 
-    /// Vertices in the direction of a coarse line, split at the vertices of that.
+    /// The vertices in the direction of the coarse line, split at its vertices.
     fn parted(&self, start: Start, ways: &[f64]) -> Vec<Leg> {
         let length = self.length();
         let way = |k: usize| {

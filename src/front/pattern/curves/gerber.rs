@@ -1,27 +1,28 @@
-//! Curves of Gerber `AccuMark`: the middles of chords are lifted by the tangents at their ends until the chords are flat.
+//! Curves of Gerber `AccuMark`: the middles of chords are moved according to the tangents at their ends until the chords are
+//! flat.
 
 use super::hermite::bowed;
 use super::leg::Stretch;
 use crate::geom::{Point, Vector, polyline};
 
-/// Height at which a chord is divided, mm: the curve tolerance of 0.006 in that these files name.
+/// Height above which a chord is divided, mm: the curve tolerance of 0.006 in stated in these files.
 const DIVIDED: f64 = 0.1524;
-/// Part of an eighth of the chord by which a half is lifted for each unit of difference of the tangents.
+/// Factor of the offset of the middle of a chord, relative to an eighth of the chord length times the difference of the
+/// tangents.
 const LIFT: f64 = 0.98;
-/// Rounds of division: each makes chords shorter by a quarter at least, so the longest table needs fewer.
+/// Maximum number of rounds of division. Each shortens chords by at least a quarter, so the longest table needs fewer.
 const MOST_ROUNDS: usize = 48;
 
-/// A vertex of the curve so far.
+/// A vertex of the current polyline.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     at: Point,
-    /// Whether the chord that begins here may still be divided.
+    /// True if the chord from this vertex may still be divided.
     is_active: bool,
     is_knot: bool,
 }
 
-/// Places between each two neighbours of a run of knots, in chords within `sagitta` mm; `None` where that takes more than
-/// `most` places.
+/// Points between consecutive knots, in chords within `sagitta` mm; `None` if more than `most` points are needed.
 pub(super) fn spans(knots: &[Point], sagitta: f64, most: usize) -> Option<Vec<Stretch>> {
     let mut nodes: Vec<Node> = knots.iter().map(|&at| Node { at, is_active: true, is_knot: true }).collect();
     for _ in 0..MOST_ROUNDS {
@@ -66,7 +67,7 @@ pub(super) fn spans(knots: &[Point], sagitta: f64, most: usize) -> Option<Vec<St
     Some(spans)
 }
 
-/// Directions of the curve: at an inner vertex the bisector of its chords, at an end the direction of the chord there.
+/// Tangent directions: the bisector of the chords at an inner vertex, the direction of the chord at an end.
 fn tangents(nodes: &[Node]) -> Vec<Vector> {
     let chord = |k: usize| (nodes[k + 1].at - nodes[k].at).try_normalize(0.0).unwrap_or_default();
     let last = nodes.len() - 1;

@@ -1,18 +1,18 @@
-//! Cubics between two places, as chords.
+//! Conversion of cubics between two points to chords.
 
 use super::leg::Stretch;
 use crate::geom::{Point, Vector};
 
-/// Largest number of chords of one cubic: more come from damaged places.
+/// Maximum number of chords of one cubic; larger numbers result from damaged coordinates.
 const MOST_CHORDS: f64 = 10_000.0;
 
-/// Number of chords that keep within `sagitta` mm of a curve whose second derivative over its parameter from 0 to 1 is at most
-/// `bend` mm: a chord over a part `h` of it is `bend h^2 / 8` off.
+/// Number of chords within `sagitta` mm of a curve. The second derivative by its parameter, from 0 to 1, is at most `bend` mm;
+/// a chord over a fraction `h` deviates by `bend h^2 / 8`.
 fn chords(bend: f64, sagitta: f64) -> usize {
     (bend / (8.0 * sagitta)).sqrt().ceil().clamp(1.0, MOST_CHORDS) as usize
 }
 
-/// The places inside a cubic with these unit tangents at its ends, its handles a third of the chord long.
+/// Inner points of a cubic with given unit tangents at its ends and handles of a third of the chord.
 pub(super) fn bowed([from, to]: [Point; 2], [out, into]: [Vector; 2], sagitta: f64) -> Stretch {
     let third = (to - from).norm() / 3.0;
     let [a, b] = [from + out * third, to - into * third];
@@ -28,7 +28,7 @@ pub(super) fn bowed([from, to]: [Point; 2], [out, into]: [Vector; 2], sagitta: f
     (1..count).map(place).collect()
 }
 
-/// The places inside a cubic of a spline over a parameter `length` long, with these second derivatives at its ends.
+/// Inner points of a spline cubic over a parameter interval of `length`, with given second derivatives at its ends.
 pub(super) fn sprung([from, to]: [Point; 2], [start, end]: [Vector; 2], length: f64, sagitta: f64) -> Stretch {
     let square = length * length;
     let count = chords(f64::max(start.norm(), end.norm()) * square, sagitta);

@@ -1,10 +1,10 @@
-//! Knots: the vertices of a run that define its curve. Some systems add vertices for the sake of notches, which their own
-//! curve goes through without them: those that the curve of the others passes are no knots.
+//! Knots: the vertices of a run that define its curve. Some systems add vertices at notches, which do not affect their own
+//! curve. Vertices that lie on the curve through the others are therefore no knots.
 //!
-//! The search starts without any of the vertices that may have been added. Where the curve misses some of them, it takes back
-//! the one whose curve misses fewest of the others, until none is missed. Then each that was taken back is left out once more,
-//! alone and with some behind it, since a knot that was missing then may be there now. A vertex bends the curve around it alone,
-//! so one is tried on a few knots around it.
+//! The search starts without all vertices that may have been added. While the curve misses some of them, it restores those
+//! whose restoration leaves the fewest others missed. Then each restored vertex is removed once more, alone and with some after
+//! it, because a knot that was missing at first may have been restored since. A vertex only bends the curve nearby, so each
+//! trial uses a few knots around it.
 
 use std::ops::Range;
 
@@ -15,45 +15,45 @@ use super::run::Run;
 use crate::geom::budget::Budget;
 use crate::geom::{Point, polyline};
 
-/// Least number of knots of a ring.
+/// Minimum number of knots of a ring.
 const LEAST_RING: usize = 3;
-/// Rounds in which one vertex of each group is taken back; after them all that are missed.
+/// Number of rounds in which one vertex per group is restored; later rounds restore all missed ones.
 const MOST_ROUNDS: usize = 32;
-/// Vertices of a group that are tried in one round: those that are missed most.
+/// Maximum number of vertices of a group tried in a round: those with the largest distances.
 const MOST_TRIED: usize = 8;
-/// Knots between two groups.
+/// Number of knots that separate two groups.
 const BETWEEN_GROUPS: usize = 3;
-/// Knots to each side of a vertex that bend the curve there by more than rounding.
+/// Number of knots to each side of a vertex that affect the curve there by more than rounding.
 const WINDOW: usize = 8;
-/// Spans to each side of a vertex that it bends enough to be looked at.
+/// Number of spans to each side of a vertex that are examined for its effect.
 const SEEN: usize = 4;
-/// Neighbours of a vertex with which it is left out.
+/// Maximum number of following vertices that are removed together with a vertex.
 const MOST_BEHIND: usize = 4;
 
 /// A curve through a run.
 pub(super) struct Fit {
-    /// Positions of the knots in the run.
+    /// Indices of the knots in the run.
     pub(super) knots: Vec<usize>,
-    /// The curve from each knot to the next, and of a ring from the last to the first.
+    /// The curve from each knot to the next; a ring also has one from the last to the first.
     pub(super) spans: Vec<Stretch>,
 }
 
-/// A vertex that a curve misses.
+/// A vertex off the curve.
 #[derive(Debug, Clone, Copy)]
 struct Miss {
-    /// Position in the run.
+    /// Index in the run.
     place: usize,
-    /// mm.
+    /// Distance from the curve, mm.
     distance: f64,
 }
 
-/// Lays the curve of a run; `None` where it takes too many places.
+/// Lays the curve of a run; `None` if it needs too many points.
 pub(super) fn fit(run: &Run, drafting: &mut Drafting, work: &mut Budget) -> Option<Fit> {
     let passing = Search::of(run, drafting, work).and_then(Search::run);
     let knots = passing.as_ref().map_or_else(|| (0..run.places.len()).collect(), |fit| fit.knots.clone());
     let points: Vec<Point> = knots.iter().map(|&i| run.at(i)).collect();
     let mut spans = drafting.spans(&points, run.is_ring);
-    // Where a vertex is passed, the chords keep as near to the curve as when that was found.
+    // Spans that pass vertices keep the finer chords of the trial that proved it.
     if let (Some(spans), Some(fine)) = (&mut spans, passing) {
         let next = knots.iter().copied().skip(1).chain([knots[0] + run.places.len()]);
         for (k, (fine, next)) in fine.spans.into_iter().zip(next).enumerate() {
@@ -72,12 +72,12 @@ struct Search<'a> {
     drafting: &'a Drafting,
     work: &'a mut Budget,
     is_knot: Vec<bool>,
-    /// Whether a vertex may be there for the sake of a notch alone.
+    /// True for vertices that may have been added for a notch.
     is_added: Vec<bool>,
 }
 
 impl<'a> Search<'a> {
-    /// A search; `None` where each vertex is a knot.
+    /// Creates a search; `None` if every vertex is a knot.
     fn of(run: &'a Run, drafting: &'a Drafting, work: &'a mut Budget) -> Option<Self> {
         let count = run.places.len();
         let is_inner = |i: usize| run.is_ring || (1..count - 1).contains(&i);
@@ -106,7 +106,7 @@ impl<'a> Search<'a> {
         self.take_back()
     }
 
-    /// Takes back vertices that the curve misses until it misses none.
+    /// Restores vertices off the curve until there are none.
     fn take_back(&mut self) -> Option<Fit> {
         for round in 0.. {
             let (fit, misses) = self.whole()?;
@@ -127,7 +127,7 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// The curve as it is now, and what it misses.
+    /// The current curve, and the vertices off it.
     fn whole(&mut self) -> Option<(Fit, Vec<Miss>)> {
         let count = self.run.places.len();
         let knots: Vec<usize> = (0..count).filter(|&i| self.is_knot[i]).collect();
@@ -137,12 +137,12 @@ impl<'a> Search<'a> {
         Some((Fit { knots, spans }, misses))
     }
 
-    /// Groups of missed vertices: one vertex of a group may be the reason for the others.
+    /// Groups of missed vertices; one vertex of a group may cause the others.
     fn groups(&self, misses: &[Miss]) -> Vec<Vec<Miss>> {
         let knots = |range: Range<usize>| self.is_knot[range].iter().filter(|is_knot| **is_knot).count();
         let are_near = |a: &Miss, b: &Miss| knots(a.place..b.place) < BETWEEN_GROUPS;
         let mut groups: Vec<Vec<Miss>> = misses.chunk_by(are_near).map(<[Miss]>::to_vec).collect();
-        // The last group of a ring may go on in the first.
+        // The last group of a ring may continue in the first.
         if let ([first, .., last], true) = (misses, self.run.is_ring)
             && groups.len() > 1
             && knots(last.place..self.is_knot.len()) + knots(0..first.place) < BETWEEN_GROUPS
@@ -153,7 +153,7 @@ impl<'a> Search<'a> {
         groups
     }
 
-    /// The vertex of a group that leaves least of it missed once it is a knot.
+    /// The vertex of a group that, as a knot, leaves the fewest vertices missed nearby.
     fn best(&mut self, group: &[Miss]) -> Option<usize> {
         let mut tried = group.to_vec();
         tried.sort_by(|a, b| b.distance.total_cmp(&a.distance));
@@ -171,8 +171,8 @@ impl<'a> Search<'a> {
         best.map(|(_, place)| place)
     }
 
-    /// Leaves a vertex out of some knots, alone or with some behind it, where the curve passes them without: how many it
-    /// leaves out.
+    /// Removes a vertex from the knots, alone or with some after it, if the curve still passes them. Returns the number of
+    /// removed knots.
     fn leave_out(&mut self, i: usize, knots: usize) -> Option<usize> {
         let count = self.run.places.len();
         let end = if self.run.is_ring { i + count } else { count };
@@ -198,11 +198,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Vertices around one that the curve misses.
+    /// Missed vertices around a vertex.
     fn around(&mut self, i: usize) -> Option<Vec<Miss>> {
         let count = self.run.places.len();
         let is_knot = |k: &usize| self.is_knot[k % count];
-        // Places beyond the last of a ring lie in its next round.
+        // Indices past the last vertex of a ring belong to its next repetition.
         let (middle, first, end) = if self.run.is_ring { (i + count, i + 1, i + 2 * count) } else { (i, 0, count) };
         let mut before: Vec<usize> = (first..middle).rev().filter(is_knot).take(WINDOW).collect();
         let behind: Vec<usize> = (middle..end).filter(is_knot).take(WINDOW).collect();
@@ -217,7 +217,7 @@ impl<'a> Search<'a> {
         self.misses(&knots, &spans, span.saturating_sub(SEEN)..(span + SEEN + 1).min(spans.len()))
     }
 
-    /// The curve through knots, in the chords of a trial.
+    /// The trial curve through knots.
     fn curve(&mut self, knots: &[usize], is_ring: bool) -> Option<Vec<Stretch>> {
         let points: Vec<Point> = knots.iter().map(|&i| self.run.at(i)).collect();
         let spans = self.drafting.trial(&points, is_ring)?;
@@ -225,7 +225,7 @@ impl<'a> Search<'a> {
         self.work.spend(knots.len() + places).then_some(spans)
     }
 
-    /// Vertices that some spans of a curve through knots miss.
+    /// Vertices missed by the spans `seen` of a curve through knots.
     fn misses(&mut self, knots: &[usize], spans: &[Stretch], seen: Range<usize>) -> Option<Vec<Miss>> {
         let count = self.run.places.len();
         let mut misses = Vec::new();

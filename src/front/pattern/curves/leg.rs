@@ -3,7 +3,7 @@
 use crate::geom::Point;
 use crate::ir::drawing::Vertex;
 
-/// Places of a curve between two vertices.
+/// Points of a curve strictly between two vertices.
 pub(super) type Stretch = Vec<Point>;
-/// Vertices of a line from one vertex of the coarse line on, before the next.
+/// Vertices of a line from one vertex of the coarse line up to, but excluding, the next.
 pub(super) type Leg = Vec<Vertex>;

@@ -1,4 +1,4 @@
-//! Turn and curve points of sizes that have none: those at the same vertices of another size of the piece.
+//! Turn and curve points for sizes without any, taken from the same vertices of another size of the piece.
 
 use std::collections::BTreeMap;
 
@@ -8,15 +8,15 @@ use crate::geom::Point;
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Name of a block, and whether it is of the size that the set was drawn in.
+/// Piece name of a block, and whether the block has the sample size.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::front::pattern) struct Size<'a> {
     pub(in crate::front::pattern) piece: Option<&'a [u8]>,
     pub(in crate::front::pattern) is_sample: bool,
 }
 
-/// Gives blocks without turn and curve points those of another size of the same piece, whose lines have as many vertices: the
-/// sample size if that has some, else the first. Returns the lender of each block.
+/// Gives blocks without turn and curve points those of another size of the same piece with equally many vertices per line: the
+/// sample size if it has some, otherwise the first. Returns the lender of each block.
 pub(in crate::front::pattern) fn lend(blocks: &mut [Shapes], sizes: &[Size]) -> Vec<Option<usize>> {
     let mut lenders: BTreeMap<&[u8], usize> = BTreeMap::new();
     for (k, size) in sizes.iter().enumerate().filter(|(k, _)| has_dots(&blocks[*k])) {
@@ -50,7 +50,7 @@ fn lines<'a>(block: &'a Shapes) -> impl Iterator<Item = &'a Line> {
     block.lines.iter().filter(|line| line.layer.is_curved())
 }
 
-/// The points of one block at the vertices of another; none where their lines differ.
+/// The points of one block, moved to the vertices of another; empty if their lines differ.
 fn lent(lender: &Shapes, block: &Shapes) -> Vec<Dot> {
     let shape = |line: &Line| (line.layer.number, line.vertices.len(), line.is_closed);
     if !lines(lender).map(shape).eq(lines(block).map(shape)) {

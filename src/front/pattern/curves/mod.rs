@@ -1,11 +1,11 @@
-//! Curves between the vertices of a line: layer 1 has the corners of an outline and a few points of its curves, as layers 8,
-//! 11 and 14 have of other lines.
+//! Curves between the vertices of a line: layer 1 has the corners of an outline and a few points of its curves; layers 8, 11
+//! and 14 have those of other lines.
 //!
 //! Receives the lines of a block, joined and unfolded, with its points. Promises each line as the CAD system draws it: along
-//! the [`fine`] line of layers 84 to 87 that goes through all of its vertices, else along a curve by the [`rule`] of the
-//! system from turn point to turn point, straight where no curve point stands between, as its [`nodes`] say; else as it is.
-//! Never leaves a vertex: one that [`gerber`] adds for the sake of a notch lies within a hundredth of a millimetre of the curve,
-//! or is one of its [`knots`].
+//! the [`fine`] line of layers 84 to 87 that passes all of its vertices; otherwise along a curve by the [`rule`] of the system
+//! between turn points, straight where there is no curve point, as given by its [`nodes`]; otherwise unchanged. Never leaves a
+//! vertex: one that [`gerber`] adds for a notch lies within a hundredth of a millimetre of the curve, or is one of its
+//! [`knots`].
 
 mod block;
 mod count;

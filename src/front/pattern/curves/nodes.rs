@@ -1,4 +1,4 @@
-//! Nodes: the course of the curve through each vertex of a line, as turn points (layer 2), curve points (layer 3) and notches say.
+//! Nodes: behaviour of the curve at each vertex of a line, given by turn points (layer 2), curve points (layer 3) and notches.
 
 use std::collections::BTreeMap;
 
@@ -11,38 +11,38 @@ use crate::geom::{Point, bits};
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Largest distance of places that are one, mm: rounding, and less than between any two vertices. A vertex without a point so
-/// near has the kind of those within [`Dxf::POINT_OFF`].
+/// Distance within which points are equal, mm: above rounding, and below the distance of any two vertices. A vertex without a
+/// point that near takes the kind of the points within [`Dxf::POINT_OFF`].
 pub(super) const ON: f64 = 0.01;
-/// Largest number of places of one cell that are kept: only a damaged file has more so near to each other.
+/// Maximum number of points kept per cell; only a damaged file has more.
 const MOST_AROUND: usize = 16;
 
-/// Course of a curve through a vertex.
+/// Behaviour of a curve at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Node {
-    /// It ends there, and another may begin.
+    /// The curve ends; another may begin.
     Corner,
-    /// It goes on; the vertex is a curve point.
+    /// The curve continues smoothly; the vertex is a curve point.
     Smooth,
-    /// It goes on; the vertex is a curve point that some systems add for the sake of a notch.
+    /// The curve continues smoothly; the vertex is a curve point at a notch, as some systems add.
     Notched,
-    /// It goes on if it is a curve: a notch stands there.
+    /// A notch: the curve, if any, continues.
     Passing,
 }
 
-/// Mark of the file on a place.
+/// Mark of the file at a point.
 #[derive(Debug, Clone, Copy)]
 enum Sign {
     Turn,
     Curve,
     Notch,
-    /// Lines were joined there that the file draws one by one.
+    /// Lines that the file draws separately are joined there.
     Joint,
-    /// A line has the place twice.
+    /// A line repeats the point.
     Doubled,
 }
 
-/// Set of the signs of a place.
+/// Set of the signs of a point.
 #[derive(Debug, Clone, Copy, Default)]
 struct Signs([bool; 5]);
 
@@ -78,11 +78,11 @@ fn stray(lines: &[Line], dots: &[Dot]) -> Option<Span> {
     dots.iter().filter(|dot| dot.layer.does == Does::Curve).find(|dot| !marks_vertex(dot)).map(|dot| dot.span)
 }
 
-/// The signs of a block, by where they are.
+/// The signs of a block, by position.
 #[derive(Debug, Clone, Default)]
 pub(in crate::front::pattern) struct Nodes {
     cells: BTreeMap<[i64; 2], Vec<(Point, Signs)>>,
-    /// Whether a curve point is among them.
+    /// True if there is a curve point.
     pub(super) has_curves: bool,
     /// The first curve point that marks no vertex.
     pub(super) stray: Option<Span>,
@@ -93,7 +93,7 @@ fn cell(at: Point) -> [i64; 2] {
 }
 
 impl Nodes {
-    /// Signs of the lines of a block as the file draws them, and of its points.
+    /// Signs from the lines of a block as drawn, and from its points.
     pub(in crate::front::pattern) fn of(lines: &[Line], dots: &[Dot]) -> Self {
         let mut nodes = Self::default();
         for dot in dots {
@@ -141,7 +141,7 @@ impl Nodes {
         }
     }
 
-    /// Signs of a place: of those within [`ON`] of it, and of those within [`Dxf::POINT_OFF`].
+    /// Signs within [`ON`] of a point, and signs within [`Dxf::POINT_OFF`].
     fn signs(&self, at: Point) -> [Signs; 2] {
         let [x, y] = cell(at);
         let mut found = [Signs::default(); 2];
@@ -157,7 +157,7 @@ impl Nodes {
         found
     }
 
-    /// Signs on both sides of a fold. A line that ends on the fold goes on there.
+    /// Signs on both sides of a fold. A line that ends on the fold continues on the other side.
     pub(super) fn unfolded(self, fold: &Fold) -> Self {
         let mut nodes = Self { has_curves: self.has_curves, stray: self.stray, ..Self::default() };
         for (at, signs) in self.cells.into_values().flatten() {
@@ -170,14 +170,14 @@ impl Nodes {
         nodes
     }
 
-    /// Course of a curve through a vertex.
+    /// Behaviour of a curve at a vertex.
     pub(super) fn at(&self, at: Point) -> Node {
         let [signs, beside] = self.signs(at);
         let is_marked = [Sign::Turn, Sign::Curve].iter().any(|sign| signs.has(*sign));
         let [is_turn, is_curve] =
             [Sign::Turn, Sign::Curve].map(|sign| if is_marked { signs.has(sign) } else { beside.has(sign) });
         let is_notch = beside.has(Sign::Notch);
-        // A place that turns and curves is smooth, even where two lines meet.
+        // A point marked as turn and curve point is smooth, even where two lines meet.
         let is_parted = signs.has(Sign::Doubled) || signs.has(Sign::Joint) && !(is_turn && is_curve);
         match (is_parted, is_curve, is_notch) {
             (false, true, false) => Node::Smooth,

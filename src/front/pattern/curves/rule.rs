@@ -1,20 +1,20 @@
-//! Rules: the curves that CAD systems lay through the curve points of their patterns.
+//! Rules by which CAD systems lay curves through the curve points of their patterns.
 
 use super::leg::Stretch;
 use super::spline::Ends;
 use super::{gerber, spline};
 use crate::geom::Point;
 
-/// A curve through points.
+/// Kind of curve through points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rule {
-    /// Halved chords that are lifted by bisector tangents.
+    /// Repeated division of chords, with the middles moved according to bisector tangents.
     Bisectors,
-    /// A cubic spline over the lengths of the chords.
+    /// A cubic spline parametrised by chord length.
     Spline(Ends),
 }
 
-/// A CAD system by a word in what the file says of its author, and its rule.
+/// A CAD system, recognised by a word in the author texts of a file, and its rule.
 struct Row {
     word: &'static str,
     /// Name in messages.
@@ -36,7 +36,7 @@ const ROWS: [Row; 7] = [
 /// Rule for files of unknown systems.
 const UNKNOWN: Rule = Rule::Spline(Ends::Natural);
 
-/// The rule for a file that was written by a CAD system, and its name if that is known.
+/// The rule for files of an author, and the name of the CAD system if it is known.
 pub(super) fn rule_of(author: &str) -> (Rule, Option<&'static str>) {
     let author = author.to_uppercase();
     let is_there = |word: &str| author.split(|letter: char| !letter.is_alphanumeric()).any(|found| found == word);
@@ -46,7 +46,7 @@ pub(super) fn rule_of(author: &str) -> (Rule, Option<&'static str>) {
 }
 
 impl Rule {
-    /// Places of the curve between each two neighbours of a run of knots; `None` beyond `most` places.
+    /// Points of the curve between consecutive knots; `None` beyond `most` points.
     pub(super) fn spans(self, knots: &[Point], sagitta: f64, most: usize) -> Option<Vec<Stretch>> {
         match self {
             Self::Bisectors => gerber::spans(knots, sagitta, most),
@@ -54,7 +54,7 @@ impl Rule {
         }
     }
 
-    /// Whether the system adds vertices for the sake of notches, which are no part of its curve.
+    /// True if the system adds vertices for notches that do not belong to its curve.
     pub(super) fn may_pass_notches(self) -> bool {
         self == Self::Bisectors
     }

@@ -1,21 +1,21 @@
-//! Runs: the vertices through which one curve goes.
+//! Runs: vertices that share one curve.
 
 use super::nodes::Node;
 use crate::front::pattern::chain::Chain;
 use crate::geom::Point;
 
-/// Whether a vertex is a curve point.
+/// True if a vertex is a curve point.
 pub(super) fn is_curve(node: Node) -> bool {
     matches!(node, Node::Smooth | Node::Notched)
 }
 
-/// A run of vertices through which one curve goes.
+/// A run of vertices that share one curve.
 pub(super) struct Run<'a> {
     pub(super) line: &'a Chain,
     pub(super) nodes: &'a [Node],
-    /// Indices of its vertices in the line, in order, both ends included.
+    /// Indices of its vertices in the line, in order, including both ends.
     pub(super) places: &'a [usize],
-    /// Whether it goes round without a corner: then the curve leads on from its last vertex to its first.
+    /// True for a ring without corners: its curve continues from the last vertex to the first.
     pub(super) is_ring: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Spikes: stretches of a line that go out and come straight back. Curves are laid without them: they are taken off and put
-//! back.
+//! Spikes: stretches of a line that go out and return on themselves. Curves are laid without them, so spikes are removed before
+//! and restored after.
 
 use std::collections::BTreeMap;
 
@@ -8,22 +8,22 @@ use crate::front::pattern::chain::Chain;
 use crate::geom::bits;
 use crate::ir::drawing::Vertex;
 
-/// Least number of vertices of a ring.
+/// Minimum number of vertices of a ring.
 const LEAST_RING: usize = 3;
 
 /// A line without its spikes.
 #[derive(Debug)]
 pub(super) struct Base {
     pub(super) line: Chain,
-    /// Way out and back from each vertex; empty for most.
+    /// Spike at each vertex, out and back; empty for most.
     spikes: Vec<Leg>,
 }
 
-/// Takes the spikes off a line.
+/// Removes the spikes of a line.
 pub(super) fn without(line: &Chain) -> Base {
     let mut vertices = line.vertices.clone();
     let count = vertices.len();
-    // A ring that begins in a spike begins behind it instead: there a place comes once.
+    // A ring that begins inside a spike is rotated to begin at a point that occurs once.
     let is_tip = |k: usize| vertices[(k + count - 1) % count].at == vertices[(k + 1) % count].at;
     if line.is_closed && (0..count).any(is_tip) {
         let mut times: BTreeMap<[u64; 2], usize> = BTreeMap::new();
@@ -55,7 +55,7 @@ pub(super) fn without(line: &Chain) -> Base {
 }
 
 impl Base {
-    /// Puts the spikes back between the legs of a curve.
+    /// Restores the spikes between the legs of a curve.
     pub(super) fn put_back(&self, legs: &mut [Leg]) {
         for ((leg, spike), root) in legs.iter_mut().zip(&self.spikes).zip(&self.line.vertices) {
             if spike.is_empty() {

@@ -1,4 +1,4 @@
-//! Cubic splines over the lengths of their chords.
+//! Cubic splines parametrised by chord length.
 
 use super::hermite::sprung;
 use super::leg::Stretch;
@@ -7,14 +7,13 @@ use crate::geom::{Point, Vector};
 /// Condition at the ends of a spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
-    /// No bend.
+    /// Second derivative of zero.
     Natural,
-    /// The bend of the neighbouring knot: the last spans are parabolas.
+    /// Second derivative equal to that of the neighbouring knot: the end spans are parabolas.
     Parabolic,
 }
 
-/// Places between each two neighbours of a run of knots, in chords within `sagitta` mm; `None` where that takes more than
-/// `most` places.
+/// Points between consecutive knots, in chords within `sagitta` mm; `None` if more than `most` points are needed.
 pub(super) fn spans(knots: &[Point], ends: Ends, sagitta: f64, most: usize) -> Option<Vec<Stretch>> {
     let lengths: Vec<f64> = knots.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
     let bends = bends(knots, &lengths, ends);
@@ -31,8 +30,8 @@ pub(super) fn spans(knots: &[Point], ends: Ends, sagitta: f64, most: usize) -> O
     Some(spans)
 }
 
-/// Second derivatives at the knots: the solution of the equations of a cubic spline, which are tridiagonal (de Boor, A
-/// Practical Guide to Splines, chapter IV), by elimination from the first to the last.
+/// Second derivatives at the knots: the solution of the tridiagonal equations of a cubic spline (de Boor, A Practical Guide to
+/// Splines, chapter IV), by forward elimination and back substitution.
 fn bends(knots: &[Point], lengths: &[f64], ends: Ends) -> Vec<Vector> {
     let last = lengths.len();
     let mut bends = vec![Vector::zeros(); last + 1];
@@ -40,7 +39,8 @@ fn bends(knots: &[Point], lengths: &[f64], ends: Ends) -> Vec<Vector> {
         return bends;
     }
     let slope = |k: usize| (knots[k + 1] - knots[k]) / lengths[k];
-    // Of each inner knot: the factor of the next bend, and what is left, once the one before is eliminated.
+    // For each inner knot, after elimination of the previous one: the factor of the next second derivative, and the right-hand
+    // side.
     let mut rows: Vec<(f64, Vector)> = Vec::with_capacity(last - 1);
     for k in 1..last {
         let [before, behind] = [lengths[k - 1], lengths[k]];
@@ -57,7 +57,7 @@ fn bends(knots: &[Point], lengths: &[f64], ends: Ends) -> Vec<Vector> {
     }
     for k in (1..last).rev() {
         let (factor, rest) = rows[k - 1];
-        // The last bend is not yet known there: its factor went into the middle of its row.
+        // The end condition is already included in the diagonal of the last row.
         let next = if k + 1 == last { Vector::zeros() } else { bends[k + 1] * factor };
         bends[k] = rest - next;
     }

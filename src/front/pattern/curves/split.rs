@@ -7,14 +7,14 @@ use super::run::Run;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::Vertex;
 
-/// Lays a curve through a run into the legs of its vertices; `false` if that takes too many places.
+/// Distributes the curve of a run over the legs of its vertices; false if it needs too many points.
 pub(super) fn lay(run: &Run, drafting: &mut Drafting, work: &mut Budget, legs: &mut [Leg]) -> bool {
     let Some(Fit { knots, spans }) = knots::fit(run, drafting, work) else { return false };
     let count = run.places.len();
     for (k, span) in spans.iter().enumerate() {
         let from = knots[k];
         let to = knots.get(k + 1).copied().unwrap_or(knots[0] + count);
-        // Vertices that the curve passes part its span where it comes nearest.
+        // Vertices on the curve split its span at the nearest point.
         let nearest = |i: usize| {
             let distance = |k: &usize| (span[*k] - run.at(i)).norm();
             (0..span.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
