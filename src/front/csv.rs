@@ -1,6 +1,6 @@
-//! CSV polylines: a header `x_mm,y_mm`, a row a point, a blank line between contours.
+//! CSV polylines: a header `x_mm,y_mm`, one point per row, a blank line between contours.
 //!
-//! Receives decimal numbers in mm, promises a contour and a piece for each polyline; one that ends where it starts is
+//! Receives decimal numbers in mm. Promises one contour and one piece per polyline; a polyline that ends at its start point is
 //! closed. Never guesses at decimal commas or other columns.
 
 use super::{Dialect, Likeness, Read, foreign};
@@ -24,7 +24,7 @@ pub(super) const DIALECT: Dialect = Dialect {
 
 const HEADER: &[u8] = b"x_mm,y_mm";
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// Bytes of a file in which its first row is looked for.
+/// Number of bytes searched for the first row.
 const SNIFFED_BYTES: usize = 4096;
 /// Largest coordinate, mm: a kilometre, far beyond any table.
 const VALUE_MAX: f64 = 1e6;
@@ -48,19 +48,19 @@ fn sniff(bytes: &[u8]) -> Likeness {
     }
 }
 
-/// Whether a row is the header, whatever its case and blanks.
+/// True if a row is the header, ignoring case and blanks.
 fn is_header(line: &[u8]) -> bool {
     let letters = line.iter().filter(|byte| !byte.is_ascii_whitespace());
     letters.map(u8::to_ascii_lowercase).eq(HEADER.iter().copied())
 }
 
-/// A row of the file: a point, or the end of a contour.
+/// A row of the file: a point or a blank line, which ends a contour.
 enum Row {
     Point(Point),
     Blank,
 }
 
-/// The rows behind the header; faults are reported and left out.
+/// Parses the rows after the header; faulty rows are reported and skipped.
 fn rows(source: &Source, out: &mut Diagnostics) -> Vec<(Row, Span)> {
     let bytes = source.bytes();
     let mut rows = Vec::new();
@@ -83,7 +83,7 @@ fn rows(source: &Source, out: &mut Diagnostics) -> Vec<(Row, Span)> {
                 headed = true;
                 let finding = Diagnostic::new(&code::CSV_HEADER, "the first row is not `x_mm,y_mm`").at(span);
                 out.push(finding.hint("write the header `x_mm,y_mm`, and the numbers in mm"));
-                // A header of other words is one fault, not two.
+                // A header with other words is one fault, not two.
                 if line.iter().any(u8::is_ascii_alphabetic) {
                     continue;
                 }
@@ -97,7 +97,7 @@ fn rows(source: &Source, out: &mut Diagnostics) -> Vec<(Row, Span)> {
     rows
 }
 
-/// `<row>`: two numbers.
+/// `<row>`: a point as two numbers.
 fn point(line: &[u8], span: Span) -> Result<Point, Diagnostic> {
     let fields = line.split(|&byte| byte == b',').count();
     if fields != 2 {
@@ -119,7 +119,7 @@ fn point(line: &[u8], span: Span) -> Result<Point, Diagnostic> {
     Ok(Point::new(values[0], values[1]))
 }
 
-/// `<number>`: a decimal number, with an exponent or without.
+/// `<number>`: a decimal number with an optional exponent.
 fn number(field: &[u8], span: Span) -> Result<f64, Diagnostic> {
     let fault = |message: String| {
         Diagnostic::new(&code::CSV_ROW, message).at(span).hint("write a finite decimal number, such as -12.5")
@@ -131,7 +131,7 @@ fn number(field: &[u8], span: Span) -> Result<f64, Diagnostic> {
         None if field.is_empty() => Err(fault("a coordinate is missing".to_owned())),
         None => Err(fault(format!("`{shown}` is not a decimal number"))),
         Some(value) if value.abs() > VALUE_MAX => Err(fault(format!("`{shown}` is beyond {VALUE_MAX:.0} mm"))),
-        // The negative of zero is another bit pattern than zero, though the same place.
+        // Adding zero turns -0.0 into 0.0: both are the same position but have different bit patterns.
         Some(value) => Ok(value + 0.0),
     }
 }
@@ -147,7 +147,7 @@ fn read(source: &Source, _: &Job, out: &mut Diagnostics) -> Marker {
     }
     let mut faults = Diagnostics::default();
     let rows = rows(source, &mut faults);
-    // A contour whose rows are at fault may look shorter than it is.
+    // A contour with faulty rows may look shorter than it is, so faults of rows replace findings on length.
     let mut short = Diagnostics::default();
     for polyline in rows.split(|(row, _)| matches!(row, Row::Blank)) {
         add(&mut marker, polyline, &mut short);
@@ -160,7 +160,7 @@ fn read(source: &Source, _: &Job, out: &mut Diagnostics) -> Marker {
     marker
 }
 
-/// Adds a polyline as a piece of one contour.
+/// Adds a polyline as a piece with one contour.
 fn add(marker: &mut Marker, polyline: &[(Row, Span)], out: &mut Diagnostics) {
     let points: Vec<(Point, Span)> = polyline
         .iter()

@@ -1,63 +1,63 @@
-//! What a dialect is.
+//! Definition of an input dialect.
 
 use crate::diagnostic::Diagnostics;
 use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
 use crate::source::Source;
 
-/// An input format: a row of [`DIALECTS`](super::DIALECTS).
+/// An input format: an entry of [`DIALECTS`](super::DIALECTS).
 #[derive(Debug)]
 pub struct Dialect {
-    /// Name, as `--from` takes it and as the folder of its fixtures is called.
+    /// Name, used by `--from` and for the folder of its fixtures.
     pub name: &'static str,
-    /// What it is, in a line.
+    /// One-line description.
     pub about: &'static str,
     /// Usual extensions of its files, without the dot.
     pub extensions: &'static [&'static str],
-    /// How much a file's first bytes look like it.
+    /// Rates how well the first bytes of a file match the dialect.
     pub sniff: fn(&[u8]) -> Likeness,
-    /// Whether the bytes follow the grammar, without regard to meaning.
+    /// Checks the bytes against the grammar, ignoring meaning.
     pub syntax: fn(&Source, &mut Diagnostics),
-    /// Reads the file.
+    /// Reader of the dialect, by its kind of result.
     pub read: Read,
-    /// What each of its codes does; none where it has no codes.
+    /// Effects of its codes; empty for a dialect without codes.
     pub words: &'static [Word],
 }
 
-/// Codes of a dialect that do the same.
+/// A group of codes with the same effect.
 #[derive(Debug)]
 pub struct Word {
-    /// The codes, as markdown: "`A`, `M15`", or a range, "`M60` to `M67`".
+    /// The codes as markdown: "`A`, `M15`", or a range, "`M60` to `M67`".
     pub words: &'static str,
-    /// What is done about them.
+    /// Effect of the codes.
     pub about: &'static str,
 }
 
-/// What a dialect says.
+/// Reader of a dialect, by the content of its files.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// What is cut.
+    /// Files that state the cut lines.
     Marker(fn(&Source, &Job, &mut Diagnostics) -> Marker),
-    /// What a pen draws: what of it is cut must be recognised.
+    /// Files of pen strokes, from which the cut lines must be recognised.
     Drawing(fn(&Source, &Job, &mut Diagnostics) -> Drawing),
-    /// Both: its layers say what is cut.
+    /// Files of both kinds: their layers state the cut lines.
     Patterns {
-        /// What is cut.
+        /// Reads the cut lines.
         cut: fn(&Source, &Job, &mut Diagnostics) -> Marker,
-        /// All that is drawn, with the layers as pens.
+        /// Reads the complete drawing, with layers as pens.
         drawn: fn(&Source, &Job, &mut Diagnostics) -> Drawing,
-        /// Name of the layer that has the seam lines.
+        /// Name of the layer with the seam lines.
         seams: &'static str,
     },
 }
 
-/// How much some bytes look like a dialect.
+/// Degree to which bytes match a dialect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Likeness {
-    /// It cannot be.
+    /// The bytes cannot be of the dialect.
     No,
-    /// Nothing speaks against it.
+    /// The bytes may be of the dialect.
     Maybe,
-    /// It is.
+    /// The bytes are of the dialect.
     Sure,
 }

@@ -1,14 +1,13 @@
-//! Recognises what cutc does not read, so that the message can say what a file is and what to do.
+//! Recognition of foreign formats, so that the message names the format of a file and the remedy.
 
 use super::formats::{self, Format, head};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::{Source, line_end};
 
-/// Bytes in which the first element of XML is looked for.
+/// Number of bytes searched for the first element of XML.
 const SNIFFED_XML: usize = 65_536;
 
-/// Reports an empty file, or one of another format, be it another dialect of ours than that of the name; `true` when it is
-/// one.
+/// Reports an empty file or one of another format, including that of another dialect than `dialect`; true if it is one.
 pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> bool {
     if refuse_unread(source, out) {
         return true;
@@ -22,11 +21,11 @@ pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> b
     other.is_some()
 }
 
-/// A dialect of ours that is known for certain.
+/// A dialect whose files are recognised for certain.
 struct Ours {
-    /// Names of the dialects that read it, the likeliest first.
+    /// Names of the dialects that read the format, the most likely first.
     names: &'static [&'static str],
-    /// What its files are.
+    /// Description of its files.
     what: &'static str,
     is: fn(&[u8]) -> bool,
 }
@@ -37,7 +36,7 @@ const OURS: &[Ours] = &[
     Ours { names: &["svg"], what: "an SVG drawing", is: is_svg },
 ];
 
-/// Reports an empty file, or one of a format that no dialect reads; `true` when it is one.
+/// Reports an empty file, or one of a format that no dialect reads; true if it is one.
 pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
     let bytes = source.bytes();
     if bytes.iter().all(|&byte| byte.is_ascii_whitespace() || byte == 0 || byte == 0x1a) {
@@ -60,7 +59,7 @@ pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
     }
 }
 
-/// Reports a file that is no dialect and of which only the name may tell anything: `true` when it does.
+/// Reports a file of no known dialect by the extension of its name; true if the name identifies a format.
 pub(super) fn refuse_by_name(source: &Source, out: &mut Diagnostics) -> bool {
     let named = formats::of_name(source.name());
     if let Some(format) = named {
@@ -74,7 +73,7 @@ fn say(format: &Format, out: &mut Diagnostics) {
     out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint(format.hint));
 }
 
-/// A section begins, or remarks stand before it.
+/// True if the file begins with a section of DXF, optionally after remarks.
 pub(super) fn is_dxf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let end = line_end(head(bytes));
@@ -87,7 +86,7 @@ pub(super) fn is_dxf(bytes: &[u8]) -> bool {
     }
 }
 
-/// XML with an element of that name, behind whatever stands before it, and no page that holds drawings.
+/// True for XML with an `svg` element, unless it is an HTML page.
 pub(super) fn is_svg(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(SNIFFED_XML)];
     let marked = [b"\xef\xbb\xbf".as_slice(), b"\xff\xfe", b"\xfe\xff"];
@@ -95,7 +94,7 @@ pub(super) fn is_svg(bytes: &[u8]) -> bool {
     if !matches!(head.trim_ascii_start(), [b'<', ..] | [0, b'<', ..]) {
         return false;
     }
-    // Every other byte of UTF-16 is zero there.
+    // In UTF-16 every other byte of the element is zero.
     let text: Vec<u8> = head.iter().copied().filter(|&byte| byte != 0).collect();
     let begins = |with: &[u8]| text.trim_ascii_start().get(..with.len()).is_some_and(|s| s.eq_ignore_ascii_case(with));
     let is_end = |byte: Option<&u8>| byte.is_none_or(|byte| byte.is_ascii_whitespace() || b">/".contains(byte));
@@ -107,7 +106,7 @@ pub(super) fn is_svg(bytes: &[u8]) -> bool {
     places.any(is_element) && !begins(b"<!DOCTYPE html") && !begins(b"<html")
 }
 
-/// Two letters and numbers, between semicolons.
+/// True for two-letter instructions with numbers, separated by semicolons.
 fn is_hpgl(bytes: &[u8]) -> bool {
     let head = head(bytes);
     if memchr::memchr(b'*', head).is_some() && !head.starts_with(b"\x1b") {

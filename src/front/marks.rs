@@ -1,7 +1,7 @@
 //! Files of registration marks: CSV with the header `x_mm,y_mm,found_x_mm,found_y_mm` and one row for each mark.
 //!
-//! Marks that are read are sound: at least four, not on a line, each within `map.max_mm` of where the map of the others has it,
-//! with a map that stretches and skews no more than cloth is worked on. Every fault of a row is found in one run.
+//! The marks that are returned are consistent: at least four, not collinear, each within `map.max_mm` of its position by the
+//! map of the others, and the map stretches and skews no more than usable cloth. All faults of rows are reported in one run.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -13,24 +13,24 @@ use crate::units::number::{counted, fixed, short, up};
 
 /// The first row.
 const HEADER: &str = "x_mm,y_mm,found_x_mm,found_y_mm";
-/// Hint on rows.
+/// Hint on faulty rows.
 const ROW: &str = "a row is four numbers in mm, with decimal points and a comma between them: X and Y of a mark in the drawing, \
                    then where it lies on the table";
-/// Fewest marks: three fit an affine map wherever they are found, so that no fault would be seen.
+/// Minimum number of marks. Three always fit an affine map, so that no fault would be seen.
 const LEAST: usize = 4;
-/// Farthest places, mm: a kilometre, far beyond any table.
+/// Maximum coordinate, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
 /// Decimals of distances, mm.
 const DECIMALS: u32 = 2;
-/// Stretch of cloth that is worked on, at most a fifth more or less (as `sheet.scale_x`).
+/// Permitted stretch of cloth: a fifth either way (as `sheet.scale_x`).
 const STRETCH: RangeInclusive<f64> = 0.8..=1.2;
-/// Greatest skew of cloth that is worked on, deg.
+/// Maximum skew of usable cloth, deg.
 const MOST_SKEWED_DEG: f64 = 10.0;
-/// Most marks of which each is left out in turn, to find one that was read wrongly.
+/// Maximum number of marks that are left out in turn to find a misread one.
 const MOST_TRIED: usize = 1000;
 
-/// Reads marks; `None` when they have faults, which are diagnostics. A mark may lie `most` mm from where the map of the others
-/// has it.
+/// Reads marks; `None` if there are faults, which are reported. `most` is the permitted distance of a mark from its position by
+/// the map of the others, mm.
 pub fn read(source: &Arc<Source>, most: f64, out: &mut Diagnostics) -> Option<Marks> {
     let read =
         csv_rows(source.bytes(), HEADER, parse).map_err(|faults| faults.into_iter().map(told).collect::<Vec<_>>());
@@ -49,14 +49,14 @@ pub fn read(source: &Arc<Source>, most: f64, out: &mut Diagnostics) -> Option<Ma
     }
 }
 
-/// A row.
+/// Parses a row.
 fn parse(text: &str) -> Result<Mark, String> {
     let [x, y, found_x, found_y] = csv_fields(text)?;
     let place = |field: &str| csv_number(field, "place in mm", FARTHEST);
     Ok(Mark { drawn: [place(x)?, place(y)?], found: [place(found_x)?, place(found_y)?] })
 }
 
-/// Diagnostic of a fault of the file.
+/// Diagnostic for a fault of the file.
 fn told(fault: CsvFault) -> Diagnostic {
     let (span, message) = match fault {
         CsvFault::Header(span) => (span, format!("the first row is not the header `{HEADER}`")),
@@ -65,7 +65,7 @@ fn told(fault: CsvFault) -> Diagnostic {
     Diagnostic::new(&code::MARKS_ROW, message).at(span).hint(ROW)
 }
 
-/// Marks with their map, or why they have none.
+/// Fits the map of the marks. The error describes why there is none.
 fn fit(marks: &[Mark], spans: &[Span], most: f64, source: &Arc<Source>) -> Result<Marks, Diagnostic> {
     let fault = |message: &str| Diagnostic::new(&code::MARKS_FIT, message);
     if marks.len() < LEAST {
@@ -121,7 +121,7 @@ fn fit(marks: &[Mark], spans: &[Span], most: f64, source: &Arc<Source>) -> Resul
     })
 }
 
-/// Whether all marks but one fit each other within `most` mm, as far as they tell.
+/// True if all marks except one fit each other within `most` mm, as far as they are redundant.
 fn fits(marks: &[Mark], but: usize, most: f64) -> bool {
     let rest = [&marks[..but], &marks[but + 1..]].concat();
     AffineMap::fit(&rest).is_some_and(|map| !map.is_mirrored() && rest.iter().all(|mark| map.off(mark) <= most))
@@ -195,7 +195,7 @@ mod tests {
             let line = wrong as u32 + 2;
             let is_named = told[0].1 == line || told[0].2.contains(&format!(" {line}"));
             assert!(is_named && told[0].2.contains("without"), "{count} marks, line {line}: {told:?}");
-            // Seven leave no doubt.
+            // Seven marks are unambiguous.
             assert!(count < 7 || told[0].2.contains("without this mark"), "{told:?}");
         }
     }

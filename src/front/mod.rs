@@ -1,9 +1,9 @@
-//! Reading: bytes of a dialect to a [`Marker`](crate::ir::Marker), or to a [`Drawing`](crate::ir::Drawing) where the
-//! dialect does not say what is cut.
+//! Reading: bytes of a dialect become a [`Marker`](crate::ir::Marker), or a [`Drawing`](crate::ir::Drawing) if the dialect does
+//! not state the cut lines.
 //!
-//! Receives a [`Source`] and promises a form in mm in which nobody need think any more about the dialect: its units,
-//! line breaks, codes and layouts. Everything keeps the span that it came from. Faults are reported all in one run;
-//! a marker with an error among the diagnostics is never compiled. Never guesses silently, never does I/O.
+//! Receives a [`Source`]. Promises a form in mm that is independent of the dialect: its units, line breaks, codes and layouts.
+//! Every element keeps the span of its origin. All faults are reported in one run; a marker with an error among the diagnostics
+//! is never compiled. Never guesses silently, never does I/O.
 
 mod csv;
 mod dialect;
@@ -22,17 +22,17 @@ pub use dialect::{Dialect, Likeness, Read, Word};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
-/// Every dialect, the likelier ones first.
+/// All dialects, the more common ones first.
 pub const DIALECTS: &[Dialect] =
     &[iso::DIALECT, hpgl::DIALECT, pattern::DIALECT, dxf::DIALECT, svg::DIALECT, csv::DIALECT];
 
-/// The dialect of that name.
+/// The dialect with a name.
 pub fn by_name(name: &str) -> Option<&'static Dialect> {
     DIALECTS.iter().find(|dialect| dialect.name == name)
 }
 
-/// The dialect that the content looks like. The extension of the name, without its dot, decides between equals only.
-/// Content that is no dialect is an error diagnostic that says what it looks like.
+/// The dialect that the content matches best. The extension of the name, without its dot, only breaks ties. Content of no
+/// dialect is an error, with a diagnostic that names the likely format.
 pub fn detect(
     source: &Source,
     name_extension: Option<&str>,
@@ -44,7 +44,7 @@ pub fn detect(
     let named = |dialect: &Dialect| {
         name_extension.is_some_and(|name| dialect.extensions.iter().any(|known| known.eq_ignore_ascii_case(name)))
     };
-    // `max_by_key` gives the last of equals and the likelier dialects come first, hence the reversal.
+    // `max_by_key` returns the last of equals. The more common dialects come first, hence the reversal.
     let sniffed = DIALECTS.iter().rev().map(|dialect| (dialect, (dialect.sniff)(source.bytes())));
     let best = sniffed.max_by_key(|(dialect, likeness)| (*likeness, named(dialect)));
     let found = best.filter(|(_, likeness)| *likeness != Likeness::No).map(|(dialect, _)| dialect);

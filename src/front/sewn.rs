@@ -1,22 +1,22 @@
-//! Recognises files of sewing machines, which `cutc sew` reads, so that other commands can say so.
+//! Recognition of files for sewing machines. `cutc sew` reads these; other commands use this to say so.
 
-/// What some programs write before text in UTF-8.
+/// Mark that some programs write before UTF-8 text.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// The first row of a pattern, and what may part the fields of all rows.
+/// First row of a pattern, and the possible separators of its fields.
 const PATTERN: &[u8] = b"x_mm,y_mm,element";
 const SEPARATORS: &[u8] = b",;\t";
-/// The first row of a stitch queue.
+/// First row of a stitch queue.
 const QUEUE: &[u8] = b"op,dx_mm,dy_mm,value";
-/// What the header of a DST file begins with, and its length.
+/// Start of the header of a DST file, and the length of the header.
 const DST: &[u8] = b"LA:";
 const DST_HEADER_BYTES: usize = 512;
 
-/// Whether a text is a pattern: seams as lists of points.
+/// True if a text is a pattern: seams as lists of points.
 pub fn is_pattern(bytes: &[u8]) -> bool {
     pattern_separator(bytes).is_some()
 }
 
-/// What parts the fields of a pattern: spreadsheets write what the language of the computer has. `None` when a text is no
+/// Separator of the fields of a pattern; spreadsheets choose it by the language of the computer. `None` if a text is not a
 /// pattern.
 pub fn pattern_separator(bytes: &[u8]) -> Option<u8> {
     SEPARATORS.iter().copied().find(|&separator| {
@@ -25,18 +25,17 @@ pub fn pattern_separator(bytes: &[u8]) -> Option<u8> {
     })
 }
 
-/// Whether a text is the entries of a stitch queue.
+/// True if a text is a stitch queue.
 pub fn is_queue(bytes: &[u8]) -> bool {
     begins_with(bytes, QUEUE)
 }
 
-/// Whether a file is a stitch file of Tajima machines.
+/// True if a file is a stitch file of Tajima machines.
 pub fn is_dst(bytes: &[u8]) -> bool {
     bytes.len() >= DST_HEADER_BYTES && bytes.starts_with(DST)
 }
 
-/// Whether the first line of a text is this one, in capital letters or small ones and whatever blanks are between, or begins
-/// with it.
+/// True if a text begins with a header, ignoring case, blanks and quotes.
 fn begins_with(bytes: &[u8], header: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let mut found = bytes.iter().filter(|&&byte| byte != b' ' && byte != b'"');
