@@ -1,12 +1,12 @@
-//! What is asked of a file beside the profile.
+//! Choices for a file in addition to the profile.
 
-/// What is asked of a file beside the profile.
+/// Choices for a file in addition to the profile.
 #[derive(Debug, Clone, Default)]
 pub struct Asked {
-    /// What it is read as, a format or a dialect; `None` = what its content looks like.
+    /// Format or dialect to read it as; `None` for detection by content.
     pub from: Option<String>,
-    /// The pen or layer of a drawing whose lines are sewn; `None` = contours.
+    /// Pen or layer of a drawing whose lines are sewn; `None` for contours.
     pub line: Option<String>,
-    /// How far inside closed contours are sewn, mm.
+    /// Distance of the seam inside closed contours, mm.
     pub inset: f64,
 }

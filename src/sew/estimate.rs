@@ -1,4 +1,5 @@
-//! How long a pattern takes: runs with their soft starts, jumps, trims. What an operator takes at stops is not known.
+//! Time estimate of a pattern: runs with their soft starts, jumps and trims. The time of an operator at stops is unknown and
+//! not included.
 
 use serde::Serialize;
 
@@ -8,32 +9,32 @@ use super::stitches::Op;
 use super::train::Drive;
 use crate::machine::Job;
 
-/// What a pattern amounts to.
+/// Totals of a pattern.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Penetrations.
+    /// Number of penetrations.
     pub stitches: usize,
-    /// Runs of stitches.
+    /// Number of runs of stitches.
     pub runs: usize,
-    /// Moves with the needle up.
+    /// Number of moves with the needle up.
     pub jumps: usize,
-    /// Cuts of the thread.
+    /// Number of thread cuts.
     pub trims: usize,
-    /// Waits for the operator, other threads among them.
+    /// Number of waits for the operator, including changes of thread.
     pub stops: usize,
-    /// Length of all stitches, m.
+    /// Total length of the stitches, m.
     pub thread_m: f64,
-    /// Least and greatest speed of runs behind their soft start, stitches a minute.
+    /// Minimum and maximum speed of runs after their soft start, stitches per minute.
     pub rpm: [f64; 2],
-    /// Time of all stitches, s.
+    /// Total time of the stitches, s.
     pub sewing_s: f64,
-    /// Time of starting and stopping, s.
+    /// Total time of starting and stopping, s.
     pub starting_s: f64,
-    /// Time of all jumps, s.
+    /// Total time of the jumps, s.
     pub jumping_s: f64,
-    /// Time of all trims, s.
+    /// Total time of the trims, s.
     pub trimming_s: f64,
-    /// All of it, s.
+    /// Total time, s.
     pub time_s: f64,
 }
 

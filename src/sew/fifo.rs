@@ -1,7 +1,7 @@
-//! The queue between host and motion part: does the host keep up?
+//! Simulation of the queue between host and motion part, to check that the host keeps up.
 //!
-//! The host puts in an entry whenever there is room, one after the other at its rate; the motion part begins when the queue
-//! is full or all is in it, and takes an entry at each turn of the spindle.
+//! The host adds entries one after the other at its rate whenever there is room. The motion part starts when the queue is full
+//! or holds the whole program, and takes an entry at each turn of the spindle.
 
 use serde::Serialize;
 
@@ -12,25 +12,25 @@ use super::train::Drive;
 use crate::machine::Job;
 use crate::units::S_PER_MIN;
 
-/// Rounding of times, s: an entry that comes at the moment at which it is taken is in time.
+/// Rounding of times, s: an entry that arrives at the moment when it is needed is in time.
 const TIME_EPSILON: f64 = 1e-9;
 
-/// How a queue fares.
+/// Result of a simulation.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Fifo {
-    /// Entries that it holds.
+    /// Capacity of the queue, entries.
     pub depth: usize,
-    /// Entries that the host makes in a second.
+    /// Rate of the host, entries per second.
     pub producer_hz: f64,
-    /// How often an entry was not there when it was needed.
+    /// Number of entries that were missing when needed.
     pub underruns: usize,
-    /// The first entry that was not, from 1; 0 = none.
+    /// First missing entry, from 1; 0 if there is none.
     pub first_underrun: usize,
-    /// For how long the machine waited, s.
+    /// Total waiting time of the machine, s.
     pub waited_s: f64,
-    /// Fewest entries that lay in it when one was taken, before the host had put in the last.
+    /// Minimum number of entries in the queue when one was taken, while the host still had more to add.
     pub lowest: usize,
-    /// Entries that the fastest run takes in a second: a host of that rate keeps up with any pattern.
+    /// Rate at which the fastest run takes entries, per second: a host of this rate keeps up with any pattern.
     pub needed_hz: f64,
 }
 
@@ -41,7 +41,7 @@ pub fn simulate(program: &Program, job: &Job) -> Fifo {
     let count = program.stitches.steps.len();
     let mut fifo = Fifo { depth, producer_hz: sewing.producer_hz, lowest: depth.min(count), ..Fifo::default() };
     let drive = Drive::of(sewing);
-    // When each entry is taken, and when each is there.
+    // Time at which each entry is taken, and time at which it becomes available.
     let (mut taken, mut there): (Vec<f64>, Vec<f64>) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let put = |taken: &[f64], there: &mut Vec<f64>| {
         let i = there.len();
@@ -109,7 +109,7 @@ mod tests {
         let fifo = check(1000, 8, needed);
         assert_eq!((fifo.underruns, fifo.needed_hz), (0, needed));
         let slow = check(1000, 8, needed / 2.0);
-        // The queue is filled before the first stitch, and each entry behind that waits for the host.
+        // The queue is filled before the first stitch, and each entry after that waits for the host.
         assert!(slow.underruns > 900 && slow.first_underrun > 8, "{slow:?}");
         assert!((slow.waited_s - 1000.0 / needed).abs() < 0.5, "{slow:?}");
     }

@@ -1,6 +1,6 @@
-//! Stitches that the machine cannot make as they are: too short, or too long for the speed.
+//! Adjustment of stitches that the machine cannot make: too short, or too long for the speed.
 //!
-//! Short ones are merged with the next, long ones are split or refused, or left for the speed of their run to suit.
+//! Short stitches are merged with the next. Long ones are split or refused, or kept and sewn at a lower speed of their run.
 
 use super::speed::{self, PITCH_EPSILON};
 use super::stitches::{Op, Step, Stitches};
@@ -11,21 +11,21 @@ use crate::machine::Sewing;
 use crate::machine::sewing::OnLong;
 use crate::units::number::{exact, fixed};
 
-/// Stitches against what a machine can make.
+/// Adjustment of stitches to a machine.
 pub(super) struct Fit<'a> {
     sewing: &'a Sewing,
     drive: Drive,
-    /// What the records of the file are called.
+    /// Word for the records of the file.
     record_word: &'static str,
 }
 
 impl<'a> Fit<'a> {
-    /// On a machine, of a file whose records are called so.
+    /// Creates the adjustment for a machine and a word for records.
     pub(super) fn new(sewing: &'a Sewing, record_word: &'static str) -> Self {
         Self { sewing, drive: Drive::of(sewing), record_word }
     }
 
-    /// Makes all stitches such as the machine can make.
+    /// Adjusts all stitches to the machine.
     pub(super) fn fit(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
         let merged = self.merge(stitches, out);
         match self.sewing.on_long {
@@ -37,11 +37,11 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// Merges stitches that are too short with the next, at the end of a run with the one before.
+    /// Merges stitches that are too short with the next one; at the end of a run with the previous one.
     fn merge(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
         let least = self.sewing.min_pitch_mm - PITCH_EPSILON;
         let mut steps: Vec<Step> = Vec::with_capacity(stitches.steps.len());
-        // Needle points that are left out when a stitch follows them.
+        // Omitted needle points since the last kept stitch; a following stitch replaces them.
         let mut short: Vec<Step> = Vec::new();
         let mut at = Point::origin();
         for step in &stitches.steps {
@@ -75,7 +75,7 @@ impl<'a> Fit<'a> {
         out.push(Diagnostic::new(&code::SEW_SHORT, message).on_cloth(step.to).by(least - pitch));
     }
 
-    /// Refuses stitches that are longer than the machine can make, and all that do not fit at full speed if so asked.
+    /// Refuses stitches longer than the machine can make; with `OnLong::Reject` also all that do not fit at full speed.
     fn refuse(&self, stitches: &Stitches, out: &mut Diagnostics) {
         let Self { sewing, drive, record_word } = self;
         for (from, step) in stitches.moves().filter(|(_, step)| step.op == Op::Stitch) {
@@ -105,7 +105,7 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// By how much a stitch is longer than what fits in its direction at a speed, mm.
+    /// Excess of a stitch over the longest one in its direction that fits at a speed, mm.
     fn excess(&self, [from, to]: [Point; 2], rpm: f64) -> f64 {
         let pulses = speed::pulses(from, to, &self.drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
         let pulses = u32::try_from(pulses).unwrap_or(u32::MAX);
@@ -114,7 +114,7 @@ impl<'a> Fit<'a> {
         (to - from).norm() * f64::from(pulses - most) / f64::from(pulses.max(1))
     }
 
-    /// Whether any stitch does not fit at full speed.
+    /// True if any stitch does not fit at full speed.
     pub(super) fn splits(&self, stitches: &Stitches) -> bool {
         stitches.moves().any(|(from, step)| step.op == Op::Stitch && self.parts([from, step.to]) > 1)
     }
@@ -141,7 +141,7 @@ impl<'a> Fit<'a> {
         Stitches { steps }
     }
 
-    /// Into how many stitches one is split: the fewest that fit, and none shorter than the machine can make.
+    /// Number of parts of a stitch: the smallest one at which the parts fit, limited by the minimum pitch of the machine.
     fn parts(&self, [from, to]: [Point; 2]) -> u32 {
         let Self { sewing, drive, .. } = self;
         let way = to - from;
@@ -164,33 +164,34 @@ impl<'a> Fit<'a> {
     }
 }
 
-/// A run ends with stitches that are too short: the one before them goes to its end instead.
+/// Handles short stitches at the end of a run: the stitch before them is moved to the end.
 fn end_run(steps: &mut Vec<Step>, short: &[Step], least: f64) {
     let Some(&end) = short.last() else { return };
-    // A seam that turns back there would leave the one before it too short, or lose a corner.
+    // At a reversal of the seam the moved stitch could become too short, or a corner could be lost.
     let before = steps.len().checked_sub(2).map_or(Point::origin(), |i| steps[i].to);
     let is_long = (end.to - before).norm() >= least;
     let is_near = short.iter().all(|step| (step.to - end.to).norm() <= least);
     match steps.last_mut() {
         Some(last) if last.op == Op::Stitch && !last.is_tie && is_long && is_near => last.to = end.to,
-        // There is none that could: the thread is held there.
+        // No stitch can be moved, so a short one holds the thread there.
         Some(_) | None => steps.push(Step { is_tie: true, ..end }),
     }
 }
 
-/// The speed that a stitch of a pitch would have if it fitted, stitches a minute.
+/// Speed of a stitch of a pitch without regard to the feed time, stitches per minute.
 fn wanted(pitch: f64, sewing: &Sewing) -> f64 {
     speed::on_grid(speed::user(pitch, sewing).min(sewing.max_rpm), sewing)
 }
 
-/// The longest pitch up to which all fit in every direction at the speed that they would have, mm; at least the least one.
+/// Longest pitch up to which all stitches, in every direction, fit at the speed wanted for them, mm; at least the minimum
+/// pitch.
 pub(super) fn longest(sewing: &Sewing) -> f64 {
     let drive = Drive::of(sewing);
     let most = (sewing.max_pitch_mm / drive.step + PITCH_EPSILON) as u32;
     let pitch = |pulses: u32| f64::from(pulses) * drive.step;
     let fits = |pulses: &u32| speed::fitting(*pulses, sewing, &drive) >= wanted(pitch(*pulses), sewing);
-    // A stitch that is not longer than so many steps has no more pulses wherever it begins. One that is shorter must fit,
-    // too, at the higher speed that the user's limits may let it have.
+    // A stitch that is not longer than n steps has at most n pulses, wherever it begins. Shorter ones must fit, too, at the
+    // higher speed that the user's limits may permit for them.
     (1..=most).take_while(fits).last().map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
 }
 
@@ -223,7 +224,7 @@ mod tests {
         assert_eq!(fitted(&[2.0, 0.05, 2.0], &sewing), (vec![2.0, 2.05], vec!["sew/short-stitch"]));
         assert_eq!(fitted(&[2.0, 0.05], &sewing), (vec![2.05], vec!["sew/short-stitch"]));
         assert_eq!(fitted(&[2.0, 0.06, 0.06, 2.0], &sewing).0, [2.0, 0.12, 2.0]);
-        // What lies between is never farther from a needle point than the least pitch.
+        // The points between are never farther from a needle point than the minimum pitch.
         assert_eq!(fitted(&[2.0, -0.09, 0.18], &sewing).0, [2.0, 0.09]);
     }
 
@@ -247,7 +248,7 @@ mod tests {
             Fit::new(sewing, "record").fit(&along(&[2.0, pitch]), &mut out);
             out.iter().map(|found| found.by.map(|by| (by * 1e6).round() / 1e6)).collect::<Vec<_>>()
         };
-        // Of 3 mm 2.5 fit at full speed.
+        // Of 3 mm, 2.5 fit at full speed.
         let reject = Sewing { on_long: OnLong::Reject, ..Sewing::default() };
         assert_eq!((by(&Sewing::default(), 13.0), by(&reject, 3.0)), (vec![Some(0.3)], vec![Some(0.5)]));
         assert_eq!(

@@ -1,14 +1,15 @@
 //! The pattern-sewing machine: patterns to stitches, feed pulses and stitch files.
 //!
-//! A small pipeline of the shape of the cutter's, the listing in its order:
+//! A small pipeline, similar to that of the cutter; the modules are listed in its order:
 //!
 //! ```text
 //! bytes -> read -> Pattern -> lay -> Stitches -> fit -> speed -> Program -> write -> bytes -> verify
 //! ```
 //!
-//! A *Pattern* is lines with what is made along them, *Stitches* are needle points and what lies between them, a *Program*
-//! has a speed for each run besides. A stitch file is stitches at once. Pulses are made while they are written (`train`),
-//! so that the length of a program does not matter. `verify` knows the forms, but nothing of who makes them.
+//! A *Pattern* is a list of lines with an element along each. *Stitches* are needle points and the events between them. A
+//! *Program* adds a speed for each run. A stitch file contains stitches directly. Pulses are computed while they are written
+//! (`train`), so that the length of a program does not matter. `verify` knows the file formats but is independent of the code
+//! that writes them.
 
 mod asked;
 mod estimate;
@@ -48,7 +49,7 @@ use crate::machine::{Job, Sewing};
 use crate::source::Source;
 use crate::units::number::fixed;
 
-/// Reads a source and plans how it is sewn. `None` when nothing can be sewn; faults of the data are diagnostics.
+/// Reads a source and plans its sewing. `None` if nothing can be sewn; faults of the data are diagnostics.
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
     let sewing = &job.profile.sewing;
     let Reading { format, record_word, input } = read::read(source, asked, job, out)?;
@@ -76,8 +77,8 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
     (!out.has_errors()).then_some(program)
 }
 
-/// The stitches of a pattern. Where long ones are to be split seams are laid closer at once: parts of a stitch would lie on
-/// its chord, beside a seam that curves.
+/// The stitches of a pattern. If long stitches are to be split, seams are laid with a shorter pitch instead: parts of a stitch
+/// would lie on its chord, beside a curved seam.
 fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     let stitches = lay::lay(pattern, sewing);
     let pitch = fit::longest(sewing);
@@ -103,19 +104,19 @@ fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     closer
 }
 
-/// A program with what it was made from.
+/// A program with its origin.
 #[derive(Debug, Clone, Copy)]
 pub struct Made<'a> {
     /// The program.
     pub program: &'a Program,
-    /// The file.
+    /// The file it was made from.
     pub source: &'a Source,
-    /// The machine.
+    /// The profile and choices of the machine.
     pub job: &'a Job,
 }
 
 impl Made<'_> {
-    /// Judges the bytes that were written of it.
+    /// Verifies bytes that were written for the program.
     pub fn judge(&self, bytes: Bytes, input: &mut dyn BufRead) -> io::Result<Verdict> {
         let Self { program, source, job } = *self;
         let original = match program.format {

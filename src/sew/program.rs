@@ -1,4 +1,4 @@
-//! A pattern that is ready to be written: needle points, and how fast each run is sewn.
+//! Programs: needle points and a speed for each run, ready to be written.
 
 use super::pattern::Pattern;
 use super::speed::{self, Run};
@@ -8,38 +8,38 @@ use crate::geom::Point;
 use crate::machine::{Job, Sewing};
 use crate::units::S_PER_MIN;
 
-/// A pattern that is ready to be written.
+/// Needle points and speeds, ready to be written.
 #[derive(Debug)]
 pub struct Program {
-    /// What it was read as.
+    /// Format or dialect of the source.
     pub format: &'static str,
-    /// What the records of such a file are called.
+    /// Word for the records of that format.
     pub record_word: &'static str,
-    /// What was to be sewn; `None` where the file had the stitches.
+    /// The pattern; `None` if the file contained stitches.
     pub pattern: Option<Pattern>,
-    /// What is sewn.
+    /// The stitches.
     pub stitches: Stitches,
-    /// How fast.
+    /// The runs with their speeds.
     pub runs: Vec<Run>,
 }
 
-/// An entry with all that the machine does for it.
+/// An entry with the motion of the machine.
 #[derive(Debug, Clone, Copy)]
 pub struct Move<'a> {
     /// The entry.
     pub step: &'a Step,
-    /// Its number, from 1.
+    /// Number of the entry, from 1.
     pub entry: u32,
-    /// Where the needle stands before it.
+    /// Needle position before it.
     pub from: Point,
-    /// Speed of the spindle, stitches a minute; 0 = it stands.
+    /// Speed of the spindle, stitches per minute; 0 if it stands.
     pub rpm: f64,
-    /// Pulses of X and Y, with their signs.
+    /// Pulses of X and Y, signed.
     pub pulses: [i64; 2],
 }
 
 impl Program {
-    /// Every entry, in order.
+    /// All entries, in order.
     pub fn moves<'a>(&'a self, job: &'a Job) -> impl Iterator<Item = Move<'a>> {
         let sewing = &job.profile.sewing;
         let drive = Drive::of(sewing);
@@ -55,12 +55,12 @@ impl Program {
 }
 
 impl Move<'_> {
-    /// Time in which X and Y may move, s; `None` with the needle up.
+    /// Time available for the motion of X and Y, s; `None` with the needle up.
     pub fn window(&self, sewing: &Sewing) -> Option<f64> {
         (self.rpm > 0.0).then(|| sewing.window() * S_PER_MIN / self.rpm)
     }
 
-    /// The pulses of X and of Y in time.
+    /// The timed pulses of X and of Y.
     pub fn trains(&self, sewing: &Sewing) -> [Train; 2] {
         let (drive, window) = (Drive::of(sewing), self.window(sewing));
         self.pulses.map(|pulses| drive.train(u32::try_from(pulses.unsigned_abs()).unwrap_or(u32::MAX), window))

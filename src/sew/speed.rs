@@ -1,7 +1,7 @@
-//! The speed of each run: the greatest constant one at which every stitch of it fits into its window.
+//! The speed of each run: the maximum constant speed at which every stitch fits into its window.
 //!
-//! It is the least of the user's, the machine's and 60 window / longest move, rounded down to the grid. A turn is a stitch, so that the spindle
-//! never changes its speed within a run but for the soft start.
+//! It is the minimum of the user's limit, the machine's limit and 60 window / longest move, rounded down to the grid. A turn is
+//! a stitch, so the spindle keeps its speed within a run, apart from the soft start.
 
 use std::ops::Range;
 
@@ -11,40 +11,41 @@ use crate::geom::Point;
 use crate::machine::Sewing;
 use crate::units::S_PER_MIN;
 
-/// How much below a multiple of the grid a speed still is that multiple, as a part of it: the times of pulses are rounded.
+/// Relative amount below a multiple of the grid within which a speed counts as that multiple, because times of pulses are
+/// rounded.
 const GRID_EPSILON: f64 = 1e-6;
 
-/// A run of stitches, and how fast it is sewn.
+/// A run of stitches and its speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// Its entries.
+    /// Range of its entries.
     pub steps: Range<usize>,
-    /// Stitches a minute behind the soft start.
+    /// Speed after the soft start, stitches per minute.
     pub rpm: f64,
-    /// What keeps it from being sewn faster.
+    /// Reason for the limit of its speed.
     pub limit: Limit,
-    /// How much longer it takes than at the speed that half of its stitches allow, s.
+    /// Additional time compared with the median speed of its stitches, s.
     pub cost: f64,
 }
 
-/// What limits the speed of a run.
+/// Limit of the speed of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Limit {
-    /// The spindle.
+    /// The maximum speed of the spindle.
     Machine,
     /// The user's limits by pitch, for the stitch of this entry.
     User(usize),
-    /// The time that the stitch of this entry takes.
+    /// The feed time of the stitch of this entry.
     Stitch(usize),
 }
 
-/// The speed that the spindle has during an entry of a run, stitches a minute: the first are sewn softly.
+/// Speed of the spindle during an entry of a run, stitches per minute; the first entries have the soft start.
 pub(super) fn rpm_at(run: &Run, step: usize, sewing: &Sewing) -> f64 {
     let soft = sewing.soft_start_rpm.filter(|_| step < run.steps.start + sewing.soft_start_stitches as usize);
     soft.map_or(run.rpm, |soft| soft.min(run.rpm).floor())
 }
 
-/// The greatest speed of a stitch alone, stitches a minute, and whether it is the user's limit.
+/// Maximum speed of a stitch alone, stitches per minute, and true if it is the user's limit.
 pub(super) fn alone([from, to]: [Point; 2], sewing: &Sewing, drive: &Drive) -> (f64, bool) {
     let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
     let fits = fitting(u32::try_from(most).unwrap_or(u32::MAX), sewing, drive);
@@ -52,7 +53,7 @@ pub(super) fn alone([from, to]: [Point; 2], sewing: &Sewing, drive: &Drive) -> (
     (fits.min(user), user < fits)
 }
 
-/// The greatest speed at which so many pulses of an axis fit into the window; infinite for none.
+/// Maximum speed at which a number of pulses of an axis fits into the window, stitches per minute; infinite for 0 pulses.
 pub(super) fn fitting(pulses: u32, sewing: &Sewing, drive: &Drive) -> f64 {
     match drive.least_time(pulses) {
         0.0 => f64::INFINITY,
@@ -60,27 +61,27 @@ pub(super) fn fitting(pulses: u32, sewing: &Sewing, drive: &Drive) -> f64 {
     }
 }
 
-/// The user's limit for a stitch of a pitch, mm; infinite where there is none.
+/// The user's limit for a stitch of a pitch, stitches per minute; infinite if there is none. `pitch` is in mm.
 pub(super) fn user(pitch: f64, sewing: &Sewing) -> f64 {
     let rows = sewing.speeds.iter().filter(|[from, _]| pitch >= from - PITCH_EPSILON);
     rows.map(|[_, rpm]| *rpm).fold(f64::INFINITY, f64::min)
 }
 
-/// Rounding of places, mm: a stitch of 2.5 mm is one wherever it lies.
+/// Rounding of positions, mm: a stitch has the same pitch wherever it lies.
 pub(super) const PITCH_EPSILON: f64 = 1e-6;
 
-/// Pulses of X and Y from one place to another.
+/// Pulses of X and Y between two points.
 pub(super) fn pulses(from: Point, to: Point, drive: &Drive) -> [i64; 2] {
     [drive.grid(to.x) - drive.grid(from.x), drive.grid(to.y) - drive.grid(from.y)]
 }
 
-/// The greatest speed of the grid up to a limit; 0 where that is below the first.
+/// Largest speed of the grid up to a limit; 0 if that is below the first.
 pub(super) fn on_grid(rpm: f64, sewing: &Sewing) -> f64 {
     let grid = f64::from(sewing.grid_rpm);
     (rpm / grid).floor() * grid
 }
 
-/// The speed of every run.
+/// The speeds of all runs.
 pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
     let drive = Drive::of(sewing);
     let mut speeds: Vec<f64> = Vec::new();
@@ -108,7 +109,7 @@ pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
     stitches.runs().into_iter().map(run).collect()
 }
 
-/// How long the stitches of a run take, s.
+/// Time of the stitches of a run, s.
 pub(super) fn duration(run: &Run, sewing: &Sewing) -> f64 {
     let soft = match sewing.soft_start_rpm {
         Some(_) => run.steps.len().min(sewing.soft_start_stitches as usize),
@@ -119,13 +120,13 @@ pub(super) fn duration(run: &Run, sewing: &Sewing) -> f64 {
     soft as f64 * S_PER_MIN / soft_rpm + rest * S_PER_MIN / run.rpm
 }
 
-/// How long a move with the needle up takes, s.
+/// Time of a move with the needle up, s.
 pub(super) fn jump_time(from: Point, to: Point, drive: &Drive) -> f64 {
     let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
     drive.train(u32::try_from(most).unwrap_or(u32::MAX), None).time()
 }
 
-/// The speed that the spindle has during each entry, in order; 0 where it stands.
+/// Speed of the spindle during each entry, in order, stitches per minute; 0 if it stands.
 pub(super) fn speeds<'a>(
     stitches: &'a Stitches,
     runs: &'a [Run],
@@ -179,7 +180,7 @@ mod tests {
         let mut pitches = [2.5; 201];
         pitches[100] = 6.0;
         let run = &runs(&along(&pitches), &sewing)[0];
-        // 2116.95 stitches a minute, and the grid is whole ones.
+        // 2116.95 stitches per minute; the grid has whole ones.
         assert_eq!((run.rpm, run.limit), (2116.0, Limit::Stitch(100)));
         assert!((duration(run, &sewing) - 5.70).abs() < 0.005);
         assert!((run.cost - (5.697 - 3.769)).abs() < 0.005, "{}", run.cost);

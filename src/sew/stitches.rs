@@ -1,24 +1,24 @@
-//! What the machine does, untimed: needle points in order, and what lies between them.
+//! Untimed actions of the machine: needle points in order, and the events between them.
 
 use crate::geom::Point;
 
-/// What an entry asks of the machine.
+/// Action of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Op {
-    /// The cloth is moved, then the needle pierces it: one turn of the spindle.
+    /// The cloth moves, then the needle pierces it: one turn of the spindle.
     Stitch,
-    /// The cloth is moved with the needle up.
+    /// The cloth moves with the needle up.
     Jump,
     /// The thread is cut.
     Trim,
     /// The machine waits for its operator.
     Stop,
-    /// Another thread is taken, by its number.
+    /// The thread is changed, to the one with this number.
     Color(u16),
 }
 
 impl Op {
-    /// Whether a run of stitches ends here.
+    /// True if the action ends a run of stitches.
     pub fn ends_run(self) -> bool {
         match self {
             Self::Stitch => false,
@@ -27,20 +27,20 @@ impl Op {
     }
 }
 
-/// An entry of a pattern as it is sewn.
+/// An entry of the sewing sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// What is asked for.
+    /// Action of the entry.
     pub op: Op,
-    /// Where the needle stands behind it, mm; the first entry starts from the origin.
+    /// Needle position after it, mm; the first entry starts from the origin.
     pub to: Point,
-    /// Whether it locks the thread: such a stitch may be short, or have no length.
+    /// True if it locks the thread: such a stitch may be short or have no length.
     pub is_tie: bool,
-    /// The block, row or record of the file that it is made for, from 1; 0 = none.
+    /// Block, row or record of the file that it comes from, from 1; 0 if there is none.
     pub record: u32,
 }
 
-/// A pattern as it is sewn.
+/// The sewing sequence of a pattern.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stitches {
     /// All entries, in order.
@@ -48,18 +48,18 @@ pub struct Stitches {
 }
 
 impl Stitches {
-    /// Each entry with where the needle stands before it.
+    /// Each entry with the needle position before it.
     pub fn moves(&self) -> impl Iterator<Item = (Point, &Step)> {
         let before = std::iter::once(Point::origin()).chain(self.steps.iter().map(|step| step.to));
         before.zip(&self.steps)
     }
 
-    /// How many stitches there are.
+    /// Number of stitches.
     pub fn count(&self) -> usize {
         self.steps.iter().filter(|step| step.op == Op::Stitch).count()
     }
 
-    /// Where each run of stitches begins and ends among the entries.
+    /// Range of entries of each run of stitches.
     pub fn runs(&self) -> Vec<std::ops::Range<usize>> {
         let mut runs = Vec::new();
         let mut first = None;

@@ -1,5 +1,5 @@
-//! What is said of the speeds of a program: runs that a stitch slows down, those that no speed suits, patterns that are slow
-//! as a whole, speeds of a queue that are not kept.
+//! Messages on the speeds of a program: runs slowed down by a stitch, runs without a possible speed, patterns that are slow as
+//! a whole, and changed speeds of a queue.
 
 use super::program::Program;
 use super::read::Speed;
@@ -10,19 +10,19 @@ use crate::geom::Point;
 use crate::machine::Sewing;
 use crate::units::number::{exact, fixed};
 
-/// A run is told of that takes this much longer than at the speed that half of its stitches allow, as a part of it.
+/// Relative additional time of a run, compared with the median speed of its stitches, above which it is reported.
 const TOLD_COST: f64 = 0.1;
-/// A pattern is told of whose fastest run has less than this of the greatest speed of the spindle.
+/// Fraction of the maximum spindle speed; a pattern whose fastest run is below it is reported.
 const TOLD_SPEED: f64 = 0.25;
 
-/// Says what there is to say.
+/// Reports all findings on speeds.
 pub(super) fn tell(program: &Program, speeds: &[Speed], sewing: &Sewing, out: &mut Diagnostics) {
     slowed(program, sewing, out);
     slow(program, sewing, out);
     others(program, speeds, sewing, out);
 }
 
-/// Tells of runs that a stitch slows down, the costliest first, and of those that no speed suits.
+/// Reports runs that a stitch slows down, the most costly first, and runs without a possible speed.
 fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
     let Program { stitches, runs, record_word, .. } = program;
     let mut costly: Vec<(usize, &Run)> = Vec::new();
@@ -58,7 +58,7 @@ fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
     }
 }
 
-/// Tells of a pattern of which no run is anywhere near the speed of the spindle.
+/// Reports a pattern in which no run comes near the spindle speed.
 fn slow(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
     let Some(fastest) = program.runs.iter().max_by(|a, b| a.rpm.total_cmp(&b.rpm)) else { return };
     let is_slow = fastest.rpm > 0.0 && fastest.rpm < TOLD_SPEED * sewing.max_rpm;
@@ -77,7 +77,7 @@ fn slow(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
     out.push(Diagnostic::new(&code::SEW_SLOW, message).hint(hint));
 }
 
-/// Tells of speeds of a queue that are others now.
+/// Reports speeds of a queue that are not kept.
 fn others(program: &Program, speeds: &[Speed], sewing: &Sewing, out: &mut Diagnostics) {
     let Program { stitches, runs, record_word, .. } = program;
     let mut next = speeds.iter().peekable();

@@ -1,42 +1,42 @@
-//! The pulses of one axis for one stitch: closed forms of a move with a ramp up, a cruise and a ramp down.
+//! The pulses of one axis for one stitch: closed forms of a move with an acceleration ramp, a cruise and a deceleration ramp.
 //!
-//! The rate starts at the start rate v0 and may not pass the cap; between lies the acceleration a. Pulse j stands at the
-//! time at which the profile reaches j steps, the last at the end of the move (patent CN101519831A; the equations are those
-//! of the manual page `sewing`).
+//! The rate starts at the start rate v0 and stays within the cap, with the acceleration a between. Pulse j occurs when the
+//! profile reaches j steps, the last one at the end of the move (patent CN101519831A; the equations are those of the manual
+//! page `sewing`).
 
 use crate::machine::Sewing;
 use crate::machine::sewing::Ramp;
 
-/// What the motors of X and Y can do, and how it is used.
+/// Capabilities of the X and Y motors, and the ramp mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
-    /// Way for a pulse, mm.
+    /// Length of a step, mm.
     pub step: f64,
-    /// Speed at which a move starts and ends, mm/s.
+    /// Speed at the start and end of a move, mm/s.
     pub start: f64,
-    /// The greatest acceleration, mm/s2.
+    /// Maximum acceleration, mm/s2.
     pub acceleration: f64,
-    /// The greatest speed, mm/s.
+    /// Maximum speed, mm/s.
     pub cap: f64,
-    /// How much of the window is used.
+    /// Ramp mode: use of the window.
     pub ramp: Ramp,
 }
 
 /// The pulses of one axis for one move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Train {
-    /// How many there are.
+    /// Number of pulses.
     pulses: u32,
     step: f64,
     start: f64,
     acceleration: f64,
-    /// Way of the ramp up, and of the ramp down, mm.
+    /// Length of each ramp, mm.
     ramp_way: f64,
-    /// Time of each of the two, s.
+    /// Time of each ramp, s.
     ramp_time: f64,
-    /// Speed between them, mm/s.
+    /// Speed between the ramps, mm/s.
     cruise: f64,
-    /// From the start to the last pulse, s.
+    /// Time from the start to the last pulse, s.
     time: f64,
 }
 
@@ -52,30 +52,30 @@ impl Drive {
         }
     }
 
-    /// The whole step at which the needle is nearest to a coordinate in mm. Steps of a move are the difference of two such:
-    /// so the error stays below half a step for ever.
+    /// The grid step nearest to a coordinate in mm. The steps of a move are the difference of two such values, so the error
+    /// never exceeds half a step.
     pub fn grid(&self, coordinate: f64) -> i64 {
         (coordinate / self.step).round() as i64
     }
 
-    /// The least time of so many pulses, s.
+    /// Minimum time of a number of pulses, s.
     pub fn least_time(&self, pulses: u32) -> f64 {
         self.fastest(pulses).time
     }
 
-    /// The pulses of a move, as the ramp mode has it: of a stitch within its window, s; `None` = as fast as the drive can,
+    /// The pulses of a move in the ramp mode. `window` is the time available to a stitch, s; `None` means as fast as possible,
     /// as with the needle up.
     pub fn train(&self, pulses: u32, window: Option<f64>) -> Train {
         let fastest = self.fastest(pulses);
         match (self.ramp, window) {
             (Ramp::Fill, Some(window)) => self.filling(pulses, window),
-            // The grid of speeds forgives a millionth of a window; the needle does not.
+            // The grid of speeds tolerates an excess of a millionth of a window; the needle does not.
             (Ramp::Fastest, Some(window)) if fastest.time > window => self.filling(pulses, window),
             (Ramp::Fastest, Some(_)) | (Ramp::Fill | Ramp::Fastest, None) => fastest,
         }
     }
 
-    /// With the acceleration as given.
+    /// The fastest move, with the full acceleration.
     fn fastest(&self, pulses: u32) -> Train {
         let Self { step, start, acceleration, cap, .. } = *self;
         let way = f64::from(pulses) * step;
@@ -91,7 +91,7 @@ impl Drive {
         Train { pulses, step, start, acceleration, ramp_way, ramp_time, cruise: cap, time }
     }
 
-    /// The gentlest that just fills a window.
+    /// The move with the minimum acceleration that exactly fills a window.
     fn filling(&self, pulses: u32, window: f64) -> Train {
         let Self { step, start, cap, .. } = *self;
         let way = f64::from(pulses) * step;
@@ -114,9 +114,9 @@ impl Drive {
             let (ramp_way, ramp_time) = (way / 2.0, window / 2.0);
             return Train { pulses, step, start, acceleration, ramp_way, ramp_time, cruise: peak, time: window };
         }
-        // The ramps that leave the cap for as long as it takes: way = cap window - (cap - start) ramp_time.
+        // Ramps that reach the cap: way = cap window - (cap - start) ramp_time.
         let ramp_time = (cap * window - way) / (cap - start);
-        // A start rate that is the greatest leaves no ramp.
+        // If the start rate equals the cap, there is no ramp.
         if ramp_time.is_nan() || ramp_time <= 0.0 {
             return even;
         }
@@ -127,17 +127,17 @@ impl Drive {
 }
 
 impl Train {
-    /// How many pulses there are.
+    /// Number of pulses.
     pub fn pulses(&self) -> u32 {
         self.pulses
     }
 
-    /// From the start to the last pulse, s; nothing without pulses.
+    /// Time from the start to the last pulse, s; 0 without pulses.
     pub fn time(&self) -> f64 {
         if self.pulses == 0 { 0.0 } else { self.time }
     }
 
-    /// The time of a pulse, the first being 1, s from the start.
+    /// Time of a pulse, counted from 1, s from the start.
     pub fn at(&self, pulse: u32) -> f64 {
         let way = f64::from(self.pulses) * self.step;
         let at = f64::from(pulse) * self.step;
@@ -152,12 +152,12 @@ impl Train {
         }
     }
 
-    /// The time of a way from the start speed on: (sqrt(v0^2 + 2 a d) - v0)/a, in a form that holds for a = 0 too.
+    /// Time to cover a distance from the start speed: (sqrt(v0^2 + 2 a d) - v0)/a, in a form that is also valid for a = 0.
     fn ramp(&self, way: f64) -> f64 {
         2.0 * way / (self.start + (self.start * self.start + 2.0 * self.acceleration * way).sqrt())
     }
 
-    /// The time of each pulse, s from the start.
+    /// Times of all pulses, s from the start.
     pub fn times(&self) -> impl Iterator<Item = f64> + use<> {
         let train = *self;
         (1..=self.pulses).map(move |pulse| train.at(pulse))
@@ -210,7 +210,7 @@ mod tests {
                     let times: Vec<f64> = train.times().collect();
                     assert!(times.is_sorted() && times[0] > 0.0, "{pulses} {slack}: {times:?}");
                     assert!(times[times.len() - 1] <= least * slack * (1.0 + 1e-12));
-                    // At the joints of ramp and cruise a pulse may stand on either side.
+                    // At the joints of ramp and cruise a pulse may fall on either side.
                     let fastest = times.windows(2).map(|pair| sewing.step_mm / (pair[1] - pair[0])).fold(0.0, f64::max);
                     assert!(fastest <= drive.cap * (1.0 + 1e-6), "{pulses} {slack}: {fastest}");
                 }

@@ -1,4 +1,4 @@
-//! What is made along a line: needle points of straight seams, zigzags, bar tacks and boxes.
+//! Elements along a line: needle points of straight seams, zigzags, bar tacks and boxes.
 
 use super::pitch::even;
 use crate::geom::{Point, Vector, left};
@@ -21,13 +21,12 @@ pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {
             points.extend(zigzag(&even(&back, sewing.tack_pitch_mm, sewing.corner_deg), sewing.tack_width_mm));
             points
         }
-        // Its corners are corners however flat it is.
+        // The corners of a box count as corners at any angle.
         Element::BoxX => even(&box_x(&seam.points), sewing.pitch_mm, 0.0),
     }
 }
 
-/// The line along which the thread of a seam runs: straight seams and boxes follow their lines, others go from needle point to
-/// needle point.
+/// The line of the thread of a seam: straight seams and boxes follow their lines, others run from needle point to needle point.
 pub(super) fn line(seam: &Seam, points: &[Point]) -> Vec<Point> {
     match seam.element {
         Element::Straight => distinct(&seam.points),
@@ -36,14 +35,15 @@ pub(super) fn line(seam: &Seam, points: &[Point]) -> Vec<Point> {
     }
 }
 
-/// Needle points on both sides of a line in turn, half a width from each of its points; at a vertex on its bisector.
+/// Needle points alternating between both sides of a line, at half a width from each of its points; at a vertex on the
+/// bisector.
 fn zigzag(middle: &[Point], width: f64) -> Vec<Point> {
     let along = |a: Point, b: Point| (b - a).try_normalize(0.0).unwrap_or_else(Vector::zeros);
     let point = |i: usize| {
         let here = middle[i];
         let before = if i > 0 { along(middle[i - 1], here) } else { Vector::zeros() };
         let behind = if i + 1 < middle.len() { along(here, middle[i + 1]) } else { Vector::zeros() };
-        // Where the line turns back the side is that of the way before.
+        // At a reversal of the line the side is that of the direction before it.
         let direction = (before + behind).try_normalize(f64::EPSILON).unwrap_or(before);
         let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         here + left(direction) * (side * width / 2.0)
@@ -51,7 +51,7 @@ fn zigzag(middle: &[Point], width: f64) -> Vec<Point> {
     (0..middle.len()).map(point).collect()
 }
 
-/// The way around a box and along its diagonals without a cut of the thread: around, across, along an edge once more, across.
+/// Path around a box and along its diagonals without a thread cut: around, across, along one edge again, across.
 fn box_x(points: &[Point]) -> Vec<Point> {
     match distinct(points)[..] {
         [a, b, c, d, ..] => vec![a, b, c, d, a, c, d, b],

@@ -4,8 +4,8 @@ use crate::geom::{Point, polyline};
 use crate::machine::Sewing;
 use crate::machine::sewing::Ends;
 
-/// The needle points of a seam behind its first one, with its ends locked: each place, and whether it belongs to a lock.
-/// Ties lie on `line`, along which the thread runs.
+/// The needle points of a seam after the first one, with its ends locked. The flag is true for points of a lock. Ties lie on
+/// `line`, the line of the thread.
 pub(super) fn locked(points: &[Point], line: &[Point], ends: Ends, sewing: &Sewing) -> Vec<(Point, bool)> {
     let plain = |points: &[Point]| points.iter().map(|&point| (point, false)).collect::<Vec<_>>();
     let [first, rest @ ..] = points else { return Vec::new() };
@@ -17,7 +17,7 @@ pub(super) fn locked(points: &[Point], line: &[Point], ends: Ends, sewing: &Sewi
         Ends::Tie => tied((*first, rest), line, sewing),
         Ends::BackTack => {
             let count = (sewing.back_tack_stitches as usize).min(rest.len());
-            // There, back, and on; at the end on, back, and there again.
+            // At the start: forwards, back, and on; at the end: on, back, and forwards again.
             let mut out = plain(&points[1..=count]);
             out.extend(points[..count].iter().rev().map(|&point| (point, true)));
             out.extend(plain(rest));
@@ -29,7 +29,7 @@ pub(super) fn locked(points: &[Point], line: &[Point], ends: Ends, sewing: &Sewi
     }
 }
 
-/// A seam with short stitches back and forth along the path at its ends; its needle points stay where they are.
+/// A seam with short stitches back and forth along the line at its ends; its own needle points stay.
 fn tied((first, rest): (Point, &[Point]), line: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
     let last = rest[rest.len() - 1];
     let before = if rest.len() > 1 { rest[rest.len() - 2] } else { first };
@@ -40,14 +40,14 @@ fn tied((first, rest): (Point, &[Point]), line: &[Point], sewing: &Sewing) -> Ve
     let mut out: Vec<(Point, bool)> =
         (0..stitches).map(|i| (if i.is_multiple_of(2) { head } else { first }, true)).collect();
     out.extend(rest[..rest.len() - 1].iter().map(|&point| (point, false)));
-    // The mirror image of the beginning: it ends where the seam does.
+    // The mirror image of the start; it ends at the end of the seam.
     out.extend((1..=stitches).rev().map(|i| (if i.is_multiple_of(2) { last } else { tail }, i != stitches)));
     out.push((last, true));
     out
 }
 
-/// The place of a tie along a line from its beginning, where the next needle point is a pitch away: half way where that is
-/// near.
+/// Point of a tie along a line from its start; at most half way to the next needle point if that is near. `pitch` is the
+/// distance of that point, mm.
 fn on_line(line: &[Point], pitch: f64, sewing: &Sewing) -> Point {
     let room = (pitch - sewing.min_pitch_mm).max(pitch / 2.0);
     polyline::place(line, &polyline::stations(line), sewing.tie_mm.min(room))

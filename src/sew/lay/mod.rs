@@ -1,7 +1,7 @@
-//! Laying stitches: a pattern's lines become needle points, locked at their ends, in the order in which they are sewn.
+//! Laying stitches: the lines of a pattern become needle points, locked at their ends, in sewing order.
 //!
-//! Receives seams in mm, promises a needle point on every corner and an even pitch between, no longer than asked. Never
-//! looks at speeds.
+//! Receives seams in mm. Promises a needle point on every corner and an even pitch between corners, at most the one of the
+//! profile. Ignores speeds.
 
 mod element;
 mod ends;
@@ -23,13 +23,13 @@ pub(super) fn lay(pattern: &Pattern, sewing: &Sewing) -> Stitches {
     Stitches { steps: work.steps }
 }
 
-/// What was laid so far, and where the needle stands.
+/// Stitches laid so far, and state of the needle.
 struct Work<'a> {
     sewing: &'a Sewing,
     steps: Vec<Step>,
     at: Point,
     thread: u16,
-    /// Whether anything was sewn since the thread was cut.
+    /// True if anything was sewn since the last thread cut.
     is_sewn: bool,
 }
 
@@ -39,7 +39,7 @@ impl Work<'_> {
         self.at = to;
     }
 
-    /// Cuts the thread, if it is to be cut and there is one.
+    /// Cuts the thread, if trims are enabled and there is a thread to cut.
     fn trim(&mut self, record: u32) {
         if std::mem::take(&mut self.is_sewn) && self.sewing.trim {
             self.push(Op::Trim, self.at, (false, record));
@@ -63,7 +63,7 @@ impl Work<'_> {
             self.push(Op::Jump, start, (false, record));
         }
         if self.steps.last().is_none_or(|step| step.op.ends_run()) {
-            // The needle goes down where it stands: the first needle point of the seam.
+            // The needle goes down without motion: the first needle point of the seam.
             self.push(Op::Stitch, start, (true, record));
         }
         let ends = seam.ends.unwrap_or(self.sewing.ends);

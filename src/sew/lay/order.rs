@@ -1,21 +1,21 @@
-//! The order of seams: the file's, or that of a short way with the needle up.
+//! Order of the seams: that of the file, or one with little travel.
 //!
-//! Threads keep their order, a stop stays before its seam, and no seam is turned round: upper thread and lower thread make
-//! different sides of a stitch, which differ by the direction in which it is sewn.
+//! Threads keep their order, a stop stays before its seam, and no seam is reversed: upper and lower thread form different sides
+//! of a stitch, which depend on the sewing direction.
 
 use crate::geom::Point;
 use crate::machine::Sewing;
 use crate::machine::sewing::SeamOrder;
 use crate::sew::pattern::{Pattern, Seam};
 
-/// Up to so many seams an order is bettered beyond going to the nearest: each round takes their square.
+/// Maximum number of seams for which the nearest-neighbour order is improved; each round takes quadratic time.
 const BETTERED: usize = 2000;
-/// Rounds of that at the most; the gain of later ones is small.
+/// Maximum number of improvement rounds; later ones gain little.
 const ROUNDS: usize = 40;
-/// Least gain of a change, mm: rounding must not lead it round in circles.
+/// Minimum gain of a change, mm, so that rounding cannot cause a cycle.
 const GAIN_EPSILON: f64 = 1e-6;
 
-/// The seams as they are sewn.
+/// The seams in sewing order.
 pub(super) fn order<'p>(pattern: &'p Pattern, sewing: &Sewing) -> Vec<&'p Seam> {
     let seams: Vec<&Seam> = pattern.seams.iter().filter(|seam| !seam.points.is_empty()).collect();
     match sewing.order {
@@ -24,7 +24,7 @@ pub(super) fn order<'p>(pattern: &'p Pattern, sewing: &Sewing) -> Vec<&'p Seam> 
             let mut at = Point::origin();
             let mut out = Vec::with_capacity(seams.len());
             for group in seams.chunk_by(|a, b| a.thread == b.thread && !b.stop) {
-                // A stop belongs before the first of its group.
+                // A stop belongs before the first seam of its group.
                 let (fixed, free) = group.split_at(usize::from(group[0].stop));
                 out.extend_from_slice(fixed);
                 at = fixed.first().map_or(at, |seam| end(seam));
@@ -45,7 +45,7 @@ fn way(from: Point, to: Point) -> f64 {
     (to - from).norm()
 }
 
-/// From the nearest to the nearest, then each seam to where it costs least.
+/// Nearest-neighbour order, then each seam is moved to its cheapest position.
 fn shortest<'p>(seams: &[&'p Seam], start: Point) -> Vec<&'p Seam> {
     let mut left = seams.to_vec();
     let mut out = Vec::with_capacity(left.len());
@@ -53,7 +53,7 @@ fn shortest<'p>(seams: &[&'p Seam], start: Point) -> Vec<&'p Seam> {
     while !left.is_empty() {
         let distance = |i: &usize| way(at, left[*i].points[0]);
         let nearest = (0..left.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("some are left");
-        // The others stay in their order, so that of equals the first is taken.
+        // `remove` keeps the order of the others, so the first of equally near seams is taken.
         let seam = left.remove(nearest);
         at = end(seam);
         out.push(seam);
@@ -68,7 +68,7 @@ fn shortest<'p>(seams: &[&'p Seam], start: Point) -> Vec<&'p Seam> {
     out
 }
 
-/// Puts each seam where it costs least; whether any was moved.
+/// Moves each seam to its cheapest position; true if any was moved.
 fn better(seams: &mut Vec<&Seam>, start: Point) -> bool {
     let mut is_moved = false;
     for from in 0..seams.len() {

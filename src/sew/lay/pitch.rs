@@ -1,15 +1,15 @@
-//! Needle points along a line: one on each corner, the rest evenly between.
+//! Needle points along a line: one on each corner, the others evenly between.
 
 use crate::geom::{Point, polyline};
 use crate::sew::pattern::distinct;
 use crate::units::rad;
 
-/// How much longer than the pitch a stitch may become for the sake of one stitch less, as a part of it: lengths of lines
-/// carry the rounding of their sums.
+/// Relative amount by which a stitch may exceed the pitch to save a stitch: lengths of lines carry rounding errors of their
+/// sums.
 const PITCH_EPSILON: f64 = 1e-9;
 
-/// Needle points along a line, its ends included: on every vertex where it turns by `corner_deg` or more, and between two of
-/// these evenly, at most `pitch` apart along the line.
+/// Needle points along a line, including its ends: one on every vertex that turns by `corner_deg` or more, and evenly between
+/// these, at most `pitch` apart along the line.
 pub(super) fn even(points: &[Point], pitch: f64, corner_deg: f64) -> Vec<Point> {
     let points = distinct(points);
     let Some(&first) = points.first() else { return Vec::new() };
@@ -25,7 +25,7 @@ pub(super) fn even(points: &[Point], pitch: f64, corner_deg: f64) -> Vec<Point> 
     out
 }
 
-/// Adds the needle points of a stretch behind its first point.
+/// Adds the needle points of a stretch after its first point.
 fn between(points: &[Point], pitch: f64, out: &mut Vec<Point>) {
     let stations = polyline::stations(points);
     let length = stations[stations.len() - 1];
@@ -34,7 +34,7 @@ fn between(points: &[Point], pitch: f64, out: &mut Vec<Point>) {
     for i in 1..count {
         out.push(polyline::place(points, &stations, length * i as f64 / count as f64));
     }
-    // Exactly, without what the sum of lengths has lost.
+    // The exact end point, without the rounding of summed lengths.
     out.push(points[points.len() - 1]);
 }
 

@@ -1,7 +1,7 @@
 //! Tajima DST: a header of 512 bytes, then records of three bytes.
 //!
-//! A coordinate is a sum of 81, 27, 9, 3 and 1 with signs, in tenths of a millimetre; three jumps in a row or more stand for
-//! a trim.
+//! A coordinate is a signed sum of 81, 27, 9, 3 and 1, in tenths of a millimetre. Three or more consecutive jumps stand for a
+//! trim.
 
 use super::format::{Format, Input};
 use super::moves::{Moves, span};
@@ -20,26 +20,26 @@ pub(super) const FORMAT: Format = Format {
 
 const HEADER_BYTES: usize = 512;
 const RECORD_BYTES: usize = 3;
-/// Bits of the last byte that end a pattern, whatever the other bytes say: 81 up and 81 down at once, which no move has.
+/// Bits of the last byte that end a pattern, whatever the other bytes are: 81 up and 81 down at once, which no move has.
 const END: u8 = 0xF3;
-/// What erased memory holds: no program writes it.
+/// Content of erased memory, which no program writes.
 const ERASED: [u8; RECORD_BYTES] = [0xFF; RECORD_BYTES];
-/// Bits of the last byte that say what a record is, and those of one that places a sequin.
+/// Bits of the last byte with the kind of the record, and their value for a sequin.
 const KIND: u8 = 0xC3;
 const SEQUIN: u8 = 0x43;
-/// What fills the last block of a file on many disks.
+/// Bytes that fill the last block of a file on many disks.
 const FILLING: [u8; 5] = [0x00, 0x1A, b' ', b'\r', b'\n'];
-/// Jumps in a row that stand for a trim.
+/// Number of consecutive jumps that stand for a trim.
 const TRIM_JUMPS: u32 = 3;
 
-/// Weights of the bits of the three bytes: x, then y, 0 where a bit says something else.
+/// Weights of the bits of the three bytes: x, then y; 0 for bits with another meaning.
 const BITS: [[(i64, i64); 8]; 3] = [
     [(1, 0), (-1, 0), (9, 0), (-9, 0), (0, -9), (0, 9), (0, -1), (0, 1)],
     [(3, 0), (-3, 0), (27, 0), (-27, 0), (0, -27), (0, 27), (0, -3), (0, 3)],
     [(0, 0), (0, 0), (81, 0), (-81, 0), (0, -81), (0, 81), (0, 0), (0, 0)],
 ];
 
-/// How far a record moves, tenths of a millimetre.
+/// Displacement by a record, tenths of a millimetre.
 fn way(record: [u8; RECORD_BYTES]) -> [i64; 2] {
     let mut way = [0; 2];
     for (byte, weights) in record.into_iter().zip(BITS) {
@@ -52,14 +52,14 @@ fn way(record: [u8; RECORD_BYTES]) -> [i64; 2] {
     way
 }
 
-/// What the records of a file amount to, to hold its header against.
+/// Totals of the records, for comparison with the header.
 #[derive(Debug, Default)]
 struct Count {
     stitches: u32,
     records: u32,
     colors: u32,
     at: [i64; 2],
-    /// Greatest reach to +X, -X, +Y, -Y: of all records, and of stitches alone.
+    /// Maximum reach to +X, -X, +Y, -Y: of all records, and of stitches alone.
     reach: [i64; 4],
     sewn: [i64; 4],
 }
@@ -116,7 +116,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
     Input::Stitches(moves.finish(out), Vec::new())
 }
 
-/// Warns of what stands behind the end of the records.
+/// Warns of bytes after the end of the records.
 fn check_rest(body: &[u8], end: usize, out: &mut Diagnostics) {
     let rest = &body[end..];
     if rest.iter().any(|byte| !FILLING.contains(byte)) {
@@ -145,7 +145,7 @@ impl Count {
         extend(&mut self.reach, self.at);
     }
 
-    /// The record that was added is a stitch.
+    /// Counts the last added record as a stitch.
     fn stitch(&mut self) {
         self.stitches += 1;
         extend(&mut self.sewn, self.at);
@@ -158,7 +158,7 @@ fn extend(reach: &mut [i64; 4], [x, y]: [i64; 2]) {
     }
 }
 
-/// The number that a field of the header holds.
+/// The number in a field of the header.
 fn field(header: &[u8], name: &[u8]) -> Option<i64> {
     let at = memchr::memmem::find(header, name)? + name.len();
     let rest = &header[at..];
@@ -166,10 +166,10 @@ fn field(header: &[u8], name: &[u8]) -> Option<i64> {
     text.replace(' ', "").parse().ok()
 }
 
-/// Warns where the header says something else than the records do.
+/// Warns if the header contradicts the records.
 fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
     let mut wrong = Vec::new();
-    // Some systems have Y count downwards in the header, and some count the reach of stitches, not of jumps.
+    // In some systems Y points down in the header, and some count the reach of stitches without jumps.
     let ([right, left, up, down], sewn) = (count.reach, count.sewn);
     let sides: [(&[u8], [i64; 4]); 4] = [
         (b"+X:", [right, right, sewn[0], sewn[0]]),
@@ -182,13 +182,13 @@ fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
             wrong.push(format!("{} {told} instead of {}", String::from_utf8_lossy(name), reach[0]));
         }
     }
-    // Some systems count stitches, others all records, with the end or without.
+    // Some systems count stitches, others all records, with or without the end.
     if let Some(told) =
         field(header, b"ST:").filter(|told| !(i64::from(count.stitches)..=i64::from(count.records) + 1).contains(told))
     {
         wrong.push(format!("ST: {told} instead of {}", count.records));
     }
-    // Changes, or threads.
+    // The field counts changes of thread, or threads.
     let colors = i64::from(count.colors);
     if let Some(told) = field(header, b"CO:").filter(|told| !(colors..=colors + 1).contains(told)) {
         wrong.push(format!("CO: {told} instead of {colors}"));

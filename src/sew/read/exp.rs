@@ -1,4 +1,4 @@
-//! Melco EXP: pairs of signed bytes, tenths of a millimetre; 0x80 begins a command: 01 colour, 04 jump, 80 trim.
+//! Melco EXP: pairs of signed bytes, tenths of a millimetre; 0x80 begins a command: 01 colour, 02 stitch, 04 jump, 80 trim.
 
 use super::format::{Format, Input};
 use super::moves::{Moves, span};
@@ -16,7 +16,7 @@ pub(super) const FORMAT: Format = Format {
 
 const ESCAPE: u8 = 0x80;
 const COLOR: u8 = 0x01;
-/// A stitch behind an escape, as some systems write it.
+/// A stitch after an escape, as some systems write it.
 const STITCH: u8 = 0x02;
 const JUMP: u8 = 0x04;
 const TRIM: u8 = 0x80;
@@ -40,7 +40,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         match (is_command, words[1]) {
             (false, _) | (true, STITCH) => moves.stitch(way, record, out),
             (true, JUMP) => moves.jump(way, record),
-            // What follows it is filling.
+            // The bytes after a trim are filling.
             (true, TRIM) => moves.trim(record, out),
             (true, COLOR) => {
                 moves.color(record, out);

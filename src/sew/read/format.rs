@@ -1,44 +1,44 @@
-//! What a format of sewing machines is.
+//! Definition of a format of sewing machines.
 
 use crate::diagnostic::Diagnostics;
 use crate::sew::pattern::Pattern;
 use crate::sew::stitches::Stitches;
 use crate::source::Source;
 
-/// A format of sewing machines: a row of [`FORMATS`](super::FORMATS).
+/// A format of sewing machines: an entry of [`FORMATS`](super::FORMATS).
 #[derive(Debug)]
 pub struct Format {
-    /// Name, as `--from` takes it.
+    /// Name, used by `--from`.
     pub name: &'static str,
-    /// What it is, in a line.
+    /// One-line description.
     pub about: &'static str,
-    /// What names of such files end in, without the dot.
+    /// Extensions of its file names, without the dot.
     pub extensions: &'static [&'static str],
-    /// What its records are called, as in "record 3".
+    /// Word for its records, as in "record 3".
     pub record_word: &'static str,
-    /// Whether a file is one, by its bytes and the extension of its name.
+    /// Recognises a file by its bytes and the extension of its name.
     pub is_it: fn(&[u8], &str) -> bool,
-    /// Reads it.
+    /// Reads a file.
     pub read: fn(&Source, &mut Diagnostics) -> Input,
 }
 
-/// What a file says.
+/// Content of a file.
 #[derive(Debug)]
 pub enum Input {
     /// Lines to be sewn.
     Pattern(Pattern),
-    /// Needle points, with the speeds that the file asks for.
+    /// Needle points, with the speeds stated in the file.
     Stitches(Stitches, Vec<Speed>),
 }
 
-/// A speed that a file asks for, from a record on.
+/// A speed stated in a file, valid from a record on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Speed {
-    /// The record, from 1.
+    /// Number of the record, from 1.
     pub record: u32,
-    /// Stitches a minute.
+    /// Stitches per minute.
     pub rpm: f64,
 }
 
-/// The largest coordinate or increment of a text, mm: no machine is as large.
+/// Maximum coordinate or increment in a text, mm: no machine is larger.
 pub(super) const FARTHEST: f64 = 1e4;

@@ -1,29 +1,29 @@
-//! A closed contour some way inside, or around a cut-out: where the seam goes.
+//! Inset of closed contours: the line of a seam at a distance inside a contour, or around a cut-out.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross, left, polyline, ring};
 
-/// How much nearer to the contour a place may be, as a part of the inset: rounding of intersections.
+/// Relative amount by which a point may be closer to the contour than the inset: rounding of intersections.
 const NEAR_EPSILON: f64 = 1e-6;
-/// Sine of the angle between edges below which these are one line.
+/// Sine of the angle between edges below which they are parallel.
 const PARALLEL_EPSILON: f64 = 1e-9;
 
-/// An edge, moved inside: a point of it and its direction.
+/// A shifted edge: a point and its direction.
 #[derive(Clone, Copy)]
 struct Edge {
     at: Point,
     along: Vector,
 }
 
-/// The closed contour at a distance inside, around it where that is negative, closed; `None` where there is no room. Corners
-/// stay corners.
+/// The closed line at a distance inside a closed contour, or around it if the distance is negative; `None` if there is no room.
+/// Corners stay corners.
 pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
     let inwards = if ring::area(points) > 0.0 { distance } else { -distance };
     let mut edges: Vec<Edge> = (points.windows(2))
         .filter_map(|ends| polyline::direction(ends[0], ends[1]).map(|along| (ends[0], along)))
         .map(|(from, along)| Edge { at: from + left(along) * inwards, along })
         .collect();
-    // An edge shorter than the inset takes up turns over: without it its neighbours meet.
+    // An edge that is too short for the inset reverses; without it its neighbours meet.
     loop {
         if edges.len() < 3 {
             return None;
@@ -36,7 +36,7 @@ pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
             out.push(out[0]);
             return is_clear(&out, points, distance.abs()).then_some(out);
         }
-        // Of neighbours that turn over the one that does so most goes first: it may be all that is wrong with the other.
+        // Of adjacent reversed edges the most reversed one is removed first, as it may be the cause of the other.
         let goes = |i: usize| {
             let (before, behind) = (ways[(i + count - 1) % count], ways[(i + 1) % count]);
             ways[i] < 0.0 && ways[i] < before && ways[i] <= behind
@@ -49,7 +49,7 @@ pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
     }
 }
 
-/// Where each edge begins: where it meets the one before it.
+/// Start point of each edge: its intersection with the previous one.
 fn corners(edges: &[Edge]) -> Vec<Point> {
     let meet = |i: usize| {
         let (before, edge) = (edges[(i + edges.len() - 1) % edges.len()], edges[i]);
@@ -62,7 +62,7 @@ fn corners(edges: &[Edge]) -> Vec<Point> {
     (0..edges.len()).map(meet).collect()
 }
 
-/// Whether every place of a line is as far from a contour as asked, mm.
+/// True if every point of a line is at least `distance` mm away from a contour.
 pub(super) fn is_clear(line: &[Point], contour: &[Point], distance: f64) -> bool {
     let least = distance * (1.0 - NEAR_EPSILON);
     let boxes = Boxes::new(contour.windows(2).map(|ends| Extent::of(ends).grown(distance)).collect());

@@ -1,8 +1,8 @@
-//! Reading: bytes to a pattern, or to stitches where the file has these already.
+//! Reading: bytes become a pattern, or stitches if the file contains them.
 //!
-//! Receives a source, promises seams in mm or needle points that later stages need not know the format of. Formats of
-//! sewing machines stand in [`FORMATS`]; whatever else `cutc` reads comes through `outline`. Faults are reported all in one
-//! run. Never guesses silently.
+//! Receives a source. Promises seams in mm or needle points that are independent of the format. Formats of sewing machines are
+//! in [`FORMATS`]; all other input of `cutc` comes through `outline`. All faults are reported in one run. Never guesses
+//! silently.
 
 mod dst;
 mod exp;
@@ -22,19 +22,19 @@ use crate::front::DIALECTS;
 use crate::machine::Job;
 use crate::source::Source;
 
-/// Every format of sewing machines.
+/// All formats of sewing machines.
 pub const FORMATS: &[Format] = &[pattern::FORMAT, queue::FORMAT, dst::FORMAT, exp::FORMAT];
 
-/// What a source was read as, and what it says.
+/// Format and content of a source.
 pub(super) struct Reading {
-    /// The format or dialect.
+    /// Name of the format or dialect.
     pub(super) format: &'static str,
-    /// What its records are called.
+    /// Word for its records.
     pub(super) record_word: &'static str,
     pub(super) input: Input,
 }
 
-/// Reads a source as what was asked, or as what it looks like. `None` when it is nothing that is known.
+/// Reads a source in the chosen format or dialect, otherwise in the detected one. `None` if it is unknown.
 pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Reading> {
     let extension = source.name().rsplit_once('.').map_or("", |(_, extension)| extension).to_ascii_lowercase();
     let format = match asked.from.as_deref() {
@@ -53,7 +53,7 @@ pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnost
     Some(Reading { format: name, record_word, input: read(source, out) })
 }
 
-/// What is read.
+/// Hint that lists the supported input.
 fn known() -> String {
     let formats: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
     let dialects: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
@@ -63,7 +63,7 @@ fn known() -> String {
     )
 }
 
-/// Refuses choices among lines and contours where a file has none: its seams are where they are sewn.
+/// Refuses the choice of lines or insets for a format with fixed seams.
 fn refuse_choices(format: &str, asked: &Asked, out: &mut Diagnostics) {
     if let Some(line) = &asked.line {
         let message = format!("a file of the format {format} has no pens or layers, so none has the name `{line}`");

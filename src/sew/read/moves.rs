@@ -6,27 +6,27 @@ use crate::sew::stitches::{Op, Step, Stitches};
 use crate::source::Span;
 use crate::units::TENTHS_PER_MM;
 
-/// Jumps in a row from which on a file is most likely damaged: the longest machine is crossed in fewer.
+/// Number of consecutive jumps above which a file is most likely damaged: the largest machine is crossed in fewer.
 const JUMP_STORM: u32 = 200;
 
-/// Collects moves.
+/// Collector of moves.
 #[derive(Debug, Default)]
 pub(super) struct Moves {
     stitches: Stitches,
-    /// Where the needle stands, in tenths of a millimetre.
+    /// Needle position, in tenths of a millimetre.
     at: [i64; 2],
     thread: u16,
-    /// Whether the thread runs from the last stitch to the needle: no trim came between, whatever else did.
+    /// True if the thread runs from the last stitch to the needle: no trim has come between.
     has_thread: bool,
-    /// Jumps since the last entry, and the record of the first of them.
+    /// Number of jumps since the last entry, and the record of the first of them.
     jumps: u32,
     jumped_from: u32,
-    /// From so many jumps in a row on these stand for a trim.
+    /// Number of consecutive jumps that stand for a trim; `None` if they never do.
     trim_from: Option<u32>,
 }
 
 impl Moves {
-    /// Of a format in which so many jumps in a row stand for a trim.
+    /// Creates a collector; `trim_from` is the number of consecutive jumps that stand for a trim.
     pub(super) fn new(trim_from: Option<u32>) -> Self {
         Self { trim_from, thread: 1, ..Self::default() }
     }
@@ -36,7 +36,7 @@ impl Moves {
         let last = self.stitches.steps.last();
         let is_first = last.is_none_or(|step| step.op.ends_run());
         let before = last.map_or(Point::origin(), |step| step.to);
-        // The needle goes down where a jump ended, which is no stitch that was lost.
+        // The needle goes down at the end of a jump; this stitch has no length because none was lost.
         let is_tie = op == Op::Stitch && is_first && before == to;
         self.stitches.steps.push(Step { op, to, is_tie, record });
         match op {
@@ -46,14 +46,14 @@ impl Moves {
         }
     }
 
-    /// A stitch.
+    /// Adds a stitch.
     pub(super) fn stitch(&mut self, way: [i64; 2], record: u32, out: &mut Diagnostics) {
         self.land(out);
         self.go(way);
         self.push(Op::Stitch, record);
     }
 
-    /// A move with the needle up.
+    /// Adds a move with the needle up.
     pub(super) fn jump(&mut self, way: [i64; 2], record: u32) {
         if self.jumps == 0 {
             self.jumped_from = record;
@@ -62,13 +62,13 @@ impl Moves {
         self.go(way);
     }
 
-    /// The thread is cut.
+    /// Adds a thread cut.
     pub(super) fn trim(&mut self, record: u32, out: &mut Diagnostics) {
         self.land(out);
         self.push(Op::Trim, record);
     }
 
-    /// The next thread is taken.
+    /// Adds a change to the next thread.
     pub(super) fn color(&mut self, record: u32, out: &mut Diagnostics) {
         self.land(out);
         self.thread = self.thread.saturating_add(1);
@@ -79,7 +79,7 @@ impl Moves {
         self.at = [self.at[0] + x, self.at[1] + y];
     }
 
-    /// Jumps in a row are one.
+    /// Combines consecutive jumps into one.
     fn land(&mut self, out: &mut Diagnostics) {
         let (jumps, record) = (std::mem::take(&mut self.jumps), self.jumped_from);
         if jumps == 0 {
@@ -102,14 +102,14 @@ impl Moves {
         }
     }
 
-    /// What was collected.
+    /// The collected stitches.
     pub(super) fn finish(mut self, out: &mut Diagnostics) -> Stitches {
         self.land(out);
         self.stitches
     }
 }
 
-/// Where a record stands in the source.
+/// Location of a record in the source.
 pub(super) fn span(start: usize, bytes: usize, record: u32) -> Span {
     Span { start: start as u32, end: (start + bytes) as u32, block: record }
 }

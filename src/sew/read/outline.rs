@@ -1,5 +1,5 @@
-//! Lines of whatever else `cutc` reads: contours of cut files and lists of points, lines of plots by their pen or layer,
-//! seam lines that were recognised.
+//! Lines from all other input of `cutc`: contours of cut files and lists of points, lines of plots by their pen or layer,
+//! recognised seam lines.
 
 use std::collections::BTreeMap;
 
@@ -19,20 +19,20 @@ use crate::sew::pattern::{Pattern, Seam};
 use crate::source::{Source, Span};
 use crate::units::number::exact;
 
-/// What the records of a cutter file or a plot are called.
+/// Word for the records of a cutter file or a plot.
 pub(super) const RECORD_WORD: &str = "block";
-/// The name of recognised seam lines, as `--line` takes it.
+/// Name of recognised seam lines for `--line`.
 const SEAM: &str = "seam";
-/// What recognition calls them.
+/// Class name of seam lines in recognition.
 const SEAM_LINE: &str = "seam line";
 
-/// A line of a file, and where it begins.
+/// A line of a file, and the location of its start.
 struct Line {
     points: Vec<Point>,
     span: Span,
 }
 
-/// Reads the lines of a file; the name of its dialect beside them.
+/// Reads the lines of a file; also returns the name of its dialect.
 pub(super) fn read(
     source: &Source,
     asked: &Asked,
@@ -53,8 +53,8 @@ fn as_drawn(lines: Vec<Line>) -> Vec<Seam> {
     lines.into_iter().map(|Line { points, span }| Seam::plain(points, span)).collect()
 }
 
-/// The seams of lines, closed ones so far from their line, mm, within the cloth: inside outlines, around cut-outs. Those of
-/// a part do not come nearer to any other line of it.
+/// The seams of lines. Closed ones lie `inset` mm from their line within the cloth: inside outlines, around cut-outs. Seams
+/// that come closer to another line of their part are refused.
 fn moved(lines: &[Line], inset: f64, out: &mut Diagnostics) -> Vec<Seam> {
     let nesting = Nesting::of_lines(&lines.iter().map(|line| &line.points[..]).collect::<Vec<_>>());
     let is_closed = |i: &usize| nesting.lines()[*i].is_closed;
@@ -90,14 +90,14 @@ fn moved(lines: &[Line], inset: f64, out: &mut Diagnostics) -> Vec<Seam> {
     seams
 }
 
-/// What a file is read by.
+/// Context for reading a file.
 struct Reader<'a> {
     source: &'a Source,
     job: &'a Job,
 }
 
 impl Reader<'_> {
-    /// The lines that were asked for, in the order of the file.
+    /// The chosen lines, in file order.
     fn lines(&self, dialect: &Dialect, asked: Option<&str>, out: &mut Diagnostics) -> Vec<Line> {
         let Self { source, job } = *self;
         match (dialect.read, asked) {
@@ -128,11 +128,11 @@ impl Reader<'_> {
 /// Passes that find the notches of a marker.
 const OF_NOTCHES: [&str; 4] = ["weld", "spike", "slit", "notch"];
 
-/// The contours of a marker. Notches are for the knife: slits are not sewn, and seams run straight over the mouths of others.
-/// A list of points, which lies on no grid and has no patterns, has lines alone.
+/// The contours of a marker. Notches are for the knife: slits are not sewn, and seams run straight over the mouths of other
+/// notches. A list of points has no grid and no patterns, hence no notches.
 fn contours(mut marker: Marker, job: &Job) -> Vec<Line> {
     if marker.unit > 0.0 || marker.drawing.is_some() {
-        // What is said of cuts does not matter here.
+        // Findings on cuts are irrelevant here.
         let mut unsaid = Diagnostics::default();
         let passes = MARKER_PASSES.iter().filter(|pass| OF_NOTCHES.contains(&pass.name));
         passes.for_each(|pass| (pass.run)(&mut marker, job, &mut unsaid));
@@ -146,7 +146,7 @@ fn contours(mut marker: Marker, job: &Job) -> Vec<Line> {
     marker.contours().map(line).collect()
 }
 
-/// A closed line, whose first point comes last again, without what it has between the ends of the mouths of notches.
+/// A closed line, with its first point repeated at the end, without the points between the ends of notch mouths.
 fn over_mouths(mut points: Vec<Point>, notches: &[OutlineNotch]) -> Vec<Point> {
     points.pop();
     let count = points.len();
@@ -164,7 +164,7 @@ fn over_mouths(mut points: Vec<Point>, notches: &[OutlineNotch]) -> Vec<Point> {
     line
 }
 
-/// The line through some places of a drawing.
+/// The line through vertices of a drawing.
 fn through(places: &[Vertex]) -> Line {
     Line { points: places.iter().map(|place| place.at).collect(), span: places[0].span }
 }
@@ -188,7 +188,7 @@ fn strokes(drawing: &Drawing, name: &str, out: &mut Diagnostics) -> Vec<Line> {
     lines
 }
 
-/// The seam lines that were recognised in parts.
+/// The recognised seam lines of parts.
 fn seam_lines(marker: &Marker, out: &mut Diagnostics) -> Vec<Line> {
     let aside = marker.drawing.iter().flat_map(|account| account.aside.each());
     let seams = aside.filter(|(class, places)| *class == Some(SEAM_LINE) && !places.is_empty());

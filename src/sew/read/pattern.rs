@@ -1,8 +1,8 @@
-//! Patterns as lists of points: `x_mm,y_mm,element`, a row a point, a blank line between seams.
+//! Patterns as lists of points: `x_mm,y_mm,element`, one point per row, a blank line between seams.
 //!
-//! The third field of a seam's first row says what is made along it: `straight`, `zigzag`, `bar-tack` or `box-x`; beside it,
-//! behind a blank, `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop`. Empty = a straight seam as the profile
-//! has it.
+//! The third field of the first row of a seam gives its element: `straight`, `zigzag`, `bar-tack` or `box-x`. After a blank,
+//! `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop` may follow. An empty field is a straight seam with the
+//! defaults of the profile.
 
 use super::format::{FARTHEST, Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -21,12 +21,12 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// Corners of a box.
+/// Number of corners of a box.
 const BOX_CORNERS: usize = 4;
 
-/// The words for the ends of a seam.
+/// Words for the ends of a seam.
 const ENDS: [(&str, Ends); 3] = [("tie", Ends::Tie), ("back-tack", Ends::BackTack), ("open", Ends::Open)];
-/// The words for its thread, before a number, and for a wait before it.
+/// Words for the thread, before its number, and for a wait before the seam.
 const THREAD: &str = "thread";
 const STOP: &str = "stop";
 
@@ -49,7 +49,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         if row == 1 {
             continue;
         }
-        // Spreadsheets quote texts, and keep the separators of a row that is empty.
+        // Spreadsheets quote texts, and keep the separators of an empty row.
         let text = String::from_utf8_lossy(line).replace('"', "");
         if text.trim_matches(|c: char| c == separator || c.is_ascii_whitespace()).is_empty() {
             finish(open.take(), &mut pattern, out);
@@ -64,7 +64,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
     Input::Pattern(pattern)
 }
 
-/// What a row may say.
+/// Hint on the content of a row.
 fn hint() -> String {
     let elements = Element::WORDS.map(|(word, _)| word).join(", ");
     let ends = ENDS.map(|(word, _)| word).join(", ");
@@ -74,13 +74,13 @@ fn hint() -> String {
     )
 }
 
-/// Adds a point to the seam that is open, or begins one.
+/// Adds a point to the open seam, or begins a seam.
 fn add(open: &mut Option<Seam>, point: Point, words: &str, span: Span) -> Result<(), String> {
     match open {
         Some(seam) if words.is_empty() => seam.points.push(point),
         Some(_) => return Err(format!("`{words}` stands amid a seam; an element begins behind a blank line")),
         None => {
-            // Its points are a seam all the same: one slip is one fault.
+            // The following points belong to the seam even if its words are faulty, so that one slip is one fault.
             let plain = Seam::plain(vec![point], span);
             *open = Some(plain.clone());
             *open = Some(seam(plain, words)?);
@@ -89,12 +89,12 @@ fn add(open: &mut Option<Seam>, point: Point, words: &str, span: Span) -> Result
     Ok(())
 }
 
-/// The point of a row, and the words behind it.
+/// The point of a row, and the words after it.
 fn point(text: &str, separator: char) -> Result<(Point, &str), String> {
     let mut fields = text.splitn(3, separator);
     let mut number = || {
         let field = fields.next().unwrap_or_default().trim();
-        // Where a comma parts no fields it is decimal.
+        // If the separator is not a comma, commas are decimal.
         let decimal = if separator == ',' { field.to_owned() } else { field.replace(',', ".") };
         match decimal.parse::<f64>() {
             Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0),
@@ -105,10 +105,10 @@ fn point(text: &str, separator: char) -> Result<(Point, &str), String> {
     Ok((point, fields.next().unwrap_or_default().trim()))
 }
 
-/// A seam with what its words ask for.
+/// Applies words to a seam.
 fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
     let mut words = words.split_whitespace();
-    // What is said twice may be meant either way.
+    // A repeated word is refused: either occurrence may be meant.
     let mut said: Vec<&str> = Vec::new();
     let mut once = |kind: &'static str| {
         let is_new = !said.contains(&kind);
@@ -136,7 +136,7 @@ fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
     Ok(seam)
 }
 
-/// A seam is at its end: without places that repeat the one before them, which are no corners.
+/// Ends a seam: removes consecutive equal points, which are no corners, and checks it.
 fn finish(seam: Option<Seam>, pattern: &mut Pattern, out: &mut Diagnostics) {
     let Some(mut seam) = seam else { return };
     seam.points = distinct(&seam.points);

@@ -1,4 +1,4 @@
-//! The entries of a stitch queue, as the target `queue` writes them: `op,dx_mm,dy_mm,value`.
+//! The entries of a stitch queue, as written by the target `queue`: `op,dx_mm,dy_mm,value`.
 
 use super::format::{FARTHEST, Format, Input, Speed};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -16,10 +16,10 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// What a row says.
+/// Content of a row.
 enum Row {
     Step(Op, [f64; 2]),
-    /// Stitches a minute.
+    /// Stitches per minute.
     Speed(f64),
     End,
 }
@@ -39,7 +39,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         match parsed {
             Ok(Row::Step(op, [dx, dy])) => {
                 at = Point::new(at.x + dx, at.y + dy);
-                // The header is no record.
+                // The header does not count as a record.
                 let is_tie = op == Op::Stitch && dx == 0.0 && dy == 0.0;
                 steps.push(Step { op, to: at, is_tie, record: row - 1 });
             }

@@ -1,4 +1,4 @@
-//! Times that the machine allows: the window of a stitch, and the least time of a move.
+//! Time limits of the machine: the window of a stitch, and the minimum time of a move.
 
 use crate::machine::Sewing;
 use crate::units::{S_PER_MIN, US_PER_S};
@@ -6,7 +6,7 @@ use crate::units::{S_PER_MIN, US_PER_S};
 /// A turn of the spindle, degrees.
 const TURN_DEG: f64 = 360.0;
 
-/// The time from feed start to feed end at a speed, microseconds.
+/// Time from feed start to feed end at a speed, microseconds.
 pub(super) fn window_us(sewing: &Sewing, rpm: f64) -> f64 {
     let mut turn = sewing.feed_end_deg - sewing.feed_start_deg;
     while turn < 0.0 {
@@ -15,19 +15,19 @@ pub(super) fn window_us(sewing: &Sewing, rpm: f64) -> f64 {
     turn / TURN_DEG * S_PER_MIN * US_PER_S / rpm
 }
 
-/// The least time of the first step of a motor, microseconds: from the start rate on with the greatest acceleration.
+/// Minimum time of the first step of a motor, microseconds: from the start rate with the maximum acceleration.
 pub(super) fn first_step_us(sewing: &Sewing) -> f64 {
     let (start, acceleration) = (sewing.start_hz * sewing.step_mm, sewing.feed_acceleration_mm_s2);
     ((start * start + 2.0 * acceleration * sewing.step_mm).sqrt() - start) / acceleration * US_PER_S
 }
 
-/// The least interval of the drives, microseconds; 0 = any.
+/// Minimum interval of the drives, microseconds; 0 if it is unlimited.
 pub(super) fn least_interval_us(sewing: &Sewing) -> f64 {
     sewing.max_hz.map_or(0.0, |rate| US_PER_S / rate)
 }
 
-/// The least time of a move of so many steps, microseconds: up from the start rate, on at the greatest rate where that is
-/// reached, and down. Found by halving the time until the way fits, not from the closed form.
+/// Minimum time of a move of a number of steps, microseconds: acceleration from the start rate, the maximum rate if it is
+/// reached, and deceleration. Found by bisection of the time, independent of the closed form.
 pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
     if steps == 0 {
         return 0.0;
@@ -36,7 +36,7 @@ pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
     let start = sewing.start_hz * sewing.step_mm;
     let top = sewing.max_hz.map_or(f64::INFINITY, |rate| rate * sewing.step_mm);
     let reach = |time: f64| {
-        // Half of the time the speed rises, then it falls; what lies above the top is cut off.
+        // The speed rises during half of the time, then falls; the part above the maximum is cut off.
         let peak = start + sewing.feed_acceleration_mm_s2 * time / 2.0;
         let over = (peak - top).max(0.0);
         start * time + (peak - start) * time / 2.0 - over * over / sewing.feed_acceleration_mm_s2
@@ -52,7 +52,7 @@ pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
     long * US_PER_S
 }
 
-/// Halvings of a second until rounding decides.
+/// Number of bisections of the time, until rounding decides.
 const HALVINGS: u32 = 60;
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
-//! What a file of stitches says, event by event, decoded for the audit of its reader.
+//! Events of a stitch file, decoded for the audit of its reader.
 
 use super::records::{File, Kind, Record};
 use crate::geom::Point;
 use crate::sew::stitches::{Op, Stitches};
 use crate::units::TENTHS_PER_MM;
 
-/// What happens, and where the needle stands behind it, mm.
+/// An event, with the needle position after it, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
     /// The needle pierces the cloth.
@@ -14,13 +14,13 @@ pub(super) enum Event {
     Jump(Point),
     /// The thread is cut.
     Trim,
-    /// The machine waits.
+    /// The machine waits for its operator.
     Stop,
-    /// The thread of that number is taken.
+    /// The thread changes to the one with this number.
     Thread(u16),
 }
 
-/// What is sewn, each with its entry, from 1.
+/// The events that are sewn, each with its entry, from 1.
 pub(super) fn sewn(stitches: &Stitches) -> Vec<(Event, u32)> {
     let event = |op: Op, to: Point| match op {
         Op::Stitch => Event::Stitch(to),
@@ -32,8 +32,8 @@ pub(super) fn sewn(stitches: &Stitches) -> Vec<(Event, u32)> {
     stitches.steps.iter().zip(1..).map(|(step, entry)| (event(step.op, step.to), entry)).collect()
 }
 
-/// What the records of a stitch file say: jumps in a row are one move, and cut a thread that sews where their number says
-/// so; a stop is the next thread.
+/// The events of the records of a stitch file. Consecutive jumps are one move, and from `trim_jumps` on they cut a thread in
+/// use. A stop is a change to the next thread.
 pub(super) fn of_records(file: &File) -> Vec<Event> {
     let mut events = Events { list: Vec::new(), jumps: 0, sews: false, needle: [0; 2], trim_jumps: file.trim_jumps };
     let (mut at, mut thread) = ([0; 2], 1_u16);
@@ -64,13 +64,13 @@ pub(super) fn of_records(file: &File) -> Vec<Event> {
 
 struct Events {
     list: Vec<Event>,
-    /// Jumps in a row.
+    /// Number of consecutive jumps.
     jumps: usize,
-    /// Whether the thread of the last stitch is not cut yet.
+    /// True if the thread of the last stitch is not cut yet.
     sews: bool,
-    /// Where the needle stood before them, tenths of a millimetre.
+    /// Needle position before the jumps, tenths of a millimetre.
     needle: [i64; 2],
-    /// From so many on they cut the thread.
+    /// Number of consecutive jumps that cut the thread.
     trim_jumps: Option<usize>,
 }
 
@@ -80,7 +80,7 @@ impl Events {
         self.sews = false;
     }
 
-    /// The jumps before an event end at a place.
+    /// Ends the jumps before an event, at a position.
     fn land(&mut self, at: [i64; 2]) {
         let jumps = std::mem::take(&mut self.jumps);
         if self.sews && jumps > 0 && self.trim_jumps.is_some_and(|least| jumps >= least) {
@@ -97,7 +97,7 @@ fn place(at: [i64; 2]) -> Point {
     Point::new(at[0] as f64 / TENTHS_PER_MM, at[1] as f64 / TENTHS_PER_MM)
 }
 
-/// What the rows of a queue say; `None` when one says nothing.
+/// The events of the rows of a queue; `None` if a row is malformed or the end is missing.
 pub(super) fn of_queue(bytes: &[u8]) -> Option<Vec<Event>> {
     let text = String::from_utf8_lossy(bytes);
     let (mut events, mut at) = (Vec::new(), Point::origin());

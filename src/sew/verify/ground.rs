@@ -1,4 +1,4 @@
-//! What a program is held against, and why it may not be read.
+//! References for the verification of a program.
 
 use crate::geom::Point;
 use crate::ir::verdict::Sighting;
@@ -6,33 +6,33 @@ use crate::machine::Sewing;
 use crate::sew::pattern::Pattern;
 use crate::sew::stitches::Stitches;
 
-/// What a program is held against.
+/// References for the verification of a program.
 #[derive(Debug, Clone, Copy)]
 pub struct Ground<'a> {
-    /// What must be sewn, entry by entry.
+    /// The required stitches, entry by entry.
     pub stitches: &'a Stitches,
-    /// The lines that these were laid on; `None` where the file had the stitches.
+    /// The pattern from which they were laid; `None` if the file contained stitches.
     pub pattern: Option<&'a Pattern>,
     /// The machine.
     pub sewing: &'a Sewing,
-    /// The file itself, where it has stitches.
+    /// The source file, if it contains stitches.
     pub original: Original<'a>,
 }
 
-/// A file that stitches were read from, to be decoded a second time.
+/// A source file with stitches, to be decoded independently.
 #[derive(Debug, Clone, Copy)]
 pub enum Original<'a> {
     /// A DST file.
     Dst(&'a [u8]),
     /// An EXP file.
     Exp(&'a [u8]),
-    /// A queue, rows of text.
+    /// A queue as rows of text.
     Queue(&'a [u8]),
-    /// Another, of which the pattern tells.
+    /// Another kind of source; its pattern is the reference.
     Other,
 }
 
-/// A place of the needle at an entry, from 1; 0 = at none.
+/// The needle position at an entry, counted from 1; 0 for no entry.
 pub(super) fn sighting(entry: u32, point: Point) -> Sighting {
     Sighting { line: Some(entry.into()), ..Sighting::missing(point, 0) }
 }

@@ -1,4 +1,4 @@
-//! Whether the stitches are such as the machine makes, and lie on the lines of the pattern.
+//! Checks that the machine can make the stitches, and that they lie on the lines of the pattern.
 
 use super::ground::{Ground, sighting};
 use super::rules;
@@ -9,10 +9,11 @@ use crate::machine::Sewing;
 use crate::sew::pattern::{Element, Pattern, Seam};
 use crate::sew::stitches::Op;
 
-/// How far beyond what is allowed needle points are looked for, mm: what is farther is told as so far.
+/// Distance beyond the permitted one within which needle points are searched, mm. Points farther away are reported at the
+/// search distance.
 const LOOK: f64 = 1.0;
 
-/// Judges all stitches.
+/// Checks all stitches.
 pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     pitches(ground, worst);
     if let Some(pattern) = ground.pattern {
@@ -45,12 +46,12 @@ fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
     }
 }
 
-/// How far around a line of a half width needle points are looked for, mm.
+/// Search distance for needle points around a line of a half width, mm.
 fn reach(width: f64, sewing: &Sewing) -> f64 {
     width + sewing.min_pitch_mm + LOOK
 }
 
-/// Each corner of a seam has a needle point near it.
+/// Checks that each corner of a seam has a needle point near it.
 fn corners(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
     let mut corners: Vec<(Point, f64)> = Vec::new();
     for seam in &pattern.seams {
@@ -78,12 +79,12 @@ fn corners(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
     }
 }
 
-/// The square around a point, mm.
+/// The square around a point; `reach` is half its side, mm.
 fn square(middle: Point, reach: f64) -> Extent {
     Extent { min: middle, max: middle }.grown(reach)
 }
 
-/// How far a way turns, rad.
+/// Angle between two directions, rad.
 fn turn(before: Vector, behind: Vector) -> f64 {
     (before.dot(&behind) / (before.norm() * behind.norm())).clamp(-1.0, 1.0).acos()
 }
@@ -111,7 +112,7 @@ fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
     }
 }
 
-/// How far a point is from a line, mm.
+/// Distance of a point from a line segment, mm.
 fn beside(point: Point, [a, b]: [Point; 2]) -> f64 {
     let (way, to) = (b - a, point - a);
     let along = (to.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

@@ -1,7 +1,7 @@
-//! The verifier of sewn patterns: judges from the bytes what needle, cloth and motors do.
+//! The verifier of sewn patterns: checks the motions of needle, cloth and motors, as decoded from the bytes.
 //!
-//! Receives the bytes of a program, the stitches and the pattern that it must sew, and the profile. Shares no code with what
-//! lays, plans and writes: it counts pulses, measures intervals and decodes records for itself. Never repairs anything.
+//! Receives the bytes of a program, the required stitches, the pattern and the profile. Shares no code with the modules that
+//! lay, plan and write: it counts pulses, measures intervals and decodes records itself. Never repairs anything.
 
 mod clock;
 mod events;
@@ -26,16 +26,16 @@ use crate::ir::Finding;
 use crate::ir::verdict::{Verdict, WorstByRule};
 use crate::units::columns::Unread;
 
-/// What kind of bytes are judged.
+/// Kind of the bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bytes {
-    /// Pulses, rows of text.
+    /// Pulses as rows of text.
     PulseRows,
-    /// Pulses, records of an array.
+    /// Pulses as records of an array.
     PulseRecords,
-    /// Entries of a queue, rows of text.
+    /// Entries of a queue as rows of text.
     QueueRows,
-    /// Entries of a queue, JSON.
+    /// Entries of a queue as JSON.
     QueueJson,
     /// A DST file.
     Dst,
@@ -43,7 +43,7 @@ pub enum Bytes {
     Exp,
 }
 
-/// Judges a program from its bytes.
+/// Verifies a program from its bytes.
 pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Result<Verdict> {
     let mut worst = WorstByRule::default();
     laid::judge(ground, &mut worst);

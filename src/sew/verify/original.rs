@@ -1,6 +1,7 @@
-//! The audit of the reader: what a stitch file or a queue says, decoded a second time, is what is sewn.
+//! The audit of the reader: a stitch file or a queue is decoded a second time and compared with the sewn stitches.
 //!
-//! Stitches may be left out where they are too short, and added on the way to one that is too long; nothing else.
+//! Only two differences are permitted: stitches that are too short may be omitted, and stitches may be added on the way to one
+//! that is too long.
 
 use super::events::{self, Event};
 use super::ground::{Ground, Original, sighting};
@@ -11,7 +12,7 @@ use crate::ir::verdict::WorstByRule;
 
 /// Rounding of sums of increments, mm.
 const SUM_EPSILON: f64 = 1e-6;
-/// Counts what the file says and is not sewn, and what is sewn and not in it.
+/// Counts the differences between the file and the sewn stitches, in both directions.
 pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     let decoded = match ground.original {
         Original::Dst(bytes) => records::dst(bytes).ok().as_ref().map(events::of_records),
@@ -27,16 +28,16 @@ pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
 }
 
 struct Audit<'w> {
-    /// The shortest stitch that is no fault, mm.
+    /// Minimum length of a stitch; shorter ones may be omitted, mm.
     least: f64,
     worst: &'w mut WorstByRule,
 }
 
-/// A needle point that is sewn, and its entry.
+/// A sewn needle point, and its entry.
 type Sewn = (Point, u32);
 
 impl Audit<'_> {
-    /// Run by run, and what lies between.
+    /// Compares run by run, and the events between the runs.
     fn judge(&mut self, mut asked: &[Event], mut sewn: &[(Event, u32)]) {
         let mut needle = Point::origin();
         while !asked.is_empty() || !sewn.is_empty() {
@@ -55,7 +56,7 @@ impl Audit<'_> {
         }
     }
 
-    /// The stitches of a run, from where the needle stands before it.
+    /// Compares the stitches of a run; `needle` is the needle position before it.
     fn run(&mut self, asked: &[Point], mut sewn: &[Sewn], needle: Point) {
         let mut last = needle;
         for (i, &place) in asked.iter().enumerate() {
@@ -65,7 +66,7 @@ impl Audit<'_> {
                 continue;
             }
             let is_near = |other: Point, reach: f64| (place - other).norm() <= reach + SUM_EPSILON;
-            // The end itself is sewn, if only by the stitch before that is there already.
+            // The end of a run must be sewn, unless the stitch before it is at the same point.
             let is_short = match asked.last() {
                 Some(&end) if i + 1 < asked.len() => is_near(last, self.least) || is_near(end, self.least),
                 Some(_) | None => is_near(last, 0.0),
@@ -85,7 +86,7 @@ fn stitch(event: &Event) -> Option<Point> {
     }
 }
 
-/// Whether what is sewn is what is asked for.
+/// True if two events are equal.
 fn alike(asked: Option<&Event>, sewn: Option<&Event>) -> bool {
     match (asked, sewn) {
         (Some(Event::Jump(a)), Some(Event::Jump(b))) => (a - b).norm() <= SUM_EPSILON,
@@ -93,7 +94,7 @@ fn alike(asked: Option<&Event>, sewn: Option<&Event>) -> bool {
     }
 }
 
-/// How many stitches lie on the way to a place before the one that is there; `None` when there is none.
+/// Number of stitches on the way to a point before the one at the point; `None` if there is none.
 fn parts(sewn: &[Sewn], from: Point, to: Point) -> Option<usize> {
     let mut at = 0.0;
     for (count, &(point, _)) in sewn.iter().enumerate() {

@@ -1,11 +1,11 @@
-//! Reads pulses from records of a `NumPy` array.
+//! Reader of pulses from the records of a `NumPy` array.
 
 use std::io::BufRead;
 
 use super::pulses::{OPS, Row};
 use crate::units::columns::{self, Unread, float};
 
-/// How well an interval is known, microseconds: times are unrounded.
+/// Uncertainty of an interval, microseconds: times are unrounded.
 pub(super) const TICK_US: f64 = 1e-6;
 
 const RECORD_BYTES: usize = 19;

@@ -1,11 +1,11 @@
-//! Reads pulses from rows of text: `entry,op,rpm,thread,t_us,x,y`.
+//! Reader of pulses from rows of text: `entry,op,rpm,thread,t_us,x,y`.
 
 use std::io::BufRead;
 
 use super::pulses::{OPS, Row};
 use crate::units::columns::{Lines, Unread};
 
-/// How well an interval is known, microseconds: both ends have three decimals.
+/// Uncertainty of an interval, microseconds: both ends have three decimals.
 pub(super) const TICK_US: f64 = 0.001_1;
 
 const HEADER: &str = "entry,op,rpm,thread,t_us,x,y";

@@ -1,4 +1,4 @@
-//! Every pulse: how many there are, which way, when, and where the needle stands then.
+//! Checks of every pulse: number, direction, time, and the needle position that results.
 
 use super::clock;
 use super::ground::{Ground, sighting};
@@ -13,21 +13,21 @@ use crate::units::columns::Unread;
 /// A row of a program.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
-    /// The entry that it is of, from 1.
+    /// Its entry, from 1.
     pub(super) entry: u32,
-    /// What that asks for; the number of a thread is apart.
+    /// Action of the entry, as an index of [`OPS`]; the number of a thread is separate.
     pub(super) op: u8,
     pub(super) rpm: f64,
     pub(super) thread: u16,
     pub(super) time_us: f64,
-    /// The pulse of X and of Y.
+    /// Pulses of X and of Y.
     pub(super) pulse: [i8; 2],
 }
 
-/// The words of operations, each at its number.
+/// Words of the actions, by index.
 pub(super) const OPS: [&str; 5] = ["STITCH", "JUMP", "TRIM", "STOP", "COLOR"];
 
-/// The number of an operation.
+/// Index of an action.
 fn number(op: Op) -> u8 {
     match op {
         Op::Stitch => 0,
@@ -38,7 +38,7 @@ fn number(op: Op) -> u8 {
     }
 }
 
-/// Judges rows that `read` gives one by one; intervals are known to a tick, microseconds.
+/// Verifies rows, which `read` supplies one by one; `tick_us` is the uncertainty of intervals, microseconds.
 pub(super) fn judge(
     read: impl FnOnce(&mut dyn FnMut(Row)) -> Result<(), Unread>,
     tick_us: f64,
@@ -66,36 +66,36 @@ struct Judge<'a> {
     ground: &'a Ground<'a>,
     worst: &'a mut WorstByRule,
     tick_us: f64,
-    /// The least first interval, and the least of all.
+    /// Minimum first interval, and minimum of all intervals, microseconds.
     first_us: f64,
     least_us: f64,
     spindle: Spindle,
     entry: Option<Entry>,
-    /// Place of the entry that comes next.
+    /// Index of the next entry.
     next: usize,
-    /// Where the motors stand, steps.
+    /// Position of the motors, steps.
     at: [i64; 2],
     thread: u16,
 }
 
 /// The entry that is being read.
 struct Entry {
-    /// Its place among them.
+    /// Index of the entry.
     i: usize,
     rpm: f64,
     axes: [Axis; 2],
     time_us: f64,
 }
 
-/// What one axis did so far for an entry.
+/// Pulses of one axis so far in an entry.
 #[derive(Debug, Clone, Copy, Default)]
 struct Axis {
     count: i64,
     sum: i64,
     last_us: f64,
-    /// The last interval, once there is one.
+    /// The last interval; `None` before the second pulse.
     interval: Option<f64>,
-    /// Whether intervals have begun to rise.
+    /// True once intervals have begun to increase.
     rises: bool,
 }
 
@@ -125,7 +125,7 @@ impl Judge<'_> {
         self.entry = Some(entry);
     }
 
-    /// An entry begins.
+    /// Begins an entry.
     fn begin(&mut self, row: &Row) {
         let i = (row.entry as usize).wrapping_sub(1);
         let Some(step) = self.ground.stitches.steps.get(i) else {
@@ -142,7 +142,7 @@ impl Judge<'_> {
         self.entry = Some(Entry { i, rpm: row.rpm, axes: [Axis::default(); 2], time_us: 0.0 });
     }
 
-    /// A pulse of an axis.
+    /// Checks a pulse of an axis.
     fn pulse(&mut self, axis: &mut Axis, (time, pulse): (f64, i8), place: Option<Sighting>) {
         let sewing = self.ground.sewing;
         let interval = time - axis.last_us;
@@ -153,13 +153,13 @@ impl Judge<'_> {
         match axis.interval {
             None => self.worst.see(&rules::FIRST_INTERVAL, self.first_us - interval, place),
             Some(before) => {
-                // Two intervals differ by the rounding of both.
+                // The rounding errors of both intervals add up.
                 let rounding = 2.0 * self.tick_us;
                 axis.rises |= interval > before + rounding;
                 if axis.rises {
                     self.worst.see(&rules::RAMP, before - interval - rounding, place);
                 }
-                // Mean speeds of neighbours, which are those at their middles.
+                // The mean speeds of adjacent intervals, which are those at their middles.
                 let [v0, v1] = [before, interval].map(|interval| sewing.step_mm * US_PER_S / interval);
                 let apart = f64::midpoint(before, interval) / US_PER_S;
                 let rounding = (v0 / before + v1 / interval) * self.tick_us;
@@ -169,7 +169,7 @@ impl Judge<'_> {
         axis.interval = Some(interval);
     }
 
-    /// The entry is at its end.
+    /// Ends an entry.
     fn finish(&mut self) {
         let Some(entry) = self.entry.take() else { return };
         let (steps, sewing) = (&self.ground.stitches.steps, self.ground.sewing);
@@ -180,7 +180,7 @@ impl Judge<'_> {
         let asked = [(before.x, step.to.x), (before.y, step.to.y)].map(|(from, to)| nearest(to) - nearest(from));
         for (k, axis) in entry.axes.iter().enumerate() {
             self.worst.see(&rules::COUNT, (axis.count - asked[k].abs()).abs() as f64, place);
-            // Pulses against the rest, or all of them against the stitch.
+            // Number of pulses against the others, or of all if their sum is against the stitch.
             let against = if axis.sum * asked[k] < 0 { axis.count } else { axis.count - axis.sum.abs() };
             self.worst.see(&rules::DIRECTION, against as f64, place);
             self.at[k] += axis.sum;
@@ -197,7 +197,7 @@ impl Judge<'_> {
         }
     }
 
-    /// The program is at its end.
+    /// Ends the program.
     fn end(&mut self) {
         self.finish();
         let missing = self.ground.stitches.steps.len().saturating_sub(self.next);

@@ -1,4 +1,4 @@
-//! Entries of a queue: the increments add up to the needle points, and each stitch fits at the speed that holds.
+//! Checks of queue entries: the increments add up to the needle points, and each stitch fits at the current speed.
 
 use std::collections::BTreeMap;
 use std::io::BufRead;
@@ -12,13 +12,13 @@ use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 use crate::units::columns::{Lines, Unread};
 
-/// Rounding of times, as a part of the window: the speed is a whole number.
+/// Rounding of times, as a fraction of the window: the speed is a whole number.
 const WINDOW_EPSILON: f64 = 2e-6;
 
-/// An entry.
+/// An entry of a queue.
 #[derive(Debug, PartialEq)]
 pub(super) enum Entry {
-    /// A stitch or a jump, with its increments, mm.
+    /// A stitch (true) or a jump (false), with its increments, mm.
     Way(bool, [f64; 2]),
     Trim,
     Stop,
@@ -27,21 +27,21 @@ pub(super) enum Entry {
     End,
 }
 
-/// How a queue is written.
+/// File format of a queue.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Form {
-    /// Its first line, where that is no entry.
+    /// First line, if it is not an entry.
     head: Option<&'static str>,
-    /// Reads any other.
+    /// Parses any other line.
     entry: fn(&str) -> Option<Entry>,
 }
 
 /// Rows of text.
 pub(super) const ROWS: Form = Form { head: Some("op,dx_mm,dy_mm,value"), entry: row };
-/// JSON, a line each.
+/// JSON, one entry per line.
 pub(super) const JSON: Form = Form { head: None, entry: json };
 
-/// Judges a queue of some form.
+/// Verifies a queue of a file format.
 pub(super) fn judge(
     input: &mut dyn BufRead,
     form: Form,
@@ -52,7 +52,7 @@ pub(super) fn judge(
     if let Some(head) = form.head {
         lines.header(input, head)?;
     }
-    // Few moves are different.
+    // Many moves have the same number of steps, so their times are cached.
     let mut times: BTreeMap<u64, f64> = BTreeMap::new();
     let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::default(), false);
     while let Some(text) = lines.next(input)? {
@@ -95,7 +95,7 @@ fn op(ground: &Ground, i: usize) -> Option<Op> {
     ground.stitches.steps.get(i).map(|step| step.op)
 }
 
-/// Sees an entry, whether it is the one that is asked for, and where the needle stands behind it.
+/// Checks an entry; `is_asked` is true for the required action, `at` is the needle position after it.
 fn see(ground: &Ground, worst: &mut WorstByRule, i: usize, (is_asked, at): (bool, [f64; 2])) {
     let step = ground.stitches.steps.get(i);
     let place = step.map(|step| sighting(i as u32 + 1, step.to));
@@ -107,19 +107,19 @@ fn see(ground: &Ground, worst: &mut WorstByRule, i: usize, (is_asked, at): (bool
     }
 }
 
-/// Whether a stitch that needs some time, microseconds, fits into its window at a speed.
+/// Checks that a stitch that needs a time, microseconds, fits into its window at a speed.
 fn fits(ground: &Ground, worst: &mut WorstByRule, i: usize, (needed, rpm): (f64, f64)) {
     let window = clock::window_us(ground.sewing, rpm);
     let place = ground.stitches.steps.get(i).map(|step| sighting(i as u32 + 1, step.to));
     worst.see(&rules::WINDOW, needed - window * (1.0 + WINDOW_EPSILON), place);
 }
 
-/// An increment or another number.
+/// Parses a finite number, such as an increment.
 fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// Reads an entry from a row of text.
+/// Parses an entry from a row of text.
 fn row(text: &str) -> Option<Entry> {
     let mut fields = text.split(',');
     let [word, dx, dy, value] = [fields.next()?, fields.next()?, fields.next()?, fields.next()?];
@@ -138,7 +138,7 @@ fn row(text: &str) -> Option<Entry> {
     }
 }
 
-/// Reads an entry from a line of JSON.
+/// Parses an entry from a line of JSON.
 fn json(text: &str) -> Option<Entry> {
     #[derive(serde::Deserialize)]
     #[serde(deny_unknown_fields)]

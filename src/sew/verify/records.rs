@@ -1,13 +1,13 @@
-//! Decodes stitch files, from the descriptions of their formats.
+//! Decoder of stitch files, written from the descriptions of their formats.
 
-/// What a record does, and where the needle stands behind it, tenths of a millimetre.
+/// A record and the needle position after it, tenths of a millimetre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Record {
     pub(super) kind: Kind,
     pub(super) at: [i64; 2],
 }
 
-/// What a record does.
+/// Kind of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Stitch,
@@ -16,24 +16,24 @@ pub(super) enum Kind {
     Stop,
 }
 
-/// What a file says.
+/// Content of a file.
 #[derive(Debug)]
 pub(super) struct File {
     pub(super) records: Vec<Record>,
-    /// How many values of its header are wrong, where it has one.
+    /// Number of wrong values in the header; `None` for a format without a header.
     pub(super) header: Option<u32>,
-    /// Whether bytes stand behind its end.
+    /// True if bytes follow the end.
     pub(super) has_more: bool,
-    /// Whether the record that ends it says anything beside that: machines stop there all the same.
+    /// True if the final record has additional bits; machines still stop there.
     pub(super) has_odd_end: bool,
-    /// From so many jumps in a row on machines cut the thread.
+    /// Number of consecutive jumps that cut the thread on machines.
     pub(super) trim_jumps: Option<usize>,
 }
 
-/// What a file says, or what cannot be read.
+/// Content of a file, or a description of the part that cannot be read.
 pub(super) type Decoded = Result<File, String>;
 
-/// Jumps in a row that machines take for a trim in a DST file.
+/// Number of consecutive jumps that machines treat as a trim in a DST file.
 const TRIM_JUMPS: usize = 3;
 
 const DST_HEADER: usize = 512;
@@ -54,7 +54,7 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
             0b1100_0011 => Kind::Stop,
             _ => return Err(format!("record {} is none", i + 1)),
         };
-        // Bit by bit, as the format is described: one up, the next down.
+        // Bit by bit as in the description of the format: the bits for up and down alternate.
         let bit = |byte: u8, place: u32| i64::from(byte >> place & 1);
         let x = bit(a, 0) - bit(a, 1)
             + 9 * (bit(a, 2) - bit(a, 3))

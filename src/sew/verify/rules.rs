@@ -1,4 +1,4 @@
-//! Every rule that sewn patterns are judged by.
+//! Rules for the verification of sewn patterns.
 
 use crate::ir::verdict::{Rule, rules};
 use crate::machine::Sewing;
@@ -27,7 +27,7 @@ rules! {
     SOURCE { name: "sew-verify/source", unit: "", about: "stitches, jumps, trims, stops and threads of a stitch file or queue that is read are sewn, in their order, and nothing else but parts of a stitch that is split", more: "The reader and a second decoder of the same bytes must find the same; only stitches that are too short may be merged with their neighbours. The value is how many differ. Please report the file." }
 }
 
-/// The greatest value that a rule allows.
+/// Maximum value permitted by a rule.
 pub(super) fn limit(rule: &Rule, sewing: &Sewing) -> f64 {
     let limits: [(&[&Rule], f64); 6] = [
         (&[&END_POINT], sewing.step_mm / 2.0 + PLACE_EPSILON),
@@ -37,15 +37,15 @@ pub(super) fn limit(rule: &Rule, sewing: &Sewing) -> f64 {
         (&[&CORNER, &ON_SEAM], sewing.min_pitch_mm + PLACE_EPSILON),
         (&[&NEEDLE_POINT], FILE_UNIT / 2.0 + PLACE_EPSILON),
     ];
-    // Nothing is allowed by the others.
+    // The other rules permit nothing.
     limits.iter().find(|(rules, _)| rules.contains(&rule)).map_or(0.0, |(_, limit)| *limit)
 }
 
-/// Rounding of places, mm: rows have four decimals.
+/// Rounding of positions, mm: rows have four decimals.
 pub(super) const PLACE_EPSILON: f64 = 1e-4;
-/// Rounding of times, microseconds: rows have three decimals, and an interval two ends.
+/// Rounding of intervals, microseconds: rows have three decimals, and an interval has two ends.
 const TIME_US: f64 = 0.0015;
-/// Rounding of accelerations, as a part: times are sums of roots.
+/// Relative rounding of accelerations: times are sums of roots.
 const ACCELERATION_EPSILON: f64 = 1e-4;
 /// Unit of stitch files, mm.
 const FILE_UNIT: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! The speed of the spindle: its limits, and that it does not change within a run.
+//! Checks of the spindle speed: its limits, and its constancy within a run.
 
 use super::ground::{Ground, sighting};
 use super::rules::{self, PLACE_EPSILON};
@@ -6,19 +6,19 @@ use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
 use crate::sew::stitches::Op;
 
-/// Follows the speed from entry to entry.
+/// State of the spindle from entry to entry.
 #[derive(Debug, Default)]
 pub(super) struct Spindle {
-    /// Stitches of the run so far.
+    /// Number of stitches of the run so far.
     stitches: u32,
-    /// The speed of the run behind its soft start.
+    /// Speed of the run after its soft start, stitches per minute.
     rpm: Option<f64>,
-    /// That of its soft start.
+    /// Speed of its soft start, stitches per minute.
     soft: Option<f64>,
 }
 
 impl Spindle {
-    /// Sees the speed of an entry, by its place among them; 0 = the spindle stands.
+    /// Checks the speed of the entry at index `i`; 0 if the spindle stands.
     pub(super) fn see(&mut self, i: usize, rpm: f64, ground: &Ground, worst: &mut WorstByRule) {
         let Some(step) = ground.stitches.steps.get(i) else { return };
         let place = sighting(i as u32 + 1, step.to);

@@ -1,4 +1,4 @@
-//! Stitch files: what their records do is what the pattern says.
+//! Checks of stitch files: their records must match the pattern.
 
 use std::io::BufRead;
 
@@ -11,21 +11,21 @@ use crate::sew::stitches::Op;
 use crate::units::TENTHS_PER_MM;
 use crate::units::columns::Unread;
 
-/// The longest move of a record at which no rounding makes it two, mm.
+/// Length below which rounding cannot split the move of a record into two, mm.
 const LONGEST: f64 = 12.0;
 
-/// What lies between two stitches or stops, and the one that follows.
+/// The events between two stitches or stops, and the stitch or stop that follows.
 #[derive(Debug, Default, Clone, Copy)]
 struct Gap {
-    /// Whether the thread is cut.
+    /// True if the thread is cut.
     is_cut: bool,
-    /// Jumps in it: of the file, or those that a pattern needs at the most.
+    /// Number of jumps: those in the file, or the maximum needed by the pattern.
     jumps: usize,
-    /// The stitch or stop behind it: whether it is a stitch, and where, mm.
+    /// The stitch (true) or stop (false) at its end, and its position, mm.
     end: Option<(bool, Point)>,
 }
 
-/// Judges a file that `decode` reads.
+/// Verifies a file with the decoder of its format.
 pub(super) fn judge(
     input: &mut dyn BufRead,
     decode: fn(&[u8]) -> Decoded,
@@ -55,7 +55,7 @@ pub(super) fn judge(
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => worst.count(&rules::ENTRIES, 1, place),
         }
-        // Jumps that stand for a trim may also be a long way.
+        // Jumps that stand for a trim may also be a long move.
         let is_trim = |jumps: usize| trim_jumps.is_some_and(|least| jumps >= least);
         let is_cut = found.is_cut || is_trim(found.jumps);
         let wrong = if planned.is_cut { !is_cut } else { is_cut && !is_trim(planned.jumps) };
@@ -64,7 +64,7 @@ pub(super) fn judge(
     Ok(())
 }
 
-/// What the pattern asks for, each gap with the entry at its end, from 1.
+/// The required gaps, each with the entry at its end, from 1.
 fn planned(ground: &Ground) -> Vec<(Gap, u32)> {
     let mut gaps = Vec::new();
     let mut gap = Gap::default();
@@ -77,7 +77,7 @@ fn planned(ground: &Ground) -> Vec<(Gap, u32)> {
             Op::Jump => gap.jumps += records.max(1),
             Op::Trim => gap.is_cut = true,
             Op::Stitch | Op::Stop | Op::Color(_) => {
-                // The last of its records is no jump.
+                // The last of its records is not a jump.
                 gap.jumps += records.saturating_sub(1);
                 gap.end = Some((step.op == Op::Stitch, step.to));
                 gaps.push((std::mem::take(&mut gap), entry));
@@ -88,7 +88,7 @@ fn planned(ground: &Ground) -> Vec<(Gap, u32)> {
     gaps
 }
 
-/// What a file does.
+/// The gaps in a file.
 fn found(records: &[Record]) -> Vec<Gap> {
     let mut gaps = Vec::new();
     let mut gap = Gap::default();

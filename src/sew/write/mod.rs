@@ -1,6 +1,6 @@
-//! Writing: a program to the bytes of a target, a row of [`TARGETS`] each.
+//! Writing: a program becomes the bytes of a target; each target is an entry of [`TARGETS`].
 //!
-//! Receives what is planned, promises bytes that depend on nothing else, and decides nothing.
+//! Receives a planned program. Promises bytes that depend on nothing else. Makes no decisions.
 
 mod chart;
 mod dst;
@@ -15,7 +15,7 @@ mod target;
 
 pub use target::Target;
 
-/// Every target; the first is the default.
+/// All targets; the first is the default.
 pub const TARGETS: &[Target] = &[
     queue::ROWS,
     queue::JSON,

@@ -1,10 +1,10 @@
-//! What stitch files have in common: moves in whole tenths of a millimetre, of limited length.
+//! Common part of stitch files: moves in whole tenths of a millimetre, of limited length.
 
 use crate::sew::program::Program;
 use crate::sew::stitches::{Op, Step};
 use crate::units::TENTHS_PER_MM;
 
-/// What a record says.
+/// Kind of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Record {
     /// A stitch.
@@ -17,8 +17,8 @@ pub(super) enum Record {
     Stop,
 }
 
-/// Each record with how far it moves, tenths of a millimetre, neither axis more than `longest`. Places are rounded, not
-/// moves, so that no error adds up; what is longer is led there by jumps.
+/// Calls `each` for all records with their displacement, tenths of a millimetre, at most `longest` in each axis. Positions are
+/// rounded, not moves, so that errors do not add up; longer moves are reached by jumps.
 pub(super) fn records(program: &Program, longest: i64, mut each: impl FnMut(Record, [i64; 2])) {
     let mut at = [0_i64; 2];
     for step in &program.stitches.steps {
@@ -41,7 +41,7 @@ pub(super) fn records(program: &Program, longest: i64, mut each: impl FnMut(Reco
     }
 }
 
-/// Where the needle stands behind an entry, tenths of a millimetre.
+/// Needle position after an entry, tenths of a millimetre.
 pub(super) fn place(step: &Step) -> [i64; 2] {
     [step.to.x, step.to.y].map(|value| (value * TENTHS_PER_MM).round() as i64)
 }
