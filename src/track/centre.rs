@@ -1,7 +1,7 @@
-//! Centre lines as files: CSV with the header `conv_mm,centre_mm`, a row a place of the conveyor.
+//! Centre lines as files: CSV with the header `conv_mm,centre_mm`, one row per position of the conveyor.
 //!
-//! What is read is sound: two rows at the least, all numbers finite, the conveyor goes forward. Every fault of a file is found
-//! in one run.
+//! A line that is read without faults has at least two rows, finite numbers, and increasing conveyor positions. All faults of a
+//! file are reported in one run.
 
 use std::io::{self, Write};
 
@@ -13,13 +13,13 @@ use crate::units::number::{push_fixed, short};
 
 /// The first row.
 const HEADER: &str = "conv_mm,centre_mm";
-/// Decimals, mm.
+/// Number of decimals of values in mm.
 const DECIMALS: u32 = 3;
-/// What a row is.
+/// Hint on faulty rows.
 const ROW: &str =
     "a row is two numbers in mm, as in `125.5,-0.75`, and `conv_mm` is greater in each than in the one before";
 
-/// Reads a centre line; `None` when it has faults, which are diagnostics.
+/// Reads a centre line; `None` if there are faults, which are diagnostics.
 pub fn read(source: &Source, out: &mut Diagnostics) -> Option<CentreLine> {
     let mut last = None;
     let row = |text: &str| {
@@ -56,7 +56,7 @@ fn told(fault: CsvFault) -> Diagnostic {
     }
 }
 
-/// A row, which the conveyor has come to behind another.
+/// Parses a row; its conveyor position must be greater than that of the last row.
 fn parse(text: &str, last: Option<[f64; 2]>) -> Result<[f64; 2], String> {
     let [conveyor, centre] = csv_fields(text)?;
     let place = |field: &str| csv_number(field, "place in mm", FARTHEST);
@@ -69,8 +69,8 @@ fn parse(text: &str, last: Option<[f64; 2]>) -> Result<[f64; 2], String> {
     }
 }
 
-/// Writes a centre line: places of the conveyor, each greater than the one before in what is printed of it, and of the
-/// centre, mm.
+/// Writes a centre line: positions of the conveyor and of the centre, mm. The conveyor positions must increase even after
+/// rounding to [`DECIMALS`].
 pub(super) fn write(rows: &[[f64; 2]], out: &mut dyn Write) -> io::Result<()> {
     let mut block = format!("{HEADER}\n").into_bytes();
     for [conveyor, centre] in rows {

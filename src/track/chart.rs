@@ -1,4 +1,4 @@
-//! A picture of how a cloth is followed: positions, error and speed over time.
+//! Picture of the tracking of a cloth: positions, error and speed over time.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -6,23 +6,23 @@ use std::io::{self, Write};
 use super::tracked::Tracked;
 use crate::units::number::{fixed, short};
 
-/// Sizes, px: of the picture, of its margins, and of a panel with the room below it.
+/// Sizes, px: of the picture, its margins, a panel, and the gap below a panel.
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 70.0;
 const RIGHT: f64 = 20.0;
 const TOP: f64 = 66.0;
 const PANEL: f64 = 190.0;
 const GAP: f64 = 42.0;
-/// Columns that lines are drawn by: of the values in one the least and the greatest are shown.
+/// Maximum number of columns of a line; each column shows its first, minimum, maximum and last value.
 const COLUMNS: usize = 910;
-/// Colours of what follows the cloth, in its order.
+/// Colours of the followers, in their order.
 const COLORS: [&str; 4] = ["#c22", "#b8b8b8", "#3a3", "#a4c"];
-/// Width of a letter of the legend, about.
+/// Approximate width of a letter in the legend, px.
 const LETTER: f64 = 6.4;
-/// Parts of an axis, at the most.
+/// Maximum number of intervals of an axis.
 const TICKS: f64 = 6.0;
 
-/// A panel: what it shows, and the lines in it, the first one on top, each with its class.
+/// A panel: its title and its lines, each with its class; the first line is on top.
 struct Panel {
     title: &'static str,
     lines: Vec<(String, Vec<f64>)>,
@@ -57,7 +57,7 @@ pub(super) fn write(tracked: &Tracked, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "</svg>")
 }
 
-/// The head of the picture, with the legend.
+/// Writes the head of the picture, with the legend.
 fn head(names: &[&str], out: &mut dyn Write) -> io::Result<()> {
     let height = TOP + 3.0 * (PANEL + GAP);
     writeln!(
@@ -82,12 +82,12 @@ fn head(names: &[&str], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Draws a panel from a height on, px.
+/// Draws a panel; `top` is its upper edge, px.
 fn draw(panel: &Panel, times: &[f64], top: f64, out: &mut dyn Write) -> io::Result<()> {
     let [start, end] = [times[0], times[times.len() - 1]];
     let all = || panel.lines.iter().flat_map(|(_, values)| values.iter().copied());
     let [least, most] = all().fold([0.0_f64; 2], |[least, most], value| [least.min(value), most.max(value)]);
-    // A line that never changes lies in the middle of a unit to either side.
+    // A constant line lies in the middle of a range of one unit to either side.
     let margin = if most > least { 0.05 * (most - least) } else { 1.0 };
     let (least, most) = (least - margin, most + margin);
     let px = |time: f64| LEFT + (time - start) / (end - start).max(f64::MIN_POSITIVE) * (WIDTH - LEFT - RIGHT);
@@ -124,7 +124,7 @@ fn draw(panel: &Panel, times: &[f64], top: f64, out: &mut dyn Write) -> io::Resu
     Ok(())
 }
 
-/// Round numbers between two.
+/// Round numbers between two values, for the marks of an axis.
 fn ticks(least: f64, most: f64) -> Vec<f64> {
     let span = most - least;
     let magnitude = 10_f64.powf((span / TICKS).log10().floor());
@@ -134,7 +134,7 @@ fn ticks(least: f64, most: f64) -> Vec<f64> {
     (first..=last).map(|n| n as f64 * step).collect()
 }
 
-/// The data of a line: of each column of the picture its first, least, greatest and last value.
+/// Path data of a line: the first, minimum, maximum and last value of each column of the picture.
 fn path(values: &[f64], times: &[f64], px: &dyn Fn(f64) -> f64, py: &dyn Fn(f64) -> f64) -> String {
     let mut data = String::new();
     let size = values.len().div_ceil(COLUMNS).max(1);

@@ -1,13 +1,13 @@
-//! The controller: a pair of readings in, a command for the drive out. Nothing here needs more than `core`: no heap, no
-//! clock, a state of fixed size, so that a firmware can take the file over as it stands.
+//! The controller: it turns a pair of readings into a command for the drive. It only needs `core`: no heap, no clock, and a
+//! state of fixed size, so that a firmware can use this file unchanged.
 //!
-//! Timing: [`Controller::step`] is called once a sample period, with the readings that were latched at its start; every time
-//! in the [`Law`] is counted in samples. A step makes at most `debounce` comparisons. With an upstream pair of rulers it sorts
-//! n = `2 debounce + 1` numbers besides, in n (n - 1)/2 moves at the most, 8,256 for the longest debounce time; nothing else
-//! in it is repeated. The command holds until the next one.
+//! Timing: [`Controller::step`] is called once per sample period, with the readings that were latched at its start. All times
+//! in the [`Law`] are counted in samples. A step makes at most `debounce` comparisons. With an upstream pair of rulers it also
+//! sorts n = `2 debounce + 1` numbers, in at most n (n - 1)/2 moves, 8,256 for the longest debounce time; it has no other
+//! loops. A command holds until the next one.
 //!
-//! With c the centre of the carriage, M that of the cloth, W its width and W0 the nominal one, q the pitch of the sensors and
-//! m their number on a ruler, the covered sensors I (left edge) and J (right edge) say
+//! Let c be the centre of the carriage, M that of the cloth, W its width and W0 the nominal width, q the pitch of the sensors
+//! and m their number on a ruler. The numbers of covered sensors I (left edge) and J (right edge) then satisfy
 //!
 //! ```text
 //! I - J = 2 (c - M)/q        I + J - m = (W - W0)/q
@@ -15,45 +15,45 @@
 //!
 //! each within one count. I > J: the cloth lies to the left of the carriage, which is driven to the left (negative).
 
-/// The most sensors of a ruler.
+/// Maximum number of sensors of a ruler.
 pub const MOST_SENSORS: usize = 256;
-/// The most samples of a debounce time.
+/// Maximum debounce time, samples.
 pub const MOST_DEBOUNCE: usize = 64;
-/// The most samples between a reading of the upstream rulers and what is done about it.
+/// Maximum delay between a reading of the upstream rulers and its use, samples.
 pub const MOST_DELAY: usize = 2048;
-/// Upstream readings that are looked at together: as many before one as behind it.
+/// Maximum number of upstream readings in a median filter: equally many before and after a reading.
 const MOST_FILTER: usize = 2 * MOST_DEBOUNCE + 1;
 
-/// Covered sensors of the rulers at the start of a sample period.
+/// Numbers of covered sensors at the start of a sample period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reading {
-    /// I: of the ruler over the left edge.
+    /// I: sensors covered on the ruler over the left edge.
     pub left: u16,
-    /// J: of the ruler over the right edge.
+    /// J: sensors covered on the ruler over the right edge.
     pub right: u16,
-    /// The same of a fixed pair upstream, whose centre is the middle of the machine; `None` where there is none.
+    /// I and J of a fixed pair of rulers upstream, centred on the middle of the machine; `None` if there is none.
     pub upstream: Option<[u16; 2]>,
 }
 
-/// What the controller makes of the deviation that it reads. What is fed forward is driven with any of the first three.
+/// Judgement of the measured deviation. The feed-forward velocity is applied with any of the first three.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// I = J, or one count beyond that on the way to it: nothing to do.
+    /// I = J, or one count past it after an approach: no correction.
     Centred,
-    /// Off centre, but not long enough yet: nothing is done about it.
+    /// Off centre, but not for long enough yet: no correction.
     Waiting,
     /// Off centre: the carriage is driven.
     Driving,
-    /// All sensors of a ruler are covered: its edge is lost. Drive off, alarm.
+    /// All sensors of a ruler are covered: the edge is lost. Drive off, alarm.
     LostCovered,
-    /// No sensor of a ruler is covered: its edge is lost. Drive off, alarm.
+    /// No sensor of a ruler is covered: the edge is lost. Drive off, alarm.
     LostOpen,
     /// The width is outside its limits. Drive off, alarm.
     Width,
 }
 
 impl Status {
-    /// Whether both edges are seen, and the width is within its limits.
+    /// True if both edges are seen and the width is within its limits.
     pub const fn sees_both_edges(self) -> bool {
         match self {
             Self::Centred | Self::Waiting | Self::Driving => true,
@@ -62,84 +62,84 @@ impl Status {
     }
 }
 
-/// What the drive has to do until the next command.
+/// Command to the drive until the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command {
-    /// Where the cloth lies, and what is done about that. What is fed forward comes to it: then the carriage may move while the
-    /// cloth lies in its centre.
+    /// Judgement of the deviation. The feed-forward velocity is added to the correction, so the carriage may move while the
+    /// cloth is centred.
     pub status: Status,
     /// Velocity of the carriage, mm/s, positive to the right; 0 = stop.
     pub velocity: f64,
 }
 
-/// What the controller goes by: made once, never changed while it runs.
+/// Parameters of the controller, constant while it runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Law {
-    /// m: sensors of a ruler.
+    /// m: number of sensors of a ruler.
     pub sensors: u16,
-    /// Least and greatest I + J - m.
+    /// Minimum and maximum of I + J - m.
     pub width: [i32; 2],
-    /// Speed of the carriage by |I - J|, mm/s; the first is that of none.
+    /// Speed of the carriage by |I - J|, mm/s; the first entry is for 0.
     pub speeds: [f64; MOST_SENSORS + 1],
-    /// Greatest speed of the carriage, mm/s.
+    /// Maximum speed of the carriage, mm/s.
     pub max_speed: f64,
-    /// For how many samples behind its first one a side must have been told.
+    /// Number of samples, after the first one, during which a side must be measured before it counts.
     pub debounce: u16,
-    /// What is done with the upstream rulers.
+    /// Use of the upstream rulers; `None` if there are none.
     pub feed_forward: Option<FeedForward>,
 }
 
-/// How the upstream rulers are used.
+/// Parameters of the feed-forward from the upstream rulers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedForward {
-    /// Samples between the two readings whose difference is the velocity of the cloth's centre.
+    /// Number of samples between the two readings whose difference gives the velocity of the cloth's centre.
     pub window: u16,
-    /// Samples that the velocity is held back by, so that the drive does it when the cloth is there.
+    /// Delay of the velocity, samples, so that the drive applies it when the cloth arrives.
     pub delay: u16,
-    /// Samples on either side of a reading whose median it becomes: damage of the edge is no motion of the cloth.
+    /// Number of samples on either side of a reading in its median filter, which removes damage of the edge.
     pub filter: u16,
-    /// Velocity by the difference of two readings of I - J, mm/s a count.
+    /// Velocity per count of difference between two readings of I - J, mm/s.
     pub per_count: f64,
 }
 
 /// The state of a controller, of fixed size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Controller {
-    /// The side that is told, -1, 0 or 1, and for how many samples behind the first.
+    /// The measured side, -1, 0 or 1, and the number of samples for which it has held after the first.
     side: i8,
     held: u16,
-    /// The side to which the carriage was driven last; 0 = to none yet.
+    /// The side to which the carriage was last driven; 0 if there is none yet.
     driven: i8,
-    /// |I - J| of the last samples, a ring.
+    /// Ring buffer of |I - J| of the last samples.
     deviations: [u16; MOST_DEBOUNCE],
     at: u16,
     upstream: Upstream,
 }
 
-/// What is known of the cloth upstream.
+/// State of the upstream measurement.
 #[derive(Debug, Clone, PartialEq)]
 struct Upstream {
-    /// I - J of the last readings, a ring.
+    /// Ring buffer of I - J of the last readings.
     raw: [i16; MOST_FILTER],
-    /// Their medians, a ring.
+    /// Ring buffer of their medians.
     filtered: [i16; MOST_DELAY],
-    /// Readings so far, no more than it takes to use them.
+    /// Number of readings so far, limited to the number needed.
     count: u16,
-    /// For how many readings an edge has been lost.
+    /// Number of consecutive readings with a lost edge.
     lost: u16,
     raw_at: u16,
     at: u16,
 }
 
 impl Controller {
-    /// A controller that has read nothing yet.
+    /// A controller without any readings yet.
     pub const fn new() -> Self {
         let upstream =
             Upstream { raw: [0; MOST_FILTER], filtered: [0; MOST_DELAY], count: 0, lost: 0, raw_at: 0, at: 0 };
         Self { side: 0, held: 0, driven: 0, deviations: [0; MOST_DEBOUNCE], at: 0, upstream }
     }
 
-    /// Takes the readings of a sample and says what the drive has to do.
+    /// Processes the readings of a sample and returns the command for the drive.
     pub fn step(&mut self, law: &Law, reading: Reading) -> Command {
         let ahead = match (&law.feed_forward, reading.upstream) {
             (Some(feed_forward), Some(pair)) => self.upstream.velocity(law, feed_forward, pair),
@@ -167,13 +167,13 @@ impl Controller {
         Command { status, velocity: if velocity == 0.0 { 0.0 } else { velocity } }
     }
 
-    /// What is done about the deviation, and the velocity back to the centre, mm/s.
+    /// Judges the deviation and returns the correcting velocity, mm/s.
     ///
-    /// The speed is that of the least deviation of the debounce time: damage beside an edge that is being followed must not
-    /// make the carriage jump, either. On the way to the centre that is the last one.
+    /// The speed is that of the minimum deviation during the debounce time, so that damage beside an edge cannot make the
+    /// carriage jump while it is driven. During an approach to the centre that minimum is the last deviation.
     ///
-    /// One count to the other side than the carriage came from is centred: a ruler reads within one count, and where both
-    /// change at the same place no reading is ever I = J, so that the carriage would be driven to and fro for good.
+    /// One count to the side opposite to the approach counts as centred. A ruler is accurate to one count, and if both change
+    /// at the same position no reading is ever I = J; the carriage would be driven back and forth forever.
     fn decide(&mut self, law: &Law, left: u16, right: u16) -> (Status, f64) {
         let side = match left.cmp(&right) {
             core::cmp::Ordering::Less => 1,
@@ -207,19 +207,20 @@ impl Default for Controller {
 }
 
 impl Upstream {
-    /// Takes a reading, and gives the velocity of the cloth's centre where the carriage will be, mm/s; 0 until enough is
-    /// known.
+    /// Processes a reading and returns the velocity of the cloth's centre where the carriage will be, mm/s; 0 until enough
+    /// readings are known.
     fn velocity(&mut self, law: &Law, feed_forward: &FeedForward, [left, right]: [u16; 2]) -> f64 {
         let FeedForward { window, delay, filter, per_count } = *feed_forward;
         let is_lost = left == 0 || right == 0 || left >= law.sensors || right >= law.sensors;
         let last = self.raw[usize::from(self.raw_at)];
         self.raw_at = (self.raw_at + 1) % MOST_FILTER as u16;
-        // Where an edge is lost nothing is known of the centre: it is taken to stay.
+        // While an edge is lost the centre is unknown and taken as constant.
         let now = if is_lost { last } else { left.wrapping_sub(right).cast_signed() };
         self.raw[usize::from(self.raw_at)] = now;
         let (need, taken) = (window + delay, 2 * filter + 1);
         self.lost = if is_lost { self.lost.saturating_add(1) } else { 0 };
-        // What the median does not hide is no jump of the cloth when the edge is found again: everything begins anew.
+        // A loss longer than the median filter can hide restarts the measurement, so that the return of the edge does not look
+        // like a jump of the cloth.
         self.count = if self.lost > filter { 0 } else { self.count.saturating_add(1).min(need.saturating_add(taken)) };
         self.at = (self.at + 1) % MOST_DELAY as u16;
         self.filtered[usize::from(self.at)] = if self.count < taken { now } else { self.median(taken) };
@@ -233,7 +234,7 @@ impl Upstream {
         (back(delay) - back(need)) * per_count
     }
 
-    /// The median of the last readings, an odd number of them.
+    /// The median of the last `taken` readings, an odd number.
     fn median(&self, taken: u16) -> i16 {
         let mut sorted = [0_i16; MOST_FILTER];
         let mut length = 0;

@@ -1,23 +1,23 @@
-//! The drive of a carriage: what becomes of the commands that it is given.
+//! The drive of a carriage: its response to commands.
 
 use std::collections::VecDeque;
 
 use crate::machine::Tracking;
 
-/// Steps of the integration in a sample period.
+/// Number of integration steps per sample period.
 pub(super) const STEPS: usize = 10;
-/// A carriage that is slower stands, mm/s: within a shift it comes no micrometre on.
+/// Speed below which a carriage is at rest, mm/s: within a shift it would not move by a micrometre.
 const REST_EPSILON: f64 = 1e-8;
 
-/// A carriage on its drive: commands come to it after the latency, and it follows them with a time constant, no faster than
-/// its acceleration allows.
+/// A carriage and its drive. Commands arrive after the latency; the drive follows them with a time constant, within its
+/// acceleration.
 #[derive(Debug, Clone)]
 pub(super) struct Drive {
-    /// Where the carriage is, mm.
+    /// Position of the carriage, mm.
     pub(super) place: f64,
     /// Its velocity, mm/s.
     pub(super) velocity: f64,
-    /// Commands on their way, the oldest first, one a step.
+    /// Delayed commands, the oldest first, one per step.
     late: VecDeque<f64>,
     lag: f64,
     acceleration: f64,
@@ -39,17 +39,17 @@ impl Drive {
         }
     }
 
-    /// Whether it stands, and nothing on its way will move it.
+    /// True if the carriage is at rest and no delayed command will move it.
     pub(super) fn rests(&self) -> bool {
         self.velocity.abs() <= REST_EPSILON && self.late.iter().all(|&velocity| velocity == 0.0)
     }
 
-    /// Moves on by a sample period, in which a velocity is commanded, mm/s.
+    /// Advances by a sample period with a commanded velocity, mm/s.
     pub(super) fn follow(&mut self, velocity: f64) {
         for _ in 0..STEPS {
             self.late.push_back(velocity);
             let commanded = self.late.pop_front().unwrap_or(velocity);
-            // No faster than within a step, however small the lag is.
+            // The response takes at least one step, however small the lag is.
             let wanted = (commanded - self.velocity) / self.lag.max(self.step);
             self.velocity += wanted.clamp(-self.acceleration, self.acceleration) * self.step;
             self.place += self.velocity * self.step;

@@ -1,18 +1,18 @@
-//! The law of the controller, made of the profile: how fast by how far off centre, and when that cannot overshoot.
+//! The law of the controller, derived from the profile: speed by deviation, and conditions against overshoot.
 
 use super::controller::{FeedForward, Law, MOST_DEBOUNCE, MOST_DELAY, MOST_SENSORS};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::{Tracking, tracking};
 use crate::units::number::{short, up};
 
-/// The part of the acceleration that the brake counts on: the rest is for what lag and sampling do to it.
+/// Fraction of the acceleration available to the brake; the rest covers the effects of lag and sampling.
 const BRAKE: f64 = 0.6;
 
-// What the profile lets pass, the controller can hold.
+// All values permitted by the profile fit into the controller.
 const _: () = assert!((tracking::MOST_DEBOUNCE as usize) < MOST_DEBOUNCE);
 const _: () = assert!(tracking::MOST_DELAY as usize + (Tracking::WINDOW as usize) < MOST_DELAY);
 
-/// The law of a profile.
+/// The controller parameters of a profile.
 pub fn law(track: &Tracking) -> Law {
     let mut speeds = [0.0; MOST_SENSORS + 1];
     for (deviation, speed) in speeds.iter_mut().enumerate().skip(1) {
@@ -33,9 +33,9 @@ pub fn law(track: &Tracking) -> Law {
     }
 }
 
-/// Speed of the carriage, mm/s, that is so many counts off centre: v = min(vmax, f + k D). With the brake it is no faster
-/// than it can stop from, within the s = (D - 1) q/2 that are sure to be left, with a part b of its acceleration after a dead
-/// time tt: v = b (sqrt(tt^2 + 2 s/b) - tt); f is always kept, so that the last count is made good, too.
+/// Speed of the carriage at a deviation D, counts, in mm/s: v = min(vmax, f + k D). With the brake it is also limited so that
+/// the carriage can stop within the guaranteed remaining distance s = (D - 1) q/2, with a fraction b of its acceleration after
+/// a dead time tt: v = b (sqrt(tt^2 + 2 s/b) - tt). The speed is at least f, so that the last count is corrected, too.
 fn speed_at(track: &Tracking, deviation: f64) -> f64 {
     let Tracking { least_speed_mm_s: least, gain_mm_s: gain, max_speed_mm_s: greatest, .. } = *track;
     let wanted = (least + gain * deviation).min(greatest);
@@ -49,8 +49,8 @@ fn speed_at(track: &Tracking, deviation: f64) -> f64 {
     wanted.min(stoppable.max(least))
 }
 
-/// What the upstream rulers see comes to the carriage behind so many samples: that long, less what the drive and the reading
-/// itself take, it is held back.
+/// Feed-forward parameters. A reading upstream reaches the carriage after `ahead` samples; the delay is that time less the time
+/// taken by the drive and the reading.
 fn feed_forward(track: &Tracking, ahead: f64) -> FeedForward {
     let window = Tracking::WINDOW;
     FeedForward {
@@ -62,13 +62,13 @@ fn feed_forward(track: &Tracking, ahead: f64) -> FeedForward {
     }
 }
 
-/// The conditions under which the carriage is sure not to overshoot by more than a pitch and a half, sufficient and not
-/// necessary, as ratios of what there is to what is allowed.
+/// Conditions that guarantee an overshoot of at most a pitch and a half, sufficient but not necessary, as ratios of the actual
+/// to the permitted value.
 ///
-/// At one count it moves less than half a pitch in its dead time, (f + k) 2 tau/q <= 1; it need not slow down faster than with
-/// half of its acceleration, (2k/q) v/(a/2) <= 1, v being its greatest speed, which the brake sees to; and the loop is not too
-/// stiff for its dead time, (2k/q) tau <= 1/2: from 1/e on a loop with a pure delay swings, and what follows with a time
-/// constant allows a little more.
+/// At one count the carriage moves less than half a pitch in its dead time, (f + k) 2 tau/q <= 1. It need not decelerate faster
+/// than with half of its acceleration, (2k/q) v/(a/2) <= 1, with v its maximum speed; the brake ensures this. The loop is not
+/// too stiff for its dead time, (2k/q) tau <= 1/2: above 1/e a loop with a pure delay oscillates, and a response with a time
+/// constant permits a little more.
 pub fn overshoot(track: &Tracking) -> [f64; 3] {
     let dead = track.period() + track.latency() + track.lag();
     let stiffness = 2.0 * track.gain_mm_s / track.pitch_mm;
@@ -78,7 +78,7 @@ pub fn overshoot(track: &Tracking) -> [f64; 3] {
     [first, if track.brake { 0.0 } else { falls / (track.carriage_acceleration_mm_s2 / 2.0) }, stiffness * dead * 2.0]
 }
 
-/// Notes which of the conditions a profile does not keep.
+/// Notes the conditions that a profile violates.
 pub(super) fn note(track: &Tracking, out: &mut Diagnostics) {
     let gain = format!("with `track.gain_mm_s` = {} the carriage", short(track.gain_mm_s));
     let simulate = "or simulate it with the delays of your machine: `cutc track --simulate`";
@@ -104,7 +104,7 @@ mod tests {
         let track = Tracking { gain_mm_s: 3.0, brake: false, ..Tracking::default() };
         let law = law(&track);
         assert_eq!([law.speeds[0], law.speeds[1], law.speeds[40], law.speeds[100]], [0.0, 4.0, 121.0, 200.0]);
-        // The second condition is broken: see the plant of the default profile.
+        // The second condition is violated: see the plant of the default profile.
         let ratios = overshoot(&track);
         let expected = [0.32, 6.0 * 187.0 / 400.0, 0.48];
         assert!(ratios.iter().zip(expected).all(|(ratio, expected)| (ratio - expected).abs() < 1e-12), "{ratios:?}");

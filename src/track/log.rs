@@ -1,6 +1,6 @@
-//! Logs: ruler readings as CSV, `t_s,i,j` and what else is known, a row a sample.
+//! Logs: ruler readings as CSV, `t_s,i,j` and optional columns, one row per sample.
 //!
-//! Promises rows whose times increase and whose readings a ruler can give; every fault of a file is found in one run.
+//! Promises rows with increasing times and with readings that a ruler can give; all faults of a file are reported in one run.
 
 use super::row::{FARTHEST, Row};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -9,7 +9,7 @@ use crate::source::{CsvLines, Source, Span, csv_number};
 use crate::units::MS_PER_S;
 use crate::units::number::short;
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Column {
     Time,
@@ -19,13 +19,13 @@ enum Column {
     UpstreamRight,
     Conveyor,
     Carriage,
-    /// What an earlier run said of it.
+    /// An output of an earlier run.
     Said,
-    /// Something that nothing is known of.
+    /// Unknown content.
     Other,
 }
 
-/// The columns that a log may have; the first three it must.
+/// The known columns; the first three are mandatory.
 const COLUMNS: [(&str, Column); 10] = [
     ("t_s", Column::Time),
     ("i", Column::Left),
@@ -38,14 +38,14 @@ const COLUMNS: [(&str, Column); 10] = [
     ("direction", Column::Said),
     ("v_mm_s", Column::Said),
 ];
-/// How many of these must be there.
+/// Number of mandatory columns.
 const NEEDED: usize = 3;
-/// Latest times, s: beyond all that clocks count from 1970 on.
+/// Maximum time, s: beyond all clocks that count from 1970 on.
 const LATEST: f64 = 1e11;
-/// A sample is missing where the time to the next differs from the period by more than this part of it.
+/// Relative deviation of a time step from the period above which samples are missing.
 const MISSING: f64 = 0.4;
 
-/// Reads a log. Faults of the data are diagnostics.
+/// Reads a log; faults of the data are diagnostics.
 pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Vec<Row> {
     let bytes = source.bytes();
     let mut lines = CsvLines::of(bytes);
@@ -75,7 +75,7 @@ pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> 
     for (line, span) in lines {
         match parse(line, &columns, track).map(|row| Row { start: Some(span.start), ..row }) {
             Ok(row) => {
-                // Rows behind one that goes back are held against that: a slip is one fault.
+                // A row with a wrong time or position is still the reference for the next one, so that one slip is one fault.
                 if let Err(message) = follows(rows.last(), &row) {
                     refuse(message, span);
                 }
@@ -93,7 +93,7 @@ pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> 
     rows
 }
 
-/// The names of columns, as the header has them.
+/// The names of columns, in the order of the header.
 fn names(columns: &[Column]) -> String {
     let names = columns.iter().map(|column| {
         let known = COLUMNS.iter().find(|(_, known)| known == column);
@@ -102,13 +102,12 @@ fn names(columns: &[Column]) -> String {
     format!("`{}`", names.collect::<Vec<_>>().join(","))
 }
 
-/// The names of all columns.
+/// The names of all known columns.
 fn known() -> [&'static str; COLUMNS.len()] {
     COLUMNS.map(|(name, _)| name)
 }
 
-/// What the columns of a header hold, and the names of those that nothing is known of; or what is wrong with it, and what to
-/// do.
+/// The columns of a header, and the names of unknown ones. The error is a message and a hint.
 fn columns(header: &[u8]) -> Result<(Vec<Column>, Vec<String>), (String, String)> {
     let known = known();
     let hint = || {
@@ -138,7 +137,7 @@ fn columns(header: &[u8]) -> Result<(Vec<Column>, Vec<String>), (String, String)
     Ok((columns, others))
 }
 
-/// A row, without its place.
+/// Parses a row, without its location.
 fn parse(line: &[u8], columns: &[Column], track: &Tracking) -> Result<Row, String> {
     let text = std::str::from_utf8(line).map_err(|_| "the row is no text".to_owned())?;
     let mut row = Row { time: 0.0, covered: [0; 2], upstream: None, conveyor: None, carriage: None, start: None };
@@ -177,7 +176,7 @@ fn count(field: &str, track: &Tracking) -> Result<u16, String> {
     }
 }
 
-/// Whether a row may stand behind another.
+/// Checks that a row may follow another.
 fn follows(last: Option<&Row>, row: &Row) -> Result<(), String> {
     let Some(last) = last else { return Ok(()) };
     if row.time <= last.time {
@@ -195,12 +194,12 @@ fn follows(last: Option<&Row>, row: &Row) -> Result<(), String> {
     }
 }
 
-/// Whether a row comes so long behind the one before it that samples between the two are missing.
+/// True if samples are missing between two consecutive rows, by the time between them.
 pub(super) fn is_gap(before: &Row, row: &Row, track: &Tracking) -> bool {
     (row.time - before.time - track.period()).abs() > MISSING * track.period()
 }
 
-/// Looks at the times of all rows: most must be a period apart; elsewhere samples are missing.
+/// Checks the times of all rows: most must be one period apart; at the others samples are missing.
 fn rhythm(rows: &[Row], track: &Tracking, out: &mut Diagnostics) {
     let gaps: Vec<&Row> = rows.windows(2).filter(|w| is_gap(&w[0], &w[1], track)).map(|w| &w[1]).collect();
     if gaps.len() > rows.len() / 2 {

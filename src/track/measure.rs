@@ -1,4 +1,4 @@
-//! Measuring: how well something follows a cloth.
+//! Measures of the tracking quality of a follower.
 
 use serde::Serialize;
 
@@ -6,34 +6,36 @@ use super::scenario::Scenario;
 use super::simulate::Follower;
 use crate::machine::Tracking;
 
-/// A carriage that is slower stands, mm/s: so that it has no direction that could be reversed.
+/// Speed below which a carriage is at rest, mm/s, and has no direction to reverse.
 const STANDS: f64 = 0.1;
-/// A follower has settled when it is off centre by no more than this many pitches.
+/// Maximum error of a settled follower, pitches.
 const SETTLED: f64 = 1.0;
-/// The part at the end that tells what is left, and the one within which what is off centre has never settled.
+/// Fractions of the duration at its end: one for the residual error, and one in which an error means that the follower has not
+/// settled.
 const LAST: f64 = 0.25;
 const END: f64 = 0.05;
 
-/// How well something follows a cloth.
+/// Tracking quality of a follower.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Measures {
-    /// From a jump of the cloth to when it is followed to a pitch for good, s; null without a jump, and where it never is.
+    /// Time from a jump of the cloth until it is followed within a pitch for good, s; null without a jump or if that never
+    /// happens.
     pub settling_s: Option<f64>,
-    /// How far it goes beyond the centre behind a jump, mm; null without one.
+    /// Maximum excursion beyond the centre after a jump, mm; null without a jump.
     pub overshoot_mm: Option<f64>,
-    /// How often it turns round.
+    /// Number of reversals.
     pub reversals: usize,
-    /// How often it does in the last quarter: what settles does not.
+    /// Number of reversals in the last quarter; a settled follower has none.
     pub late_reversals: usize,
-    /// The greatest error in the last quarter, mm.
+    /// Maximum error in the last quarter, mm.
     pub residual_mm: f64,
-    /// The greatest error of all that is measured, mm.
+    /// Maximum error over the measured time, mm.
     pub worst_mm: f64,
-    /// The root of the mean of its square, mm.
+    /// Root mean square of the error over the measured time, mm.
     pub rms_mm: f64,
 }
 
-/// Measures a follower of a cloth whose centre is known at each sample, mm.
+/// Measures a follower; `cloth` is the centre of the cloth at each sample, mm.
 pub fn measure(follower: &Follower, cloth: &[f64], scenario: &Scenario, track: &Tracking) -> Measures {
     let period = track.period();
     let errors: Vec<f64> = follower.places.iter().zip(cloth).map(|(place, centre)| place - centre).collect();
@@ -60,7 +62,7 @@ pub fn measure(follower: &Follower, cloth: &[f64], scenario: &Scenario, track: &
     }
 }
 
-/// How often a carriage turns round.
+/// Number of reversals of a carriage.
 fn reversals(places: &[f64], period: f64) -> usize {
     let mut way = 0.0;
     let mut count = 0;

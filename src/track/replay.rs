@@ -1,4 +1,4 @@
-//! Replay: the rows of a log through the controller, and what happens on the way.
+//! Replay: runs the rows of a log through the controller and reports alarms.
 
 use super::controller::{Command, Controller, Reading, Status};
 use super::drive::Drive;
@@ -10,16 +10,16 @@ use crate::machine::Tracking;
 use crate::source::Span;
 use crate::units::number::short;
 
-/// A log with what the controller makes of it.
+/// A log with the commands of the controller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
     /// The samples.
     pub rows: Vec<Row>,
-    /// A command for each.
+    /// The command for each sample.
     pub commands: Vec<Command>,
 }
 
-/// Gives rows to a controller, one by one. It begins anew where samples are missing.
+/// Runs rows through a controller, which is reset where samples are missing.
 pub(super) fn replay(rows: Vec<Row>, track: &Tracking, out: &mut Diagnostics) -> Replay {
     let law = law(track);
     let mut controller = Controller::new();
@@ -39,7 +39,7 @@ pub(super) fn replay(rows: Vec<Row>, track: &Tracking, out: &mut Diagnostics) ->
     replay
 }
 
-/// Says where the drive is switched off.
+/// Reports where the drive is switched off.
 pub(super) fn tell(replay: &Replay, track: &Tracking, out: &mut Diagnostics) {
     let mut last = None;
     for (row, Command { status, .. }) in replay.rows.iter().zip(&replay.commands) {
@@ -50,7 +50,7 @@ pub(super) fn tell(replay: &Replay, track: &Tracking, out: &mut Diagnostics) {
     }
 }
 
-/// What is said of a status at which the drive is switched off.
+/// Code and wording of a status at which the drive is switched off.
 fn alarm(status: Status) -> Option<(&'static Code, &'static str)> {
     match status {
         Status::Centred | Status::Waiting | Status::Driving => None,
@@ -60,7 +60,7 @@ fn alarm(status: Status) -> Option<(&'static Code, &'static str)> {
     }
 }
 
-/// The finding of an alarm that begins at a row.
+/// The finding on an alarm that begins at a row.
 fn alarmed((code, what): (&'static Code, &'static str), row: &Row, track: &Tracking) -> Diagnostic {
     let [left, right] = row.covered;
     let time = short(row.time);
@@ -74,11 +74,12 @@ fn alarmed((code, what): (&'static Code, &'static str), row: &Row, track: &Track
         format!("{what} at {time} s (I = {left}, J = {right}): its edge is lost, the drive is off")
     };
     let found = Diagnostic::new(code, message);
-    // The rows of a simulation are in no file.
+    // The rows of a simulation are not in a file.
     row.start.map_or(found.clone(), |start| found.at(Span { start, end: start, block: 0 }))
 }
 
-/// Where the carriage was at each row, mm: as the log tells, or as a drive would have followed the commands from the middle.
+/// Position of the carriage at each row, mm: from the log, otherwise simulated by a drive that follows the commands from the
+/// middle.
 pub(super) fn carriage(replay: &Replay, track: &Tracking, out: &mut Diagnostics) -> Vec<f64> {
     if let Some(told) = replay.rows.iter().map(|row| row.carriage).collect() {
         return told;
@@ -90,7 +91,7 @@ pub(super) fn carriage(replay: &Replay, track: &Tracking, out: &mut Diagnostics)
     let mut before: Option<&Row> = None;
     let rows = replay.rows.iter().zip(&replay.commands);
     rows.map(|(row, command)| {
-        // Nothing is commanded while samples are missing: the drive comes to rest.
+        // There are no commands while samples are missing: the drive comes to rest.
         if let Some(before) = before.filter(|before| is_gap(before, row, track)) {
             let missing = ((row.time - before.time) / track.period()).round() - 1.0;
             let mut left = missing.max(0.0) as u64;

@@ -1,11 +1,11 @@
-//! What else follows the centre of a cloth: the older tracker of two coupled mechanisms, and a guide with a PI controller.
+//! Alternative trackers for comparison: the older tracker with two coupled mechanisms, and a guide with a PI controller.
 //!
-//! They stand beside the controller in a simulation, with the same readings, drives and delays.
+//! They run beside the controller in a simulation, with the same readings, drives and delays.
 
 use super::drive::Drive;
 use crate::machine::Tracking;
 
-/// A guide that drives the carriage at Kp e + Ki times the sum of e over time, e being how far off centre it is.
+/// A guide that drives the carriage at Kp e + Ki times the integral of e, where e is the distance from the centre.
 #[derive(Debug, Clone)]
 pub(super) struct Guide {
     sum: f64,
@@ -25,7 +25,7 @@ impl Guide {
     pub(super) fn step(&mut self, track: &Tracking, [left, right]: [u16; 2]) -> f64 {
         let off = (f64::from(right) - f64::from(left)) * track.pitch_mm / 2.0;
         let velocity = PROPORTIONAL * off + INTEGRAL * self.sum;
-        // What the drive cannot do is not summed up.
+        // The integral is frozen while the velocity is limited (anti-windup).
         if velocity.abs() < track.max_speed_mm_s {
             self.sum += off * track.period();
         }
@@ -33,10 +33,10 @@ impl Guide {
     }
 }
 
-/// The older tracker: one mechanism drives a base with the tracker of the left edge, another the distance from that to the
-/// tracker of the right edge, and the cutting heads are kept in the middle between the two. Each tracker knows only whether
-/// there is cloth below it, so that both mechanisms always run one way or the other, and what the first one does moves the
-/// second tracker, too.
+/// The older tracker: one mechanism drives a base with the tracker of the left edge, another the distance from it to the
+/// tracker of the right edge, and the cutting heads are kept in the middle between the two. Each tracker only detects cloth
+/// below it, so both mechanisms always run in one direction or the other, and the motion of the first one also moves the second
+/// tracker.
 #[derive(Debug, Clone)]
 pub(super) struct Older {
     base: Drive,
@@ -46,17 +46,17 @@ pub(super) struct Older {
 }
 
 impl Older {
-    /// One whose mechanisms run at a speed, mm/s, with its trackers the nominal width apart.
+    /// Creates a tracker with mechanisms that run at a speed, mm/s, and trackers at the nominal width apart.
     pub(super) fn new(track: &Tracking, speed: f64) -> Self {
         Self { base: Drive::new(track), distance: Drive::new(track), speed, width: track.width_mm }
     }
 
-    /// Where its heads are, mm to the right of the middle of the machine.
+    /// Position of its heads, mm to the right of the middle of the machine.
     pub(super) fn place(&self) -> f64 {
         self.base.place + self.distance.place / 2.0
     }
 
-    /// Moves on by a sample period over a cloth with its edges at these places, mm.
+    /// Advances by a sample period over a cloth with given edge positions, mm.
     pub(super) fn follow(&mut self, [left, right]: [f64; 2]) {
         let toward = |tracker: f64, edge: f64| if tracker > edge { -self.speed } else { self.speed };
         let base = toward(self.base.place - self.width / 2.0, left);

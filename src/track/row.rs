@@ -1,21 +1,21 @@
-//! A row of a log: what was read at a time, and what else is known of it.
+//! A row of a log: the readings at a time and optional positions.
 
-/// Farthest places, mm: no conveyor is as long.
+/// Maximum position, mm: no conveyor is as long.
 pub(super) const FARTHEST: f64 = 1e9;
 
 /// A sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// When it was read, s.
+    /// Time of the reading, s.
     pub time: f64,
     /// I and J: covered sensors of the rulers over the left and the right edge.
     pub covered: [u16; 2],
-    /// The same upstream.
+    /// I and J of the rulers upstream; `None` if there are none.
     pub upstream: Option<[u16; 2]>,
-    /// Where the conveyor was, mm.
+    /// Position of the conveyor, mm.
     pub conveyor: Option<f64>,
-    /// Where the carriage was, mm.
+    /// Position of the carriage, mm.
     pub carriage: Option<f64>,
-    /// The byte at which the row begins; `None` for one that is in no file.
+    /// Byte offset of the row in its file; `None` for a simulated row.
     pub start: Option<u32>,
 }

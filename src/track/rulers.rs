@@ -1,11 +1,11 @@
-//! The rulers of a carriage: which of their sensors a cloth covers.
+//! The rulers of a carriage: number of sensors covered by a cloth.
 
 use crate::machine::Tracking;
 
-/// Covered sensors I and J of the rulers of a carriage at a place over a cloth with its edges at others, mm.
+/// Numbers of covered sensors I and J, for a position of the carriage and the edges of a cloth, mm.
 ///
-/// The middle of ruler A is half the nominal width to the left of the carriage, that of B to the right; sensors stand in the
-/// middle of their pitch, and the cloth covers those inside its edges.
+/// The middle of ruler A is half the nominal width to the left of the carriage, that of ruler B to the right. Sensors are in
+/// the middle of their pitch; the cloth covers those inside its edges.
 pub(super) fn covered(track: &Tracking, carriage: f64, [left, right]: [f64; 2]) -> [u16; 2] {
     let half = track.width_mm / 2.0;
     let [over_left, over_right] = [carriage - half - left, right - (carriage + half)];

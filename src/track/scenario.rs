@@ -1,4 +1,4 @@
-//! Scenarios: what a moving cloth does, as TOML.
+//! Scenarios: motions of a cloth, as TOML.
 
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
@@ -7,20 +7,20 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::machine::Tracking;
 use crate::source::{Source, Span};
 
-/// What a cloth does, and for how long it is looked at.
+/// Motion and damage of a cloth, and the duration of its simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
-    /// How long it lasts, s.
+    /// Duration, s.
     pub duration: f64,
-    /// From when on the error counts, s.
+    /// Time from which the error is measured, s.
     pub measured_from: f64,
-    /// The cloth jumps to one side by so much, mm, at a time, s.
+    /// Lateral jump of the cloth, mm, and its time, s.
     pub offset: [f64; 2],
-    /// It wanders from side to side by so much, mm, in so many s there and back.
+    /// Lateral oscillation of the cloth: amplitude, mm, and period, s.
     pub wander: [f64; 2],
-    /// It drifts to one side, mm/s.
+    /// Lateral drift, mm/s.
     pub drift: f64,
-    /// Its width, mm.
+    /// Width, mm.
     pub width: f64,
     /// Damage of its edges.
     pub damage: Vec<Damage>,
@@ -30,13 +30,13 @@ pub struct Scenario {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Damage {
-    /// When it begins to pass the rulers of the carriage, s.
+    /// Time at which it reaches the rulers of the carriage, s.
     pub at_s: f64,
-    /// For how long it does, s.
+    /// Duration of its passage, s.
     pub for_s: f64,
-    /// How much cloth is missing there, mm; less than nothing = a flap sticks out.
+    /// Depth of the missing cloth, mm; negative for a flap.
     pub depth_mm: f64,
-    /// Which edge it is on.
+    /// The damaged edge.
     pub edge: Edge,
 }
 
@@ -44,20 +44,20 @@ pub struct Damage {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Edge {
-    /// Under ruler A.
+    /// The edge under ruler A.
     Left,
-    /// Under ruler B.
+    /// The edge under ruler B.
     Right,
 }
 
-/// A key of a scenario: its name, range and what it is.
+/// A key of a scenario: its name, its range, and the setter of its value.
 struct Key {
     name: &'static str,
     within: [f64; 2],
     set: fn(&mut Scenario, f64),
 }
 
-/// Every key but `damage`.
+/// All keys except `damage`.
 const KEYS: &[Key] = &[
     Key { name: "duration_s", within: [0.1, 3600.0], set: |scenario, value| scenario.duration = value },
     Key { name: "measured_from_s", within: [0.0, 3600.0], set: |scenario, value| scenario.measured_from = value },
@@ -69,15 +69,15 @@ const KEYS: &[Key] = &[
     Key { name: "width_mm", within: [1.0, 20_000.0], set: |scenario, value| scenario.width = value },
 ];
 const DAMAGE: &str = "damage";
-/// What a row of damage is.
+/// Hint on the format of damage.
 const DAMAGE_ROW: &str =
     "write a list of tables: damage = [{ at_s = 1, for_s = 0.05, depth_mm = 10, edge = \"left\" }]";
-/// The most that one may last and hold, so that a slip of a digit ends soon.
+/// Maximum number of samples, so that a wrong digit does not make the simulation endless.
 const MOST_SAMPLES: f64 = 1e7;
 
 impl Scenario {
-    /// A cloth that lies still in the middle, for a while. It is half a pitch wider than the nominal width, so that the rulers
-    /// count in turn and know the centre to half a pitch.
+    /// A cloth at rest in the middle. It is half a pitch wider than the nominal width, so that the rulers count alternately and
+    /// resolve the centre to half a pitch.
     pub fn still(track: &Tracking) -> Self {
         Self {
             duration: 5.0,
@@ -90,7 +90,7 @@ impl Scenario {
         }
     }
 
-    /// Where the centre of the cloth is under the carriage, mm to the right, at a time, s.
+    /// Position of the cloth's centre under the carriage at a time, s; mm to the right.
     pub fn centre(&self, time: f64) -> f64 {
         let [amplitude, period] = self.wander;
         let [offset, from] = self.offset;
@@ -98,7 +98,7 @@ impl Scenario {
         jumped + self.drift * time.max(0.0) + amplitude * (time / period * std::f64::consts::TAU).sin()
     }
 
-    /// How much of the left and of the right edge is missing, mm, at a time, s.
+    /// Missing cloth at the left and the right edge at a time, s; mm.
     pub fn missing(&self, time: f64) -> [f64; 2] {
         let mut missing = [0.0; 2];
         for damage in &self.damage {
@@ -112,7 +112,7 @@ impl Scenario {
         missing
     }
 
-    /// Reads a scenario; `None` when it has faults, which are diagnostics.
+    /// Reads a scenario; `None` if there are faults, which are diagnostics.
     pub fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Option<Self> {
         let Ok(text) = std::str::from_utf8(source.bytes()) else {
             out.push(Diagnostic::new(&code::TRACK_SCENARIO, "the scenario is not UTF-8 text"));
@@ -146,7 +146,7 @@ impl Scenario {
         Some(scenario)
     }
 
-    /// What is wrong with its values together, and what to do.
+    /// Message and hint on values that contradict each other; `None` if they are consistent.
     fn fault(&self, track: &Tracking) -> Option<[String; 2]> {
         let Self { duration, measured_from, .. } = self;
         if duration / track.period() > MOST_SAMPLES {
@@ -165,7 +165,7 @@ impl Scenario {
         Some([message, "take an earlier time, or a longer duration".to_owned()])
     }
 
-    /// Takes a key in; or what is wrong with it, and what to do.
+    /// Sets the value of a key. The error is a message and a hint.
     fn take(&mut self, name: &str, value: &DeValue, text: &str) -> Result<(), [String; 2]> {
         let plain = || ValueDeserializer::parse(text).ok();
         if name == DAMAGE {
@@ -212,6 +212,6 @@ impl Scenario {
 }
 
 fn span(bytes: std::ops::Range<usize>) -> Span {
-    // A `Source` is below 4 GiB.
+    // A `Source` is smaller than 4 GiB.
     Span { start: bytes.start as u32, end: bytes.end as u32, block: 0 }
 }

@@ -1,4 +1,4 @@
-//! The closed loop: the controller on a plant, over the cloth of a scenario, with others beside it.
+//! The closed loop: the controller on a plant, over the cloth of a scenario, with alternative trackers for comparison.
 
 use super::controller::{Command, Controller, Reading};
 use super::drive::Drive;
@@ -11,30 +11,30 @@ use super::scenario::Scenario;
 use crate::machine::Tracking;
 use crate::units::number::short;
 
-/// Speeds at which the older tracker is run, mm/s: as it was, and slowed down.
+/// Speeds of the older tracker, mm/s: its original speed, and a reduced one.
 const OLDER_SPEEDS: [f64; 2] = [50.0, 10.0];
 
-/// What a scenario came to.
+/// Result of a scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
-    /// The centre of the cloth under the carriage at each sample, mm.
+    /// Centre of the cloth under the carriage at each sample, mm.
     pub cloth: Vec<f64>,
     /// The log of the carriage, with the commands of the controller.
     pub replay: Replay,
-    /// What followed the cloth: the controller of the profile first.
+    /// The followers of the cloth; the controller of the profile comes first.
     pub followers: Vec<Follower>,
 }
 
-/// What follows the cloth.
+/// A follower of the cloth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Follower {
-    /// What it is.
+    /// Description.
     pub name: String,
-    /// Where it was at each sample, mm.
+    /// Position at each sample, mm.
     pub places: Vec<f64>,
 }
 
-/// Runs the controller of a profile alone.
+/// Simulates only the controller of a profile.
 pub fn run(scenario: &Scenario, track: &Tracking) -> Simulation {
     let law = law(track);
     let (mut controller, mut drive) = (Controller::new(), Drive::new(track));
@@ -71,7 +71,7 @@ pub fn run(scenario: &Scenario, track: &Tracking) -> Simulation {
     simulation
 }
 
-/// Runs the controller of a profile, and the others beside it.
+/// Simulates the controller of a profile and the alternative trackers.
 pub fn compare(scenario: &Scenario, track: &Tracking) -> Simulation {
     let mut simulation = run(scenario, track);
     let times = || simulation.replay.rows.iter().map(|row| row.time);
@@ -97,7 +97,7 @@ pub fn compare(scenario: &Scenario, track: &Tracking) -> Simulation {
     simulation
 }
 
-/// Where the edges of the cloth are, mm, as far as a ruler sees them.
+/// Positions of the cloth edges as seen by a ruler, mm.
 fn edges(scenario: &Scenario, time: f64) -> [f64; 2] {
     let (centre, half) = (scenario.centre(time), scenario.width / 2.0);
     let missing = scenario.missing(time);

@@ -1,4 +1,4 @@
-//! What a log or a scenario came to: all that is written and shown of it.
+//! Results of a log or a scenario, for all outputs.
 
 use super::even::even;
 use super::log::is_gap;
@@ -12,36 +12,37 @@ use crate::machine::{CentreLine, Tracking};
 use crate::source::Source;
 use crate::units::number::short;
 
-/// What must be known for something that is written.
+/// Data required by an output; each level includes the previous ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Needs {
-    /// What the controller says.
+    /// The commands of the controller.
     Commands,
-    /// And where conveyor and carriage are.
+    /// Also the positions of conveyor and carriage.
     Places,
-    /// And the line that the cloth takes.
+    /// Also the centre line of the cloth.
     Centre,
 }
 
-/// What a log or a scenario came to.
+/// Results of a log or a scenario.
 #[derive(Debug)]
 pub struct Tracked {
     /// Rows and commands.
     pub replay: Replay,
-    /// Where the conveyor is at each row, mm.
+    /// Position of the conveyor at each row, mm.
     pub conveyor: Vec<f64>,
-    /// Where the carriage is at each row, mm; empty when nobody needs it.
+    /// Position of the carriage at each row, mm; empty if not required.
     pub carriage: Vec<f64>,
-    /// The centre of the cloth by the place of the conveyor, mm; empty likewise.
+    /// Centre of the cloth by conveyor position, mm; empty if not required.
     pub centre: Vec<[f64; 2]>,
-    /// The centre of the cloth under the carriage at each row, mm, by that line, or as a scenario has it; empty likewise.
+    /// Centre of the cloth under the carriage at each row, mm, from that line or from the scenario; empty for a log without the
+    /// line.
     pub cloth: Vec<f64>,
-    /// What follows the cloth of a scenario, the controller first, each with how well it does; none for a log.
+    /// The followers in a scenario, the controller first, each with its measures; empty for a log.
     pub followers: Vec<(Follower, Measures)>,
 }
 
 impl Tracked {
-    /// Replays a log; `None` when it has faults, which are diagnostics.
+    /// Replays a log; `None` if there are faults, which are diagnostics.
     pub fn of_log(source: &Source, track: &Tracking, needs: Needs, out: &mut Diagnostics) -> Option<Self> {
         let rows = log::read(source, track, out);
         if out.has_errors() {
@@ -62,7 +63,7 @@ impl Tracked {
         Some(tracked)
     }
 
-    /// Simulates a scenario; `None` when it has faults, which are diagnostics.
+    /// Simulates a scenario; `None` if there are faults, which are diagnostics.
     pub fn of_scenario(source: &Source, track: &Tracking, needs: Needs, out: &mut Diagnostics) -> Option<Self> {
         let scenario = Scenario::read(source, track, out)?;
         law::note(track, out);
@@ -80,7 +81,7 @@ impl Tracked {
         Self { replay, conveyor, carriage, centre: Vec::new(), cloth, followers }.with_centre(track, needs, out)
     }
 
-    /// With the centre line, where it is needed; `None` when there is none.
+    /// Adds the centre line if it is required; `None` if it cannot be determined.
     fn with_centre(mut self, track: &Tracking, needs: Needs, out: &mut Diagnostics) -> Option<Self> {
         if needs < Needs::Centre {
             return Some(self);
@@ -97,14 +98,15 @@ impl Tracked {
         Some(self)
     }
 
-    /// The centre line at the place of the conveyor of each row, mm.
+    /// The centre line at the conveyor position of each row, mm.
     fn along_centre(&self) -> Vec<f64> {
         let line = CentreLine::new(self.centre.clone());
         line.map_or_else(Vec::new, |line| self.conveyor.iter().map(|at| line.at(*at)).collect())
     }
 
-    /// Stretches between readings that see both edges, with others or missing samples between them, from and to places of the
-    /// conveyor, mm. What is within the stretch that a place of the line is made of is known from beside it.
+    /// Stretches of cloth without a view of both edges, from and to conveyor positions, mm. They lie between two readings that
+    /// see both edges, with other readings or missing samples between. Stretches up to the smoothing length are omitted,
+    /// because the neighbouring readings determine the line there.
     fn unseen(&self, track: &Tracking) -> Vec<[f64; 2]> {
         let mut stretches = Vec::new();
         let mut seen: Option<usize> = None;
@@ -120,7 +122,7 @@ impl Tracked {
         stretches
     }
 
-    /// Where conveyor and centre of the cloth are by the readings that see both edges, mm: M = c - (I - J) q/2.
+    /// Positions of conveyor and cloth centre from the readings that see both edges, mm: M = c - (I - J) q/2.
     fn readings(&self, track: &Tracking) -> impl Iterator<Item = [f64; 2]> {
         let half = track.pitch_mm / 2.0;
         let rows = self.replay.rows.iter().zip(&self.replay.commands);
@@ -131,7 +133,7 @@ impl Tracked {
     }
 }
 
-/// What is said where readings make no line, by places of conveyor and centre.
+/// The finding on readings that give no centre line; they hold positions of conveyor and centre.
 fn no_centre(readings: &[[f64; 2]], track: &Tracking) -> Diagnostic {
     let (Some([from, _]), Some([to, _])) = (readings.first(), readings.last()) else {
         let message = "there is no centre line: no row sees both edges of the cloth";
@@ -147,7 +149,7 @@ fn no_centre(readings: &[[f64; 2]], track: &Tracking) -> Diagnostic {
     Diagnostic::new(&code::TRACK_NO_CENTRE, message).hint(hint)
 }
 
-/// What is said of stretches of cloth that nobody saw, from and to places of the conveyor, mm.
+/// The finding on stretches of cloth without a view of both edges, from and to conveyor positions, mm.
 fn tell_unseen(stretches: &[[f64; 2]]) -> Option<Diagnostic> {
     let longest = stretches.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
     let [from, to] = *longest;
@@ -164,12 +166,12 @@ fn tell_unseen(stretches: &[[f64; 2]]) -> Option<Diagnostic> {
     Some(Diagnostic::new(&code::TRACK_UNSEEN, message).by(to - from).hint(hint))
 }
 
-/// Readings without damage of the edges that passes within so many samples: each becomes the median of as many on its either
+/// Removes edge damage that passes within a number of samples: each reading becomes the median of that many samples to either
 /// side.
 fn without_damage(readings: &[[f64; 2]], samples: usize) -> Vec<[f64; 2]> {
     let mut sorted: Vec<f64> = Vec::with_capacity(2 * samples + 1);
     let median = |(i, [at, _]): (usize, &[f64; 2])| {
-        // As many on both sides, also at the ends.
+        // Equally many on both sides, also near the ends.
         let reach = samples.min(i).min(readings.len() - 1 - i);
         sorted.clear();
         sorted.extend(readings[i - reach..=i + reach].iter().map(|[_, centre]| *centre));

@@ -1,8 +1,8 @@
-//! The verifier of commands: reads the written rows back and holds each against the readings of the log and the profile.
+//! The verifier of commands: reads the written rows back and compares each with the readings of the log and the profile.
 //!
-//! Shares nothing with the controller and its tables: what a row may say follows from its own readings and from those of the
-//! debounce time before it. Where rulers upstream add the velocity of the cloth, how fast the carriage is driven is judged by
-//! its greatest speed alone: its own rulers do not tell more.
+//! It shares no code with the controller and its tables: the permitted content of a row follows from its own readings and those
+//! of the debounce time before it. If upstream rulers add the velocity of the cloth, the speed of the carriage is only checked
+//! against its maximum, because its own rulers do not determine it.
 
 use std::io::{self, BufRead};
 
@@ -12,15 +12,15 @@ use crate::units::MS_PER_S;
 
 /// The first line.
 const HEADER: &str = "t_s,i,j,status,direction,v_mm_s";
-/// Rounding of times, s, and of speeds, mm/s, as they are written.
+/// Rounding of written times, s, and of written speeds, mm/s.
 const TIME: f64 = 1e-6;
 const SPEED: f64 = 1e-3;
-/// Part of a period by which a sample may be late before one is missing.
+/// Relative deviation of a time step from the period above which a sample is missing.
 const MISSING: f64 = 0.4;
-/// Part of a period that is none: a debounce time that is so many periods but for rounding.
+/// Fraction of a period that is ignored as rounding when the debounce time is counted in periods.
 const PART: f64 = 1e-9;
 
-/// The part of its acceleration that the carriage brakes with.
+/// Fraction of the acceleration with which the carriage brakes.
 const BRAKED: f64 = 0.6;
 
 /// A written row.
@@ -33,18 +33,18 @@ struct Command<'a> {
     speed: f64,
 }
 
-/// What the rows so far say.
+/// State from the rows so far.
 struct Seen {
-    /// |I - J| of the samples that told the same side as the last one, without a break before it, the newest last.
+    /// |I - J| of the consecutive samples with the same side as the last one, the newest last.
     held: Vec<f64>,
-    /// The side that the last one told: 1 = to the right, -1 = to the left.
+    /// Side of the last sample: 1 = to the right, -1 = to the left, 0 = centred.
     side: f64,
-    /// The side to which the carriage was driven last by these readings; 0 = to none.
+    /// Side to which the carriage was last driven by these readings; 0 if there is none.
     driven: f64,
     time: Option<f64>,
 }
 
-/// What is wrong with written commands for the samples of a log, if anything is: the first row of it, in words.
+/// Compares written commands with the samples of a log. Returns a description of the first fault, if any.
 pub fn commands(bytes: &mut dyn BufRead, rows: &[Row], track: &Tracking) -> io::Result<Option<String>> {
     let mut lines = bytes.lines();
     if lines.next().transpose()?.as_deref() != Some(HEADER) {
@@ -80,7 +80,7 @@ fn parse(line: &str) -> Option<Command<'_>> {
 }
 
 impl Seen {
-    /// What is wrong with a row, if anything is.
+    /// The fault of a row, if any.
     fn wrong(&mut self, command: &Command, row: &Row, track: &Tracking) -> Option<String> {
         if (command.time - row.time).abs() > TIME || command.covered != row.covered {
             return Some("it is of another sample than the log has there".to_owned());
@@ -104,15 +104,15 @@ impl Seen {
         self.decided(command, track)
     }
 
-    /// Nothing is known of what was before.
+    /// Clears the state.
     fn begin(&mut self) {
         (self.held, self.side, self.driven) = (Vec::new(), 0.0, 0.0);
     }
 
-    /// What is wrong with what was decided of a sample that sees both edges.
+    /// The fault in the decision on a sample that sees both edges, if any.
     fn decided(&mut self, command: &Command, track: &Tracking) -> Option<String> {
         let [left, right] = command.covered.map(f64::from);
-        // I > J: the cloth lies to the left, and the carriage goes there.
+        // I > J: the cloth lies to the left, and the carriage moves there.
         let off = right - left;
         let side = if off == 0.0 { 0.0 } else { off.signum() };
         if side != self.side {
@@ -150,8 +150,9 @@ impl Seen {
     }
 }
 
-/// How fast the carriage is driven that is so many counts off, mm/s: by least speed and gain, and with the brake no faster than it
-/// stops from, within what is sure to be left, with that part of its acceleration behind its dead time.
+/// Required speed of the carriage at a deviation in counts, mm/s: from minimum speed and gain. With the brake it is also
+/// limited so that the carriage can stop within the guaranteed remaining distance, with the fraction [`BRAKED`] of its
+/// acceleration after its dead time.
 fn due_speed(counts: f64, track: &Tracking) -> f64 {
     let wanted = (track.least_speed_mm_s + track.gain_mm_s * counts).min(track.max_speed_mm_s);
     if !track.brake {
@@ -160,12 +161,12 @@ fn due_speed(counts: f64, track: &Tracking) -> f64 {
     let braked = BRAKED * track.carriage_acceleration_mm_s2;
     let dead = (track.latency_ms + 1.5 * track.period_ms + track.lag_ms) / MS_PER_S;
     let left = (counts - 1.0) * track.pitch_mm / 2.0;
-    // From a speed v it goes v dead + v^2 / (2 braked) until it stands.
+    // From a speed v it covers v dead + v^2 / (2 braked) until it stands.
     let stops_from = braked * ((dead * dead + 2.0 * left / braked).sqrt() - dead);
     wanted.min(stops_from.max(track.least_speed_mm_s))
 }
 
-/// The status of readings with which the drive is off.
+/// The alarm status of readings at which the drive is off; `None` if there is no alarm.
 fn alarm([left, right]: [u16; 2], track: &Tracking) -> Option<&'static str> {
     let sensors = track.sensors as u16;
     if left >= sensors || right >= sensors {
@@ -175,7 +176,7 @@ fn alarm([left, right]: [u16; 2], track: &Tracking) -> Option<&'static str> {
         return Some("lost-open");
     }
     let [least, greatest] = track.width_range_mm?;
-    // I + J - m = (W - W0)/q within one count, of which a whole number is read.
+    // I + J - m = (W - W0)/q within one count; a whole number is read.
     let counts = f64::from(left) + f64::from(right) - f64::from(sensors);
     let [low, high] = [least, greatest].map(|width| (width - track.width_mm) / track.pitch_mm);
     (counts < low.floor() - 1.0 || counts > high.ceil() + 1.0).then_some("width")
