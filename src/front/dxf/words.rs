@@ -3,7 +3,7 @@
 use crate::front::Word;
 
 /// The entities of plain DXF and their effects.
-#[rustfmt::skip] // a table: a row a line
+#[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC`, `CIRCLE`, `ELLIPSE`, `SPLINE`", about: "drawn; arcs, bulges and splines as chords within a quarter of the tolerance. Splines may be rational, closed, and without control points: then the curve goes through their fit points" },
     Word { words: "`INSERT`", about: "draws its block, scaled, mirrored and turned, in rows and columns, and blocks in blocks. What stands on layer `0` of a block is on the layer of the `INSERT`. Blocks that nobody inserts are not drawn; an `INSERT` of a block that the file does not have is told" },

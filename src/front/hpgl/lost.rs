@@ -8,7 +8,7 @@ use crate::source::Span;
 /// Handles bytes that begin no instruction; a letter of one may be lost.
 pub(super) fn over_junk(reader: &Reader, plotter: &mut Plotter, span: Span) {
     if reader.is_quoted(span) && !reader.draws(span) {
-        return; // a text, whatever words it holds
+        return; // a text without instructions that draw
     }
     let (is_torn, numbers) = (reader.is_torn_pen(span), reader.numbers_within(span));
     if numbers > 1 || reader.is_torn_encoded(span) {

@@ -52,7 +52,7 @@ pub(super) fn mnemonic(i: &[u8]) -> Out<'_, [u8; 2]> {
 
 /// Fast path for two of `<parameter>` that are whole numbers, separated by a comma and optionally preceded by one. The result
 /// equals that of [`parameter`]; `None` for anything else.
-#[inline] // nearly all of a plot is read here
+#[inline] // nearly all of a plot is parsed here
 pub(super) fn plain_pair(i: &[u8]) -> Option<(&[u8], [f64; 2])> {
     let i = if let [b',', i @ ..] = i { i } else { i };
     let (i, x) = plain_number(i)?;

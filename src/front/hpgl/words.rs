@@ -3,7 +3,7 @@
 use crate::front::Word;
 
 /// The instructions of plots and their effects.
-#[rustfmt::skip] // a table: a row a line
+#[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`PU`, `PD`, `PA`, `PR`, `SP`", about: "moves; without `SP` pen 1 draws" },
     Word { words: "`PE`", about: "moves in 7 and 8 bits, with fractions; the next instruction may stand for its semicolon; bytes that were saved as UTF-8 are repaired, lost ones refused" },

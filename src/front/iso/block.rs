@@ -137,7 +137,7 @@ impl<'a> Blocks<'a> {
 
     /// Fills a run with the following blocks of X and Y only, which most of a file consists of; false if the next block is
     /// another. Much faster than [`Self::next_point`], which reads the last blocks of a file.
-    #[inline(never)] // apart, all that it works with stays in registers
+    #[inline(never)] // as a separate function, it keeps its variables in registers
     pub(super) fn next_run(&mut self, run: &mut Run) -> bool {
         let Self { bytes, mut at, number, .. } = *self;
         let count = run.fill(|place| {
@@ -239,7 +239,7 @@ impl<'a> Blocks<'a> {
         }
         self.ended = end < self.bytes.len();
         if !self.ended && text.is_empty() && unclosed.is_none() {
-            self.ended = true; // blanks at the end of the file are no block
+            self.ended = true; // blanks at the end of the file are not a block
             self.at = end;
             return None;
         }

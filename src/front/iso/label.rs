@@ -1,7 +1,7 @@
-//! Text blocks: the label behind M31, in its four layouts.
+//! Text blocks: the label after M31, in its four layouts.
 //!
 //! ```text
-//! X..Y..M31*text*                        then, maybe, a second point X..Y.. that gives the angle
+//! X..Y..M31*text*                        then optionally a second point X..Y.. that gives the angle
 //! M31*X..Y..*text*
 //! M31*text*
 //! X..Y..M31*normal*mirrored*X..Y..M31*

@@ -354,7 +354,7 @@ impl Lowering<'_> {
         }
     }
 
-    #[inline] // asked of every code
+    #[inline] // called for every code
     fn obeys(&self, code: Code) -> bool {
         self.job.profile.codes.is_empty() || self.job.profile.obeys(&name(code))
     }

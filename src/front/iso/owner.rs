@@ -105,7 +105,7 @@ mod tests {
     const FIRST: &str = "X0Y0*M14*X1000Y0*X1000Y1000*X0Y1000*X0Y0*M15*";
     const SECOND: &str = "X2000Y0*M14*X3000Y0*X3000Y1000*X2000Y1000*X2000Y0*M15*";
 
-    /// How many notches and contours each piece has.
+    /// Checks the numbers of notches and contours of each piece.
     fn check(blocks: &[&str], expected: &[(usize, usize)]) {
         let file = format!("H1*G71*M15*{}M0*", blocks.concat());
         let source = Source::new("a", file.clone().into_bytes()).expect("small");

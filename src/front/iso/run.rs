@@ -21,7 +21,7 @@ impl Default for Run {
 
 impl Run {
     /// Refills the run from `next`, until it returns `None` or the run is full. Returns the number of points.
-    #[inline] // most of a file comes here
+    #[inline] // most of a file passes here
     pub(super) fn fill(&mut self, mut next: impl FnMut(usize) -> Option<([i32; 2], Span)>) -> usize {
         let mut count = 0;
         while count < MOST

@@ -164,7 +164,7 @@ const PLAIN_BYTES: usize = 40;
 
 /// Fast path for a `<block>` of X and Y only, both whole numbers, as nearly all blocks are. Returns its length and the numbers,
 /// equal to those of [`block`]. `None` for any other block, which [`block`] and [`point`] must decide.
-#[inline] // most of a file is read here, and from one place only: from more the compiler would not inline it
+#[inline] // most of a file is parsed here; with more than one call site the compiler would not inline it
 pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let [b'X', rest @ ..] = i else { return None };
     // Numbers without signs are tried first, as they are the most common.
@@ -178,7 +178,7 @@ pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
 }
 
 /// A `<block>` of X and Y only, both whole numbers with optional signs: its length and the numbers.
-#[inline(never)] // apart, it is not in the way of the others
+#[inline(never)] // as a separate function, it does not slow down the common case
 pub(super) fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, i32, i32)> {
     let (at, x, y) = plain_place(i)?;
     (i[at] == b'*').then_some((at + 1, x, y))

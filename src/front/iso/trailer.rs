@@ -13,12 +13,12 @@ use crate::source::{Source, Span};
 pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Piece], out: &mut Diagnostics) {
     let bytes = source.bytes();
     if bytes.get(offset..).is_none_or(|behind| behind.trim_ascii().is_empty()) {
-        return; // as in most files
+        return; // the usual case
     }
     let mut record = Record::default();
     let mut places: BTreeMap<u32, usize> = BTreeMap::new();
     for (piece, place) in pieces.iter().zip(0..) {
-        places.entry(piece.number).or_insert(place); // of two jobs in one file, the first
+        places.entry(piece.number).or_insert(place); // the first of two jobs in one file
     }
     let mut target = Target { pieces, places, lost: None };
     let mut at = offset.min(bytes.len());
@@ -49,7 +49,7 @@ pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Pie
                 }
                 record.fields.push(Field { letter, span });
             }
-            _ => {} // asterisks behind M0, blank lines
+            _ => {} // asterisks after M0, blank lines
         }
     }
     record.close(&mut target);

@@ -3,7 +3,7 @@
 use crate::front::Word;
 
 /// The codes of cut files and their effects.
-#[rustfmt::skip] // a table: a row a line
+#[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down" },
     Word { words: "`N`", about: "a piece begins; with the knife down, at the next lift" },

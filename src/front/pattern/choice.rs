@@ -179,7 +179,7 @@ fn its_sizes(known: &[String]) -> String {
 }
 
 /// Words that may follow a quantity, in capitals: words for pieces, and names of materials.
-#[rustfmt::skip] // a table: a row a few languages
+#[rustfmt::skip] // a table: a few languages per row
 const OF_PIECES: [&str; 51] = [
     "X", "×", "PC", "PCS", "PIECE", "PIECES", "ST", "STK", "STCK", "STÜCK", "STUECK", "PIÈCE", "PIÈCES",
     "PZ", "PEZZO", "PEZZI", "PIEZA", "PIEZAS", "PEÇA", "PEÇAS", "STUKS", "SZT", "SZTUK", "SZTUKI", "KS", "DB", "BUC",

@@ -18,7 +18,7 @@ const LEAST_SIDE: f64 = 0.1;
 /// Layer of fold lines.
 const LAYER: u16 = 6;
 /// Phrases for a piece that is cut on the fold, in capitals.
-#[rustfmt::skip] // a table: a row a few languages
+#[rustfmt::skip] // a table: a few languages per row
 const WORDS: [&str; 14] = [
     "ON FOLD", "ON THE FOLD", "STOFFBRUCH", "IM BRUCH", "AU PLI", "SUR LE PLI", "PLIURE", "SULLA PIEGA", "AL DOBLEZ",
     "EN DOBLEZ", "NA DOBRA", "STOFVOUW", "AAN DE VOUW", "НА СГИБЕ",

@@ -13,7 +13,7 @@ pub(super) enum Key {
 
 /// The keys in the languages of CAD systems, in capitals with one blank between words. Texts may omit or add a final full stop.
 /// The manual lists them.
-#[rustfmt::skip] // a table: a row a fact
+#[rustfmt::skip] // a table: one row per fact
 pub(super) const KEYS: [(Key, &[&str]); 6] = [
     (Key::Size, &["SIZE", "SIZE NAME", "SIZE NO.", "SZ.", "GRÖSSE", "GROESSE", "GROSSE", "GR.", "TAILLE", "TAGLIA", "MISURA", "TALLA", "TAMAÑO", "TAMANO", "TAMANHO", "MAAT", "ROZMIAR", "VELIKOST", "VEĽKOSŤ", "VELKOST", "MÉRET", "MERET", "MĂRIME", "MĂRIMEA", "MARIME", "MARIMEA", "BEDEN", "STORLEK", "STØRRELSE", "STOERRELSE", "РАЗМЕР", "РОЗМІР", "尺码", "尺碼", "号型", "號型", "码数", "碼數", "サイズ", "사이즈", "치수"]),
     (Key::SampleSize, &["SAMPLE SIZE", "BASE SIZE", "BASIC SIZE", "BASISGRÖSSE", "BASISGROESSE", "GRUNDGRÖSSE", "GRUNDGROESSE", "TAILLE DE BASE", "TAGLIA BASE", "TALLA BASE", "TAMANHO BASE", "BASISMAAT", "ROZMIAR BAZOWY", "ZÁKLADNÍ VELIKOST", "ZAKLADNI VELIKOST", "ZÁKLADNÁ VEĽKOSŤ", "ZAKLADNA VELKOST", "ALAPMÉRET", "ALAPMERET", "MĂRIME DE BAZĂ", "MĂRIMEA DE BAZĂ", "MARIME DE BAZA", "MARIMEA DE BAZA", "BAZ BEDEN", "ANA BEDEN", "BASSTORLEK", "GRUNDSTORLEK", "BASISSTØRRELSE", "GRUNDSTØRRELSE", "GRUNNSTØRRELSE", "БАЗОВЫЙ РАЗМЕР", "БАЗОВИЙ РОЗМІР", "БАЗОВ РАЗМЕР", "基码", "基碼", "基本码", "基本尺码", "基本尺碼", "样板尺码", "樣板尺碼", "基準サイズ", "ベースサイズ", "標準サイズ", "기준사이즈", "기준 사이즈", "기본사이즈", "기본 사이즈"]),

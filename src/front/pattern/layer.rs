@@ -106,7 +106,7 @@ const SEAM: u16 = 14;
 pub(super) const SEAMS: &str = "14";
 
 /// The layers of the convention.
-#[rustfmt::skip] // a table: one row a layer
+#[rustfmt::skip] // a table: one row per layer
 pub(super) const LAYERS: [Layer; 20] = [
     Layer { number: 1, name: "outline", about: "layer 1", does: Does::Outline },
     Layer { number: 2, name: "turn point", about: "layer 2", does: Does::Turn },

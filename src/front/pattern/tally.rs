@@ -77,7 +77,7 @@ struct Row {
     hint: &'static str,
 }
 
-#[rustfmt::skip] // a table: a row a thing; a test holds its measures against those of the reader
+#[rustfmt::skip] // a table: one row per deviation; a test compares its numbers with those of the reader
 fn row(thing: Thing) -> Row {
     match thing {
         Thing::Outside => Row { code: &code::DXF_OUTSIDE, one: "a cut-out or a hole lies outside of its outline, and is cut all the same", many: "cut-outs or holes lie outside of their outlines, and are cut all the same", hint: "see in the picture (-t svg) where the knife goes" },

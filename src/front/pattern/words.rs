@@ -3,7 +3,7 @@
 use crate::front::Word;
 
 /// The layers, entities and texts of pattern DXF and their effects.
-#[rustfmt::skip] // a table: a row a line
+#[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "layer 1; layer 11", about: "outlines and cut-outs, cut; polylines, or lines whose ends meet within 0.2 mm; an outline that does not close is refused. A line that stands off an outline with one end is a slit: the outline goes along it and back" },
     Word { words: "layer 4; layers 80 to 83", about: "notches, as points on the outline: a slit, or a V when it has a width (group 39); T, castle, check (cut as a V) and U. Depth is group 30 whatever its sign, else `dxf.notch_mm`; the direction is group 50, else into the part. Lines on these layers are not cut, and that is told. A point at a notch that the outline already has adds no second one; a warning says so" },

@@ -3,7 +3,7 @@
 use crate::front::Word;
 
 /// The elements of SVG and their effects.
-#[rustfmt::skip] // a table: a row a line
+#[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`svg`", about: "`width` and `height` with mm, cm, in, pt, pc, q; `viewBox` and `preserveAspectRatio` as browsers read them; inner ones likewise" },
     Word { words: "`path`, `rect`, `circle`, `ellipse`, `line`, `polyline`, `polygon`", about: "read; curves as chords within a quarter of the tolerance and 0.02 mm" },

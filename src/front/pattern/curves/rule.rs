@@ -22,7 +22,7 @@ struct Row {
     rule: Rule,
 }
 
-#[rustfmt::skip] // a table: a row a word
+#[rustfmt::skip] // a table: one row per word
 const ROWS: [Row; 7] = [
     Row { word: "ACCUMARK", name: "Gerber AccuMark", rule: Rule::Bisectors },
     Row { word: "GERBER", name: "Gerber AccuMark", rule: Rule::Bisectors },
