@@ -18,7 +18,7 @@ const MOUTH_TURN: f64 = FRAC_PI_3;
 const NARROW: f64 = 0.5;
 /// Cosine of the minimum turn of an outline at the start of a mouth, 12 degrees.
 const TURN_COSINE: f64 = 0.978;
-/// Fraction of the depth of a notch below which its bottom begins.
+/// Fraction of the depth of a notch at which its bottom begins.
 const BOTTOM: f64 = 0.7;
 
 /// True if an outline has a drawn notch with its mouth or bottom at a point. The outline repeats its first point.
