@@ -3,7 +3,7 @@
 //! Receives decimal numbers in mm. Promises one contour and one piece per polyline; a polyline that ends at its start point is
 //! closed. Never guesses at decimal commas or other columns.
 
-use super::{Dialect, Likeness, Read, foreign};
+use super::{Dialect, Likeness, Read};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::Marker;
@@ -142,9 +142,6 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 
 fn read(source: &Source, _: &Job, out: &mut Diagnostics) -> Marker {
     let mut marker = Marker::default();
-    if foreign::refuse(source, DIALECT.name, out) {
-        return marker;
-    }
     let mut faults = Diagnostics::default();
     let rows = rows(source, &mut faults);
     // A contour with faulty rows may look shorter than it is, so faults of rows replace findings on length.

@@ -31,13 +31,23 @@ pub fn by_name(name: &str) -> Option<&'static Dialect> {
     DIALECTS.iter().find(|dialect| dialect.name == name)
 }
 
-/// The dialect that the content matches best. The extension of the name, without its dot, only breaks ties. Content of no
-/// dialect is an error, with a diagnostic that names the likely format.
-pub fn detect(
+/// The dialect to read a file as: `from` if it is given and the content is not plainly another one, otherwise the one that
+/// the content matches best.
+pub fn choose(
     source: &Source,
+    from: Option<&'static Dialect>,
     name_extension: Option<&str>,
     diagnostics: &mut Diagnostics,
 ) -> Option<&'static Dialect> {
+    match from {
+        Some(dialect) => (!foreign::refuse(source, dialect.name, diagnostics)).then_some(dialect),
+        None => detect(source, name_extension, diagnostics),
+    }
+}
+
+/// The dialect that the content matches best. The extension of the name, without its dot, only breaks ties. Content of no
+/// dialect is an error, with a diagnostic that names the likely format.
+fn detect(source: &Source, name_extension: Option<&str>, diagnostics: &mut Diagnostics) -> Option<&'static Dialect> {
     if foreign::refuse_unread(source, diagnostics) {
         return None;
     }

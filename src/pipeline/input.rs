@@ -110,7 +110,7 @@ pub(super) fn read_alone(
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
-    let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
+    let dialect = front::choose(source, from, extension, diagnostics)?;
     let marker = marker_of(dialect, source, job, diagnostics);
     // Only a drawing leaves it to others which of its lines are cut.
     let is_plot = matches!(dialect.read, Reader::Drawing(_));

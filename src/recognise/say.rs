@@ -15,7 +15,7 @@ use super::{signs, torn};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, polyline};
+use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Ending;
 use crate::ir::marker::Notch;
 use crate::machine::Job;

@@ -53,8 +53,5 @@ pub(super) fn check_syntax(source: &Source, out: &mut Diagnostics) {
 }
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Drawing::default();
-    }
     lower::lower(source, job, out)
 }

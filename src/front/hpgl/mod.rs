@@ -30,7 +30,7 @@ mod words;
 use self::instruction::Instruction;
 use self::lower::{Measure, lower};
 use self::reader::{Flaw, Reader, Statement};
-use super::{Dialect, Likeness, Read, foreign};
+use super::{Dialect, Likeness, Read};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Drawing;
 use crate::machine::Job;
@@ -111,9 +111,6 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 }
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Drawing::default();
-    }
     let unit = &job.profile.hpgl.unit;
     if decimal_comma::has(source.bytes(), unit.mm()) {
         let message = "the numbers of this plot have commas for decimal points";

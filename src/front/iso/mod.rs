@@ -32,7 +32,7 @@ mod words;
 
 use self::block::Blocks;
 use self::meaning::{Meaning, meaning};
-use super::{Dialect, Likeness, Read, foreign};
+use super::{Dialect, Likeness, Read};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Marker;
 use crate::machine::Job;
@@ -99,8 +99,5 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 }
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Marker::default();
-    }
     lower::lower(source, job, out)
 }

@@ -45,7 +45,7 @@ mod unit;
 mod unknown;
 mod words;
 
-use super::{Dialect, Read, dxf, foreign};
+use super::{Dialect, Read, dxf};
 use crate::diagnostic::Diagnostics;
 use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
@@ -62,18 +62,12 @@ pub(super) const DIALECT: Dialect = Dialect {
 };
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Marker::default();
-    }
     let set = set::read(source, job, out);
     set.see_cuts(out);
     if out.has_errors() { Marker::default() } else { marker::marker(&set) }
 }
 
 fn read_lines(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Drawing::default();
-    }
     let set = set::read(source, job, out);
     if out.has_errors() { Drawing::default() } else { marker::drawing(&set) }
 }

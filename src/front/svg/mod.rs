@@ -74,9 +74,6 @@ fn options<'a>() -> ParsingOptions<'a> {
 }
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
-    if foreign::refuse(source, DIALECT.name, out) {
-        return Drawing::default();
-    }
     read_xml(source, job, out).unwrap_or_else(|fault| {
         out.push(fault);
         Drawing::default()

@@ -40,10 +40,11 @@ pub(super) fn read(
     out: &mut Diagnostics,
 ) -> Option<(&'static str, Pattern)> {
     let extension = source.name().rsplit_once('.').map(|(_, extension)| extension);
-    let dialect = match asked.from.as_deref() {
-        Some(name) => front::by_name(name),
-        None => front::detect(source, extension, out),
-    }?;
+    let from = match asked.from.as_deref() {
+        Some(name) => Some(front::by_name(name)?),
+        None => None,
+    };
+    let dialect = front::choose(source, from, extension, out)?;
     let lines = Reader { source, job }.lines(dialect, asked.line.as_deref(), out);
     let seams = if asked.inset == 0.0 { as_drawn(lines) } else { moved(&lines, asked.inset, out) };
     Some((dialect.name, Pattern { seams }))
