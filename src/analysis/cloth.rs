@@ -62,7 +62,8 @@ impl<'a> Cloth<'a> {
             if is_as_drawn { points } else { Cow::Owned(bridged(&points, notches)) }
         };
         let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
-        let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
+        let owners = marker.owners().into_iter();
+        let part_of = owners.map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
         let least_way = LEAST_WAY_SHARE * profile.verify.max_uncut_mm;
         let cuts = marker.cuts.iter().filter(|cut| cut.kind == CutKind::Slit);
         let slits: Vec<[Point; 2]> = cuts.flat_map(|cut| marker.list.lines(cut.range)).collect();

@@ -116,6 +116,9 @@ impl<'a> File<'a> {
     }
 
     fn piece(&mut self, piece: &Piece, events: &[&Event], labels: &[&Label]) {
+        if piece.section.is_some() {
+            self.refuse(piece.span, format!("piece {} is cut in several bites", piece.name()));
+        }
         self.block(&format!("N{}", piece.number));
         (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);
         for event in events {

@@ -1,5 +1,7 @@
 //! What the file says, in mm: the pieces, which lie on the cloth as they are drawn, and the cuts, which the knife makes.
 
+use std::borrow::Cow;
+
 pub use super::label::Label;
 
 use super::drawing::Account;
@@ -67,6 +69,9 @@ pub struct Piece {
     pub feed: Option<f64>,
     /// What the file's list of labels says of it, in the file's order.
     pub fields: Vec<Field>,
+    /// Stretch along X, mm, in which its outline is cut with it, where windows of a conveyor split the piece; `None` = it is cut
+    /// whole. Of the sections of a piece the last one has its contours and its texts, each one the slits and holes in its stretch.
+    pub section: Option<[f64; 2]>,
 }
 
 /// Something for the controller or the operator, between two pieces: the knife is up and the axes rest.
@@ -305,6 +310,22 @@ impl Piece {
         if *copy == 0 { number.to_string() } else { format!("{number}/{copy}") }
     }
 
+    /// Where a place of it lies on the table when the cloth has come `station` mm: of a section no farther back than that begins.
+    pub fn on_table(&self, at: Point, station: u32) -> Point {
+        let x = self.section.map_or(at.x, |[from, to]| at.x.clamp(from, to));
+        Point::new(x - f64::from(station), at.y)
+    }
+
+    /// Whether it is a section of a piece behind it, which has the contours.
+    pub fn is_early_section(&self) -> bool {
+        self.section.is_some() && self.contours.is_empty()
+    }
+
+    /// Whether another piece is this one or a section of it.
+    pub fn is_of(&self, other: &Self) -> bool {
+        (self.number, self.copy, self.span) == (other.number, other.copy, other.span)
+    }
+
     /// Every place of its drill holes and its notches. Those of its contours are the segment list's.
     pub fn places_mut(&mut self) -> impl Iterator<Item = &mut Point> {
         let drills = self.drills.iter_mut().map(|drill| &mut drill.at);
@@ -329,6 +350,30 @@ impl Marker {
     /// All contours in cut order, with the index of their piece.
     pub fn contours(&self) -> impl Iterator<Item = (usize, &Contour)> {
         self.pieces.iter().enumerate().flat_map(|(i, piece)| piece.contours.iter().map(move |c| (i, c)))
+    }
+
+    /// The piece that has the contours of each: itself, but for the early sections of one that windows of a conveyor split.
+    pub fn owners(&self) -> Vec<usize> {
+        let owner = |i: usize| {
+            let section = &self.pieces[i];
+            let last = || self.pieces.iter().rposition(|piece| piece.section.is_some() && piece.is_of(section));
+            if section.is_early_section() { last().unwrap_or(i) } else { i }
+        };
+        (0..self.pieces.len()).map(owner).collect()
+    }
+
+    /// The pieces, each with the holes and slits of its early sections.
+    pub fn wholes(&self) -> Cow<'_, [Piece]> {
+        if !self.pieces.iter().any(Piece::is_early_section) {
+            return Cow::Borrowed(&self.pieces);
+        }
+        let mut wholes = self.pieces.clone();
+        for (section, owner) in self.pieces.iter().zip(self.owners()).filter(|(piece, _)| piece.is_early_section()) {
+            wholes[owner].drills.extend_from_slice(&section.drills);
+            wholes[owner].notches.extend_from_slice(&section.notches);
+        }
+        wholes.retain(|piece| !piece.is_early_section());
+        Cow::Owned(wholes)
     }
 
     /// The cuts of a piece, by its place.
@@ -389,13 +434,13 @@ impl Marker {
 
     /// The box around everything that is cut or drilled.
     pub fn extent(&self) -> Extent {
-        self.extent_at(|_| Vector::zeros())
+        self.extent_at(|_, at| at)
     }
 
     /// The box around all that is cut and drilled, as it comes to lie on the table: a conveyor moves the cloth on.
     pub fn extent_on_table(&self) -> Extent {
         let stations = self.stations();
-        self.extent_at(|part| Vector::new(-f64::from(stations[part]), 0.0))
+        self.extent_at(|part, at| self.pieces[part].on_table(at, stations[part]))
     }
 
     /// Way of the cloth by the time that each piece is cut, mm.
@@ -411,21 +456,19 @@ impl Marker {
             .collect()
     }
 
-    /// Box around all pieces, each moved by a vector of its own.
-    fn extent_at(&self, by: impl Fn(usize) -> Vector) -> Extent {
+    /// Box around all pieces, whose places come to lie elsewhere, piece by piece.
+    fn extent_at(&self, place: impl Fn(usize, Point) -> Point) -> Extent {
         let mut extent = Extent::EMPTY;
         for (part, piece) in self.pieces.iter().enumerate() {
-            let by = by(part);
+            let mut add = |at: Point| extent.add(place(part, at));
             for contour in &piece.contours {
-                self.list.points(contour.range).iter().for_each(|&point| extent.add(point + by));
+                self.list.points(contour.range).iter().copied().for_each(&mut add);
             }
             for stroke in piece.notches.iter().flat_map(Notch::strokes) {
-                extent.add(stroke.from + by);
-                extent.add(stroke.to + by);
+                add(stroke.from);
+                add(stroke.to);
             }
-            for drill in &piece.drills {
-                extent.add(drill.at + by);
-            }
+            piece.drills.iter().for_each(|drill| add(drill.at));
         }
         extent
     }

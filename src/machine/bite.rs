@@ -9,13 +9,44 @@ use super::word::{Off, OrWord, Word as _};
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "bite.length_mm", takes: Takes::NumberOr(from(50.0, 1.0e5), Off::WORD), about: "Bite of a conveyor: length along X of the window in which the knife cuts. A longer marker is\ncut in several, and the cloth is moved on between them; \"off\" = it lies still." },
+    Key { name: "bite.overlap_mm", takes: Takes::Number(from(0.0, 100.0)), about: "Where a piece is longer than a bite: how far both halves of a split cut run past the border." },
+    Key { name: "bite.match_mm", takes: Takes::Number(from(0.0, 5.0)), about: "How far an advance of the conveyor may be off, in X and in Y: the halves of a split cut cross all\nthe same." },
+    Key { name: "bite.veer_mm", takes: Takes::Number(from(0.0, 50.0)), about: "How far both halves of a split cut leave the line at their ends, into the waste: at least as far\nas they must to cross (bite.match_mm)." },
 ];
 
+/// Least way of a half of a split cut aside, in tolerances of the conveyor: more than the diagonal of both axes for
+/// [`Bite::MOST_ADVANCES`].
+const MATCHES: f64 = 3.0;
+/// The same beside that, in tolerances of the tip: both halves may be off their lines.
+const TOLERANCES: f64 = 4.0;
+
 /// The conveyor under the table.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bite {
     /// Length of a window; `None` where the cloth lies still.
     #[serde(with = "OrWord::<Off>")]
     pub length_mm: Option<f64>,
+    /// Of the halves of a split cut, past the border.
+    pub overlap_mm: f64,
+    /// Tolerance of an advance, in X and in Y.
+    pub match_mm: f64,
+    /// Of both halves, into the waste.
+    pub veer_mm: f64,
+}
+
+impl Bite {
+    /// Most advances between the halves of a split cut: each of them may be off.
+    pub const MOST_ADVANCES: u32 = 2;
+
+    /// How far both halves of a split cut leave their line, mm, when the tip may be off by a tolerance.
+    pub fn veer(&self, tolerance: f64) -> f64 {
+        self.veer_mm.max(MATCHES * self.match_mm + TOLERANCES * tolerance)
+    }
+}
+
+impl Default for Bite {
+    fn default() -> Self {
+        Self { length_mm: None, overlap_mm: 6.3, match_mm: 0.5, veer_mm: 1.5 }
+    }
 }

@@ -54,6 +54,7 @@ mod word;
 
 use std::sync::Arc;
 
+pub use bite::Bite;
 pub use centre::{Centre, CentreLine};
 pub use common::{Common, CommonLines, Lines};
 pub use digest::{blake3_of, sha256_hex, sha256_of};

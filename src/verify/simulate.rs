@@ -6,6 +6,7 @@ use super::axes::events::Events;
 use super::axes::limits::Limits;
 use super::axes::rest::Rest;
 use super::axes::table::Table;
+use super::cut::borders::Borders;
 use super::cut::coverage::{self, Coverage};
 use super::cut::done::Done;
 use super::cut::meetings::Meetings;
@@ -140,7 +141,9 @@ pub(super) fn simulate(
     };
     let order = Order::new(&reference.lines);
     let limit = coverage::limit(profile);
-    let meetings = Meetings::new(reference, &judge.common.joints, profile.knife.overlaps(), limit);
+    let joints = &judge.common.joints;
+    let mut meetings = Meetings::new(reference, joints, profile.knife.overlaps(), limit);
+    meetings.borders = Borders::new(joints, reference, profile.bite.match_mm);
     let mut done = Done { coverage: Coverage::new(reference), meetings, order, worsts: judge.worsts() };
     // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
     let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());

@@ -157,6 +157,8 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("formats", "is the table of formats that are no dialect of ours"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
+    ("long", "says where pieces longer than a window are split, for the pass that lays windows"),
+    ("split", "parts outlines at the borders of windows, for the passes that lay these and make cuts"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("continuation", "tells where a line goes on straight beyond a short cut, for the pass that plunges"),
     ("marks", "reads registration marks, which are given beside a source"),

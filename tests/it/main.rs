@@ -53,6 +53,7 @@ mod route;
 mod sew;
 mod sheet;
 mod sound;
+mod splits;
 mod spray;
 mod svg;
 mod targets;

@@ -8,6 +8,7 @@
 //! piece 1 @0..3#1
 //! event stop @4..7#1
 //! feed-mm-s 300
+//! section 0 to 385
 //! drill 40 30 tool 1 @50..60#9
 //! slit 20 0 to 20 5 @60..70#12 percent 75
 //! slit 30 0 to 30 5 @90..96#17 bar 28 5 to 32 5 @97..99#18
@@ -67,6 +68,7 @@
 //! - How much less is cut for all common edges, a mere figure, is not printed.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.
+//! - `section` has the stretch along X of the outline of a piece that is cut with it where windows of a conveyor split that.
 //! - `event advance-by` has the way of the cloth behind it, whole mm.
 //! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the
 //!   same past the end.

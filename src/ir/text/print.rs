@@ -46,6 +46,9 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     if let Some(feed) = piece.feed {
         line(out, format_args!("feed-mm-s {}", exact(feed)));
     }
+    if let Some([from, to]) = piece.section {
+        line(out, format_args!("section {} to {}", exact(from), exact(to)));
+    }
     for drill in &piece.drills {
         line(out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
     }

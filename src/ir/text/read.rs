@@ -27,8 +27,8 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str =
-    "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing, cut, common, junction or near";
+const LINES: &str = "piece, event, feed-mm-s, section, drill, slit, contour, notch, label, field, closing, cut, common, \
+    junction or near";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -107,6 +107,11 @@ fn of_piece(word: &str, line: &mut Line<'_>, marker: &mut Marker) -> Read<()> {
         }
         "event" => piece.events.push(event(line)?),
         "feed-mm-s" => piece.feed = Some(line.number()?),
+        "section" => {
+            let from = line.number()?;
+            line.expect("to")?;
+            piece.section = Some([from, line.number()?]);
+        }
         "field" => {
             let letter = line.word("a letter")?;
             let &[letter @ b'A'..=b'Z'] = letter.as_bytes() else { return Err(line.error("a letter")) };

@@ -1,16 +1,21 @@
 //! Bite: windows of a conveyor, and the ways of the cloth between them.
 //!
 //! Needs: the pieces on the table, what lies within a part before it. Leaves true: without `bite.length_mm` everything; else
-//! every piece lies in one window with all that the blade reaches beyond its lines, windows come in the order of their places
-//! along X, and before the first piece of each stands the way of the cloth, in whole mm. Within a window pieces keep their
-//! order. What is asked of the operator stays between the same pieces.
+//! every piece, or section of one that is longer than a window, lies in one window with all that the blade reaches beyond its
+//! lines, windows come in the order of their places along X, and before the first piece of each stands the way of the cloth, in
+//! whole mm. Within a window pieces keep their order, and early sections come last. What is asked of the operator stays between
+//! the same pieces.
 //!
-//! A window takes every piece that ends in it, and the next one begins where the first of the others does. As no piece is split,
-//! no other choice needs fewer windows where nothing is asked between pieces: one that begins farther back ends farther back.
-//! Where the file moves the cloth on by itself (M69) its own windows are kept.
+//! A window takes every piece that ends in it, and the next one begins where the first of the others does. Where no piece is
+//! split, no other choice needs fewer windows where nothing is asked between pieces: one that begins farther back ends farther
+//! back. A longer piece is split in as few sections as can be, and there where that costs least ([`Long`]); its first section
+//! waits for a window of its own only where it would need more of them otherwise. Where the file moves the cloth on by itself
+//! (M69) its own windows are kept.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::long::{Long, Stretch};
 use super::pass::MarkerPass;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -35,7 +40,8 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     wait_for_held(marker, &mut stretches, job);
     let Some(least) = stretches.iter().flatten().map(|stretch| stretch.from).reduce(f64::min) else { return };
     let start = job.profile.table.x_mm.map_or(least, |[start, _]| start);
-    let mut windows = Windows { length, start, advance: 0, is_begun: false };
+    let longs = Long::of(marker, &stretches, job);
+    let mut windows = Windows { length, start, advance: 0, number: 0, is_begun: false, longs };
     let (mut order, blocks) = (Vec::with_capacity(stretches.len()), blocks(&marker.pieces));
     let firsts = firsts(&stretches);
     for block in &blocks {
@@ -70,11 +76,14 @@ fn is_advance(event: &Event) -> bool {
     event.kind == toolpath::Event::Advance
 }
 
-/// Stretch along X that the blade, or the axis over a drill, may take for a piece, mm.
-#[derive(Debug, Clone, Copy)]
-struct Stretch {
-    from: f64,
-    to: f64,
+/// A piece, or a section of one, in a window.
+struct Placed {
+    /// The place of the piece.
+    piece: usize,
+    /// Way of the cloth by then, mm.
+    advance: u32,
+    /// Stretch of the section along X, mm, and whether it is the last one; `None` of a whole piece.
+    section: Option<([f64; 2], bool)>,
 }
 
 /// The stretch of a piece; `None` where nothing of it is cut.
@@ -131,8 +140,12 @@ struct Windows {
     start: f64,
     /// Way of the cloth so far, whole mm.
     advance: u32,
+    /// Number of the present one, from 0.
+    number: u32,
     /// Whether anything was cut so far.
     is_begun: bool,
+    /// The pieces that are longer than a window.
+    longs: BTreeMap<usize, Long>,
 }
 
 /// Reason that a piece fits no window.
@@ -155,33 +168,64 @@ impl Windows {
         &mut self,
         mut left: Vec<(usize, Option<Stretch>)>,
         (moves_on, later): (bool, f64),
-        order: &mut Vec<(usize, u32)>,
+        order: &mut Vec<Placed>,
     ) -> Result<(), Misfit> {
         let mut is_next = moves_on && self.is_begun;
         while !left.is_empty() {
             let cut = left.iter().filter_map(|&(i, stretch)| Some((i, stretch?)));
-            if let Some((i, first)) = cut.min_by(|(_, a), (_, b)| a.from.total_cmp(&b.from)) {
+            let first = cut.min_by(|(_, a), (_, b)| a.from.total_cmp(&b.from));
+            if let Some((i, first)) = first {
                 // Of the first window the table is the judge.
                 let behind = self.begins() - first.from;
                 if behind > PLACE_EPSILON && self.advance > 0 {
                     return Err(Misfit::Behind(i, behind));
                 }
                 if is_next {
-                    self.advance = self.next(first, later).ok_or(Misfit::Long(i, first.to - first.from))?;
+                    // A section begins where its window does.
+                    let section = self.longs.get(&i).map(|_| first.from + self.length - 1.0);
+                    let to = section.map_or(first.to, |to| to.min(first.to));
+                    let next = self.next(Stretch { to, ..first }, later);
+                    let next = next.ok_or(Misfit::Long(i, first.to - first.from))?;
+                    self.number += u32::from(next > self.advance);
+                    self.advance = next;
                 }
             }
-            let end = self.begins() + self.length + PLACE_EPSILON;
-            left.retain(|&(i, stretch)| {
-                let is_in = stretch.is_none_or(|stretch| stretch.to <= end);
-                if is_in {
-                    order.push((i, self.advance));
-                    self.is_begun |= stretch.is_some();
-                }
-                !is_in
-            });
+            let count = order.len();
+            self.fill(&mut left, order);
+            let is_late = |(i, _): &&(usize, Option<Stretch>)| {
+                self.longs.get(i).is_some_and(|long| long.is_late(self.number + 1))
+            };
+            let late = left.iter().find(is_late).and_then(|&(i, stretch)| Some((i, stretch?)));
+            if let Some((i, first)) = late.or(first.filter(|_| order.len() == count && is_next)) {
+                return Err(Misfit::Long(i, first.to - first.from));
+            }
             is_next = true;
         }
         Ok(())
+    }
+
+    /// Takes what fits in the present window: whole pieces, and sections of longer ones.
+    fn fill(&mut self, left: &mut Vec<(usize, Option<Stretch>)>, order: &mut Vec<Placed>) {
+        let (begin, end) = (self.begins(), self.begins() + self.length + PLACE_EPSILON);
+        left.retain(|&(piece, stretch)| {
+            let is_in = stretch.is_none_or(|stretch| stretch.to <= end);
+            if is_in {
+                let section = self.longs.get(&piece).map(|long| (long.rest(), true));
+                order.push(Placed { piece, advance: self.advance, section });
+                self.is_begun |= stretch.is_some();
+            }
+            !is_in
+        });
+        for (piece, stretch) in left {
+            let (Some(long), Some(stretch)) = (self.longs.get_mut(piece), stretch) else { continue };
+            let Some(section) = (stretch.from >= begin - PLACE_EPSILON).then(|| long.take(self.number, end)).flatten()
+            else {
+                continue;
+            };
+            order.push(Placed { piece: *piece, advance: self.advance, section: Some((section, false)) });
+            stretch.from = long.begins();
+            self.is_begun = true;
+        }
     }
 
     /// Way of the cloth to the next window, which holds `first`: as far as that and what comes `later` allow. `None` where that
@@ -195,15 +239,16 @@ impl Windows {
 }
 
 impl Misfit {
-    fn told(self, marker: &Marker, length: f64) -> Diagnostic {
+    fn told(&self, marker: &Marker, length: f64) -> Diagnostic {
         let has = fixed(length, DECIMALS);
-        let (piece, message, hint) = match self {
+        let (piece, message, hint) = match *self {
             Self::Long(i, long) => {
                 let (number, long) = (marker.pieces[i].number, up(long, DECIMALS));
                 let message = format!(
                     "piece {number} takes {long} mm along X with its overlaps, more than a bite of {has} mm holds"
                 );
-                (i, message, "turn the marker, or leave the piece out (`--skip`) and cut it on a longer table")
+                let hint = "it cannot be split: that takes straight edges beside waste, and a piece of one outline";
+                (i, message, hint)
             }
             Self::Behind(i, by) => {
                 let (number, by) = (marker.pieces[i].number, up(by, DECIMALS));
@@ -212,25 +257,31 @@ impl Misfit {
             }
         };
         let numbers = vec![marker.pieces[piece].number];
-        Diagnostic::new(&code::MARKER_BITE, message).at(marker.pieces[piece].span).about(numbers).hint(hint)
+        let finding =
+            Diagnostic::new(&code::MARKER_BITE, message).at(marker.pieces[piece].span).about(numbers).hint(hint);
+        match self {
+            Self::Long(..) => finding.hint("turn the marker, or leave the piece out (`--skip`)"),
+            Self::Behind(..) => finding,
+        }
     }
 }
 
 /// Puts pieces in order, and the ways of the cloth before the first of each window. Events before a block stay before it; an
 /// advance at the end moves all off the table. Advances of the file that move nothing are left out, and told.
-fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[(usize, u32)], end: u32) -> Option<Diagnostic> {
+fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[Placed], end: u32) -> Option<Diagnostic> {
     let of_block = |block: &Range<usize>| (block.start, std::mem::take(&mut marker.pieces[block.start].events));
     let mut asked = blocks.iter().map(of_block).collect::<Vec<_>>().into_iter().peekable();
     let mut pieces: Vec<Option<Piece>> = std::mem::take(&mut marker.pieces).into_iter().map(Some).collect();
-    let (mut at, mut idle) = (0, Vec::new());
-    for (place, &(i, advance)) in order.iter().enumerate() {
-        let mut piece = pieces[i].take().expect("each piece is in one window");
+    let (mut at, mut idle, mut place) = (0, Vec::new(), 0);
+    for &Placed { piece, advance, section } in order {
+        let mut piece = placed(&mut pieces[piece], section);
         if let Some((_, events)) = asked.next_if(|&(start, _)| start == place) {
             piece.events = events;
         }
         let plain = Event { kind: toolpath::Event::Advance, span: piece.span };
         idle.extend(put(&mut piece.events, advance - at, plain));
         at = advance;
+        place += usize::from(section.is_none_or(|(_, is_last)| is_last));
         marker.pieces.push(piece);
     }
     if marker.closing.iter().any(is_advance) {
@@ -244,6 +295,23 @@ fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[(usize, u32)], end
     };
     let hint = "what comes behind them lies in the window before them; `cutc info` lists the windows";
     Some(Diagnostic::new(&code::MARKER_IDLE_ADVANCE, message).at(first.span).hint(hint))
+}
+
+/// A piece, or the next section of it: with the holes and slits in that, and with all that is left if it is the last.
+fn placed(piece: &mut Option<Piece>, section: Option<([f64; 2], bool)>) -> Piece {
+    let left = piece.as_mut().expect("each piece is in one window");
+    match section {
+        Some((stretch @ [_, to], false)) => Piece {
+            section: Some(stretch),
+            drills: left.drills.extract_if(.., |drill| drill.at.x < to).collect(),
+            notches: left.notches.extract_if(.., |notch| notch.root.x < to).collect(),
+            ..Piece { number: left.number, copy: left.copy, span: left.span, feed: left.feed, ..Piece::default() }
+        },
+        last => {
+            let last = last.map(|(stretch, _)| stretch);
+            Piece { section: last, ..piece.take().expect("each piece is in one window") }
+        }
+    }
 }
 
 /// Puts a way of the cloth in place of the first advance among some events, or before all: the other advances, taken out.

@@ -56,7 +56,12 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
     let is_chosen = |i: usize| i >= first && selection.bites.as_ref().is_none_or(|bites| bites.has(windows[i]));
     let all = marker.pieces.len();
-    keep(marker, &(0..all).map(is_chosen).collect::<Vec<bool>>(), selection);
+    let chosen: Vec<bool> = (0..all).map(is_chosen).collect();
+    if let Some(finding) = parted(marker, &chosen, &windows, selection) {
+        diagnostics.push(finding);
+        return;
+    }
+    keep(marker, &chosen, selection);
     if !marker.pieces.iter().any(cuts) {
         let message = format!("none of the {all} pieces is left to cut");
         diagnostics.push(
@@ -94,6 +99,18 @@ fn windows(marker: &Marker) -> Vec<u32> {
         Some(*window)
     };
     (0..stations.len()).scan(1, number).collect()
+}
+
+/// A piece that is chosen in some of the windows that split it, and not in others.
+fn parted(marker: &Marker, chosen: &[bool], windows: &[u32], selection: &Selection) -> Option<Diagnostic> {
+    let owners = marker.owners();
+    let is_parted = |&i: &usize| chosen[i] != chosen[owners[i]] && selection.has(marker.pieces[i].number);
+    let i = (0..owners.len()).find(is_parted)?;
+    let (piece, first, last) = (&marker.pieces[i], windows[i], windows[owners[i]]);
+    let name = piece.name();
+    let message = format!("piece {name} is cut in the bites {first} to {last}, and not all of these are chosen");
+    let hint = format!("begin with bite {first}, choose all of them, or leave the piece out: --skip {}", piece.number);
+    Some(Diagnostic::new(&code::MARKER_BITE, message).at(piece.span).about(vec![piece.number]).hint(hint))
 }
 
 /// A window that an option names and the marker does not have.

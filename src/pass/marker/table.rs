@@ -5,7 +5,7 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, Point, Vector};
+use crate::geom::{Extent, Point};
 use crate::ir::marker::{Marker, Notch};
 use crate::machine::{Job, Knife, Table};
 use crate::source::Span;
@@ -162,7 +162,7 @@ fn farthest(marker: &Marker, table: &Table) -> Option<(Point, Span)> {
         }
     };
     for (piece, station) in marker.pieces.iter().zip(marker.stations()) {
-        let mut see = |point: Point, span: Span| see(point, point - Vector::new(f64::from(station), 0.0), span);
+        let mut see = |point: Point, span: Span| see(point, piece.on_table(point, station), span);
         for contour in &piece.contours {
             for (_, segment) in marker.list.walk(contour.range) {
                 see(segment.to, segment.span);

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::body::Cut;
+use super::borders::Borders;
 use super::joints::{Joints, apart, most_apart};
 use super::trial::Trial;
 use crate::geom::{Point, cross};
@@ -33,6 +34,8 @@ pub(in crate::verify) struct Meetings<'a> {
     reference: &'a Reference<'a>,
     /// Where different cuts meet.
     joints: Joints<'a>,
+    /// Those of cuts in different windows of a conveyor.
+    pub(in crate::verify) borders: Borders<'a>,
     /// Corners by the line that begins there.
     corners: BTreeMap<usize, Corner>,
     /// Lines that begin at a corner whose strokes meet.
@@ -70,6 +73,7 @@ impl<'a> Meetings<'a> {
         Self {
             reference,
             joints: Joints::new(joints),
+            borders: Borders::default(),
             corners: BTreeMap::new(),
             met: vec![false; reference.lines.len()],
             parts: BTreeMap::new(),
@@ -83,6 +87,7 @@ impl<'a> Meetings<'a> {
     pub(in crate::verify) fn see(&mut self, cut: &Cut, trial: &Trial) {
         let line = &self.reference.lines[trial.line];
         self.joints.see(&cut.points, line.cut.index);
+        self.borders.see(&cut.points, line.cut.index);
         let over = trial.stretches.iter().copied().reduce(|[a, b], [low, high]| [a.min(low), b.max(high)]);
         let Some(over @ [low, high]) = over else { return };
         let corners = [self.begins(trial.line), self.next(trial.line)];
@@ -170,6 +175,7 @@ impl<'a> Meetings<'a> {
             self.worst.see(gap, || place);
         }
         self.joints.see_gaps(&mut self.worst);
+        self.borders.see_gaps(&mut self.worst);
         self.worst.finding()
     }
 }

@@ -4,6 +4,7 @@
 //! it cut too far. Never judges the limits of the axes.
 
 pub(super) mod body;
+pub(super) mod borders;
 pub(super) mod chord;
 pub(super) mod coverage;
 mod covered;

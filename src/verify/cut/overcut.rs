@@ -102,6 +102,11 @@ impl<'a> Overcut<'a> {
         }
     }
 
+    /// How far a place is from all edges of parts, mm: surely where that is less than `reach`.
+    pub(super) fn distance_to_edges(&self, place: Point, reach: f64) -> f64 {
+        self.inside.distance_to_edges(place, reach)
+    }
+
     /// Judges what a stroke cuts beyond the ends of its line.
     pub(in crate::verify) fn see(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         let Worsts { overcuts, declared: undeclared, .. } = worsts;

@@ -33,6 +33,8 @@ const CAP_ASIDE: f64 = 0.5;
 
 /// Parts in which a step is held against caps, at the most: no step of a sound program has more.
 const PARTS_MAX: f64 = 32.0;
+/// Distance by which a line may bend away from where a cut leaves it straight on, mm, beside how far that leads aside.
+const BOW: f64 = 0.1;
 /// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
@@ -232,6 +234,7 @@ impl<'a> Judge<'a> {
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(cut, best, &seen, &mut worsts.stray);
+        self.check_veer(cut, best, &seen, &mut worsts.stray);
         self.check_overlaps(cut, best, &seen, worsts);
         worsts.once.see(self.twice(cut, best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, worsts);
@@ -374,6 +377,25 @@ impl<'a> Judge<'a> {
                 stray.see(self.excess(beyond, allowed.max(self.reference.across(end))), || seen(i));
             } else {
                 stray.see(self.excess(beyond, allowed), || seen(i));
+            }
+        }
+    }
+
+    /// Where windows of a conveyor split an edge its cuts leave it, no farther than the profile has it.
+    fn check_veer(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
+        let (line, bite) = (&self.reference.lines[trial.line], &self.profile.bite);
+        let is_section = self.reference.marker.pieces[line.piece as usize].section.is_some();
+        if line.aside.is_empty() || !is_section {
+            return;
+        }
+        let tolerance = self.reference.tolerance;
+        // Both cuts may be off their lines, and two advances in X and in Y: less than three times one of them.
+        let allowed = bite.veer_mm.max(3.0 * bite.match_mm + 4.0 * tolerance) + 2.0 * tolerance + BOW;
+        for i in trial.held.clone() {
+            let station = trial.feet[i].station;
+            if line.aside.iter().any(|&[from, to]| (from..=to).contains(&station)) {
+                let away = self.overcut.distance_to_edges(cut.points[i], 2.0 * allowed);
+                stray.see(self.excess(away, allowed), || seen(i));
             }
         }
     }

@@ -54,6 +54,24 @@ pub(in crate::verify) struct Joint {
     pub(in crate::verify) about: Vec<Extent>,
 }
 
+/// Cuts among which those are looked for that stand for edges.
+#[derive(Clone, Copy)]
+struct Beds<'r, 'a> {
+    reference: &'r Reference<'a>,
+    grid: &'r Grid,
+    /// How far from an edge they may lie, mm.
+    distance: f64,
+    /// The place of the piece whose sections alone may stand for its edges; `None` = cuts of any piece.
+    section: Option<usize>,
+}
+
+impl Beds<'_, '_> {
+    /// Whether a line may stand for an edge.
+    fn has(&self, line: &Line) -> bool {
+        self.section.is_none_or(|piece| self.reference.owners[line.piece as usize] == piece)
+    }
+}
+
 /// A cut that stands for an edge from a place on.
 struct Stood {
     cut: u32,
@@ -93,8 +111,9 @@ impl Common {
     /// Looks for what stands for the spared edges of some contours; these may lie so far apart, mm.
     pub(in crate::verify) fn new(shared: &[Around], reference: &Reference, grid: &Grid, distance: f64) -> Self {
         let mut common = Self::default();
-        for Around { slits, stretches } in shared {
-            common.see(stretches, &reference.lines[slits.clone()], reference, grid, distance);
+        for Around { slits, stretches, section } in shared {
+            let beds = Beds { reference, grid, distance, section: *section };
+            common.see(stretches, &reference.lines[slits.clone()], beds);
         }
         for stretch in reference.open.iter().filter(|stretch| stretch.cut.is_none()) {
             let [from, to] = stretch.ends;
@@ -126,7 +145,7 @@ impl Common {
     }
 
     /// Goes once around a contour of a piece with slits.
-    fn see(&mut self, ring: &[Drawn], slits: &[Line], reference: &Reference, grid: &Grid, distance: f64) {
+    fn see(&mut self, ring: &[Drawn], slits: &[Line], beds: Beds) {
         // From the start of a stretch that is cut with the piece, if there is any.
         let start =
             (0..ring.len()).find(|&i| ring[i].cut.is_some() && ring[(i + ring.len() - 1) % ring.len()].cut.is_none());
@@ -147,7 +166,7 @@ impl Common {
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
-                    let stands = self.stands(edge, slits, reference, grid, distance);
+                    let stands = self.stands(edge, slits, beds);
                     if stands.is_empty() {
                         let length = edge.iter().map(|chord| (chord.ends[1] - chord.ends[0]).norm()).sum();
                         left.push((cuts.len(), length, sighting(from, stretch.block)));
@@ -168,7 +187,7 @@ impl Common {
         // A cut of the part itself may be led on along its edge, beside the cut that stands for that.
         let also = |own: Option<usize>, cut: u32, step: usize| {
             let stretches = own.into_iter().flat_map(|own| (0..ring.len()).map(move |k| own + k * step));
-            both_beside(stretches.map(|i| &ring[i % ring.len()]), cut, reference, grid, distance)
+            both_beside(stretches.map(|i| &ring[i % ring.len()]), cut, beds)
         };
         for next in &cuts {
             if before.cut != next.cut {
@@ -183,14 +202,8 @@ impl Common {
     }
 
     /// The cuts that stand for an edge, each with the place from which it does; those of slits on it must meet slits.
-    fn stands(
-        &mut self,
-        edge: &[Drawn],
-        slits: &[Line],
-        reference: &Reference,
-        grid: &Grid,
-        distance: f64,
-    ) -> Vec<Stood> {
+    fn stands(&mut self, edge: &[Drawn], slits: &[Line], beds: Beds) -> Vec<Stood> {
+        let distance = beds.distance;
         let points: Vec<Point> = edge[..1].iter().map(|chord| chord.ends[0]).chain(ends(edge)).collect();
         let stations = polyline::stations(&points);
         let length = stations[edge.len()];
@@ -201,7 +214,7 @@ impl Common {
         let reach = BREAK * distance;
         let mut found = Stands { reach, ..Stands::default() };
         for (chord, &start) in edge.iter().zip(&stations) {
-            for one in beside(chord, reference, grid, distance) {
+            for one in beside(chord, beds) {
                 found.add(Beside { over: one.over.map(|way| way + start), ..one });
             }
         }
@@ -217,7 +230,7 @@ impl Common {
         }
         let slits = slits.iter().filter(|slit| is_on(root(slit), edge, distance));
         self.joints.extend(slits.filter_map(|slit| {
-            let cut = first_across(slit, &stands, reference, grid, distance)?;
+            let cut = first_across(slit, &stands, beds)?;
             let (at, block) = (root(slit), slit.block(0));
             Some(Joint { at, block, cuts: [cut, slit.cut.index], about: vec![Extent::EMPTY] })
         }));
@@ -271,7 +284,7 @@ fn root(slit: &Line) -> Point {
 }
 
 /// Which of the cuts that stand for an edge a slit on it comes to first, going out of the part.
-fn first_across(slit: &Line, stands: &[Stand], reference: &Reference, grid: &Grid, distance: f64) -> Option<u32> {
+fn first_across(slit: &Line, stands: &[Stand], Beds { reference, grid, distance, .. }: Beds) -> Option<u32> {
     let root = root(slit);
     let out = polyline::direction(slit.place(slit.length()), root)?;
     let reach = ABOUT * distance;
@@ -389,24 +402,17 @@ pub(super) fn boxes_of(points: &[Point], distance: f64) -> Vec<Extent> {
 
 /// Boxes along the first of some stretches of an edge, as far as a cut runs beside them, each grown by `distance`, the greatest
 /// distance of a cut from the edge, mm.
-fn both_beside<'s>(
-    stretches: impl Iterator<Item = &'s Drawn>,
-    cut: u32,
-    reference: &Reference,
-    grid: &Grid,
-    distance: f64,
-) -> Vec<Extent> {
+fn both_beside<'s>(stretches: impl Iterator<Item = &'s Drawn>, cut: u32, beds: Beds) -> Vec<Extent> {
     let mut found = Vec::new();
     for stretch in stretches.take_while(|stretch| stretch.cut.is_some()) {
-        let pieces: Vec<Beside> =
-            beside(stretch, reference, grid, distance).into_iter().filter(|piece| piece.cut == cut).collect();
+        let pieces: Vec<Beside> = beside(stretch, beds).into_iter().filter(|piece| piece.cut == cut).collect();
         if pieces.is_empty() {
             break;
         }
         let [from, to] = stretch.ends;
         let along = polyline::direction(from, to).unwrap_or_default();
         let places = pieces.iter().map(|piece| piece.over.map(|way| from + along * way));
-        found.extend(places.flat_map(|ends| boxes_of(&ends, distance)));
+        found.extend(places.flat_map(|ends| boxes_of(&ends, beds.distance)));
     }
     found
 }
@@ -435,7 +441,7 @@ fn longest_without([from, to]: [f64; 2], covered: &[[f64; 2]]) -> (f64, f64) {
 }
 
 /// The cuts beside a chord of an edge.
-fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> Vec<Beside> {
+fn beside(chord: &Drawn, beds: Beds) -> Vec<Beside> {
     let [from, to] = chord.ends;
     let Some(along) = polyline::direction(from, to) else { return Vec::new() };
     let length = (to - from).norm();
@@ -444,26 +450,20 @@ fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> V
     let mut found = Vec::new();
     for part in 0..parts as usize {
         let start = from + along * (span * part as f64);
-        let of_part = beside_part(start, along, span, reference, grid, distance).into_iter();
+        let of_part = beside_part(start, along, span, beds).into_iter();
         found.extend(of_part.map(|one| Beside { over: one.over.map(|way| way + span * part as f64), ..one }));
     }
     found
 }
 
 /// The same for a part of one, from a place along a unit vector.
-fn beside_part(
-    from: Point,
-    along: Vector,
-    length: f64,
-    reference: &Reference,
-    grid: &Grid,
-    distance: f64,
-) -> Vec<Beside> {
+fn beside_part(from: Point, along: Vector, length: f64, beds: Beds) -> Vec<Beside> {
+    let Beds { reference, grid, distance, .. } = beds;
     let middle = from + along * (length / 2.0);
     let mut found = Vec::new();
     for run in grid.near(middle, length / 2.0 + distance) {
         let line = &reference.lines[run.line()];
-        if line.cut.is_edge {
+        if line.cut.is_edge || !beds.has(line) {
             continue;
         }
         for i in run.chords() {

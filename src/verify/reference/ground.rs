@@ -31,7 +31,9 @@ impl<'a> Ground<'a> {
             || Grid::new(&reference),
             || rayon::join(|| Inside::new(marker, profile.notch, reference.band), || held(marker, &reference)),
         );
-        let mut common = Common::new(&reference.shared, &reference, &grid, reference.common);
+        // Where each part is cut all round its sections still stand for its edges.
+        let distance = if reference.common > 0.0 { reference.common } else { reference.tolerance };
+        let mut common = Common::new(&reference.shared, &reference, &grid, distance);
         let sizes = [profile.knife.width_mm, profile.verify.max_uncut_mm];
         common.joints.extend(tees(&reference, &grid, &inside, sizes));
         Self { reference, grid, inside, common, held }

@@ -58,7 +58,7 @@ pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Hel
     let holes = drills.zip(&reference.holes).map(|((drill, piece), &rank)| (rank as u32, drill.at, piece));
     let marks: Vec<(u32, Point, usize)> = slits.chain(holes).collect();
     let of_mark = |&(rank, at, piece): &(u32, Point, usize)| {
-        let outline = contours.smallest_at(at, |other| contours.all[other].0 == piece)?;
+        let outline = contours.smallest_at(at, |other| contours.all[other].0 == reference.owners[piece])?;
         Some(Held { inner: rank..rank + 1, outline: ranks[outline].clone() })
     };
     let of_contour = |contour: usize| {

@@ -66,7 +66,7 @@ impl<'a> Inside<'a> {
         };
         let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
         let part_of = parts::regions(&shapes, holders, lies_in);
-        inside.part_of = part_of.into_iter().map(|part| part as usize).collect();
+        inside.part_of = marker.owners().into_iter().map(|owner| part_of[owner] as usize).collect();
         inside
     }
 

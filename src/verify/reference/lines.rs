@@ -17,7 +17,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Cut, CutKind, NotchStroke};
+use crate::ir::marker::{Cut, CutKind, NotchStroke, Piece};
 use crate::machine::{Follow, MachineProfile};
 
 /// All lines of a marker.
@@ -33,6 +33,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) events: Vec<usize>,
     /// What is cut of each piece.
     pub(in crate::verify) of_pieces: Vec<CutOfPiece>,
+    /// The piece that has the contours of each: another one for the early sections of a piece in several windows.
+    pub(in crate::verify) owners: Vec<usize>,
     /// The closed contours of the pieces of which not all is cut with them.
     pub(in crate::verify) shared: Vec<Around>,
     /// The open contours of these pieces: nothing stands for them.
@@ -72,7 +74,14 @@ impl<'a> Reference<'a> {
     /// The lines of `marker`.
     pub(in crate::verify) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let near = profile.knife.near_share().map(|_| Near::new(marker));
-        let of_piece = |index| OfPiece::new(index, marker, profile, near.as_ref());
+        let owners = marker.owners();
+        let of_piece = |index| {
+            let mut of_piece = OfPiece::new(index, marker, profile, near.as_ref());
+            if owners[index] != index {
+                of_piece.see_aside(&marker.pieces[owners[index]], marker, profile);
+            }
+            of_piece
+        };
         let of_pieces: Vec<OfPiece<'a>> = (0..marker.pieces.len()).into_par_iter().map(of_piece).collect();
         let count = of_pieces.iter().map(|piece| piece.lines.len()).sum();
         let (mut first, mut first_cut, mut lines) = (0, 0, Vec::with_capacity(count));
@@ -88,7 +97,8 @@ impl<'a> Reference<'a> {
             }
             rings.iter_mut().flatten().flat_map(|drawn| &mut drawn.cut).for_each(|cut| *cut += first_cut);
             let slits = lines.len()..lines.len() + slits;
-            shared.extend(rings.into_iter().map(|stretches| Around { slits: slits.clone(), stretches }));
+            let section = piece.section.map(|_| cut_of_pieces.len());
+            shared.extend(rings.into_iter().map(|stretches| Around { slits: slits.clone(), stretches, section }));
             let contours = contours.into_iter().map(|ranks| ranks.start + small(first)..ranks.end + small(first));
             cut_of_pieces.push(CutOfPiece { slits, contours: contours.collect() });
             open.append(&mut of_open);
@@ -103,6 +113,7 @@ impl<'a> Reference<'a> {
             holes,
             events,
             of_pieces: cut_of_pieces,
+            owners,
             shared,
             open,
             junctions: starts(&marker.junctions),
@@ -198,6 +209,16 @@ impl<'a> OfPiece<'a> {
             }
         }
         Self { lines, slits, contours, rings, open, ranks: rank(), cuts: cut() }
+    }
+
+    /// Marks where the cuts of an early section leave the contours, which another piece has.
+    fn see_aside(&mut self, owner: &Piece, marker: &Marker, profile: &MachineProfile) {
+        let outlines = owner.contours.iter().map(|contour| Outline::new(contour, owner, marker, profile.notch).0);
+        let drawn: Vec<Segment> = outlines.flat_map(|outline| outline.segments().to_vec()).collect();
+        let drawn = Chords::of_contours(drawn.iter());
+        for line in &mut self.lines[self.slits..] {
+            line.aside = shared::aside(line, &drawn).into();
+        }
     }
 }
 

@@ -33,6 +33,8 @@ pub(in crate::verify) struct Around {
     pub(in crate::verify) slits: Range<usize>,
     /// Its stretches, as they are drawn.
     pub(in crate::verify) stretches: Vec<Drawn>,
+    /// Place of the piece where windows of a conveyor split it: its own sections alone may stand for its edges.
+    pub(in crate::verify) section: Option<usize>,
 }
 
 /// Chords by place, each with what it is of.

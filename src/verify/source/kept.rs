@@ -280,7 +280,8 @@ impl Works {
     pub fn kept(&self, marker: &Marker, profile: &MachineProfile) -> Finding {
         let rounding = if marker.unit > 0.0 { DIAGONAL * marker.unit } else { NO_GRID };
         let reach = profile.notch.box_max_mm / 2.0 + rounding;
-        let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
+        let wholes = marker.wholes();
+        let mut cut: Vec<&Piece> = wholes.iter().collect();
         cut.sort_by_key(|piece| name(piece));
         let lost_of = |(of, read): (Name, &[KeptPlace])| {
             let Ok(place) = cut.binary_search_by_key(&of, |piece| name(piece)) else { return Vec::new() };

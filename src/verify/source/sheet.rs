@@ -47,7 +47,8 @@ impl Drawn {
         let table = marks.map_or_else(|| Lay::of(drawn, &job.profile), Lay::by);
         let table = Lay { cloth: cloth.as_ref(), ..table };
         let mut laid: BTreeMap<Name, Vec<&Piece>> = BTreeMap::new();
-        for piece in marker.pieces.iter().rev() {
+        let wholes = marker.wholes();
+        for piece in wholes.iter().rev() {
             laid.entry((piece.number, piece.span.start, piece.copy)).or_default().push(piece);
         }
         let copies = job.profile.sheet.copies;
@@ -223,7 +224,8 @@ impl Lay<'_> {
         for (drawn, laid) in pairs([&one.notches, &other.notches], |notch| notch.span.start, away) {
             worst.see(self.notch(drawn, laid), || Sighting::at(0.0, laid.tip, laid.span.block));
         }
-        for (drawn, laid) in one.drills.iter().zip(&other.drills) {
+        let away = |drawn: &Drill, laid: &Drill| self.away(drawn.at, laid.at);
+        for (drawn, laid) in pairs([&one.drills, &other.drills], |drill| drill.span.start, away) {
             let Drill { at: place, tool, span } = *laid;
             let is_same = (drawn.tool, drawn.span) == (tool, span);
             worst.see(if is_same { self.away(drawn.at, place) } else { f64::INFINITY }, || {

@@ -26,6 +26,7 @@ pub(super) use self::travel::Group;
 use self::travel::arrange;
 use super::pass::MarkerPass;
 use super::search::search_ended;
+use super::split::{self, Lap};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
@@ -70,10 +71,11 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
         width: job.profile.knife.width_mm,
         corner: job.profile.corner_angle(),
     });
-    let Marker { list, pieces, cuts, common, junctions, .. } = marker;
+    let Marker { list, pieces, cuts, common, junctions, unit, .. } = marker;
     (*cuts, *common, *junctions) = (Vec::new(), Vec::new(), Vec::new());
     let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts, groups: Vec::new() };
     let mut styled: Vec<Styled> = pieces.iter().map(|piece| cutting.styled(piece)).collect();
+    let mut sections = cutting.sections(pieces, &styled, Lap::of(job, *unit));
     let slits: f64 = styled.iter().flat_map(|styled| &styled.slits).map(|slit| slit.stroke.length()).sum();
     let mut shared = match asked {
         Some(asked) => cutting.share(pieces, &mut styled, asked, (common, junctions), diagnostics),
@@ -90,6 +92,12 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
             cutting.slit(&slit);
         }
         cutting.group(Group::Slits);
+        if pieces[i].section.is_some() {
+            if let Some(Section { cuts, outline, line }) = sections.remove(&i) {
+                cutting.edges([Vec::new(), cuts], outline, line);
+            }
+            continue;
+        }
         for ((contour, range), line) in outlines.into_iter().enumerate().zip(nesting.of_group(i)) {
             match shared.remove(&line) {
                 Some(of_line) => cutting.edges(of_line, range, line),
@@ -101,6 +109,14 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
     let groups = cutting.groups;
     marker.spared = alone.map_or(0.0, |alone| alone - marker.cut_length());
     groups
+}
+
+/// What is cut of the outline of a piece with a section of it.
+struct Section {
+    cuts: Vec<Vec<Segment>>,
+    /// The outline, and its line.
+    outline: Range,
+    line: usize,
 }
 
 /// A piece with its notches in the style of the profile.
@@ -134,6 +150,29 @@ impl Cutting<'_> {
         Styled { slits, outlines }
     }
 
+    /// What is cut with the sections of pieces that windows of a conveyor split, by their places.
+    fn sections(&self, pieces: &[Piece], styled: &[Styled], lap: Lap) -> BTreeMap<usize, Section> {
+        let mut found = BTreeMap::new();
+        for (i, owner) in pieces.iter().enumerate().filter(|(_, piece)| piece.section.is_some()) {
+            let ([outline], Some(line)) = (&styled[i].outlines[..], self.nesting.of_group(i).next()) else { continue };
+            let outline = *outline;
+            let of_owner = (0..pieces.len()).filter(|&k| pieces[k].section.is_some() && pieces[k].is_of(owner));
+            let mut of_owner: Vec<(f64, usize)> = of_owner.filter_map(|k| Some((pieces[k].section?[0], k))).collect();
+            of_owner.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let borders: Vec<f64> = of_owner.iter().skip(1).map(|(from, _)| *from).collect();
+            for (_, k) in &of_owner {
+                found.insert(*k, Section { cuts: Vec::new(), outline, line });
+            }
+            let ring = split::Ring::new(self.list, outline, self.is_part_left(outline, line));
+            for (section, cut) in ring.sections(&borders, lap) {
+                let section =
+                    found.get_mut(&of_owner[section].1).expect("there is a section on either side of a border");
+                section.cuts.push(cut);
+            }
+        }
+        found
+    }
+
     /// What is cut of the lines that have edges in common with those of other parts; what these are cut with is added to
     /// `common`, where cuts cross each other to `junctions`, and slits on them are led on to these.
     fn share(
@@ -155,7 +194,9 @@ impl Cutting<'_> {
         for (i, (piece, styled)) in pieces.iter().zip(&*styled).enumerate() {
             advances +=
                 piece.events.iter().filter(|event| matches!(event.kind, Event::Advance | Event::AdvanceBy(_))).count();
-            let of_piece = styled.outlines.iter().zip(self.nesting.of_group(i));
+            // Split outlines have no common lines: their sections are cut in several windows.
+            let is_whole = piece.section.is_none();
+            let of_piece = styled.outlines.iter().zip(self.nesting.of_group(i)).filter(|_| is_whole);
             for (&range, line) in of_piece.filter(|&(_, line)| self.nesting.lines()[line].is_closed && is_near(line)) {
                 lines.push(line);
                 let mut ring = self.ring(i, piece, range, line);

@@ -1,0 +1,149 @@
+//! Pieces that are longer than a window of the conveyor, and where they are split.
+//!
+//! Splits are looked for on a grid along X. From the far end back, for each place on it the best way on is known: the fewest
+//! sections, then the least cost of the splits between them (dynamic programming). Going forward a window then takes the section
+//! that leaves the best rest, of such the longest.
+
+use std::collections::BTreeMap;
+
+use super::split::{Lap, Lines, Ring};
+use crate::analysis::nesting::Nesting;
+use crate::geom::ring;
+use crate::ir::marker::{Marker, Piece};
+use crate::machine::{Bite, Job, NotchStyle};
+
+/// Distance of two borders that are looked at, mm.
+const GRID: f64 = 5.0;
+/// Least length of a section, mm: two joins on an edge are no nearer to each other.
+const SHORTEST: f64 = 60.0;
+/// What a section is shorter than a window, mm: ways of the cloth are whole mm.
+const ROOM: f64 = 1.0;
+
+/// Stretch along X that the blade, or the axis over a drill, may take for a piece, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// A piece that is longer than a window.
+#[derive(Debug)]
+pub(super) struct Long {
+    /// Ends of the piece along X, mm.
+    ends: [f64; 2],
+    /// The places where it may begin to be cut: its start, then where it may be split.
+    places: Vec<Place>,
+    /// The one from which it is cut next.
+    next: usize,
+    /// The window that has the section before that, if there is one.
+    window: Option<u32>,
+    /// How far the blade may reach beyond a border, mm.
+    reach: f64,
+}
+
+/// A place where a section may begin.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    x: f64,
+    /// Where the blade may begin, mm.
+    from: f64,
+    cost: u32,
+    /// The fewest sections from here to the end, and what the splits between them cost; `None` where there is no way on.
+    rest: Option<(u32, u32)>,
+}
+
+impl Long {
+    /// The pieces of a marker that are longer than a window and may be split, by their places.
+    pub(super) fn of(marker: &Marker, stretches: &[Option<Stretch>], job: &Job) -> BTreeMap<usize, Self> {
+        let length = job.profile.bite.length_mm.unwrap_or(f64::INFINITY) - ROOM;
+        let is_long = |i: usize| {
+            let is_long = stretches[i].is_some_and(|Stretch { from, to }| to - from > length);
+            is_long && job.selection.has(marker.pieces[i].number)
+        };
+        let longs: Vec<usize> = (0..marker.pieces.len()).filter(|&i| is_long(i)).collect();
+        if longs.is_empty() {
+            return BTreeMap::new();
+        }
+        let nesting = Nesting::of(marker, job.profile.band(marker.unit));
+        let lines = Lines::of(marker);
+        let is_plain = |i: &usize| is_plain(&marker.pieces[*i], job) && is_alone(*i, &nesting);
+        let long = |i: usize| Some((i, Self::new(i, marker, (stretches[i]?, length), &lines, job)));
+        longs.into_iter().filter(is_plain).filter_map(long).collect()
+    }
+
+    fn new(piece: usize, marker: &Marker, (stretch, length): (Stretch, f64), lines: &Lines, job: &Job) -> Self {
+        let Stretch { from, to } = stretch;
+        let lap = Lap::of(job, marker.unit);
+        let range = marker.pieces[piece].contours[0].range;
+        let ring = Ring::new(&marker.list, range, ring::area(&marker.list.points(range)) > 0.0);
+        let extent = marker.list.extent(range);
+        let ends = [extent.min.x, extent.max.x];
+        let reach = lap.length() + job.profile.knife.reach();
+        let grid = ((ends[0] / GRID).ceil() as i64)..((ends[1] / GRID).ceil() as i64);
+        let borders = grid.map(|step| step as f64 * GRID);
+        let place = |x: f64| {
+            let cost = lines.cost(&ring, piece, x, lap)?;
+            Some(Place { x, from: x - reach, cost, rest: None })
+        };
+        let start = Place { x: ends[0], from, cost: 0, rest: None };
+        let mut places: Vec<Place> = std::iter::once(start).chain(borders.filter_map(place)).collect();
+        for i in (0..places.len()).rev() {
+            let begin = places[i];
+            let next = places[i + 1..].iter().take_while(|next| next.x + reach - begin.from <= length);
+            let ways = next.filter(|next| next.x - begin.x >= SHORTEST).filter_map(|next| next.with_rest());
+            places[i].rest = if to - begin.from <= length { Some((1, 0)) } else { ways.min() };
+        }
+        Self { ends, places, next: 0, window: None, reach }
+    }
+
+    /// Where the blade may begin what is left, mm.
+    pub(super) fn begins(&self) -> f64 {
+        self.places[self.next].from
+    }
+
+    /// Whether a section in a window would lie too many advances behind the one before it: each of them may be off.
+    pub(super) fn is_late(&self, window: u32) -> bool {
+        self.window.is_some_and(|before| window - before > Bite::MOST_ADVANCES)
+    }
+
+    /// Ends along X of what is left, mm.
+    pub(super) fn rest(&self) -> [f64; 2] {
+        [self.places[self.next].x, self.ends[1]]
+    }
+
+    /// Takes the next section in a window, by its number and its end: the ends of the section along X, mm. `None` where that would
+    /// make more sections of what is left, or splits that cost more, than a window of its own.
+    pub(super) fn take(&mut self, window: u32, end: f64) -> Option<[f64; 2]> {
+        let begin = self.places[self.next];
+        let fits = |next: &&(usize, Place)| next.1.x + self.reach <= end && next.1.x - begin.x >= SHORTEST;
+        let all: Vec<(usize, Place)> = self.places.iter().copied().enumerate().skip(self.next + 1).collect();
+        let ways = all.iter().filter(fits).filter_map(|&(i, next)| Some((next.with_rest()?, i)));
+        let (way, next) = ways.min_by(|a, b| a.0.cmp(&b.0).then(b.1.cmp(&a.1)))?;
+        if way > begin.rest? {
+            return None;
+        }
+        (self.next, self.window) = (next, Some(window));
+        Some([begin.x, self.places[next].x])
+    }
+}
+
+impl Place {
+    /// Sections and cost of a way that has a split here, from the one before it on.
+    fn with_rest(&self) -> Option<(u32, u32)> {
+        self.rest.map(|(sections, cost)| (sections + 1, cost + self.cost))
+    }
+}
+
+/// Whether a piece has but a closed outline, slits and holes, none of which a section could not have in its window.
+fn is_plain(piece: &Piece, job: &Job) -> bool {
+    let is_as_drawn = piece.outline_notches.is_empty() || job.profile.notch.style == NotchStyle::AsDrawn;
+    let is_drilled_aside = !piece.drills.is_empty() && job.profile.drill.offset_mm != [0.0; 2];
+    piece.contours.len() == 1 && piece.contours[0].closed && is_as_drawn && !is_drilled_aside
+}
+
+/// Whether a piece lies in no other, and none in it.
+fn is_alone(piece: usize, nesting: &Nesting) -> bool {
+    let own = nesting.of_group(piece);
+    let is_in = |line: usize| nesting.around(line).any(|outer| own.contains(&outer));
+    own.clone().all(|line| nesting.around(line).len() == 0) && !(0..nesting.lines().len()).any(is_in)
+}

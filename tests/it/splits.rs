@@ -1,0 +1,278 @@
+//! Pieces that are longer than a window of the conveyor: they are split, and no thread holds them wherever the conveyor brings
+//! the cloth within its tolerance. Whether they come free is seen here by flooding the cloth, not by the verifier.
+
+use cutc::machine::Job;
+
+use crate::support::nests::compiled;
+use crate::support::room::{DONE, FAULTY, Room, USAGE};
+
+/// A strip of 800 mm with a slit on either side and two holes, a bow of 800 mm and a square beside it.
+const LONG: &str = "H1*G71*N1*X0Y0*M14*X900Y0*X900Y900*X0Y900*X0Y0*M15*\
+    N2*X1500Y1500M43*X6500Y1500M43*X1400Y1000*M14*M19*X1400Y1060*M15*X6000Y2000*M14*M19*X6000Y1940*M15*\
+    X0Y1000*M14*X8000Y1000*X8000Y2000*X0Y2000*X0Y1000*M15*\
+    N3*X0Y2200*M14*X1000Y2235*X2000Y2260*X3000Y2275*X4000Y2280*X5000Y2275*X6000Y2260*X7000Y2235*X8000Y2200*\
+    X8000Y2900*X0Y2900*X0Y2200*M15*M0*";
+/// Options with which both take three windows.
+const BITES: &str = "--set bite.length_mm=400";
+/// Size of a place of the cloth that is flooded, mm.
+const CELL: f64 = 0.25;
+/// Waste around the marker, mm.
+const ROUND: f64 = 20.0;
+/// The column of the way of the cloth.
+const ADVANCE: usize = 8;
+
+/// A cloth in small places, each cut or not.
+struct Cloth {
+    is_cut: Vec<bool>,
+    width: usize,
+}
+
+impl Cloth {
+    /// Cloth from -[`ROUND`] to so far beyond here, mm.
+    fn new(to: [f64; 2]) -> Self {
+        let [width, height] = to.map(|size| ((size + 2.0 * ROUND) / CELL) as usize);
+        Self { is_cut: vec![false; width * height], width }
+    }
+
+    fn place(&self, [x, y]: [f64; 2]) -> usize {
+        let [column, row] = [x, y].map(|at| ((at + ROUND) / CELL) as usize);
+        row * self.width + column
+    }
+
+    fn cut(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / CELL * 2.5).ceil().max(1.0);
+        for step in 0..=steps as usize {
+            let share = step as f64 / steps;
+            let place = self.place([0, 1].map(|k| from[k] + (to[k] - from[k]) * share));
+            self.is_cut[place] = true;
+        }
+    }
+
+    /// What hangs together with the corner of the cloth, over sides of places, not over their corners.
+    fn flooded(&self) -> Vec<bool> {
+        let mut is_flooded = vec![false; self.is_cut.len()];
+        let mut left = vec![0];
+        while let Some(place) = left.pop() {
+            if is_flooded[place] || self.is_cut[place] {
+                continue;
+            }
+            is_flooded[place] = true;
+            let column = place % self.width;
+            left.extend((column > 0).then(|| place - 1));
+            left.extend((column + 1 < self.width).then_some(place + 1));
+            left.extend(place.checked_sub(self.width));
+            left.extend((place + self.width < self.is_cut.len()).then_some(place + self.width));
+        }
+        is_flooded
+    }
+}
+
+/// The rows of a program, field by field.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    text.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().expect("a number")).collect()).collect()
+}
+
+/// Cloth that a program has cut, each window of which lies beside its place.
+fn cut(rows: &[Vec<f64>], size: [f64; 2], beside: impl Fn(usize) -> [f64; 2]) -> Cloth {
+    let mut ways: Vec<f64> = rows.iter().map(|row| row[ADVANCE]).collect();
+    ways.dedup();
+    let knife = Job::default().profile.knife;
+    let mut cloth = Cloth::new(size);
+    let mut last: Option<[f64; 2]> = None;
+    for row in rows {
+        let window = ways.iter().position(|way| *way == row[ADVANCE]).expect("it is one of them");
+        let [x, y] = beside(window);
+        let (sin, cos) = row[3].to_radians().sin_cos();
+        let at = |reach: f64| [row[1] + row[ADVANCE] + x + reach * cos, row[2] + y + reach * sin];
+        let tip = at(knife.radius());
+        if row[4] == 1.0 {
+            cloth.cut(last.unwrap_or_else(|| at(-knife.back())), tip);
+        }
+        last = (row[4] == 1.0).then_some(tip);
+    }
+    cloth
+}
+
+/// How many of some places of the cloth hang together with its corner.
+fn held(rows: &[Vec<f64>], size: [f64; 2], places: &[[f64; 2]], beside: impl Fn(usize) -> [f64; 2]) -> usize {
+    let cloth = cut(rows, size, beside);
+    let flooded = cloth.flooded();
+    places.iter().filter(|&&at| flooded[cloth.place(at)]).count()
+}
+
+#[test]
+fn parts_that_are_split_come_free_wherever_the_conveyor_brings_the_cloth() {
+    let mut job = Job::default();
+    job.profile.bite.length_mm = Some(400.0);
+    let (_, bytes) = compiled(LONG, "csv", &job).expect("it is split");
+    let rows = rows(std::str::from_utf8(&bytes).expect("text"));
+    let (size, parts) = ([800.0, 290.0], [[45.0, 45.0], [400.0, 150.0], [400.0, 260.0]]);
+    let steps = [-0.5, 0.0, 0.5];
+    for step in steps.iter().flat_map(|x| steps.map(|y| [*x, y])) {
+        // All windows go the same way on, or each other one goes back.
+        let goes_on = |window: usize| step.map(|by| by * window as f64);
+        let goes_back = |window: usize| step.map(|by| if window % 2 == 1 { by } else { 0.0 });
+        assert_eq!(held(&rows, size, &parts, goes_on), 0, "each advance off by {step:?}");
+        if step[0] != 0.0 && step[1] != 0.0 {
+            assert_eq!(held(&rows, size, &parts, goes_back), 0, "each other advance off by {step:?}");
+        }
+    }
+    // The flood finds the threads of cuts that do not cross: beyond what the halves veer by.
+    let far = |window: usize| [0.0, 2.5 * window as f64];
+    assert!(held(&rows, size, &parts, far) > 0);
+}
+
+#[test]
+fn every_target_cuts_split_pieces_and_is_judged_by_its_own_bytes() {
+    let room = Room::with("long.cut", LONG);
+    let advance = r#"gcode.advance = ["M68 E0 Q#", "M64 P1", "M66 P1 L3 Q60"]"#;
+    room.write("machine.toml", format!("bite.length_mm = 400\n{advance}\n").as_bytes());
+    for extension in ["csv", "npy", "counts", "hal.txt", "ngc"] {
+        let out = format!("out.{extension}");
+        let target = ["csv", "npy", "counts", "hal", "gcode"][["csv", "npy", "counts", "hal.txt", "ngc"]
+            .iter()
+            .position(|other| *other == extension)
+            .expect("it is one of them")];
+        let said = room.says(&format!("compile long.cut -t {target} -o {out} -p machine.toml"), DONE);
+        assert!(said.contains("  pieces     3\n") && said.contains("windows of a conveyor"), "{said}");
+        assert!(!said.contains("ends of plunge cuts in parts"), "{said}");
+        room.says(&format!("verify {out} --source long.cut -p machine.toml"), DONE);
+    }
+    let said = room.says(&format!("compile long.cut -t iso -o out.cut {BITES}"), FAULTY);
+    assert!(said.contains("the target iso cannot say this: piece 2 is cut in several bites"), "{said}");
+    // A sheet moves pieces before they are split.
+    for sheet in
+        ["--set sheet.mirror=ends", "--set sheet.flip=sides", "--set sheet.copies=2 --set order.policy=fastest"]
+    {
+        room.says(&format!("compile long.cut --force -o out.csv {BITES} {sheet}"), DONE);
+        room.says(&format!("verify out.csv --source long.cut {BITES} {sheet}"), DONE);
+    }
+    for option in
+        ["common.lines=off", "bite.overlap_mm=0", "bite.overlap_mm=20", "bite.match_mm=1.5", "knife.follow=chord"]
+    {
+        room.says(&format!("compile long.cut --force -o out.csv {BITES} --set {option}"), DONE);
+    }
+}
+
+#[test]
+fn a_choice_of_windows_parts_no_piece() {
+    let room = Room::with("long.cut", LONG);
+    let said = room.says(&format!("compile long.cut {BITES} --resume-from bite:3"), FAULTY);
+    assert!(said.contains("error[marker/bite]: piece 2 is cut in the bites 1 to 3"), "{said}");
+    assert!(said.contains("begin with bite 1"), "{said}");
+    for choice in ["--bites 1", "--bites 2-3"] {
+        room.says(&format!("compile long.cut {BITES} {choice}"), FAULTY);
+    }
+    for choice in ["--bites 1-3", "--pieces 2", "--skip 2", "--skip 2,3", "--resume-from bite:1"] {
+        room.says(&format!("compile long.cut --force -o some.csv {BITES} {choice}"), DONE);
+        room.says(&format!("verify some.csv --source long.cut {BITES} {choice}"), DONE);
+    }
+}
+
+#[test]
+fn no_cut_is_split_near_a_slit() {
+    let room = Room::new();
+    for at in (2100..3700).step_by(250) {
+        let file = format!("H1*G71*N1*X{at}Y0*M14*M19*X{at}Y60*M15*X0Y0*M14*X6000Y0*X6000Y1000*X0Y1000*X0Y0*M15*M0*");
+        room.write("one.cut", file.as_bytes());
+        room.says(&format!("compile one.cut --force -o one.csv {BITES}"), DONE);
+        let told = room.says(&format!("compile one.cut {BITES} --dump-after bite"), DONE);
+        let border = told.split("section 0 to ").nth(1).and_then(|rest| rest.lines().next());
+        let border: f64 = border.and_then(|border| border.parse().ok()).expect("a section");
+        let slit = f64::from(at) / 10.0;
+        assert!((border - slit).abs() > 30.0, "a border at {border}, a slit at {slit}");
+    }
+}
+
+/// Damages of the rows of three windows.
+type Damage = fn(&mut Vec<Vec<f64>>);
+
+#[test]
+fn damage_to_split_cuts_is_found() {
+    let room = Room::with("long.cut", LONG);
+    room.says(&format!("compile long.cut {BITES} -o right.csv"), DONE);
+    let text = room.text("right.csv");
+    let head = text.lines().next().expect("a header").to_owned();
+    let damages: [(&str, &str, Damage); 5] = [
+        ("the last advance a tenth longer than told", "verify/on-path", |rows| {
+            let last = rows[rows.len() - 1][ADVANCE];
+            rows.iter_mut().filter(|row| row[ADVANCE] == last).for_each(|row| row[1] -= 0.1);
+        }),
+        ("the second window askew", "verify/on-path", |rows| {
+            let ways = ways(rows);
+            rows.iter_mut().filter(|row| row[ADVANCE] == ways[1]).for_each(|row| row[2] += 0.1);
+        }),
+        ("two windows exchanged", "verify/events", |rows| {
+            let ways = ways(rows);
+            let other = |way: f64| {
+                if way == ways[1] {
+                    ways[2]
+                } else if way == ways[2] {
+                    ways[1]
+                } else {
+                    way
+                }
+            };
+            rows.iter_mut().for_each(|row| row[ADVANCE] = other(row[ADVANCE]));
+        }),
+        ("the ways aside left out", "verify/joint", |rows| {
+            for stroke in rows.chunk_by_mut(|one, next| one[4] == next[4]) {
+                let way: f64 =
+                    stroke.windows(2).map(|ends| (ends[1][1] - ends[0][1]).hypot(ends[1][2] - ends[0][2])).sum();
+                // The strip lies between 100 and 200 mm: a short stroke outside of that leads into the waste.
+                let is_beside = |row: &Vec<f64>| (98.0..99.8).contains(&row[2]) || (200.2..202.0).contains(&row[2]);
+                if stroke[0][4] == 1.0 && way < 14.0 && stroke.iter().any(is_beside) {
+                    stroke.iter_mut().for_each(|row| (row[4], row[7]) = (0.0, 0.0));
+                }
+            }
+        }),
+        ("a part free before all in it is cut", "verify/order", |rows| {
+            let ways = ways(rows);
+            let (first, rest): (Vec<_>, Vec<_>) = rows.drain(..).partition(|row| row[ADVANCE] < ways[2]);
+            rows.extend(rest.into_iter().chain(first));
+            for (tick, row) in rows.iter_mut().enumerate() {
+                row[0] = tick as f64 * 0.001;
+            }
+        }),
+    ];
+    for (name, rule, damage) in damages {
+        let mut damaged = rows(&text);
+        damage(&mut damaged);
+        let lines = damaged.iter().map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
+        let lines: Vec<String> = std::iter::once(head.clone()).chain(lines).collect();
+        room.write("wrong.csv", (lines.join("\n") + "\n").as_bytes());
+        let said = room.says(&format!("verify wrong.csv --source long.cut {BITES}"), FAULTY);
+        assert!(said.contains(&format!("FAIL  {rule}")), "{name}: {said}");
+    }
+    // A conveyor that is worse than the one that the cuts were made for leaves threads.
+    let said = room.says(&format!("verify right.csv --source long.cut {BITES} --set bite.match_mm=2"), FAULTY);
+    assert!(said.contains("FAIL  verify/joint"), "{said}");
+}
+
+/// The ways of the cloth of all windows, mm.
+fn ways(rows: &[Vec<f64>]) -> Vec<f64> {
+    let mut ways: Vec<f64> = rows.iter().map(|row| row[ADVANCE]).collect();
+    ways.dedup();
+    ways
+}
+
+#[test]
+fn pieces_that_cannot_be_split_are_refused() {
+    let room = Room::new();
+    let square = |inside: &str| {
+        format!(
+            "H1*G71*N1*X0Y0*M14*X6000Y0*X6000Y1000*X0Y1000*X0Y0*M15*{inside}N2*X0Y1100*M14*X500Y1100*X500Y1600*X0Y1600*X0Y1100*M15*M0*"
+        )
+    };
+    for inside in ["X1000Y500*M14*X5000Y500*M15*", "X2000Y300*M14*X3000Y300*X3000Y600*X2000Y600*X2000Y300*M15*"] {
+        room.write("inside.cut", square(inside).as_bytes());
+        let said = room.says(&format!("compile inside.cut {BITES}"), FAULTY);
+        assert!(said.contains("error[marker/bite]: piece 1 takes 614.8 mm along X"), "{said}");
+        assert!(said.contains("it cannot be split: that takes straight edges beside waste"), "{said}");
+    }
+    room.write("plain.cut", square("").as_bytes());
+    room.says(&format!("compile plain.cut {BITES}"), DONE);
+    room.says("compile plain.cut --set bite.veer_mm=-1", USAGE);
+    // So large a way aside finds no waste.
+    room.says(&format!("compile plain.cut --force {BITES} --set bite.veer_mm=9"), DONE);
+}
