@@ -34,7 +34,7 @@ fn main() -> io::Result<()> {
     for path in &arguments.files {
         let source = Source::new(path.display().to_string(), std::fs::read(path)?).map_err(io::Error::other)?;
         let extension = path.extension().and_then(|extension| extension.to_str());
-        let Some(dialect) = front::detect(&source, extension, &mut Diagnostics::default()) else {
+        let Some(dialect) = front::choose(&source, None, extension, &mut Diagnostics::default()) else {
             return Err(io::Error::other(format!("{}: of no dialect", path.display())));
         };
         let seconds = (0..arguments.times).map(|_| reading(&source, dialect)).fold(f64::INFINITY, f64::min);

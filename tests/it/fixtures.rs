@@ -18,7 +18,7 @@ fn a_valid_fixture_is_recognised_and_read_without_errors() {
         for path in files(dialect.name) {
             let source = source(&path, fs::read(&path).expect("readable"));
             let mut found = Diagnostics::default();
-            let detected = front::detect(&source, None, &mut found).map(|dialect| dialect.name);
+            let detected = front::choose(&source, None, None, &mut found).map(|dialect| dialect.name);
             assert_eq!(detected, Some(dialect.name), "{}", path.display());
             let (marker, found) = read(dialect, &source);
             assert!(!found.has_errors(), "{}", render(&found, &source));
@@ -52,7 +52,7 @@ fn what_is_no_cutter_file_is_called_by_its_name() {
     for path in files("invalid/iso") {
         let source = source(&path, fs::read(&path).expect("readable"));
         let mut found = Diagnostics::default();
-        if front::detect(&source, Some("cut"), &mut found).is_none() {
+        if front::choose(&source, None, Some("cut"), &mut found).is_none() {
             assert_eq!(found.count(Severity::Error), 1, "{}", path.display());
             insta::assert_snapshot!(format!("detect-{}", stem(&path)), render(&found, &source));
         }

@@ -357,7 +357,7 @@ fn bytes_of_other_kinds_are_told_by_their_names() {
     let refusal = |name: &str, bytes: &[u8]| {
         let source = Source::new(name, bytes.to_vec()).expect("small");
         let mut found = Diagnostics::default();
-        assert!(cutc::front::detect(&source, Some("svg"), &mut found).is_none());
+        assert!(cutc::front::choose(&source, None, Some("svg"), &mut found).is_none());
         render(&found, &source)
     };
     assert!(refusal("a.svgz", b"\x1f\x8b\x08\0").contains("a compressed SVG drawing (SVGZ)"));

@@ -84,6 +84,7 @@ fn marker(random: &mut Random) -> Marker {
             number: random.below(99) as u32,
             copy: random.below(3) as u32,
             span: random.span(),
+            section: random.some(1, |r| [r.point().x, r.point().x]).pop(),
             drills: random.some(2, |r| Drill { at: r.point(), tool: 1 + r.below(4) as u8, span: r.span() }),
             notches: random.some(2, |r| Notch {
                 kind: NotchKind::Slit,

@@ -352,7 +352,7 @@ fn content_decides_whatever_the_extension() {
     let csv = b"x_mm,y_mm\n0,0\n1,0\n".to_vec();
     for (bytes, expected) in [(iso, "iso"), (plot, "hpgl"), (csv, "csv")] {
         for extension in ["plt", "cut", "gbr", "nc", "iso", "cam", "PLT"] {
-            let found = front::detect(&source(bytes.clone()), Some(extension), &mut Diagnostics::default());
+            let found = front::choose(&source(bytes.clone()), None, Some(extension), &mut Diagnostics::default());
             assert_eq!(found.map(|dialect| dialect.name), Some(expected), "{extension}");
         }
     }

@@ -45,7 +45,8 @@ fn a_hundred_megabytes_of_garbage_are_refused() {
     let text = garbage(&mut |random| random.u8(b' '..=b'~'));
     let found = codes(text.clone());
     assert!(found.iter().any(|code| ["hpgl/not-a-plot", "hpgl/encoding-damaged"].contains(code)), "{found:?}");
-    let detected = front::detect(&source(text), Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
+    let detected =
+        front::choose(&source(text), None, Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
     assert_ne!(detected, Some("hpgl"));
     for (what, word) in
         [("numbers", "1,"), ("semicolons", ";"), ("labels", "LB"), ("escapes", "\u{1b}%0B"), ("junk", "!?")]

@@ -142,6 +142,6 @@ fn a_text_without_its_terminator_swallows_no_outline() {
 fn a_plot_of_texts_alone_is_a_plot() {
     let mut found = Diagnostics::default();
     let text = source("IN;SP1;LBSIZE 42\x03;SP0;");
-    let dialect = cutc::front::detect(&text, None, &mut found).expect("it is recognised");
+    let dialect = cutc::front::choose(&text, None, None, &mut found).expect("it is recognised");
     assert_eq!((dialect.name, found.has_errors()), ("hpgl", false));
 }
