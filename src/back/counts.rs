@@ -1,10 +1,10 @@
 //! Target `counts`: encoder counts of X, Y and C, a record a cycle, for drives in cyclic synchronous position mode.
 //!
-//! A header of one JSON line, padded with blanks to [`HEADER_BYTES`] bytes, then records of five little-endian `i32`:
-//! X, Y, C, outputs, block. A count is the absolute position times the scale, plus the offset, rounded: nothing adds up,
-//! so nothing drifts. Counts wrap as the 32-bit registers of drives do. C is that of the controller (`c.offset_deg`,
-//! `c.reverse`). In the outputs bit 0 is the knife, bits 4 to 6 are the drill (0 to 4), bits 8 and 9 the event.
-//! On a conveyor a sixth number is the way of the cloth so far, mm.
+//! A header of one JSON line, padded with blanks to [`HEADER_BYTES`] bytes, then records of five little-endian `i32`: X, Y, C,
+//! outputs, block. A count is the absolute position times the scale, plus the offset, rounded: rounding errors do not
+//! accumulate. Counts wrap as the 32-bit registers of drives do. C is that of the controller (`c.offset_deg`, `c.reverse`). In
+//! the outputs bit 0 is the knife, bits 4 to 6 are the drill (0 to 4), bits 8 and 9 the event. On a conveyor a sixth number is
+//! the advance of the cloth so far, mm.
 //!
 //! `numpy.memmap(file, "<i4", "r", 1024).reshape(-1, 5)` opens a program of any length at once.
 
@@ -33,14 +33,15 @@ fn record_bytes(context: &Context) -> usize {
     NUMBER_BYTES * if context.has_bites() { 6 } else { 5 }
 }
 
-/// Where drill and event begin in the outputs.
+/// First bits of drill and event in the outputs.
 const DRILL_BIT: u32 = 4;
 const EVENT_BIT: u32 = 8;
 
-/// Most that half a count of each axis may move an end of the blade, as a part of the tolerance: what is left is for the path.
+/// Greatest fraction of the tolerance by which half a count of each axis may move an end of the blade; the rest is for the
+/// path.
 const ROUNDING_SHARE: f64 = 0.25;
 
-/// Counts that are too coarse for the tolerance.
+/// Refusal of counts that are too coarse for the tolerance.
 fn refusals(context: &Context) -> Vec<Diagnostic> {
     let Context { marker, job, .. } = *context;
     let (counts, knife) = (&job.profile.counts, &job.profile.knife);
@@ -119,7 +120,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     out.write_all(&records)
 }
 
-/// The nearest whole number, as a register of 32 bits holds it.
+/// Nearest whole number, wrapped to 32 bits.
 fn wrapped(counts: f64) -> i32 {
     counts.round() as i64 as i32
 }

@@ -41,7 +41,7 @@ const DECIMALS: u32 = 6;
 const STEP: f64 = 1e-6;
 /// Greatest number that a file may hold.
 const VALUE_MAX: f64 = 1e8;
-/// From the place of a label to its second point, units: far enough for six decimals to give the direction.
+/// Distance from the place of a label to its second point, units: far enough for six decimals to give the direction.
 const LABEL_REACH: f64 = 1000.0;
 /// Speeds of M60 to M67, percent.
 const SPEEDS: [u8; 8] = [95, 90, 85, 80, 75, 70, 65, 60];
@@ -65,7 +65,7 @@ fn emit(context: &Context, out: &mut dyn Output, diagnostics: &mut Diagnostics) 
 struct File<'a> {
     context: &'a Context<'a>,
     text: Vec<u8>,
-    /// What the numbers are multiples of, mm.
+    /// Grid of the numbers, mm.
     unit: f64,
     /// The feed in force, mm/s.
     feed: Option<f64>,
@@ -77,7 +77,7 @@ struct File<'a> {
 
 impl<'a> File<'a> {
     fn new(context: &'a Context<'a>) -> Self {
-        // As the file had it: the rounding of a marker grows with that.
+        // The grid of the file: that of the marker includes the growth on the table.
         let growth = context.job.growth();
         let unit = UNITS.iter().map(|row| row.0).find(|&unit| unit * growth == context.marker.unit);
         Self {
@@ -97,7 +97,7 @@ impl<'a> File<'a> {
         if let Some((_, Some(code))) = UNITS.iter().find(|row| row.0 == self.unit) {
             self.block(code);
         }
-        // What is told or written in a piece without anything to cut belongs to the next one, as readers have it.
+        // Events and labels of a piece without cuts belong to the next one, as readers of the format have it.
         let (mut events, mut labels): (Vec<&Event>, Vec<&Label>) = (Vec::new(), Vec::new());
         let last = marker.pieces.iter().rposition(is_cut);
         for (i, piece) in marker.pieces.iter().enumerate() {
@@ -144,7 +144,7 @@ impl<'a> File<'a> {
     fn event(&mut self, event: &Event) {
         self.block(match event.kind {
             toolpath::Event::Stop => "M01",
-            // Coordinates stay those of the marker: whoever reads the file counts the bites.
+            // Coordinates stay those of the marker: readers of the file count the bites.
             toolpath::Event::Advance | toolpath::Event::AdvanceBy(_) => "M69",
         });
     }
@@ -284,7 +284,7 @@ impl<'a> File<'a> {
         } else {
             self.point(second, "");
         }
-        // Whatever follows, a label is complete here.
+        // The label is complete here, whatever follows.
         self.block("M15");
     }
 

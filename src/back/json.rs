@@ -1,24 +1,24 @@
 //! Target `json`: the program step by step, for a script or a time study.
 //!
-//! `runs` has one object a line for everything that the machine does, in order: `kind` is "cut" (plunge, way, lift),
-//! "stab" (plunge and lift without a way), "travel", "turn", "drill", "event", or "wait" when the blade still rises at the
-//! very end. Every run has every key; what a kind does not have is 0, as block 0 is none. Lengths and poses have the
-//! decimals of `csv`.
+//! `runs` has one object a line for each action of the machine, in order: `kind` is "cut" (plunge, motion, lift), "stab"
+//! (plunge and lift without motion), "travel", "turn", "drill", "event", or "wait" when the blade still rises at the very end.
+//! Every run has every key; a key that does not apply is 0, and block 0 is no block. Lengths and poses have the decimals of
+//! `csv`.
 //!
-//! `front_side` and `heel_side` say where the overlaps go: into the "waste", into the "part" itself, or into a "gap"
-//! that is narrower than they should be long, or along the "contour" where the knife is lifted amid it; `turned`
-//! whether a cut goes the other way round than the file has it. `front_overcut_mm` and `heel_overcut_mm` say how far
-//! the blade of a plunge cut cuts into parts because nothing else holds what it is longer by, `neighbour_overcut_mm`
-//! how much of either lies in another part than its own, at the most.
+//! `front_side` and `heel_side` tell where the overlaps go: into the "waste", into the "part" itself, into a "gap" that is
+//! narrower than the overlap should be long, or along the "contour" where the knife is lifted amid it. `turned` is true if a
+//! cut goes in the reverse direction of the file. `front_overcut_mm` and `heel_overcut_mm` are the depths to which the excess
+//! length of a plunge cut reaches into parts. `neighbour_overcut_mm` is the greatest part of either that is in another part
+//! than its own.
 //!
-//! On a conveyor `advance_mm` has the way of the cloth so far: poses are those over the table.
+//! On a conveyor `advance_mm` is the advance of the cloth so far: poses are those over the table.
 //!
-//! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
-//! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
-//! each motion and each rest is stretched to the next one, and at least one: `ticks` says how many a run really takes, and
-//! all of them add up to the program's `ticks` and, times the period, to `setpoints_s`, the time of the last setpoint.
+//! There are two clocks. `duration_s` is the time of the axes from rest to rest, not rounded; `dwell_s` is their rest for
+//! plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so each
+//! motion and each rest is stretched to a whole number of periods, at least one: `ticks` is the number for a run, and all of
+//! them add up to the program's `ticks` and, times the period, to `setpoints_s`, the time of the last setpoint.
 //!
-//! Runs are written as they come; `program`, which sums them up and names profile and knife, stands behind them.
+//! Runs are written as they come; `program`, the totals with profile and knife, stands behind them.
 
 use std::io;
 
@@ -40,7 +40,7 @@ pub(super) const TARGET: Target = Target {
 /// Decimals of positions and lengths, in mm and degrees.
 const DECIMALS: u32 = 6;
 
-/// What the machine does between two of its rests.
+/// Action of the machine between two rests.
 struct Run {
     kind: &'static str,
     task: Task,
@@ -50,7 +50,7 @@ struct Run {
     ticks: u64,
     start: Pose,
     end: Pose,
-    /// Way of the cloth so far, mm; `None` where it lies still.
+    /// Advance of the cloth so far, mm; `None` where it lies still.
     advance: Option<u32>,
 }
 
@@ -159,7 +159,7 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
     )
 }
 
-/// How the blade lies on its way.
+/// Name of the edge that leads.
 fn edge_name(edge: Edge) -> &'static str {
     match edge {
         Edge::Front => "front",
@@ -175,7 +175,7 @@ fn follow(orientation: Option<OrientationMode>) -> &'static str {
     }
 }
 
-/// Where an overlap goes, in a word.
+/// Word for the side that an overlap goes to.
 fn side(side: Side) -> &'static str {
     match side {
         Side::Waste => "waste",

@@ -1,71 +1,71 @@
-//! What a plot or a drawing draws, in mm: strokes of named pens or layers, and texts. It does not say what is cut.
+//! Lines and texts of a plot or a drawing, in mm: strokes of named pens or layers. It does not tell which lines are cut.
 
 use super::label::Label;
 use crate::geom::{Extent, Point};
 use crate::source::Span;
 
-/// Everything that is drawn.
+/// A drawing.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
-    /// Places of all strokes, those of one behind the other.
+    /// Vertices of all strokes, stroke after stroke.
     pub vertices: Vec<Vertex>,
     /// Strokes in the order in which they are drawn.
     pub strokes: Vec<PenStroke>,
-    /// The pens or layers that draw, in the order in which they first do.
+    /// Pens or layers, in the order of their first use.
     pub pens: Vec<Pen>,
     /// Texts; they are never cut.
     pub texts: Vec<Label>,
-    /// What else is drawn, and is of kinds that are not read: no stroke stands for it.
+    /// Other drawn items, of kinds that are not read: no stroke stands for them.
     pub unread: Vec<Unread>,
     /// Encoded polylines in the order of the file.
     pub encoded: Vec<Encoded>,
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    /// Grid of the numbers in the file, mm; 0 when they are not rounded.
     pub unit: f64,
-    /// How the file ends.
+    /// End of the file.
     pub ending: Ending,
-    /// Whether the last stroke goes on.
+    /// True while the last stroke continues.
     goes_on: bool,
 }
 
-/// A place that a stroke is led to.
+/// A point of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertex {
     /// The place, mm.
     pub at: Point,
-    /// What led there.
+    /// Source of the instruction that led there.
     pub span: Span,
 }
 
-/// A line between two lifts: places of [`Drawing::vertices`].
+/// A line between two lifts: a range of [`Drawing::vertices`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PenStroke {
-    /// Its first place.
+    /// Index of its first vertex.
     pub first: u32,
-    /// One past its last.
+    /// Index after its last vertex.
     pub end: u32,
-    /// Which of [`Drawing::pens`] draws it.
+    /// Index of its pen in [`Drawing::pens`].
     pub pen: u16,
 }
 
-/// Something that is drawn and not read.
+/// A drawn item that is not read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unread {
-    /// What the file calls its kind.
+    /// Name of its kind in the file.
     pub kind: String,
-    /// Which of [`Drawing::pens`] draws it.
+    /// Index of its pen in [`Drawing::pens`].
     pub pen: u16,
-    /// Where it begins.
+    /// Its start in the source.
     pub span: Span,
 }
 
-/// An encoded polyline: each place hangs on the one before, and each number on all of its bytes.
+/// An encoded polyline: each vertex depends on the one before, and each number on all of its bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Encoded {
-    /// Where it stands.
+    /// Its place in the source.
     pub span: Span,
-    /// Bits of a number that one byte holds.
+    /// Number of bits that one byte holds.
     pub digit_bits: u32,
-    /// What one step of a number stands for, mm.
+    /// Length of one step of a number, mm.
     pub step: f64,
 }
 
@@ -74,45 +74,45 @@ pub struct Encoded {
 pub struct Pen {
     /// Its number or its name.
     pub name: String,
-    /// Whether it leaves a line at all: plotters move without drawing while no pen is taken.
+    /// True if it leaves a line: plotters move without drawing while no pen is selected.
     pub draws: bool,
-    /// Whether it is a layer: then its name may say what its lines are.
+    /// True if it is a layer: then its name may tell the meaning of its lines.
     pub is_layer: bool,
 }
 
-/// How a file ends.
+/// Completeness of the end of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ending {
-    /// As files end.
+    /// Complete.
     #[default]
     Proper,
-    /// With a complete instruction, while the pen draws: what led it there.
+    /// Complete instruction, but the pen is still down; the span is that of the last instruction.
     PenDown(Span),
-    /// Amid a number that draws, or behind one that may lack digits.
+    /// In the middle of a number that draws, or after one that may lack digits.
     AmidNumber(Span),
-    /// Behind the first coordinate of a pair.
+    /// After the first coordinate of a pair.
     AmidPair(Span),
 }
 
 impl PenStroke {
-    /// Its places among the vertices.
+    /// Range of its vertices.
     pub fn range(&self) -> std::ops::Range<usize> {
         self.first as usize..self.end as usize
     }
 }
 
 impl Drawing {
-    /// An empty drawing on a grid of `unit` mm, with room for so many vertices.
+    /// An empty drawing on a grid of `unit` mm, with capacity for `vertices` vertices.
     pub fn with_room(unit: f64, vertices: usize) -> Self {
         Self { unit, vertices: Vec::with_capacity(vertices), ..Self::default() }
     }
 
-    /// The pen of that name, which draws from here on; it is new unless it has drawn before.
+    /// Selects the pen of that name; it is new unless it has drawn before.
     pub fn pen(&mut self, name: &str, draws: bool) -> u16 {
         self.pen_or_layer(name, draws, false)
     }
 
-    /// The layer of that name, likewise.
+    /// Selects the layer of that name; it is new unless it has drawn before.
     pub fn layer(&mut self, name: &str) -> u16 {
         self.pen_or_layer(name, true, true)
     }
@@ -126,12 +126,12 @@ impl Drawing {
         u16::try_from(place).unwrap_or(u16::MAX)
     }
 
-    /// Whether the next line starts a stroke, so that [`Drawing::begin`] comes first.
+    /// True if the pen is up, so that [`Drawing::begin`] must come before the next line.
     pub fn is_lifted(&self) -> bool {
         !self.goes_on
     }
 
-    /// Whether the stroke that goes on has come back to its start.
+    /// True if the current stroke has returned to its start.
     pub fn is_closed(&self) -> bool {
         let stroke = self.strokes.last().filter(|_| self.goes_on);
         stroke.is_some_and(|stroke| {
@@ -148,7 +148,7 @@ impl Drawing {
         self.goes_on = true;
     }
 
-    /// Draws on. A line without length changes nothing.
+    /// Extends the stroke. A line without length changes nothing.
     pub fn line(&mut self, at: Point, span: Span) {
         let (Some(last), Some(stroke)) = (self.vertices.last(), self.strokes.last_mut()) else { return };
         if last.at == at {
@@ -158,7 +158,7 @@ impl Drawing {
         self.vertices.push(Vertex { at, span });
     }
 
-    /// Lifts the pen. A stroke without length is a dot, and none.
+    /// Lifts the pen. A stroke without length is a dot and is dropped.
     pub fn lift(&mut self) {
         if !std::mem::take(&mut self.goes_on) {
             return;
@@ -177,36 +177,36 @@ impl Drawing {
     }
 }
 
-/// What the lines of a drawing were taken for, and which of them are not cut. Together with what the marker cuts, this is
-/// all that was drawn.
+/// Classification of the lines of a drawing, and the lines that are not cut. With the cuts of the marker it covers everything
+/// that was drawn.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Account {
-    /// Lines by what they were taken for, in a fixed order; none without lines.
+    /// Lines by class, in a fixed order; empty without lines.
     pub classes: Vec<LineClass>,
-    /// Layers in the order in which they first draw; none of what pens draw.
+    /// Layers in the order of their first use; empty for pens.
     pub layers: Vec<LayerLines>,
-    /// Way of the pen while it is down, mm; texts that a plotter letters are not in it.
+    /// Length of lines drawn with the pen down, mm, without texts that a plotter letters.
     pub pen_down: f64,
-    /// Texts that stand in no part: they belong to no piece.
+    /// Number of texts in no part: they belong to no piece.
     pub texts_outside: usize,
-    /// What is drawn and not cut.
+    /// Lines that are not cut.
     pub aside: Aside,
-    /// Where notches are asked for that were told and are not cut, once for every piece that lacks one.
+    /// Marks of notches that are reported and not cut, once for every piece that lacks one.
     pub notches_left_out: Vec<Span>,
-    /// Pieces that cannot be cut and that the selection leaves out: where each begins.
+    /// Starts of pieces that cannot be cut and that the selection leaves out.
     pub pieces_left_out: Vec<Span>,
 }
 
-/// Lines of a drawing that were taken for the same thing.
+/// Lines of a drawing in one class.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineClass {
-    /// What they were taken for, in a word or two.
+    /// Name of the class, a word or two.
     pub name: &'static str,
-    /// How they are told from others, in a phrase.
+    /// How these lines are told from others, in a phrase.
     pub about: &'static str,
-    /// Whether these are cut or drilled.
+    /// True if they are cut or drilled.
     pub cut: bool,
-    /// How many there are.
+    /// Number of lines.
     pub count: usize,
     /// Length as drawn, mm.
     pub length: f64,
@@ -217,22 +217,22 @@ pub struct LineClass {
 pub struct LayerLines {
     /// Name of the layer.
     pub name: String,
-    /// What is said of its lines, in a word or two.
+    /// Use of its lines, a word or two.
     pub used: &'static str,
-    /// How many there are.
+    /// Number of lines.
     pub count: usize,
     /// Length as drawn, mm.
     pub length: f64,
 }
 
-/// What is drawn and not cut.
+/// Lines that are drawn and not cut.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Aside {
-    /// Places of the lines, those of one behind the other.
+    /// Vertices of the lines, line after line.
     pub vertices: Vec<Vertex>,
     /// The lines.
     pub lines: Vec<AsideLine>,
-    /// What joining has changed.
+    /// Changes by joining.
     pub moved: Moved,
 }
 
@@ -246,16 +246,16 @@ pub const BROKEN_OUTLINE: &str = "broken outline";
 /// A line that is not cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsideLine {
-    /// Its first place in [`Aside::vertices`].
+    /// Index of its first vertex in [`Aside::vertices`].
     pub first: u32,
-    /// One past its last.
+    /// Index after its last vertex.
     pub end: u32,
-    /// What it was taken for; `None` for the way back of a mark that is drawn out and back.
+    /// Its class; `None` for the way back of a mark that is drawn out and back.
     pub class: Option<&'static str>,
 }
 
 impl Aside {
-    /// Each line: what it was taken for, and its places.
+    /// Class and vertices of each line.
     pub fn each(&self) -> impl Iterator<Item = (Option<&'static str>, &[Vertex])> {
         self.lines.iter().map(|line| (line.class, &self.vertices[line.first as usize..line.end as usize]))
     }
@@ -268,27 +268,27 @@ impl Aside {
     }
 }
 
-/// What lines were before they were joined and straightened.
+/// Lines before they were joined and straightened.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moved {
-    /// Places that lines no longer have of their own: where two meet that one instruction of the file draws, and those
-    /// that a straight stroke has on its way.
+    /// Number of vertices that lines no longer have: at the meeting of two lines that one instruction of the file draws, and
+    /// within straight strokes.
     pub points: usize,
-    /// Lines that were drawn a little otherwise.
+    /// Lines whose places have changed.
     pub redrawn: Vec<Redrawn>,
-    /// Lines that nobody drew: each closes an outline that is cut, from its last place to its first.
+    /// Lines that are not in the drawing: each closes an outline that is cut, from its last place to its first.
     pub closed: Vec<Vec<Point>>,
-    /// Edges that are drawn once and bound two parts: each as it stands a second time.
+    /// Edges that are drawn once and bound two parts: the second copy of each.
     pub doubled: Vec<Vec<Vertex>>,
-    /// Places that lines have more than were drawn: where others meet them, and on edges that stand twice.
+    /// Number of vertices that lines have more than were drawn: where others meet them, and on edges that are doubled.
     pub repeated: usize,
 }
 
-/// A line that was drawn a little otherwise than it is now.
+/// A line whose places have changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Redrawn {
-    /// Its places as drawn, mm.
+    /// Its vertices as drawn, mm.
     pub drawn: Vec<Point>,
-    /// Where it starts and ends now; both may be the same place.
+    /// Its start and end now; both may be the same place.
     pub now: [Point; 2],
 }

@@ -1,4 +1,4 @@
-//! What the file says, in mm: the pieces, which lie on the cloth as they are drawn, and the cuts, which the knife makes.
+//! Content of the file, in mm: the pieces as they are drawn on the cloth, and the cuts of the knife.
 
 use std::borrow::Cow;
 
@@ -12,45 +12,44 @@ use crate::machine::labels::Labels;
 use crate::machine::letters::Letters;
 use crate::source::Span;
 
-/// The whole of a cutter file.
+/// A whole cutter file.
 #[derive(Debug, Clone, Default)]
 pub struct Marker {
     /// Segments of all contours and cuts.
     pub list: SegmentList,
     /// Pieces in cut order.
     pub pieces: Vec<Piece>,
-    /// What the knife cuts, in order, those of a piece behind each other in the order of the pieces; none before the pass
-    /// `cut`.
+    /// Cuts of the knife in order, grouped by piece in the order of the pieces; empty before the pass `cut`.
     pub cuts: Vec<Cut>,
-    /// The edges that parts have in common and that are cut once.
+    /// Edges that two parts have in common and that are cut once.
     pub common: Vec<CommonEdge>,
-    /// By how much less is cut than if every part were cut all round, mm.
+    /// Length that common edges save compared with cutting every part all round, mm.
     pub spared: f64,
-    /// Where edges of parts run beside those of others, so near that a thin strip stands between two cuts.
+    /// Edges of parts beside edges of other parts, so near that a thin strip remains between two cuts.
     pub near: Vec<NearEdge>,
-    /// Where cuts of several parts must cross: lines from where a cut leaves its own outline to where it ends across another
-    /// part's, mm; without a length where two cross as they are drawn.
+    /// Places where cuts of several parts must cross: lines from the end of the own outline of a cut to its end across another
+    /// part's cut, mm; zero length where two cuts cross as drawn.
     pub junctions: Vec<[Point; 2]>,
-    /// The grid to which the file rounds, mm, as large as it lies on the table; 0 when there is none.
+    /// Grid to which the file rounds, mm, scaled as the marker on the table; 0 when there is none.
     pub unit: f64,
-    /// Way of the cloth before a program begins, mm.
+    /// Advance of the cloth before a program begins, mm.
     pub moved_on: u32,
-    /// What happens behind the last piece.
+    /// Events after the last piece.
     pub closing: Vec<Event>,
-    /// How its texts are encoded, where the file says so; `None` = as the profile has it.
+    /// Encoding of its texts, if the file declares one; `None` = the encoding of the profile.
     pub letters: Option<Letters>,
-    /// Of a drawing: what all of its lines were taken for.
+    /// For a drawing, the classification of all of its lines.
     pub drawing: Option<Account>,
 }
 
-/// A piece of the garment, or what the file calls one.
+/// A piece of the garment, or an object that the file calls a piece.
 #[derive(Debug, Clone, Default)]
 pub struct Piece {
-    /// Its number in the file (N), or its place in the order, from 1.
+    /// Its number in the file (N), or its index in the order, from 1.
     pub number: u32,
-    /// Which copy of the marker it is of, from 1; 0 where there is but one.
+    /// Number of the copy of the marker that it belongs to, from 1; 0 if there is only one.
     pub copy: u32,
-    /// Where it starts in the source.
+    /// Its start in the source.
     pub span: Span,
     /// Holes, in cut order.
     pub drills: Vec<Drill>,
@@ -58,28 +57,29 @@ pub struct Piece {
     pub notches: Vec<Notch>,
     /// Contours, in cut order.
     pub contours: Vec<Contour>,
-    /// Notches that the contours make, in the order in which they come to them: nothing is cut for a row of this list.
+    /// Notches that the contours make, in contour order: the contours cut them, entries of this list cut nothing.
     pub outline_notches: Vec<OutlineNotch>,
     /// Texts.
     pub labels: Vec<Label>,
-    /// What happens before the piece is cut, in order.
+    /// Events before the piece is cut, in order.
     pub events: Vec<Event>,
-    /// The speed of the tip that the file asks for, mm/s: the least while any of the piece is cut; `None` = whatever the
-    /// profile allows.
+    /// Speed of the tip that the file asks for, mm/s: the least one asked for within the piece; `None` = the profile alone
+    /// limits the speed.
     pub feed: Option<f64>,
-    /// What the file's list of labels says of it, in the file's order.
+    /// Fields of the piece in the file's list of labels, in the file's order.
     pub fields: Vec<Field>,
-    /// Stretch along X, mm, in which its outline is cut with it, where windows of a conveyor split the piece; `None` = it is cut
-    /// whole. Of the sections of a piece the last one has its contours and its texts, each one the slits and holes in its stretch.
+    /// Stretch along X, mm, in which the outline is cut with this section, where windows of a conveyor split the piece; `None`
+    /// = it is cut whole. The last section of a piece holds its contours and its texts; each section holds the slits and holes
+    /// in its stretch.
     pub section: Option<[f64; 2]>,
 }
 
 /// Something for the controller or the operator, between two pieces: the knife is up and the axes rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Event {
-    /// What is asked for.
+    /// Its kind.
     pub kind: toolpath::Event,
-    /// Where it stands in the source.
+    /// Its place in the source.
     pub span: Span,
 }
 
@@ -92,47 +92,48 @@ pub struct Field {
     pub span: Span,
 }
 
-/// What the knife cuts in one go, as far as the drawing tells.
+/// A line that the knife cuts in one go, as far as the drawing tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cut {
-    /// What it is of the part that it cuts.
+    /// Its role in the part that it cuts.
     pub kind: CutKind,
-    /// The piece that it is cut with: its place in the marker.
+    /// Index in the marker of the piece that it is cut with.
     pub piece: u32,
-    /// The parts on its left and on its right, by the pieces that their outlines are of; `None` = waste.
+    /// Parts on its left and on its right, by the indices of the pieces of their outlines; `None` = waste.
     pub sides: [Option<u32>; 2],
-    /// Its segments: those of a contour where that is cut as it is drawn.
+    /// Its segments: those of a contour if that is cut as drawn.
     pub range: Range,
 }
 
-/// An edge that two parts have in common and that is cut once: with the part that comes first.
+/// An edge that two parts have in common and that is cut once, with the part that comes first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CommonEdge {
-    /// The piece with which it is cut, and the one that is spared it: their places in the marker.
+    /// Indices in the marker of the piece with which it is cut, and of the piece that is spared it.
     pub pieces: [u32; 2],
-    /// The edge as the outline of the spared one has it.
+    /// The edge as part of the outline of the spared piece.
     pub range: Range,
-    /// How far it is from where it is cut at the most, mm.
+    /// Greatest distance of the edge from its cut, mm.
     pub shift: f64,
 }
 
-/// A straight stretch of a cut around a part beside which one around another part runs.
+/// A straight stretch of a cut around a part, beside a cut around another part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearEdge {
-    /// The piece that it is cut with: its place in the marker.
+    /// Index in the marker of the piece that it is cut with.
     pub piece: u32,
     /// The ends of the stretch, in the direction of the cut.
     pub ends: [Point; 2],
 }
 
-/// What a cut is of the part that it cuts.
+/// Role of a cut in the part that it cuts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CutKind {
     /// The closed line around it.
     Outline,
     /// The closed line around a cut-out of it.
     Inner,
-    /// A stretch of one of the two: the rest is cut with other parts, or is a notch on an edge that is cut straight through.
+    /// A stretch of an outline or a cut-out: the rest is cut with other parts, or is a notch on an edge that is cut straight
+    /// through.
     Edge,
     /// A stroke of a notch.
     Slit,
@@ -141,7 +142,7 @@ pub enum CutKind {
 }
 
 impl CutKind {
-    /// Whether it ends where it starts.
+    /// True if it ends at its start.
     pub fn is_closed(self) -> bool {
         match self {
             Self::Outline | Self::Inner => true,
@@ -150,12 +151,12 @@ impl CutKind {
     }
 }
 
-/// A line of a piece, as it is drawn.
+/// A line of a piece, as drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contour {
     /// Its segments.
     pub range: Range,
-    /// Whether it ends where it starts.
+    /// True if it ends at its start.
     pub closed: bool,
 }
 
@@ -164,13 +165,13 @@ pub struct Contour {
 pub struct Notch {
     /// Its shape.
     pub kind: NotchKind,
-    /// Where it meets the outline.
+    /// Its start on the outline.
     pub root: Point,
     /// Its innermost point.
     pub tip: Point,
     /// Its speed in percent of the speed of the piece, 1 to 100.
     pub percent: u8,
-    /// Where it stands in the source.
+    /// Its place in the source.
     pub span: Span,
 }
 
@@ -186,11 +187,11 @@ pub enum NotchKind {
 /// A straight cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NotchStroke {
-    /// Where it starts.
+    /// Start point.
     pub from: Point,
-    /// Where it ends.
+    /// End point.
     pub to: Point,
-    /// The block that its end came from.
+    /// Source of its end point.
     pub span: Span,
 }
 
@@ -202,17 +203,17 @@ impl NotchStroke {
 }
 
 impl Notch {
-    /// Longest slit, and longest crossbar, mm: what cutters punch is 3 to 12 mm deep, and the lines that are drawn inside
-    /// parts are longer.
+    /// Longest slit, and longest crossbar, mm: cutters punch notches 3 to 12 mm deep, and lines inside parts are longer.
     pub const LONGEST: f64 = 15.0;
-    /// Longest stroke from edge to edge that is a notch, mm: there and back, and as much again across.
+    /// Longest stroke from edge to edge that is a notch, mm: there and back, and the same length across.
     pub const LONGEST_STROKE: f64 = 4.0 * Self::LONGEST;
     /// Widest mouth, mm.
     pub const WIDEST: f64 = 12.0;
-    /// How far from its edge a stroke of a notch may begin, mm, beside rounding: drawing programs leave it by some units.
+    /// Greatest distance from its edge at which a stroke of a notch may begin, mm, beside rounding: CAD programs miss the edge
+    /// by some units.
     pub const MISS: f64 = 0.5;
 
-    /// How far it goes into the part, mm.
+    /// Depth in the part, mm.
     pub fn depth(&self) -> f64 {
         (self.tip - self.root).norm()
     }
@@ -228,24 +229,24 @@ impl Notch {
     }
 }
 
-/// A notch that an outline makes: it goes into the part and comes back, or out of it. The outline cuts it.
+/// A notch that an outline makes: the outline goes into the part and back, or out of it and back, and cuts the notch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutlineNotch {
     /// Its form.
     pub form: NotchForm,
-    /// Whether it stands out of the part.
+    /// True if it protrudes from the part.
     pub outwards: bool,
     /// The two points of the edge between which it opens, in the order of the outline.
     pub mouth: [Point; 2],
     /// The middle of its bottom; the apex of a V.
     pub tip: Point,
-    /// How many segments the outline has from one end of the mouth to the other.
+    /// Number of segments of the outline from one end of the mouth to the other.
     pub segments: u32,
-    /// Where its tip stands in the source.
+    /// Place of its tip in the source.
     pub span: Span,
 }
 
-/// What a notch that an outline makes looks like.
+/// Form of a notch that an outline makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NotchForm {
     /// Two legs that meet.
@@ -272,13 +273,13 @@ impl OutlineNotch {
         self.mouth[0] + (self.mouth[1] - self.mouth[0]) / 2.0
     }
 
-    /// Unit vector from the edge into the part, whichever way the notch goes.
+    /// Unit vector from the edge into the part, for notches in either direction.
     pub fn inwards(&self) -> Vector {
         let along = (self.tip - self.root()) / self.depth();
         if self.outwards { -along } else { along }
     }
 
-    /// What lists call it: its form, and whether it stands out.
+    /// Word for lists: its form, and `-out` if it protrudes.
     pub fn word(&self) -> &'static str {
         match (self.form, self.outwards) {
             (NotchForm::V, false) => "v",
@@ -294,39 +295,39 @@ impl OutlineNotch {
 /// A hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drill {
-    /// Its place.
+    /// Its centre.
     pub at: Point,
-    /// Which drill, 1 to 4.
+    /// Number of the drill, 1 to 4.
     pub tool: u8,
-    /// Where it stands in the source.
+    /// Its place in the source.
     pub span: Span,
 }
 
 impl Piece {
-    /// What lists and pictures call it: its number, and behind a stroke the copy of the marker that it is of, if there are
-    /// several.
+    /// Name for lists and pictures: its number, and after a slash the copy of the marker if there are several.
     pub fn name(&self) -> String {
         let Self { number, copy, .. } = self;
         if *copy == 0 { number.to_string() } else { format!("{number}/{copy}") }
     }
 
-    /// Where a place of it lies on the table when the cloth has come `station` mm: of a section no farther back than that begins.
+    /// Place on the table of one of its points after the cloth has advanced `station` mm; X is limited to the stretch of a
+    /// section.
     pub fn on_table(&self, at: Point, station: u32) -> Point {
         let x = self.section.map_or(at.x, |[from, to]| at.x.clamp(from, to));
         Point::new(x - f64::from(station), at.y)
     }
 
-    /// Whether it is a section of a piece behind it, which has the contours.
+    /// True if it is a section of a later piece, which holds the contours.
     pub fn is_early_section(&self) -> bool {
         self.section.is_some() && self.contours.is_empty()
     }
 
-    /// Whether another piece is this one or a section of it.
+    /// True if both are the same piece, or sections of the same piece.
     pub fn is_of(&self, other: &Self) -> bool {
         (self.number, self.copy, self.span) == (other.number, other.copy, other.span)
     }
 
-    /// Every place of its drill holes and its notches. Those of its contours are the segment list's.
+    /// Every place of its drill holes and its notches; the places of its contours are in the segment list.
     pub fn places_mut(&mut self) -> impl Iterator<Item = &mut Point> {
         let drills = self.drills.iter_mut().map(|drill| &mut drill.at);
         let notches = self.notches.iter_mut().flat_map(|Notch { root, tip, kind, .. }| {
@@ -342,7 +343,7 @@ impl Piece {
 }
 
 impl Marker {
-    /// How its texts are encoded, in the encoding of the profile where the file says nothing.
+    /// Encoding of its texts: that of the file, or else that of the profile.
     pub fn letters(&self, labels: &Labels) -> Letters {
         self.letters.unwrap_or_else(|| labels.letters())
     }
@@ -352,7 +353,8 @@ impl Marker {
         self.pieces.iter().enumerate().flat_map(|(i, piece)| piece.contours.iter().map(move |c| (i, c)))
     }
 
-    /// The piece that has the contours of each: itself, but for the early sections of one that windows of a conveyor split.
+    /// Index of the piece that holds the contours of each piece: itself, except for early sections of a piece that windows of a
+    /// conveyor split.
     pub fn owners(&self) -> Vec<usize> {
         let owner = |i: usize| {
             let section = &self.pieces[i];
@@ -376,12 +378,12 @@ impl Marker {
         Cow::Owned(wholes)
     }
 
-    /// The cuts of a piece, by its place.
+    /// Cuts of a piece, by its index.
     pub fn cuts_of(&self, piece: u32) -> &[Cut] {
         &self.cuts[self.range_of(piece)]
     }
 
-    /// The places of these among all cuts.
+    /// Range of the cuts of a piece among all cuts.
     pub fn range_of(&self, piece: u32) -> std::ops::Range<usize> {
         let first = |piece: u32| self.cuts.partition_point(|cut| cut.piece < piece);
         first(piece)..first(piece + 1)
@@ -392,7 +394,7 @@ impl Marker {
         self.list.points(contour.range).into_owned()
     }
 
-    /// Length of all cuts, mm, without overlaps; that of what is drawn as long as there are none.
+    /// Length of all cuts, mm, without overlaps; length of the drawing before there are cuts.
     pub fn cut_length(&self) -> f64 {
         if self.cuts.is_empty() { self.drawn_length() } else { self.length(self.cuts.iter().map(|cut| cut.range)) }
     }
@@ -402,7 +404,7 @@ impl Marker {
         self.length(self.common.iter().map(|edge| edge.range))
     }
 
-    /// Length of the edges that run beside those of other parts, mm; where both are cut each counts.
+    /// Length of the edges beside those of other parts, mm; where both are cut, each counts.
     pub fn near_length(&self) -> f64 {
         self.near.iter().map(|NearEdge { ends: [from, to], .. }| (to - from).norm()).sum()
     }
@@ -414,7 +416,7 @@ impl Marker {
         })
     }
 
-    /// Length of all contours and slits as they are drawn, mm.
+    /// Length of all contours and slits as drawn, mm.
     pub fn drawn_length(&self) -> f64 {
         let contours = self.length(self.contours().map(|(_, contour)| contour.range));
         let notches: f64 =
@@ -422,7 +424,7 @@ impl Marker {
         contours + notches
     }
 
-    /// Length of all cuts of a piece by its place, mm, without overlaps; that of what is drawn as long as there are none.
+    /// Length of all cuts of a piece by its index, mm, without overlaps; length of its drawing before there are cuts.
     pub fn cut_length_of(&self, part: u32) -> f64 {
         if self.cuts.is_empty() {
             let piece = &self.pieces[part as usize];
@@ -432,18 +434,18 @@ impl Marker {
         self.length(self.cuts_of(part).iter().map(|cut| cut.range))
     }
 
-    /// The box around everything that is cut or drilled.
+    /// Box around all cuts and holes.
     pub fn extent(&self) -> Extent {
         self.extent_at(|_, at| at)
     }
 
-    /// The box around all that is cut and drilled, as it comes to lie on the table: a conveyor moves the cloth on.
+    /// Box around all cuts and holes on the table, after the advances of a conveyor.
     pub fn extent_on_table(&self) -> Extent {
         let stations = self.stations();
         self.extent_at(|part, at| self.pieces[part].on_table(at, stations[part]))
     }
 
-    /// Way of the cloth by the time that each piece is cut, mm.
+    /// Advance of the cloth at the time that each piece is cut, mm.
     pub fn stations(&self) -> Vec<u32> {
         let mut station = self.moved_on;
         let bites =
@@ -456,7 +458,7 @@ impl Marker {
             .collect()
     }
 
-    /// Box around all pieces, whose places come to lie elsewhere, piece by piece.
+    /// Box around all pieces under a map that depends on the piece.
     fn extent_at(&self, place: impl Fn(usize, Point) -> Point) -> Extent {
         let mut extent = Extent::EMPTY;
         for (part, piece) in self.pieces.iter().enumerate() {

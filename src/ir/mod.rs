@@ -1,16 +1,16 @@
-//! The forms in which stages meet: [`marker`] (what the file says), [`toolpath`] (what the knife does, untimed), and of
-//! that either [`motion`] (when the axes are where) or [`arcs`] (a path of arcs and lines, for controllers that plan for
-//! themselves). Before a marker can be made of a plot there is a [`drawing`]: what its pens draw.
+//! The intermediate forms: [`marker`] (the content of the file), [`toolpath`] (the steps of the knife, untimed), and made from
+//! it either [`motion`] (the poses of the axes over time) or [`arcs`] (a path of arcs and lines, for controllers that plan for
+//! themselves). A plot is read as a [`drawing`] (the strokes of its pens) before it becomes a marker.
 //!
 //! Invariants, checked by [`check`] after every pass in tests and debug builds:
 //!
-//! - every number is finite; every contour has a segment at least; no segment has length zero
+//! - every number is finite; every contour has at least one segment; no segment has length zero
 //! - the segments of a contour join: each starts where the one before it ends, to the bit (the list keeps no starts)
 //! - a closed contour ends where it starts, to the bit; an open one does not
 //! - links of the list agree in both directions; no segment belongs to two contours
-//! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and plunge cuts alone
-//! - every run has one span a chord, overlaps that are not negative and a positive speed cap
-//! - every run and plunge cut has one path of arcs; a piece has the length of its way, and a positive speed cap
+//! - steps of a toolpath come in an order that a machine can run: the knife is down only in runs and plunge cuts
+//! - every run has one span per chord, overlaps of at least zero and a positive speed cap
+//! - every run and plunge cut has one path of arcs; each piece of it has its length, and a positive speed cap
 //! - every phase of a motion has ticks, and a pose for each
 
 pub mod arcs;

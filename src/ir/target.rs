@@ -15,7 +15,7 @@ pub struct Target<Emit, Proof> {
     pub extension: &'static str,
     /// Writer of its bytes, from a form of the machine.
     pub emit: Emit,
-    /// Reader by which the verifier judges its bytes; `None` of pictures and summaries, which show the verdict on another
+    /// Reader by which the verifier judges its bytes; `None` for pictures and summaries, which show the verdict on another
     /// target.
     pub proof: Option<Proof>,
 }

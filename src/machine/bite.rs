@@ -14,32 +14,32 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "bite.veer_mm", takes: Takes::Number(from(0.0, 50.0)), about: "How far both halves of a split cut leave the line at their ends, into the waste: at least as far\nas they must to cross (bite.match_mm)." },
 ];
 
-/// Least way of a half of a split cut aside, in tolerances of the conveyor: more than the diagonal of both axes for
-/// [`Bite::MOST_ADVANCES`].
+/// Least deviation of each half of a split cut from its line, in tolerances of the conveyor: more than the diagonal of both
+/// axes for [`Bite::MOST_ADVANCES`].
 const MATCHES: f64 = 3.0;
-/// The same beside that, in tolerances of the tip: both halves may be off their lines.
+/// Least deviation in addition, in tolerances of the tip: both halves may be off their lines.
 const TOLERANCES: f64 = 4.0;
 
 /// The conveyor under the table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bite {
-    /// Length of a window; `None` where the cloth lies still.
+    /// Length of a window, mm; `None` where the cloth lies still.
     #[serde(with = "OrWord::<Off>")]
     pub length_mm: Option<f64>,
-    /// Of the halves of a split cut, past the border.
+    /// Length by which both halves of a split cut run past the border, mm.
     pub overlap_mm: f64,
-    /// Tolerance of an advance, in X and in Y.
+    /// Tolerance of an advance in X and in Y, mm.
     pub match_mm: f64,
-    /// Of both halves, into the waste.
+    /// Distance by which both halves leave the line at their ends, into the waste, mm.
     pub veer_mm: f64,
 }
 
 impl Bite {
-    /// Most advances between the halves of a split cut: each of them may be off.
+    /// Greatest number of advances between the halves of a split cut: each of them may be off.
     pub const MOST_ADVANCES: u32 = 2;
 
-    /// How far both halves of a split cut leave their line, mm, when the tip may be off by a tolerance.
+    /// Distance by which both halves of a split cut leave their line, mm, for the given tolerance of the tip.
     pub fn veer(&self, tolerance: f64) -> f64 {
         self.veer_mm.max(MATCHES * self.match_mm + TOLERANCES * tolerance)
     }

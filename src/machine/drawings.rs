@@ -1,4 +1,4 @@
-//! Drawings, whatever their dialect: the keys `drawing.*`.
+//! Drawings of every dialect: the keys `drawing.*`.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::key::{Key, Takes, from};
 use super::pen::PenUse;
 use super::word::words;
 
-/// Widest gap that `drawing.close_mm` may close, mm: outlines stop before their start by less, other lines by more.
+/// Widest gap that `drawing.close_mm` may close, mm: gaps of outlines are narrower, those of other lines wider.
 pub const CLOSE_MOST_MM: f64 = 10.0;
 
 /// The keys `drawing.*`.
@@ -19,7 +19,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "drawing.layers.<layer>", takes: Takes::Word(words::<PenUse>), about: "What a layer of a drawing (DXF, SVG) stands for, by its name or a pattern: its lines are cut\n(\"knife\"), drawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Where\none is a knife, layers without a key are pens; words of their names may say otherwise." },
 ];
 
-/// How drawings are read.
+/// Options for reading drawings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Drawings {
@@ -41,7 +41,7 @@ impl Default for Drawings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Beside {
-    /// They are left of an outline, and the closed line may be its seam line.
+    /// They are the rest of an outline, and the closed line may be its seam line.
     Outline,
     /// They guide a worker, and the closed line is a part.
     Guide,

@@ -1,8 +1,8 @@
-//! The machine: its profile, what one compile is asked to do with it, and the closed forms of its axes.
+//! The machine: its profile, the options of one compile, and the closed forms of its axes.
 //!
-//! Receives TOML, promises validated numbers in mm, s and rad, never knows what is cut. [`load()`] reads a profile and
-//! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages,
-//! the schema, the help and the manual.
+//! Receives TOML, promises validated numbers in mm, s and rad, and knows nothing of cuts. [`load()`] reads a profile and
+//! reports every fault in it; [`keys::KEYS`] describes each key once, for the commented profile, the messages, the schema, the
+//! help and the manual.
 
 pub mod axes;
 mod bite;
@@ -80,31 +80,31 @@ pub use table::Table;
 pub use tool::{Basis, Planner, Quintic, Tool, ToolKind};
 pub use tracking::Tracking;
 
-/// What one compile is asked to do: the profile and the options of this run.
+/// Task of one compile: the profile and the options of this run.
 #[derive(Debug, Clone, Default)]
 pub struct Job {
     /// The machine and the cutting room.
     pub profile: MachineProfile,
-    /// Where that came from.
+    /// Source of the profile.
     pub origin: Origin,
-    /// Which pieces it cuts.
+    /// Pieces that it cuts.
     pub selection: Selection,
-    /// What it does with the knife.
+    /// Use of the knife.
     pub mode: Mode,
-    /// Which lines of a plot it cuts.
+    /// Lines of a plot that it cuts.
     pub lines: plot::Lines,
-    /// Where the cloth lies across the conveyor that brings it; `None` = everywhere in the middle.
+    /// Offset of the cloth across the conveyor that brings it; `None` = everywhere in the middle.
     pub centre: Option<Arc<Centre>>,
-    /// Where the drawing lies on the table by its registration marks; `None` = where the sheet of the profile has it.
+    /// Place of the drawing on the table by its registration marks; `None` = by the sheet of the profile.
     pub marks: Option<Arc<Marks>>,
-    /// Which patterns it cuts.
+    /// Patterns that it cuts.
     pub patterns: patterns::Patterns,
     /// Remarks that a page prints beside it.
     pub remarks: Remarks,
 }
 
 impl Job {
-    /// By what the drawing grows at the most as it is laid on the table.
+    /// Greatest factor by which the drawing grows on the table.
     pub fn growth(&self) -> f64 {
         self.marks.as_ref().map_or(self.profile.sheet.growth(), |marks| marks.map().growth())
     }

@@ -27,13 +27,13 @@ const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
 /// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
 const ROWS_IN_A_ROW: usize = 512;
 
-/// What watches rows as they come, whatever is cut.
+/// Checks of rows that do not depend on the cuts.
 struct Watch<'a> {
     limits: Limits,
     rest: Rest<'a>,
     table: Table,
     events: Events,
-    /// Events and holes, as they are told.
+    /// Events and holes of the program, in its order.
     told: Vec<Seen>,
     block: Worst,
     yaw_deg: f64,
@@ -145,9 +145,9 @@ pub(super) fn simulate(
     let mut meetings = Meetings::new(reference, joints, profile.knife.overlaps(), limit);
     meetings.borders = Borders::new(joints, reference, profile.bite.match_mm);
     let mut done = Done { coverage: Coverage::new(reference), meetings, order, worsts: judge.worsts() };
-    // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
+    // Reading, tracing and judging run in parallel, each on other strokes.
     let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());
-    // Who makes room for rows gives it back: only then it is at hand for the next ones.
+    // The thread that allocates rows frees them: only then the allocator reuses their memory for the next ones.
     let mut given_back = Strokes::default();
     while read.rows() > 0 || !traced.is_empty() {
         let (strokes, followed) = (std::mem::take(&mut read), std::mem::take(&mut traced));

@@ -1,8 +1,8 @@
 //! Target `gcode`: arcs and lines for controllers of the kind of `LinuxCNC` that have a C axis.
 //!
-//! From paths of arcs and lines, not from the planned motion: such a controller plans for itself. C is linear along each
-//! piece, so that the blade lies along the tangent everywhere. How knife, drill and operator are told stands under `gcode.`
-//! in the profile; what it does not say is refused ([`refusal`]). How long the controller takes is estimated ([`pace`]).
+//! Made from paths of arcs and lines, not from the planned motion: such a controller plans for itself. C is linear along each
+//! piece, so the blade lies along the tangent everywhere. The keys `gcode.*` of the profile tell how knife, drill and operator
+//! are addressed; anything they do not cover is refused ([`refusal`]). The time of the controller is estimated ([`pace`]).
 
 mod pace;
 mod program;
@@ -25,7 +25,7 @@ pub(super) const TARGET: Target = Target {
     proof: Some(Proof::Positions),
 };
 
-/// How its controller can be told a path.
+/// Paths that its controller accepts.
 fn interpolation(job: &Job) -> Interpolation {
     let keys = &job.profile.gcode;
     Interpolation {
@@ -63,7 +63,7 @@ fn write_toolpath(program: &mut Program, toolpath: &Toolpath, paths: &[Path]) {
     let mut next_path = || paths.next().expect("every run and plunge cut has its path");
     for (i, step) in toolpath.steps.iter().enumerate() {
         match step {
-            // What follows decides where a rapid ends.
+            // The next step decides where a rapid ends.
             Step::Turn(rapid) | Step::Travel(rapid) => {
                 if matches!(toolpath.steps.get(i + 1), None | Some(Step::Turn(_) | Step::Travel(_))) {
                     program.rapid(rapid.to);

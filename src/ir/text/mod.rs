@@ -52,10 +52,10 @@
 //! event stop
 //! ```
 //!
-//! `@start..end#block` is a span; one that is left out is that of no block. A segment line `to` starts where the line
-//! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where
-//! it starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in
-//! and read as one that is walked in list order: the same segments, the same joints.
+//! `@start..end#block` is a span; without one the span is that of no block. A segment line `to` starts where the line before it
+//! ends, so only the first segment of a contour has `from`. Words after a segment are the joint at its start; words after a
+//! point are the requests there. A contour is printed in the direction of the cut and read as one in list order: the same
+//! segments, the same joints.
 //!
 //! - A piece of a marker of which there are several copies names its copy, from 1.
 //! - A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left
@@ -87,7 +87,7 @@ use super::toolpath::{End, Event, OrientationMode, Shape, Side};
 /// Picks one flag of a joint.
 type Flag = fn(&mut Joint) -> &mut bool;
 
-/// What each word of a joint stands for.
+/// Words of a joint, each with its flag.
 const JOINTS: [(&str, Flag); 3] = [
     ("lift", |joint| &mut joint.lift),
     ("full-advance", |joint| &mut joint.full_advance),
@@ -119,7 +119,7 @@ const ENDS: [(&str, End); 4] = [
 const SIDES: [(&str, Side); 4] =
     [("waste", Side::Waste), ("part", Side::Part), ("gap", Side::Gap), ("contour", Side::Contour)];
 
-/// Events of one word; an advance by a way has that behind its word, mm.
+/// Events of one word; `advance-by` is followed by the advance, mm.
 const EVENTS: [(&str, Event); 2] = [("stop", Event::Stop), ("advance", Event::Advance)];
 const ADVANCE_BY: &str = "advance-by";
 

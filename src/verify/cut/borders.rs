@@ -1,8 +1,7 @@
-//! Borders: places where one edge of a part is cut in two windows of a conveyor. The conveyor may bring the cloth a little beside
-//! its place; whatever it does within its tolerance, the two cuts must still cross, or a thread of cloth is left.
+//! Borders: places where one edge of a part is cut in two windows of a conveyor. The conveyor may bring the cloth a little
+//! beside its place. For every offset within its tolerance the two cuts must still cross, or a thread of cloth is left.
 //!
-//! The ways of the later cut are laid beside where the program has them, in eight directions, and must meet those of the
-//! earlier one each time.
+//! The later cut is shifted from its programmed place in eight directions and must meet the earlier one each time.
 
 use rayon::prelude::*;
 
@@ -28,7 +27,7 @@ struct Border<'a> {
     joint: &'a Joint,
     /// Greatest distance of the cloth from its place between the two cuts along either axis, mm.
     shift: f64,
-    /// What is cut there of the one cut and of the other.
+    /// Segments of each of the two cuts there.
     ways: [Vec<[Point; 2]>; 2],
 }
 
@@ -39,7 +38,7 @@ impl Default for Borders<'_> {
 }
 
 impl<'a> Borders<'a> {
-    /// Those among joints whose cuts are of one part and lie in different windows; each advance may be `off` by so many mm.
+    /// Selects the joints whose cuts are of one part and lie in different windows; each advance may be `off` by so many mm.
     pub(in crate::verify) fn new(joints: &'a [Joint], reference: &Reference, off: f64) -> Self {
         let (marker, stations) = (reference.marker, reference.marker.stations());
         let piece = |cut: u32| marker.cuts.get(cut as usize).map(|cut| cut.piece as usize);
@@ -61,7 +60,7 @@ impl<'a> Borders<'a> {
         Self { boxes: Boxes::new(all.iter().map(about).collect()), all }
     }
 
-    /// Sees what a stroke cuts, as a stretch of a cut of the marker.
+    /// Records the places that a stroke cuts on a cut of the marker.
     pub(in crate::verify) fn see(&mut self, points: &[Point], cut: u32) {
         if self.all.is_empty() {
             return;
@@ -77,7 +76,7 @@ impl<'a> Borders<'a> {
         }
     }
 
-    /// Sees how wide a thread is left at each place, wherever the cloth lies.
+    /// Records the width of the thread at each border for the worst position of the cloth.
     pub(super) fn see_gaps(&self, worst: &mut Worst) {
         let gaps = self.all.par_iter().map(|border| (border.gap(), border));
         for (gap, Border { joint, .. }) in gaps.collect::<Vec<_>>() {
@@ -87,7 +86,7 @@ impl<'a> Borders<'a> {
 }
 
 impl Border<'_> {
-    /// The widest gap between the two cuts, mm, wherever the cloth lies; as wide as the place where one is missing.
+    /// Widest gap between the two cuts over all positions of the cloth, mm; the size of the place if a cut is missing.
     fn gap(&self) -> f64 {
         let by = STEPS.iter().flat_map(|x| STEPS.iter().map(move |y| Vector::new(*x, *y) * self.shift));
         by.map(|by| self.gap_at(by)).fold(0.0, f64::max)

@@ -23,18 +23,18 @@ use crate::verify::rules;
 /// Length of an end, in tolerances beside the overlaps: at points of ten degrees and more two cuts cross within it
 /// (2 / sin 10 degrees).
 const CROSSING: f64 = 12.0;
-/// Greatest share of a stroke that is an end of it where it meets its own other end.
+/// Greatest share of a stroke that counts as its end, if the stroke meets its own other end.
 const END_SHARE: f64 = 0.3;
-/// Least share of a line that a stroke cuts which meets its own other end.
+/// Least share of a line that a stroke must cut to meet its own other end.
 const ROUND_SHARE: f64 = 0.5;
 
 /// Ends of strokes at the places where they must meet.
 #[derive(Debug)]
 pub(in crate::verify) struct Meetings<'a> {
     reference: &'a Reference<'a>,
-    /// Where different cuts meet.
+    /// Meetings of different cuts.
     joints: Joints<'a>,
-    /// Those of cuts in different windows of a conveyor.
+    /// Meetings of cuts in different windows of a conveyor.
     pub(in crate::verify) borders: Borders<'a>,
     /// Corners by the line that begins there.
     corners: BTreeMap<usize, Corner>,
@@ -68,7 +68,7 @@ struct Part {
 }
 
 impl<'a> Meetings<'a> {
-    /// Nothing is cut yet; strokes overlap by `overlaps` mm, and a thread may be `limit` mm wide.
+    /// Starts with nothing cut; strokes overlap by `overlaps` mm, and a thread may be `limit` mm wide.
     pub(in crate::verify) fn new(reference: &'a Reference<'a>, joints: &'a [Joint], overlaps: f64, limit: f64) -> Self {
         Self {
             reference,
@@ -83,7 +83,7 @@ impl<'a> Meetings<'a> {
         }
     }
 
-    /// Sees what a stroke cuts of its line.
+    /// Records the stretch that a stroke cuts of its line.
     pub(in crate::verify) fn see(&mut self, cut: &Cut, trial: &Trial) {
         let line = &self.reference.lines[trial.line];
         self.joints.see(&cut.points, line.cut.index);
@@ -111,8 +111,8 @@ impl<'a> Meetings<'a> {
         self.parts.entry(trial.line).or_default().push(Part { over, ends });
     }
 
-    /// The two ends of a stroke, that at its plunge with the body of the blade there; a blade that goes no way is both. Those of
-    /// a stroke that meets itself have nothing in common.
+    /// The two ends of a stroke; the first includes the blade's body at the plunge. A blade that does not move is both ends.
+    /// The ends of a stroke that meets itself are disjoint.
     fn ends(&self, cut: &Cut, meets_itself: bool) -> [End; 2] {
         if cut.is_plunge_cut() {
             let blade = cut.blade().to_vec();
@@ -126,7 +126,7 @@ impl<'a> Meetings<'a> {
         let tips = &cut.points[cut.body..];
         let heel = (cut.body > 0).then_some(cut.points[0]);
         let end = |heel: Option<Point>, tips: &[Point]| heel.into_iter().chain(tips.iter().copied()).collect();
-        // A short way ends beside the body that plunged.
+        // If the stroke is short, its end lies beside the body that plunged.
         let is_short = whole - start < reach;
         [end(heel, &tips[..=until]), end(heel.filter(|_| is_short), &tips[from..])]
     }
@@ -151,7 +151,7 @@ impl<'a> Meetings<'a> {
         line.cut.round.map(|_| index - before.count())
     }
 
-    /// Sees the end of a stroke at a corner: 0 = on the line that ends there, 1 = on the one that begins there.
+    /// Records the end of a stroke at a corner; side 0 = on the line that ends there, 1 = on the line that begins there.
     fn meet(&mut self, corner: Option<usize>, side: usize, end: End) {
         let Some(corner) = corner.filter(|&corner| !self.met[corner]) else { return };
         let known = self.corners.entry(corner).or_default();
@@ -163,7 +163,7 @@ impl<'a> Meetings<'a> {
         }
     }
 
-    /// The width of the widest thread that is left.
+    /// Width of the widest thread that is left.
     pub(in crate::verify) fn finding(mut self) -> Finding {
         let lines = &self.reference.lines;
         let of_corners: Vec<(&usize, &Corner)> = self.corners.iter().collect();
@@ -181,7 +181,7 @@ impl<'a> Meetings<'a> {
 }
 
 impl Corner {
-    /// Least distance of the strokes on its two lines, mm. Of a line that is not cut there another rule tells.
+    /// Least distance of the strokes on its two lines, mm; 0 if one line is not cut there, which `verify/complete` reports.
     fn gap(&self) -> f64 {
         let [before, behind] = &self.ends;
         let pairs = before.iter().flat_map(|one| behind.iter().map(move |other| (one, other)));
@@ -189,7 +189,7 @@ impl Corner {
     }
 }
 
-/// The widest gap on the best way from stroke to stroke along a line, mm, and where it is: from its first stroke to its last, or
+/// Bottleneck of the connections from stroke to stroke along a line, mm, and its place: from the first stroke to the last, or
 /// once round a ring.
 fn widest(line: &Line, parts: &[Part], reach: f64) -> (f64, Sighting) {
     let mut parts: Vec<([f64; 2], &[End; 2])> =
@@ -217,15 +217,15 @@ fn widest(line: &Line, parts: &[Part], reach: f64) -> (f64, Sighting) {
             return (gap, sighting(line, parts[j].0[0]));
         }
     }
-    // Strokes farther apart leave a stretch uncut, which is the matter of `verify/complete`.
+    // Strokes farther apart leave a stretch uncut, which `verify/complete` reports.
     (0.0, sighting(line, 0.0))
 }
 
-/// Disjoint sets of strokes: to each its parent, to the first of a set itself.
+/// Disjoint sets of strokes: the parent of each; the first stroke of a set is its own parent.
 struct Groups(Vec<usize>);
 
 impl Groups {
-    /// The first stroke of the set of one; the way there is halved (Tarjan & van Leeuwen, *Worst-case analysis of set union
+    /// First stroke of the set of `stroke`, with path halving (Tarjan & van Leeuwen, *Worst-case analysis of set union
     /// algorithms*, 1984).
     fn of(&mut self, mut stroke: usize) -> usize {
         while self.0[stroke] != stroke {
@@ -241,7 +241,7 @@ impl Groups {
     }
 }
 
-/// Stations of a stretch, on a ring those on its first lap.
+/// Stations of a stretch; on a ring, moved to its first lap.
 fn on_first_lap(line: &Line, [low, high]: [f64; 2]) -> [f64; 2] {
     let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
     [low - lap, high - lap]
@@ -254,7 +254,7 @@ fn closing([first, last]: &[End; 2]) -> f64 {
 
 /// Least distance of the ends of two strokes, mm.
 fn gap(ends: &[End; 2], others: &[End; 2]) -> f64 {
-    // As nearly always the end of the one meets the start of the other.
+    // In nearly all cases the end of one meets the start of the other.
     if is_crossed(&ends[1], &others[0]) {
         return 0.0;
     }
@@ -262,7 +262,7 @@ fn gap(ends: &[End; 2], others: &[End; 2]) -> f64 {
     pairs.fold(f64::INFINITY, |least, (one, other)| apart(one, other, least.min(most_apart(one, other))))
 }
 
-/// Whether two polylines that are nearly straight surely cross: where each passes through the chord of the other.
+/// True if two polylines that are nearly straight surely cross: each passes through the chord of the other at the same place.
 fn is_crossed(one: &[Point], other: &[Point]) -> bool {
     let passes = |line: &[Point], chord: &[Point]| {
         let (from, way) = (chord[0], chord[chord.len() - 1] - chord[0]);
@@ -274,7 +274,7 @@ fn is_crossed(one: &[Point], other: &[Point]) -> bool {
     apart(&one[i..i + 2], &other[j..j + 2], f64::MIN_POSITIVE) == 0.0
 }
 
-/// A place of the drawing, that no time of the program belongs to.
+/// A place of the drawing without a time of the program.
 fn sighting(line: &Line, station: f64) -> Sighting {
     let station = if line.ring { station.rem_euclid(line.length()) } else { station.clamp(0.0, line.length()) };
     Sighting::missing(line.place(station), line.block(line.chord_at(station)))

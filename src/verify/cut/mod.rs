@@ -1,7 +1,7 @@
-//! What the blade cuts: strokes, followed along the lines of the reference and judged by them.
+//! Cuts of the blade: strokes, followed along the lines of the reference and judged by them.
 //!
-//! Receives strokes and the reference, promises what each stroke cut, how the blade lay and how fast its tip went, and what
-//! it cut too far. Never judges the limits of the axes.
+//! Receives strokes and the reference. Finds the stretches that each stroke cuts, the headings of the blade, the speed of its
+//! tip, and cuts in wrong places. Never judges the limits of the axes.
 
 pub(super) mod body;
 pub(super) mod borders;

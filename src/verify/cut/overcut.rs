@@ -1,10 +1,9 @@
-//! What the blade cuts beyond the ends of its line: how far in waste, and how deep in parts.
+//! Overcuts: cuts of the blade beyond the ends of its line, by their length in waste and their depth in parts.
 //!
-//! A place is as deep in a part as it is far from that part's edges, inside, and no deeper than it is far from the end of
-//! its line, which may be drawn amid a part; less than the band is no depth, nor less than a quarter of the width of a strip
-//! in that. A way may go as deep into its own part as
-//! the profile has it for reflex corners, and not into another. A plunge cut may be longer than its line: as deep as the
-//! least deep of all places where it covers that.
+//! The depth of a place in a part is its distance from that part's edges. It is at most the distance from the end of the line,
+//! which may be drawn amid a part. A depth below the band, or in a strip below a quarter of the strip's width, counts as zero.
+//! A cut may go as deep into its own part as the profile allows at reflex corners, and not into another part. A plunge cut may
+//! be longer than its line: its bound is the depth of the best position that covers the same stretch.
 
 use super::body::Cut;
 use super::heading::on_lap;
@@ -21,16 +20,17 @@ use crate::verify::reference::inside::Inside;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 
-/// Distance of two places for a blade that are tried, mm: so much deeper than the best of them no other is less deep.
+/// Distance between the positions of a blade that are tried, mm: the true best is at most this much shallower than the best of
+/// them.
 const SHIFT: f64 = 0.1;
 
-/// How many times as far apart as edges are the corners that these make.
+/// Distance of the corners of two parallel outlines as a multiple of the distance of their edges.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
-/// How deep a place may lie in a strip and still be at its edge, in widths of that.
+/// Depth in a strip up to which a place counts as on its edge, as a fraction of the strip's width.
 const STRIP_SHARE: f64 = 0.25;
-/// Least cosine between the edges of what is surely a strip (8 degrees), and that between the ways to the two.
+/// Least cosine between the two edges of a strip (8 degrees), and between the directions from a place to them.
 const STRIP: f64 = 0.99;
-/// How deep in parts it is seen how deep a place lies, mm: far more than is allowed.
+/// Greatest depth that is measured, mm: far more than is allowed.
 const ASIDE: f64 = 5.0;
 
 /// Judges overcuts.
@@ -43,15 +43,15 @@ pub(in crate::verify) struct Overcut<'a> {
     tolerance: f64,
     width: f64,
     band: f64,
-    /// How far an edge may be moved that is cut with another part, mm.
+    /// Greatest distance of an edge from the cut of another part that stands for it, mm.
     shift: f64,
-    /// Which part is spared by a plunge cut that finds no waste.
+    /// Part that is spared by a plunge cut that finds no waste.
     spare: Spare,
-    /// How far the profile lets the blade cut into the part at a reflex corner, mm.
+    /// Depth to which the profile lets the blade cut into the part at a reflex corner, mm.
     reflex: f64,
-    /// Whether the blade is sharp at both ends.
+    /// True if the blade is sharp at both ends.
     is_alike: bool,
-    /// How deep the profile lets it cut into the part itself and into others, mm.
+    /// Greatest depth that the profile allows in the own part and in others, mm.
     caps: [Option<f64>; 2],
 }
 
@@ -70,15 +70,14 @@ pub(in crate::verify) struct Ends<'a> {
     pub(in crate::verify) lines: Lines<'a>,
 }
 
-/// How deep places lie in parts, mm: in the own one, and in another.
+/// Depths of a place in its own part and in another, mm.
 pub(super) type Depths = [f64; 2];
 
-/// The deepest places in the own part and in another: how deep each is, mm, and its index.
+/// Deepest places in the own part and in another: depth, mm, and index.
 type Deepest = [(f64, usize); 2];
 
 impl<'a> Overcut<'a> {
-    /// For parts in which places lie, a tip that may leave its line by the tolerance, and places that are rounded to
-    /// `rounding` mm.
+    /// Judges with a tip that may leave its line by the tolerance, and places that are rounded to `rounding` mm.
     pub(in crate::verify) fn new(
         reference: &Reference,
         inside: &'a Inside<'a>,
@@ -102,12 +101,12 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// How far a place is from all edges of parts, mm: surely where that is less than `reach`.
+    /// Distance of a place from all edges of parts, mm; exact only if less than `reach`.
     pub(super) fn distance_to_edges(&self, place: Point, reach: f64) -> f64 {
         self.inside.distance_to_edges(place, reach)
     }
 
-    /// Judges what a stroke cuts beyond the ends of its line.
+    /// Judges the cuts of a stroke beyond the ends of its line.
     pub(in crate::verify) fn see(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         let Worsts { overcuts, declared: undeclared, .. } = worsts;
         let Ends { cut, trial, .. } = *stroke;
@@ -167,9 +166,9 @@ impl<'a> Overcut<'a> {
         })
     }
 
-    /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, which
-    /// the profile lets stand for its own, or leads over to it and through it by the tolerance. No place is deeper than it is
-    /// far from what is drawn: where parts overlap the edge of the one lies amid the other.
+    /// Judges the cuts of a stroke along stretches of its line that are on no edge of its own part. There the line is on an
+    /// edge of another part, which the profile lets stand for its own, or leads over to it and through it by the tolerance. The
+    /// depth of a place is at most its distance from all edges: where parts overlap, the edge of one lies amid the other.
     fn see_aside(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
         let Ends { cut, trial, line, .. } = *stroke;
         if line.aside.is_empty() {
@@ -187,7 +186,7 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// Holds how deep each end of a stroke cuts into parts against what is declared of that end.
+    /// Compares the depth of each end of a stroke in parts with the declarations for that end.
     fn hold(
         &self,
         ends: [Deepest; 2],
@@ -200,7 +199,7 @@ impl<'a> Overcut<'a> {
         let kind = if cut.is_plunge_cut() { Kind::Surplus } else { Kind::Overcut };
         let bands = ends.map(|deepest| self.bands(deepest, stroke));
         let excess = |is_turned: bool| {
-            // Its own part a blade enters as the profile has it for reflex corners, without a word.
+            // At reflex corners the blade may enter its own part without a declaration.
             [(0, self.reflex), (1, 0.0)].map(|(side, unsaid)| {
                 [(0, Which::Start), (1, Which::End)].map(|(end, which)| {
                     let which = if is_turned { which.other() } else { which };
@@ -213,7 +212,7 @@ impl<'a> Overcut<'a> {
         };
         let most = |excess: &[[f64; 2]; 2]| excess.iter().flatten().copied().fold(0.0, f64::max);
         let mut found = excess(false);
-        // Of a blade that is sharp at both ends nobody sees which comes first when it does not move.
+        // The order of the ends of a plunged blade that is sharp at both ends is unknown.
         if self.is_alike && cut.is_plunge_cut() {
             let turned = excess(true);
             if most(&turned) < most(&found) {
@@ -227,28 +226,28 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// Whether a declaration is of the own part of a line, or of another; one that names none may be of any.
+    /// True if a declaration is about the own part of a line, or about another; one that names no part may be about either.
     pub(super) fn is_in(&self, entry: &Declaration, is_own: bool, line: &Line) -> bool {
         let own = self.inside.part_of(line.piece as usize);
         entry.part.is_none_or(|part| self.inside.find_part(part as usize).is_some_and(|part| (part == own) == is_own))
     }
 
-    /// How deep a place of a stroke lies in its own part and in another, mm.
+    /// Depths of a place of a stroke in its own part and in another, mm.
     pub(super) fn depths_at(&self, place: usize, stroke: &Ends) -> Depths {
         self.depths(stroke.cut.points[place], stroke.trial.beyond(stroke.cut, place), stroke)
     }
 
-    /// Whether a straight way leads into a part, however narrow that is.
+    /// True if a straight segment leads into a part, however narrow that is.
     pub(in crate::verify) fn leads_into_part(&self, way: [Point; 2]) -> bool {
         self.inside.is_crossed(way)
     }
 
-    /// How deep a place lies in any part that is as far from its own cut, mm.
+    /// Greatest depth of a place in any part, mm, for a place `away` mm from its own cut.
     pub(in crate::verify) fn deepest(&self, point: Point, away: f64, stroke: &Ends) -> f64 {
         self.depths(point, away, stroke).into_iter().fold(0.0, f64::max)
     }
 
-    /// How deep a place `beyond` mm past an end of what a stroke cuts lies in parts.
+    /// Depths in parts of a place `beyond` mm past an end of the stretch that a stroke cuts.
     fn depths(&self, point: Point, beyond: f64, &Ends { line, lines, .. }: &Ends) -> Depths {
         let mut depths = [0.0; 2];
         if beyond <= self.band {
@@ -266,13 +265,13 @@ impl<'a> Overcut<'a> {
         depths
     }
 
-    /// Whether a place lies no farther past the end of its line than this goes on to be through the cut of another part, which
-    /// is moved as far as the profile lets edges of two parts be apart.
+    /// True if the overlap at a place is no longer than needed to cross the cut of another part, which may lie as far away as
+    /// the profile lets edges of two parts be apart.
     fn is_across(i: usize, &Ends { cut, trial, line, lines }: &Ends) -> bool {
         trial.beyond(cut, i) <= lines.reference.across(line.place(trial.feet[i].station))
     }
 
-    /// How deep a place may lie in a part and still be at its edge, mm: the band, or less in a strip.
+    /// Depth in a part up to which a place counts as on its edge, mm: the band, or less in a strip.
     fn band_at(&self, point: Point, &Ends { lines, .. }: &Ends) -> f64 {
         let parts = self.inside.pieces_at(point).into_iter();
         let widths =
@@ -280,13 +279,13 @@ impl<'a> Overcut<'a> {
         widths.map(|width| STRIP_SHARE * width).fold(self.band, f64::min)
     }
 
-    /// How wide a strip is at the most whose edges are nearer than the band, mm.
+    /// Greatest width of a strip, mm, in which the share of the width is below the band.
     fn strip(&self) -> f64 {
         self.band / STRIP_SHARE
     }
 
-    /// How deep a plunge cut must lie in its own part and in others wherever it is laid along its line so that it covers what
-    /// it does, mm: in those that the profile spares as little as can be.
+    /// Least depths of a plunge cut in its own part and in others over all positions along its line that cover the same
+    /// stretch, mm. The parts that the profile spares come first.
     fn least(&self, stroke: &Ends) -> Depths {
         let Ends { trial, line, .. } = *stroke;
         let places = self.places(trial.core.map(|station| line.place(on_lap(line, station))), stroke);
@@ -295,14 +294,14 @@ impl<'a> Overcut<'a> {
         if self.spare == Spare::Both {
             return [first; 2];
         }
-        // Of places that are alike in what is spared, the least deep in the rest.
+        // Among positions that are equal in the spared part, the least depth in the other.
         let alike = places.iter().map(weighed).filter(|weighed| weighed[0] <= first + SHIFT);
         let then = alike.map(|weighed| weighed[1]).fold(f64::INFINITY, f64::min);
         if self.spare == Spare::Own { [first, then] } else { [then, first] }
     }
 
-    /// How deep a plunge cut lies in some part at the least when it cuts a curve by the chords of that, mm: the worst of the
-    /// chords between what is cut of it now.
+    /// Least depth in any part of a plunge cut that cuts a curve by its chords, mm: the greatest over the chords of the stretch
+    /// that it cuts.
     pub(in crate::verify) fn of_chords(&self, stroke: &Ends) -> f64 {
         let Ends { trial, line, .. } = *stroke;
         let (low, high) = (trial.reach[0].min(trial.reach[1]), trial.reach[0].max(trial.reach[1]));
@@ -311,17 +310,17 @@ impl<'a> Overcut<'a> {
         chords.map(of_chord).fold(0.0, f64::max)
     }
 
-    /// How deep a blade that covers the way from one place to another lies in some part at the least, mm.
+    /// Least depth in any part of a blade that covers the segment between two places, mm.
     fn least_over(&self, ends: [Point; 2], stroke: &Ends) -> f64 {
         let places = self.places(ends, stroke);
         places.iter().map(|[own, other]| own.max(*other)).fold(f64::INFINITY, f64::min)
     }
 
-    /// How deep a blade that covers the way from one place to another lies in parts, at each place along that.
+    /// Depths in parts of a blade that covers the segment between two places, for each of its positions.
     fn places(&self, [start, end]: [Point; 2], stroke: &Ends) -> Vec<Depths> {
         let Some(along) = polyline::direction(start, end) else { return vec![[0.0; 2]] };
         let surplus = (self.width - (end - start).norm()).max(0.0);
-        // How deep the deepest of all places up to each is, at either end.
+        // Depths of the deepest place up to each step, at either end.
         let count = (surplus / SHIFT).ceil() as usize;
         let deepest = |from: Point, along: Vector| -> Vec<Depths> {
             let mut deepest = [0.0_f64; 2];
@@ -344,7 +343,7 @@ impl<'a> Overcut<'a> {
 }
 
 impl Lines<'_> {
-    /// How far a place is from the edges of some pieces, mm, surely where that is less than `reach`.
+    /// Distance of a place from the edges of some pieces, mm; exact only if less than `reach`.
     fn distance_to_edges(self, point: Point, reach: f64, is_of: impl Fn(usize) -> bool) -> f64 {
         let is_edge = |run: &&Run| {
             let line = &self.reference.lines[run.line()];
@@ -354,8 +353,8 @@ impl Lines<'_> {
         edges.map(|run| self.distance_to_run(run, point)).fold(f64::INFINITY, f64::min)
     }
 
-    /// How wide some pieces are at a place where they surely are a strip, mm: from the edge on one side of it to that on the
-    /// other; infinite where they are none, or wider than `most`.
+    /// Width of some pieces at a place where they form a strip, mm: from the edge on one side to the edge on the other.
+    /// Infinite where they form none, or one wider than `most`.
     fn width_of_strip(self, point: Point, most: f64, is_of: impl Fn(usize) -> bool) -> f64 {
         let mut edges: Vec<[Vector; 2]> = Vec::new();
         for run in self.grid.near(point, most) {

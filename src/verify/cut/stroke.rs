@@ -1,7 +1,7 @@
-//! One stroke of the knife, from its plunge to its lift: what it cut, and how the blade lay.
+//! One stroke of the knife, from its plunge to its lift: its cut, and the headings of the blade.
 //!
-//! What a stroke cuts is the blade's body where it plunges, then the track of the tip. Both are followed along the line
-//! of the reference that they belong to.
+//! The cut of a stroke is the blade's body where it plunges, then the track of the tip. Both are followed along their line of
+//! the reference.
 
 use std::ops::RangeToInclusive;
 
@@ -27,35 +27,35 @@ use crate::verify::reference::held::Held;
 use crate::verify::reference::lines::Reference;
 use crate::verify::rules;
 
-/// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
-/// its tolerance band passes the vertex early or late by less.
+/// Distance along the line from its chord, beside the tolerance, within which a cap may be obeyed, mm: a tip that takes a bend
+/// inside its tolerance band passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
 
-/// Parts in which a step is held against caps, at the most: no step of a sound program has more.
+/// Greatest number of parts into which a step is divided to compare it with caps: enough for any step of a sound program.
 const PARTS_MAX: f64 = 32.0;
-/// Distance by which a line may bend away from where a cut leaves it straight on, mm, beside how far that leads aside.
+/// Distance, beside the offset itself, by which a line may bend away from a cut that leaves it straight on, mm.
 const BOW: f64 = 0.1;
-/// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
+/// Fraction by which F may exceed the feed: covers rounding, and a line in the place of an arc, whose ends are a little faster
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
 
 impl Stroke {
-    /// Place `i` of what it cut.
+    /// Place `i` of its cut.
     pub(super) fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
         let row = &self.rows()[cut.rows[i.saturating_sub(cut.body)]];
         row.seen_at(cut.points[i])
     }
 }
 
-/// What a stroke cut, and the line that it was meant for once that is known.
+/// The cut of a stroke, and the line that it was meant for once that is known.
 pub(in crate::verify) struct Traced {
     pub(super) stroke: Stroke,
-    /// The end of the blade that goes first, at each row, and the direction to it from the other end.
+    /// Leading end of the blade at each row, and the direction to it from the other end.
     tips: Vec<Point>,
     pub(super) blades: Vec<Vector>,
-    /// From the centre to the one end and to the other, mm.
+    /// Distances from the centre to the leading and the trailing end, mm.
     pub(super) ends: [f64; 2],
-    /// The way of the tip a second at each row, mm, when the rows have no time but tell that.
+    /// Velocity of the tip at each row, mm/s, for rows without a time.
     ways: Vec<Vector>,
     pub(super) cut: Cut,
     trace: Trace,
@@ -79,7 +79,7 @@ pub(in crate::verify) struct Judge<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
     /// The edges that are cut with other parts.
     pub(in crate::verify) common: &'a Common,
-    /// What lies in parts.
+    /// Contents of parts, each with the outline that must be cut later.
     pub(in crate::verify) held: &'a [Held],
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
@@ -90,14 +90,14 @@ pub(in crate::verify) struct Judge<'a> {
     period: f64,
     /// Rounding of a tip's place, mm.
     rounding: f64,
-    /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
+    /// Shortest motion of the tip that shows a direction, mm, and the turn that rounding may add to a shorter one, degrees.
     way_min: f64,
     noise_deg: f64,
     pub(super) tracer: Tracer<'a>,
-    /// Greatest overlap at one end, and of both ends together.
+    /// Greatest overlap at one end, and the sum over both ends, mm.
     pub(super) overlap: f64,
     overlaps: f64,
-    /// Greatest bulge of a tolerance band beside its tolerance, mm.
+    /// Greatest excess of a tolerance band over its tolerance, mm: the chord sagitta.
     pub(super) sagitta: f64,
     pub(super) overcut: Overcut<'a>,
     naming: Naming,
@@ -105,7 +105,7 @@ pub(in crate::verify) struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Judges by what must be cut and what lies where a program whose rows are rounded.
+    /// Judges a program with rounded rows by the reference and the parts of a ground.
     pub(in crate::verify) fn new(
         Ground { reference, grid, inside, common, held }: &'a Ground<'a>,
         declared: Option<&'a Declared>,
@@ -149,23 +149,23 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The same for programs that tell the way of the tip at each place: rounding then turns no direction.
+    /// Makes the judge exact for programs that tell the velocity of the tip at each place: rounding then turns no direction.
     pub(in crate::verify) fn with_exact_directions(mut self, profile: &MachineProfile) -> Self {
         self.worsts.heading = Worst::new(&rules::HEADING, Some(profile.verify.max_heading_deg));
         self
     }
 
-    /// The worst of nothing.
+    /// Worst values before anything is judged.
     pub(in crate::verify) fn worsts(&self) -> Worsts {
         self.worsts.clone()
     }
 
-    /// What a stroke cut, of the lines near it.
+    /// Traces the cut of a stroke over the lines near it.
     pub(in crate::verify) fn trace(&self, stroke: Stroke) -> Traced {
         let rows = stroke.rows();
         let mut blades: Vec<Vector> = Vec::with_capacity(rows.len());
         for (i, row) in rows.iter().enumerate() {
-            // Where C rests the blade lies as before.
+            // While C rests the blade keeps its direction.
             let rests = i > 0 && rows[i - 1].c_deg == row.c_deg;
             blades.push(if rests { blades[i - 1] } else { row.along() });
         }
@@ -188,13 +188,13 @@ impl<'a> Judge<'a> {
         Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
     }
 
-    /// Whether the back edge of a blade with two goes first: the centre goes towards its heel.
+    /// True if the back edge of a blade with two edges leads: the centre moves towards its heel.
     fn goes_backwards(&self, rows: &[Row], blades: &[Vector]) -> bool {
         let along = rows.windows(2).zip(blades).map(|(w, blade)| (w[1].centre - w[0].centre).dot(blade));
         self.knife.edges == 2 && along.sum::<f64>() < 0.0
     }
 
-    /// Finds the line that a stroke was meant for, which depends on what was cut before, and marks what it cut.
+    /// Finds the line that a stroke was meant for, which depends on earlier cuts, and marks the stretches that it cuts.
     pub(in crate::verify) fn settle(&self, traced: &mut Traced, done: &mut Done) {
         let Traced { stroke, cut, trace, .. } = traced;
         let first = &stroke.rows()[0];
@@ -246,7 +246,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// A blade that goes on leaves its line straight on: what lies before and behind what is held to it.
+    /// The blade leaves its line straight on; places beyond the end are compared with that direction.
     fn check_way(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, on_path: &mut Worst) {
         let line = &self.reference.lines[trial.line];
         let last = *trial.held.end();
@@ -257,7 +257,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// How much of a line a stroke cuts twice, mm. A plunge cut may be longer than what was left.
+    /// Length of a line that a stroke cuts twice, mm. A plunge cut may be longer than the rest of its line.
     fn twice(&self, cut: &Cut, trial: &Trial) -> f64 {
         let all = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>();
         // A plunge may repeat a stretch that earlier plunges only passed within the tolerance: no blade has lain on it.
@@ -273,7 +273,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The blade against where its orientation mode has it. What only plunges has no way, so both modes are the same to it.
+    /// Compares the blade with its orientation mode. A plunge cut has no direction of motion, so both modes are equal for it.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
         let Traced { stroke, tips, blades, cut, best, .. } = traced;
         let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_plunge_cut();
@@ -281,8 +281,7 @@ impl<'a> Judge<'a> {
         let mut chord = self.worsts.heading.clone();
         let rows = stroke.rows();
         if !trial.laps {
-            // At the plunge both modes are the same: how far the way of the tip then leads the blade is known of
-            // its line.
+            // At the plunge both modes are equal: the line gives the turn of the tip's path from there on.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
             let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
             self.compare(&Moving { lead, fade, ..self.moving(traced, ..=first) }, &mut chord);
@@ -302,7 +301,7 @@ impl<'a> Judge<'a> {
         heading.add(&chord);
     }
 
-    /// The blade against the way of its tip.
+    /// Compares the blade with the direction of motion of its tip.
     fn check_tangent(&self, traced: &Traced, heading: &mut Worst) {
         let Traced { stroke, cut, best, .. } = traced;
         let lead = match best {
@@ -314,7 +313,7 @@ impl<'a> Judge<'a> {
         self.compare(&Moving { lead, fade, ..self.moving(traced, ..=stroke.rows().len() - 1) }, heading);
     }
 
-    /// Compares a blade with the way of its tip: row by row where that shows a direction, else by how far it drifts.
+    /// Compares a blade with the motion of its tip: row by row where rows show a direction, else by its drift.
     fn compare(&self, moving: &Moving, heading: &mut Worst) {
         if moving.ways.is_empty() && self.noise_deg > 0.0 {
             let [x, y, c] = self.rows_rounding.axes;
@@ -325,7 +324,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The first rows of a stroke, to be compared with the way of their tip.
+    /// The first rows of a stroke, to be compared with the motion of their tip.
     fn moving<'t>(&self, traced: &'t Traced, rows: RangeToInclusive<usize>) -> Moving<'t> {
         let Traced { stroke, tips, blades, ways, .. } = traced;
         Moving {
@@ -345,7 +344,7 @@ impl<'a> Judge<'a> {
         Blade { line, ends: traced.ends, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
     }
 
-    /// How far a cut may be off its line, mm.
+    /// Greatest deviation of a cut from its line, mm.
     pub(in crate::verify) fn allowed(&self) -> f64 {
         self.tracer.allowed
     }
@@ -358,13 +357,13 @@ impl<'a> Judge<'a> {
         Plunge { line, heel, tip, sign, band: self.reference.tolerance + self.rounding + self.sagitta }
     }
 
-    /// Excess of a length over the one that is allowed, mm; 0 where rounding of the rows explains it.
+    /// Excess of a length over the allowed one, mm; 0 where rounding of the rows explains it.
     pub(super) fn excess(&self, length: f64, allowed: f64) -> f64 {
         let excess = length - allowed;
         if excess > self.rounding { excess } else { excess.min(0.0) }
     }
 
-    /// Beyond what it cuts of its line a stroke cuts overlaps, and no more.
+    /// Beyond its stretch of the line a stroke may cut overlaps only.
     fn check_ends(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
         if trial.laps || cut.is_plunge_cut() && self.knife.width_mm > 0.0 {
             return;
@@ -381,7 +380,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Where windows of a conveyor split an edge its cuts leave it, no farther than the profile has it.
+    /// Where windows of a conveyor split an edge, its cuts leave the edge by at most the distance of the profile.
     fn check_veer(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
         let (line, bite) = (&self.reference.lines[trial.line], &self.profile.bite);
         let is_section = self.reference.marker.pieces[line.piece as usize].section.is_some();
@@ -400,7 +399,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The way of the tip from row to row, or what F asks for there, against the greatest cap that holds anywhere on it.
+    /// Compares the speed of the tip from row to row, or F, with the greatest cap that holds anywhere on the step.
     fn check_feed(&self, traced: &Traced, feed: &mut Worst) {
         let Traced { stroke, ways, cut, best, .. } = traced;
         let rows = stroke.rows();
@@ -413,7 +412,7 @@ impl<'a> Judge<'a> {
                 }
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
                 let (low, high) = (a.min(b), a.max(b));
-                // What F asks for holds all along a step, which may be long: each part of it has its own cap.
+                // F holds over the whole step, which may be long: each part of it has its own cap.
                 let parts = if ways.is_empty() { 1.0 } else { ((high - low) / CAP_ASIDE).ceil().clamp(1.0, PARTS_MAX) };
                 let part = |k: usize| low + (high - low) * (k as f64 / parts);
                 let caps = (0..parts as usize).map(|k| [part(k) - slack, part(k + 1) + slack]);
@@ -433,7 +432,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// How long a stroke whose rows have times stays in one place.
+    /// Longest time that a stroke whose rows have times stays in one place.
     fn check_standing(&self, traced: &Traced, crawl: &mut Worst) {
         let Traced { stroke, tips, cut, best, .. } = traced;
         let rows = stroke.rows();
@@ -447,18 +446,18 @@ impl<'a> Judge<'a> {
         crawl.see(longest, || rows[row].sighting());
     }
 
-    /// What F asks for at the least, against the least cap that holds anywhere on a step and the limits of the axes.
+    /// Compares the least F with the least cap that holds anywhere on a step and with the limits of the axes.
     fn check_crawl(&self, traced: &Traced, crawl: &mut Worst) {
         let Traced { stroke, ways, cut, best: Some(trial), .. } = traced else { return };
         let (rows, goings) = (stroke.rows(), stroke.goings());
         let (line, sign) = (&self.reference.lines[trial.line], trial.sign(cut));
         let (only, slack) = (line.only_cap(sign), self.reference.tolerance + CAP_ASIDE);
-        // A tip that turns on the spot stands at one place of its cut all along.
+        // A tip that turns on the spot stays at one place of its cut.
         let (mut place, mut least) = (0, (f64::INFINITY, 0));
         for (i, (going, way)) in goings.iter().zip(ways).enumerate() {
             let before = place;
             place += usize::from(cut.rows.get(place + 1) == Some(&i));
-            // Nothing moves there, or an axis has more to do than at the slowest place so far.
+            // Nothing moves there, or an axis works harder than at the slowest place so far.
             if going.used == 0.0 || going.used >= least.0 {
                 continue;
             }
@@ -474,7 +473,7 @@ impl<'a> Judge<'a> {
         crawl.see(least.0.recip(), || rows[least.1].sighting());
     }
 
-    /// How far the blade goes beyond the ends of its line, and into what.
+    /// Judges the cuts of the blade beyond the ends of its line.
     fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         if trial.laps {
             return;
@@ -488,16 +487,16 @@ impl<'a> Judge<'a> {
         overcut::Ends { cut, trial, line: &self.reference.lines[trial.line], lines }
     }
 
-    /// The blocks that rows name against those of the chords that they cut.
+    /// Compares the block names of rows with the blocks of the chords that they cut.
     fn check_names(&self, rows: &[Row], cut: &Cut, trial: &Trial, block: &mut Worst) {
         let line = &self.reference.lines[trial.line];
         let [from, to] = trial.reach;
         let reach = [from.min(to), from.max(to)];
         for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
-            // What a plunge cut is longer by than its cut is named like that.
+            // The excess length of a plunge cut belongs to the block of the plunge cut.
             let station = trial.feet[i.clamp(*trial.held.start(), *trial.held.end())].station;
             for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
-                // A plunge cut may cut several chords, and its tip stand on none of them.
+                // A plunge cut may cut several chords while its tip is on none of them.
                 let is_of_plunge_cut = cut.is_plunge_cut() && line.names(row.block, reach);
                 let away = if is_of_plunge_cut { 0.0 } else { self.naming.away(row.block, line, station) };
                 block.see(away, || row.sighting());

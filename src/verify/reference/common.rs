@@ -1,6 +1,7 @@
-//! Edges that are cut with another part: which cut stands for each stretch, how far that is off, and where cuts must meet.
+//! Edges that are cut with another part: the cut that stands for each stretch, its distance from the edge, and the places where
+//! cuts must meet.
 //!
-//! All of it is measured on the cloth: going along an edge that is spared, cuts of any part that run beside it are looked for.
+//! All of it is measured on the cloth: along a spared edge, cuts of any part that run beside it are looked for.
 
 use std::collections::BTreeSet;
 
@@ -16,25 +17,25 @@ use crate::verify::rules;
 
 /// Least cosine between an edge and a cut that stands for it (30 degrees): lines of a few units tell no direction.
 const ALONG: f64 = 0.866;
-/// How many distances of two edges one cut may be broken, or the next begin behind it: about corners.
+/// Longest break of one cut, and longest gap to the next cut, in multiples of the distance of two edges: covers corners.
 const BREAK: f64 = 2.5;
-/// How many distances of two edges from where the outlines need it two cuts may cross, or from the way on which one of them is
-/// led on: where outlines overlap one crosses the other before it ends.
+/// Greatest distance, in multiples of the distance of two edges, from the place needed by the outlines, or from an extension of
+/// one of the cuts, at which two cuts may cross: where outlines overlap, one cut crosses the other before it ends.
 const ABOUT: f64 = 4.0;
-/// Least sine of the angle between two lines for which their crossing is looked for in full: those at a smaller angle go on along
+/// Least sine of the angle between two lines for which their crossing is looked for in full: lines at a smaller angle run along
 /// each other.
 pub(super) const LEAST_SINE: f64 = 0.1;
 /// Most boxes along one chord of a way.
 const MOST_BOXES: f64 = 64.0;
-/// Longest part of an edge that cuts are looked for beside at a time, mm.
+/// Longest part of an edge for which cuts are looked up at a time, mm.
 const SPAN: f64 = 32.0;
 
-/// What holds for the edges that are cut with other parts.
+/// State of the edges that are cut with other parts.
 #[derive(Debug, Default)]
 pub(in crate::verify) struct Common {
-    /// Where one cut ends and the next goes on around a part.
+    /// Places around a part where one cut ends and the next begins.
     pub(in crate::verify) joints: Vec<Joint>,
-    /// Stretches for which no cut stands, mm, each with its place.
+    /// Stretches without a cut: length, mm, and place.
     pub(in crate::verify) uncut: Vec<(f64, Sighting)>,
     /// The greatest distance of an edge from the cut that stands for it, mm, with its place.
     pub(in crate::verify) shift: Option<(f64, Sighting)>,
@@ -47,26 +48,26 @@ pub(in crate::verify) struct Joint {
     pub(in crate::verify) at: Point,
     /// Source block of the edge there.
     pub(in crate::verify) block: u32,
-    /// The cuts, by their places among those of the marker.
+    /// The cuts, by their indices among the cuts of the marker.
     pub(in crate::verify) cuts: [u32; 2],
-    /// Boxes in one of which the cuts must cross: the first around the place, the others along the stretch of the edge beside
-    /// which both run, and around the ways there on which one of them is led on.
+    /// Boxes in one of which the cuts must cross. The first is around the place. The others are along the stretch of the edge
+    /// beside which both cuts run, and around the extensions of a cut there.
     pub(in crate::verify) about: Vec<Extent>,
 }
 
-/// Cuts among which those are looked for that stand for edges.
+/// Cuts that may stand for edges.
 #[derive(Clone, Copy)]
 struct Beds<'r, 'a> {
     reference: &'r Reference<'a>,
     grid: &'r Grid,
-    /// How far from an edge they may lie, mm.
+    /// Greatest distance from an edge, mm.
     distance: f64,
-    /// The place of the piece whose sections alone may stand for its edges; `None` = cuts of any piece.
+    /// Index of the piece whose sections alone may stand for its edges; `None` = cuts of any piece.
     section: Option<usize>,
 }
 
 impl Beds<'_, '_> {
-    /// Whether a line may stand for an edge.
+    /// True if a line may stand for an edge.
     fn has(&self, line: &Line) -> bool {
         self.section.is_none_or(|piece| self.reference.owners[line.piece as usize] == piece)
     }
@@ -76,10 +77,10 @@ impl Beds<'_, '_> {
 struct Stood {
     cut: u32,
     from: Sighting,
-    /// The stretch of the edge, if the cut is of its own part.
+    /// Index of the stretch of the edge, if the cut is of its own part.
     own: Option<usize>,
     /// Boxes along the stretch of the edge beside which the cut before it runs too. The cuts may cross anywhere in it: the
-    /// earlier one bounds the part up to that place, the later one from it on.
+    /// earlier one bounds the part up to the crossing, the later one from it on.
     overlap: Vec<Extent>,
 }
 
@@ -88,27 +89,27 @@ struct Stand {
     /// Its stations along the edge, mm.
     over: [f64; 2],
     cut: u32,
-    /// Where the cut is at the end of that, mm along it.
+    /// Station of the cut at the end of the stretch, mm.
     reached: f64,
 }
 
 /// A straight piece of a cut beside an edge.
 #[derive(Clone, Copy)]
 struct Beside {
-    /// From where to where beside the edge, mm along that.
+    /// Start and end beside the edge, stations of the edge, mm.
     over: [f64; 2],
-    /// The cut, by its place among those of the marker.
+    /// Index of the cut among the cuts of the marker.
     cut: u32,
-    /// How far to the left of the edge it is at both ends, mm.
+    /// Offset of the cut to the left of the edge at both ends, mm.
     aside: [f64; 2],
-    /// Where the cut is there, mm along it.
+    /// Stations of the cut at both ends, mm.
     at: [f64; 2],
     /// Length of the cut when it is closed, mm.
     round: Option<f64>,
 }
 
 impl Common {
-    /// Looks for what stands for the spared edges of some contours; these may lie so far apart, mm.
+    /// Finds the cuts that stand for the spared edges of some contours, at most `distance` mm away.
     pub(in crate::verify) fn new(shared: &[Around], reference: &Reference, grid: &Grid, distance: f64) -> Self {
         let mut common = Self::default();
         for Around { slits, stretches, section } in shared {
@@ -128,14 +129,14 @@ impl Common {
             let by_place = boxes.near(place.grown(near));
             let by_place = by_place.filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= near);
             let by_edge = joint.about[1..].iter().flat_map(|&about| boxes.near(about));
-            // Of any cut: two cuts may hang together through a third one that ends there.
+            // Extensions of any cut count: two cuts may be connected by a third one that ends there.
             let led: BTreeSet<usize> = by_place.chain(by_edge).collect();
             joint.about.extend(led.into_iter().map(|lead| boxes.all()[lead].grown(near)));
         }
         common
     }
 
-    /// How far edges are from the cuts that stand for them.
+    /// Distance of edges from the cuts that stand for them.
     pub(in crate::verify) fn finding(&self) -> Finding {
         let mut worst = Worst::new(&rules::COMMON, None);
         if let Some((shift, place)) = self.shift {
@@ -146,14 +147,14 @@ impl Common {
 
     /// Goes once around a contour of a piece with slits.
     fn see(&mut self, ring: &[Drawn], slits: &[Line], beds: Beds) {
-        // From the start of a stretch that is cut with the piece, if there is any.
+        // The tour starts with a stretch that is cut with the piece, if there is one.
         let start =
             (0..ring.len()).find(|&i| ring[i].cut.is_some() && ring[(i + ring.len() - 1) % ring.len()].cut.is_none());
         let mut ring = ring.to_vec();
         ring.rotate_left(start.unwrap_or(0));
         let mut spared = spared(&ring);
         let mut cuts: Vec<Stood> = Vec::new();
-        // A cut that leaves the edge and comes back to it leaves what lies between.
+        // A cut that leaves the edge and comes back to it leaves the stretch between uncut.
         let mut left: Vec<(usize, f64, Sighting)> = Vec::new();
         let mut is_in_spared = false;
         for (i, stretch) in ring.iter().enumerate() {
@@ -178,13 +179,13 @@ impl Common {
         }
         let count = cuts.len();
         for (next, length, place) in left {
-            // Between two cuts it is measured whether these meet.
+            // A gap between two different cuts is judged by whether these meet.
             if count == 0 || cuts[next % count].cut == cuts[(next + count - 1) % count].cut {
                 self.uncut.push((length, place));
             }
         }
         let Some(mut before) = cuts.last() else { return };
-        // A cut of the part itself may be led on along its edge, beside the cut that stands for that.
+        // A cut of the part itself may be extended along its edge, beside the cut that stands for the edge.
         let also = |own: Option<usize>, cut: u32, step: usize| {
             let stretches = own.into_iter().flat_map(|own| (0..ring.len()).map(move |k| own + k * step));
             both_beside(stretches.map(|i| &ring[i % ring.len()]), cut, beds)
@@ -201,7 +202,7 @@ impl Common {
         }
     }
 
-    /// The cuts that stand for an edge, each with the place from which it does; those of slits on it must meet slits.
+    /// Cuts that stand for an edge, each with the place where it begins to; the cuts of slits on the edge must meet the slits.
     fn stands(&mut self, edge: &[Drawn], slits: &[Line], beds: Beds) -> Vec<Stood> {
         let distance = beds.distance;
         let points: Vec<Point> = edge[..1].iter().map(|chord| chord.ends[0]).chain(ends(edge)).collect();
@@ -257,7 +258,7 @@ impl Common {
     }
 }
 
-/// Greatest distance from a joint at which its cuts cross, mm, when each is off by the tolerance: lines at a small angle do so
+/// Greatest distance from a joint at which its cuts cross, mm, when each is off by the tolerance: lines at a small angle cross
 /// farther away.
 fn crossing(joint: &Joint, reference: &Reference, grid: &Grid, distance: f64) -> f64 {
     let directions = |cut: u32| -> Vec<Vector> {
@@ -273,17 +274,17 @@ fn crossing(joint: &Joint, reference: &Reference, grid: &Grid, distance: f64) ->
     if sine < LEAST_SINE { 0.0 } else { (2.0 * reference.tolerance + distance) / sine }
 }
 
-/// Whether a place lies on an edge, mm.
+/// True if a place lies at most `distance` mm from an edge.
 fn is_on(place: Point, edge: &[Drawn], distance: f64) -> bool {
     edge.iter().any(|chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]) <= distance)
 }
 
-/// Where a slit stands on the edge that is drawn.
+/// Place of a slit on the drawn edge.
 fn root(slit: &Line) -> Point {
     slit.place(slit.aside.first().map_or(0.0, |&[_, end]| end))
 }
 
-/// Which of the cuts that stand for an edge a slit on it comes to first, going out of the part.
+/// The first of the cuts that stand for an edge that a slit on it meets on the way out of the part.
 fn first_across(slit: &Line, stands: &[Stand], Beds { reference, grid, distance, .. }: Beds) -> Option<u32> {
     let root = root(slit);
     let out = polyline::direction(slit.place(slit.length()), root)?;
@@ -308,12 +309,12 @@ fn first_across(slit: &Line, stands: &[Stand], Beds { reference, grid, distance,
     first.map(|(_, cut)| cut)
 }
 
-/// A place of the drawing, that no time of the program belongs to.
+/// A place of the drawing without a time of the program.
 fn sighting(point: Point, block: u32) -> Sighting {
     Sighting::missing(point, block)
 }
 
-/// The ways on which cuts are led on: where they begin and end on no edge of their own part.
+/// Extensions of cuts: stretches at their ends that lie on no edge of their own part.
 fn leads(lines: &[Line]) -> Vec<Vec<Point>> {
     let mut found = Vec::new();
     for (i, line) in lines.iter().enumerate().filter(|(_, line)| !line.cut.is_edge && line.cut.round.is_none()) {
@@ -330,17 +331,17 @@ fn leads(lines: &[Line]) -> Vec<Vec<Point>> {
     found
 }
 
-/// The cuts beside an edge, as they are found along it.
+/// The cuts beside an edge, in the order along it.
 #[derive(Default)]
 struct Stands {
     all: Vec<Stand>,
     /// Stretches of the edge that pieces of cuts cover, mm along it.
     covered: Vec<[f64; 2]>,
-    /// Over what a cut does not go straight on, mm along the edge.
+    /// Stretches of the edge over which a cut does not go straight on, mm along the edge.
     left: Vec<[f64; 2]>,
-    /// How far off one is at the most, and where, mm.
+    /// Greatest distance of a cut from the edge, mm, and its station along the edge, mm.
     shift: (f64, f64),
-    /// How far one cut may be broken, mm.
+    /// Longest break of one cut, mm.
     reach: f64,
 }
 
@@ -360,7 +361,7 @@ impl Stands {
         let Some(known) = self.all.iter_mut().find(meets) else {
             return self.all.push(Stand { over, cut, reached: at[1] });
         };
-        // Round a notch it goes farther than about a corner: then what lies in that hangs on this part.
+        // A detour round a notch is longer than one about a corner: then the cloth of the notch hangs on this part.
         let gap = over[0] - known.over[1];
         if gap > SAME && along(known.reached, at[0], round) > reach + gap {
             self.left.push([known.over[1], over[0]]);
@@ -372,7 +373,7 @@ impl Stands {
     }
 }
 
-/// Where the chords of an edge end.
+/// End points of the chords of an edge.
 fn ends(edge: &[Drawn]) -> impl Iterator<Item = Point> {
     edge.iter().map(|chord| chord.ends[1])
 }
@@ -386,7 +387,7 @@ fn along_edge(points: &[Point], stations: &[f64], [from, to]: [f64; 2], distance
     boxes_of(&vertices, distance)
 }
 
-/// Boxes along a way, each grown by a distance, mm, and not much longer than that is wide: one around a long chord askew would
+/// Boxes along a polyline, each grown by `distance` mm. Long chords are divided, since the box of a long oblique chord would
 /// hold places far from it.
 pub(super) fn boxes_of(points: &[Point], distance: f64) -> Vec<Extent> {
     let mut found = Vec::new();
@@ -417,7 +418,7 @@ fn both_beside<'s>(stretches: impl Iterator<Item = &'s Drawn>, cut: u32, beds: B
     found
 }
 
-/// How far it is from one place of a cut to another along it, which has a length when it is closed, mm.
+/// Distance between two stations along a cut, mm; `round` is the length of a closed cut.
 pub(super) fn along(from: f64, to: f64, round: Option<f64>) -> f64 {
     let way = (to - from).abs();
     round.map_or(way, |length| {
@@ -426,7 +427,7 @@ pub(super) fn along(from: f64, to: f64, round: Option<f64>) -> f64 {
     })
 }
 
-/// The longest part of a stretch that no others cover, mm, and where it begins.
+/// Longest part of a stretch that no others cover, mm, and its start.
 fn longest_without([from, to]: [f64; 2], covered: &[[f64; 2]]) -> (f64, f64) {
     let mut ends: Vec<[f64; 2]> = covered.iter().copied().filter(|over| over[1] > from && over[0] < to).collect();
     ends.sort_by(|a, b| a[0].total_cmp(&b[0]));

@@ -1,4 +1,4 @@
-//! What programs are judged by: the lines of a marker, and what lies where on the cloth.
+//! The ground that programs are judged by: the lines of a marker, and the parts on the cloth.
 
 use super::common::Common;
 use super::grid::Grid;
@@ -9,7 +9,7 @@ use super::tees::tees;
 use crate::ir::Marker;
 use crate::machine::MachineProfile;
 
-/// What must be cut of a marker, and what lies where on the cloth: what programs are judged by.
+/// Reference of the verifier: the lines that must be cut of a marker, and the parts on the cloth.
 #[derive(Debug)]
 pub struct Ground<'a> {
     pub(in crate::verify) reference: Reference<'a>,
@@ -19,7 +19,7 @@ pub struct Ground<'a> {
     pub(in crate::verify) inside: Inside<'a>,
     /// The edges that are cut with other parts.
     pub(in crate::verify) common: Common,
-    /// What lies in parts.
+    /// Contents of parts, each with the outline that must be cut later.
     pub(in crate::verify) held: Vec<Held>,
 }
 
@@ -31,7 +31,7 @@ impl<'a> Ground<'a> {
             || Grid::new(&reference),
             || rayon::join(|| Inside::new(marker, profile.notch, reference.band), || held(marker, &reference)),
         );
-        // Where each part is cut all round its sections still stand for its edges.
+        // Even without common edges, the sections of a part stand for its edges.
         let distance = if reference.common > 0.0 { reference.common } else { reference.tolerance };
         let mut common = Common::new(&reference.shared, &reference, &grid, distance);
         let sizes = [profile.knife.width_mm, profile.verify.max_uncut_mm];

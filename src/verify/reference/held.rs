@@ -1,9 +1,10 @@
-//! What lies in a part, and must be cut and drilled before the part comes free: a loose part shifts.
+//! Contents of a part, which must be cut and drilled before the part comes free: a loose part shifts.
 //!
-//! Judged by the drawing alone: a contour lies in the smallest closed one of its own piece that holds all of its places, or else
-//! in the smallest one of another piece; a slit or a hole in the smallest one of its own piece. Edges of two pieces within the band are one edge: places so near to that of another piece lie
-//! in it, and where each of two contours lies in the other so, a cut-out holds the part that fills it. Where something is asked
-//! of the operator in between, the file wants it so.
+//! Judged by the drawing alone. A contour lies in the smallest closed contour of its own piece that holds all of its places, or
+//! else in the smallest one of another piece. A slit or a hole lies in the smallest one of its own piece. Edges of two pieces
+//! within the band are one edge: a place so near to an edge of another piece lies in that piece, and if each of two contours
+//! lies in the other that way, the cut-out holds the part that fills it. If the operator is asked for something in between, the
+//! order of the file stands.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -18,33 +19,33 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::Marker;
 use crate::ir::marker::Contour;
 
-/// Something that lies in a closed contour, both by the ranks of their cuts.
+/// Something inside a closed contour, both by the ranks of their cuts.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Held {
-    /// What lies there.
+    /// Ranks of the content.
     pub(in crate::verify) inner: Range<u32>,
-    /// What comes free with the last of these.
+    /// Ranks of the outline; the content comes free with the last of them.
     pub(in crate::verify) outline: Range<u32>,
 }
 
 /// The contours of a marker.
 struct Contours<'a> {
     marker: &'a Marker,
-    /// Each with the place of its piece.
+    /// Each contour with the index of its piece.
     all: Vec<(usize, &'a Contour)>,
-    /// The box of each; those of open ones hold nothing.
+    /// Boxes of the contours.
     extents: Boxes,
-    /// mm2.
+    /// Areas of the contours, mm2.
     areas: Vec<f64>,
-    /// The insides of the closed ones.
+    /// Interiors of the closed contours.
     regions: Regions<'a>,
-    /// How near to each other edges of two pieces are one, mm.
+    /// Distance within which edges of two pieces are one edge, mm.
     band: f64,
-    /// For each piece in how many before it something is asked, itself among them.
+    /// For each piece, the number of pieces up to and including it that ask the operator for something.
     asked: Vec<usize>,
 }
 
-/// What lies in closed contours of a marker.
+/// Contents of the closed contours of a marker.
 pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Held> {
     let contours = Contours::new(marker, reference.band);
     let ranks: Vec<&Range<u32>> = reference.of_pieces.iter().flat_map(|piece| &piece.contours).collect();
@@ -67,7 +68,7 @@ pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Hel
     };
     let mut held: Vec<Held> = marks.par_iter().filter_map(of_mark).collect();
     held.par_extend((0..ranks.len()).into_par_iter().filter_map(of_contour));
-    // What is cut with other parts alone is free with these.
+    // A content or an outline that is cut with other parts alone comes free with these.
     held.retain(|held| !held.inner.is_empty() && !held.outline.is_empty());
     held
 }
@@ -89,14 +90,14 @@ impl<'a> Contours<'a> {
         Self { marker, extents: Boxes::new(extents), areas, regions, band, asked: asked.collect(), all }
     }
 
-    /// The smallest of some closed contours in which a place lies.
+    /// Smallest of the accepted closed contours in which a place lies.
     fn smallest_at(&self, place: Point, is_meant: impl Fn(usize) -> bool) -> Option<usize> {
         let around = self.regions.owners_at(place).into_iter().map(|owner| owner as usize).filter(|&i| is_meant(i));
         around.min_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]).then(a.cmp(&b)))
     }
 
-    /// The smallest closed contour that holds all places of another, one of its own piece before those of others: where outlines
-    /// overlap, a line belongs to the part that it was drawn for.
+    /// Smallest closed contour that holds all places of another; contours of its own piece come before those of others, since
+    /// where outlines overlap a line belongs to the part that it was drawn for.
     fn around(&self, contour: usize) -> Option<usize> {
         let (piece, inner) = self.all[contour];
         let points = self.marker.list.points(inner.range);
@@ -117,11 +118,11 @@ impl<'a> Contours<'a> {
         let smallest = around.min_by(|&a, &b| {
             is_other(a).cmp(&is_other(b)).then(self.areas[a].total_cmp(&self.areas[b])).then(a.cmp(&b))
         })?;
-        // Behind what is asked the file has it.
+        // If the operator is asked for something in between, the order of the file stands.
         (self.asked[self.all[smallest].0] >= self.asked[piece]).then_some(smallest)
     }
 
-    /// Whether a closed contour is, by area and box, such that it may hold another.
+    /// True if area and box of a closed contour allow that it holds another.
     fn may_hold(&self, outer: usize, inner: usize) -> bool {
         let [around, own] = [outer, inner].map(|contour| self.extents.all()[contour]);
         let same_piece = self.all[outer].0 == self.all[inner].0;
@@ -140,7 +141,7 @@ impl<'a> Contours<'a> {
         self.areas[outer] > area
     }
 
-    /// Whether a contour lies, by its box, in a larger closed one of its own piece.
+    /// True if a contour lies, by its box, in a larger closed one of its own piece.
     fn is_cut_out(&self, contour: usize) -> bool {
         let own = self.extents.all()[contour];
         let first = self.all.partition_point(|other| other.0 < self.all[contour].0);
@@ -153,7 +154,7 @@ impl<'a> Contours<'a> {
 /// A closed contour that may lie around another.
 struct Around<'a> {
     contour: usize,
-    /// Its places, and the boxes of the edges between them, once they were asked for.
+    /// Its points, and the boxes of the edges between them, built at first use.
     points: Cow<'a, [Point]>,
     edges: OnceCell<Boxes>,
 }
@@ -164,7 +165,7 @@ impl<'a> Around<'a> {
         Self { contour, points, edges: OnceCell::new() }
     }
 
-    /// Whether a place is within so many mm of its edge.
+    /// True if a place is within `reach` mm of its edge.
     fn is_at_edge(&self, place: Point, reach: f64) -> bool {
         let extents = || self.points.windows(2).map(|ends| Extent::between(ends[0], ends[1])).collect();
         let edges = self.edges.get_or_init(|| Boxes::new(extents()));

@@ -1,4 +1,5 @@
-//! Which parts a point lies in: even-odd containment in the closed contours of each piece, as these are cut.
+//! Point location: the parts that a point lies in, by even-odd containment in the closed contours of each piece as they are
+//! cut.
 
 use std::borrow::Cow;
 
@@ -14,12 +15,12 @@ use crate::ir::list::Segment;
 use crate::ir::marker::{Contour, Piece};
 use crate::machine::{NotchStyle, Notches};
 
-/// Edges that a band of a part holds on average, at the least.
+/// Least mean number of edges per band of a part.
 const EDGES_A_BAND: usize = 4;
-/// Bands that an edge reaches into on average, at the most.
+/// Greatest mean number of bands per edge.
 const BANDS_AN_EDGE: f64 = 4.0;
 
-/// A way through a part that is no longer is none, and one that is no farther from an edge runs along it, mm: rounding.
+/// Rounding, mm: a shorter crossing of a part is ignored, and a path nearer to an edge runs along it.
 const NONE: f64 = 1e-6;
 
 /// The parts, each by its box.
@@ -27,7 +28,7 @@ const NONE: f64 = 1e-6;
 pub struct Inside<'a> {
     boxes: Boxes,
     parts: Vec<Part<'a>>,
-    /// The part to which each piece belongs.
+    /// Index of the part to which each piece belongs.
     part_of: Vec<usize>,
 }
 
@@ -35,21 +36,21 @@ pub struct Inside<'a> {
 #[derive(Debug)]
 struct Part<'a> {
     piece: usize,
-    /// Its contours, each of which ends with its first point.
+    /// Its contours; each ends with its first point.
     rings: Box<[Cow<'a, [Point]>]>,
-    /// How many points stand before those of each ring.
+    /// Number of points before those of each ring.
     firsts: Box<[u32]>,
     extent: Extent,
-    /// Height of a band, mm, and how many there are.
+    /// Height of a band, mm, and number of bands.
     height: f64,
     bands: usize,
-    /// The edges of each band: the places where they start in all rings, one behind the other.
+    /// The edges of each band, by the indices of their start points in all rings, one behind the other.
     edges: Slots,
 }
 
 impl<'a> Inside<'a> {
-    /// The index of a marker, whose notches are cut in a style: the cloth of one that is a slit, or none, stays with its part.
-    /// Edges of two parts at most `merge` mm apart are one edge.
+    /// The index of a marker with notches in the given style: the cloth of a notch that is cut as a slit, or not at all, stays
+    /// with its part. Edges of two parts at most `merge` mm apart are one edge.
     pub fn new(marker: &'a Marker, notches: Notches, merge: f64) -> Self {
         let part = |i: usize| Part::new(i, marker, notches);
         let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(part).collect();
@@ -75,7 +76,7 @@ impl<'a> Inside<'a> {
         self.part_of[piece]
     }
 
-    /// The same of a piece that may not be there.
+    /// Part to which a piece belongs; `None` without such a piece.
     pub(in crate::verify) fn find_part(&self, piece: usize) -> Option<usize> {
         self.part_of.get(piece).copied()
     }
@@ -93,19 +94,19 @@ impl<'a> Inside<'a> {
         odd
     }
 
-    /// Whether a point lies in a piece by itself, be that a part or a cut-out of another one.
+    /// True if a point lies in the rings of a piece, be that a part or a cut-out.
     pub fn is_in_ring(&self, point: Point) -> bool {
         self.rings_at(point).next().is_some()
     }
 
-    /// How far a point is from all lines that bound a part, mm: surely where that is less than `reach`.
+    /// Distance of a point from all lines that bound a part, mm; exact only if less than `reach`.
     pub(in crate::verify) fn distance_to_edges(&self, point: Point, reach: f64) -> f64 {
         let near = self.boxes.near(Extent::between(point, point).grown(reach));
         near.map(|part| self.parts[part].distance(point, reach)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a straight way leads through a part, however narrow that is, or along an edge of one, on whichever side of that
-    /// rounding has it lie.
+    /// True if a straight segment leads through a part, however narrow, or along an edge of one; rounding decides on which side
+    /// of that edge it lies.
     pub(in crate::verify) fn is_crossed(&self, [from, to]: [Point; 2]) -> bool {
         let mut shares: Vec<f64> = vec![0.0, 1.0];
         for part in self.boxes.near(Extent::between(from, to)) {
@@ -118,14 +119,15 @@ impl<'a> Inside<'a> {
         stretches.map(middle).any(|at| !self.pieces_at(at).is_empty() || self.distance_to_edges(at, NONE) <= NONE)
     }
 
-    /// The pieces in whose own rings a point lies.
+    /// Pieces whose own rings contain a point.
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let near = self.boxes.at(point).map(|part| &self.parts[part]);
         near.filter(move |part| part.holds(point)).map(|part| part.piece)
     }
 }
 
-/// The points of a closed contour as it bounds its part: the cloth of a notch that is a slit, or none, stays with it.
+/// Points of a closed contour as it bounds its part: the cloth of a notch that is cut as a slit, or not at all, stays with the
+/// part.
 fn ring<'a>(contour: &Contour, piece: &Piece, marker: &'a Marker, style: Notches) -> Cow<'a, [Point]> {
     let points = marker.list.points(contour.range);
     if style.style == NotchStyle::AsDrawn || piece.outline_notches.is_empty() {
@@ -138,7 +140,7 @@ fn ring<'a>(contour: &Contour, piece: &Piece, marker: &'a Marker, style: Notches
 }
 
 impl<'a> Part<'a> {
-    /// The part that a piece is; `None` when it bounds nothing.
+    /// Index of a piece; `None` when it bounds nothing.
     fn new(index: usize, marker: &'a Marker, notches: Notches) -> Option<Self> {
         let piece = &marker.pieces[index];
         let closed = piece.contours.iter().filter(|contour| contour.closed);
@@ -160,7 +162,7 @@ impl<'a> Part<'a> {
         Some(part)
     }
 
-    /// Calls out each edge with each band that it reaches into.
+    /// Calls `see` for each edge with each band that it reaches into.
     fn each(&self, see: &mut dyn FnMut(usize, u32)) {
         for (ring, &first) in self.rings.iter().zip(&self.firsts) {
             let mut before = self.band(ring[0].y);
@@ -184,7 +186,7 @@ impl<'a> Part<'a> {
         [from, to]
     }
 
-    /// Adds where a straight way crosses its edges, in shares of the way.
+    /// Adds the crossings of a straight segment with its edges, as fractions of the segment.
     fn crossings(&self, [from, to]: [Point; 2], shares: &mut Vec<f64>) {
         let along = to - from;
         let bands = self.band(from.y.min(to.y))..=self.band(from.y.max(to.y));
@@ -192,7 +194,7 @@ impl<'a> Part<'a> {
             let edge = b - a;
             let across = cross(along, edge);
             let share = cross(a - from, edge) / across;
-            // Beside an edge that it runs along it lies in the part or not, whole.
+            // A parallel edge has no crossing: the segment lies wholly on one side of it.
             if across != 0.0 && (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&(cross(a - from, along) / across))
             {
                 shares.push(share);
@@ -200,7 +202,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Whether most of its edges, by length, end in another part or at most `merge` mm from its edges. Each end stands for half
+    /// True if most of its edges, by length, end in another part or at most `merge` mm from its edges. Each end stands for half
     /// of its edge.
     fn lies_in(&self, other: &Self, merge: f64) -> bool {
         if !other.extent.grown(merge).covers(&self.extent) {
@@ -219,14 +221,14 @@ impl<'a> Part<'a> {
         2.0 * within > whole
     }
 
-    /// How far a point is from its edges in the bands within `reach`, mm.
+    /// Distance of a point from its edges in the bands within `reach`, mm.
     fn distance(&self, point: Point, reach: f64) -> f64 {
         let bands = self.band(point.y - reach)..=self.band(point.y + reach);
         let ends = bands.flat_map(|band| self.edges.of(band)).map(|&edge| self.ends(edge));
         ends.map(|[from, to]| polyline::distance_to_segment(point, from, to)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a ray to the right of a point crosses the edges an odd number of times.
+    /// True if a ray to the right of a point crosses the edges an odd number of times.
     fn holds(&self, point: Point) -> bool {
         let is_crossed = |[from, to]: &[Point; 2]| {
             (from.y > point.y) != (to.y > point.y)
@@ -247,7 +249,7 @@ mod tests {
     use super::*;
     use crate::verify::testing;
 
-    /// The part to which each of some pieces belongs, given as the corners of their outlines.
+    /// Part of each of some pieces, given as the corners of their outlines.
     fn parts(outlines: &[Vec<[f64; 2]>]) -> Vec<usize> {
         let marker = testing::marker(outlines.iter().map(Vec::as_slice));
         Inside::new(&marker, Notches::default(), 0.2).part_of

@@ -1,4 +1,4 @@
-//! What must be cut, as lines: the stretches of contours between corners, as `outline` finds them, and the slits.
+//! Lines that must be cut: the stretches of contours between corners, as `outline` finds them, and the slits.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -23,7 +23,7 @@ use crate::machine::{Follow, MachineProfile};
 /// All lines of a marker.
 #[derive(Debug)]
 pub(in crate::verify) struct Reference<'a> {
-    /// The marker that they come from.
+    /// The marker.
     pub(in crate::verify) marker: &'a Marker,
     /// The lines, in cut order.
     pub(in crate::verify) lines: Vec<Line<'a>>,
@@ -31,39 +31,39 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) holes: Vec<usize>,
     /// Ranks of the events, in the order of the marker.
     pub(in crate::verify) events: Vec<usize>,
-    /// What is cut of each piece.
+    /// Cuts of each piece.
     pub(in crate::verify) of_pieces: Vec<CutOfPiece>,
-    /// The piece that has the contours of each: another one for the early sections of a piece in several windows.
+    /// The piece that holds the contours of each piece: another one for the early sections of a piece in several windows.
     pub(in crate::verify) owners: Vec<usize>,
-    /// The closed contours of the pieces of which not all is cut with them.
+    /// Closed contours of the pieces that are not wholly cut with their own cuts.
     pub(in crate::verify) shared: Vec<Around>,
-    /// The open contours of these pieces: nothing stands for them.
+    /// Open contours of these pieces; no other cut stands for them.
     pub(in crate::verify) open: Vec<Drawn>,
-    /// Where the marker's junctions begin.
+    /// Starts of the marker's junctions.
     junctions: Boxes,
     /// Permitted deviation of the tip, mm.
     pub(in crate::verify) tolerance: f64,
-    /// How deep a place in a part may lie and still be at its edge, mm.
+    /// Depth in a part up to which a place counts as on its edge, mm.
     pub(in crate::verify) band: f64,
-    /// How far apart edges of two parts may lie that are cut once, mm; 0 where each is cut.
+    /// Greatest distance of edges of two parts that are cut once, mm; 0 where each is cut.
     pub(in crate::verify) common: f64,
 }
 
-/// What is cut of a piece.
+/// Cuts of a piece.
 #[derive(Debug)]
 pub(in crate::verify) struct CutOfPiece {
     /// Its slits among all lines.
     pub(in crate::verify) slits: Range<usize>,
-    /// The ranks of what each of its contours is cut with, as far as it is cut with the piece.
+    /// Ranks of the cuts of each contour, as far as they are cuts of the piece.
     pub(in crate::verify) contours: Vec<Range<u32>>,
 }
 
-/// How many distances of two edges a cut goes past its end at the most to be through another part's.
+/// Greatest distance that a cut goes past its end to cross the cut of another part, in multiples of the distance of two edges.
 const ACROSS: f64 = 4.0;
 
 impl<'a> Reference<'a> {
-    /// How far past the end of a line at a place the knife may go because another part's cut ends beside it there, mm: nothing
-    /// holds where both are through each other.
+    /// Distance past the end of a line at a place that the knife may go because another part's cut ends beside it there, mm:
+    /// the cloth only comes free where both cross.
     pub(in crate::verify) fn across(&self, end: Point) -> f64 {
         let near = self.junctions.near(Extent::between(end, end).grown(self.tolerance));
         let here = near.map(|i| self.marker.junctions[i]).filter(|[from, _]| (from - end).norm() <= self.tolerance);
@@ -124,26 +124,26 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// Where junctions begin, by place.
+/// Starts of junctions, by place.
 fn starts(junctions: &[[Point; 2]]) -> Boxes {
     Boxes::new(junctions.iter().map(|[from, _]| Extent::between(*from, *from)).collect())
 }
 
-/// What is cut of a piece.
+/// Cuts of a piece, while they are built.
 struct OfPiece<'a> {
-    /// Its lines, their ranks counted from those of the piece.
+    /// Its lines, with ranks counted from the first of the piece.
     lines: Vec<Line<'a>>,
-    /// How many of them are slits: those that come first.
+    /// Number of slits; they come first among the lines.
     slits: usize,
-    /// How many ranks the piece has.
+    /// Number of ranks.
     ranks: usize,
-    /// How many cuts it has.
+    /// Number of cuts.
     cuts: u32,
-    /// The ranks of what each contour is cut with; none where all of it is cut with other pieces.
+    /// Ranks of the cuts of each contour; empty where all of it is cut with other pieces.
     contours: Vec<Range<u32>>,
-    /// Its closed contours, when not all of them is cut with it.
+    /// Its closed contours, if they are not wholly cut with it.
     rings: Vec<Vec<Drawn>>,
-    /// Its open contours then.
+    /// Its open contours in that case.
     open: Vec<Drawn>,
 }
 
@@ -162,7 +162,7 @@ impl<'a> OfPiece<'a> {
         };
         let outlines: Vec<Outline> = piece.contours.iter().map(outline).collect();
         let slits = notches::slits(piece, profile.notch, &replaced);
-        // Those of the cuts in the piece follow each other as their ranks do.
+        // Cuts of a piece are numbered in the order of their ranks.
         let mut cuts = 0..;
         let mut cut = || cuts.next().expect("a piece has fewer cuts than numbers");
         let of_cuts = of_cuts(index, marker);
@@ -183,7 +183,7 @@ impl<'a> OfPiece<'a> {
             lines.extend(outline.lines(place));
         }
         let (mut rings, mut open) = (Vec::new(), Vec::new());
-        // Those of what is cut of contours follow those of the slits.
+        // Ranks of contours follow those of the slits.
         let first = small(piece.events.len() + piece.drills.len());
         let mut contours: Vec<Range<u32>> = Vec::new();
         if drawn.is_empty() {
@@ -211,7 +211,7 @@ impl<'a> OfPiece<'a> {
         Self { lines, slits, contours, rings, open, ranks: rank(), cuts: cut() }
     }
 
-    /// Marks where the cuts of an early section leave the contours, which another piece has.
+    /// Marks the stretches where the cuts of an early section leave the contours, which another piece holds.
     fn see_aside(&mut self, owner: &Piece, marker: &Marker, profile: &MachineProfile) {
         let outlines = owner.contours.iter().map(|contour| Outline::new(contour, owner, marker, profile.notch).0);
         let drawn: Vec<Segment> = outlines.flat_map(|outline| outline.segments().to_vec()).collect();
@@ -222,7 +222,7 @@ impl<'a> OfPiece<'a> {
     }
 }
 
-/// What the marker says is cut of the contours of a piece when that is not all of them; `None` when it is.
+/// Cuts that the marker has for the contours of a piece, if these are not all of the contours; `None` if they are.
 pub(super) fn of_cuts(index: usize, marker: &Marker) -> Option<Vec<Outline<'_>>> {
     if marker.cuts.is_empty() {
         return None;
@@ -233,7 +233,7 @@ pub(super) fn of_cuts(index: usize, marker: &Marker) -> Option<Vec<Outline<'_>>>
     (!is_whole).then(|| cuts.map(|cut| Outline::of_cut(cut, &marker.list)).collect())
 }
 
-/// Where slits of a piece with common edges begin, those that do so before the edge that is drawn.
+/// Starts of the slits of a piece with common edges; `None` for a slit that starts on the drawn edge.
 fn roots(slits: &[(NotchStroke, u8)], index: usize, marker: &Marker) -> Vec<Option<Point>> {
     let cuts = marker.cuts_of(small(index)).iter().filter(|cut| cut.kind == CutKind::Slit);
     let root_of = |(cut, (stroke, _)): (&Cut, &(NotchStroke, u8))| {
@@ -244,7 +244,7 @@ fn roots(slits: &[(NotchStroke, u8)], index: usize, marker: &Marker) -> Vec<Opti
     cuts.zip(slits).map(root_of).collect()
 }
 
-/// The edge of a part as it is drawn.
+/// The drawn edge of a part.
 fn edge<'a>(ring: &[Drawn], owner: [u32; 2]) -> Line<'a> {
     let points: Vec<Point> = std::iter::once(ring[0].ends[0]).chain(ring.iter().map(|chord| chord.ends[1])).collect();
     let blocks = ring.iter().map(|chord| chord.block).chain(ring.last().map(|chord| chord.block));
@@ -254,7 +254,7 @@ fn edge<'a>(ring: &[Drawn], owner: [u32; 2]) -> Line<'a> {
     Line::new(owner, cut, Cow::Owned(points), path.collect(), BothWays::One(f64::INFINITY), false)
 }
 
-/// The line of a slit, `cap` mm/s being the greatest speed of the tip; it may begin before the edge that is drawn.
+/// Line of a slit that may start before the drawn edge; `cap` is the greatest speed of the tip, mm/s.
 fn slit<'a>(stroke: &NotchStroke, root: Option<Point>, owner: [u32; 2], index: u32, cap: f64) -> Line<'a> {
     let start = root.unwrap_or(stroke.from);
     let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
@@ -266,7 +266,7 @@ fn slit<'a>(stroke: &NotchStroke, root: Option<Point>, owner: [u32; 2], index: u
     line
 }
 
-/// An index or a rank, kept small: a large marker has a hundred thousand lines.
+/// Index or rank in 32 bits: a large marker has a hundred thousand lines.
 fn small(count: usize) -> u32 {
     u32::try_from(count).expect("a source below 4 GiB has fewer than 2^32 lines")
 }

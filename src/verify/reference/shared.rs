@@ -1,7 +1,6 @@
-//! A piece whose outline is not all cut with it: which of its stretches are, and which another part's cut must stand for.
+//! A piece whose outline is not wholly cut with it: its own stretches, and those for which the cut of another part must stand.
 //!
-//! What is cut with a piece is what the marker says, and every chord of the drawing is looked for on that: what is not on it
-//! is spared.
+//! The marker lists the cuts of the piece. Every chord of the drawing is looked up on them; a chord on none of them is spared.
 
 use std::ops::Range;
 
@@ -10,7 +9,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::Segment;
 
-/// How far a cut may be from what it is drawn as, mm, and how short a stretch is none: rounding.
+/// Rounding, mm: greatest distance of a cut from its drawn line, and length below which a stretch is ignored.
 pub(super) const SAME: f64 = 1e-6;
 /// Least cosine between a chord and a cut along it.
 const ALONG: f64 = 0.999_999;
@@ -20,24 +19,24 @@ const ALONG: f64 = 0.999_999;
 pub(in crate::verify) struct Drawn {
     /// Its ends.
     pub(in crate::verify) ends: [Point; 2],
-    /// The cut of its own piece that it lies on, by its place among those of the marker; `None` where it is spared.
+    /// The cut of its own piece that it lies on, by its index among the cuts of the marker; `None` where it is spared.
     pub(in crate::verify) cut: Option<u32>,
     /// Source block of its chord.
     pub(in crate::verify) block: u32,
 }
 
-/// A closed contour of a piece of which not all is cut with it.
+/// A closed contour that is not wholly cut with its piece.
 #[derive(Debug, Clone)]
 pub(in crate::verify) struct Around {
     /// The slits of the piece among all lines.
     pub(in crate::verify) slits: Range<usize>,
-    /// Its stretches, as they are drawn.
+    /// Its stretches, in the order of the drawing.
     pub(in crate::verify) stretches: Vec<Drawn>,
-    /// Place of the piece where windows of a conveyor split it: its own sections alone may stand for its edges.
+    /// Index of the piece where windows of a conveyor split it: its own sections alone may stand for its edges.
     pub(in crate::verify) section: Option<usize>,
 }
 
-/// Chords by place, each with what it is of.
+/// Index of chords by place, each with the cut or source block that it belongs to.
 #[derive(Debug)]
 pub(super) struct Chords {
     chords: Vec<([Point; 2], u32)>,
@@ -50,7 +49,7 @@ impl Chords {
         Self { boxes: Boxes::new(extents.collect()), chords }
     }
 
-    /// Those of cuts, each with the place of its cut among those of the marker.
+    /// Chords of cuts, each with the index of its cut among the cuts of the marker.
     pub(super) fn of_cuts(cuts: &[Line]) -> Self {
         let chords = cuts
             .iter()
@@ -58,18 +57,18 @@ impl Chords {
         Self::new(chords.collect())
     }
 
-    /// Those of contours as they are drawn.
+    /// Chords of drawn contours, each with its source block.
     pub(super) fn of_contours<'s>(drawn: impl Iterator<Item = &'s Segment>) -> Self {
         Self::new(drawn.map(|segment| ([segment.from, segment.to], segment.span.block)).collect())
     }
 
-    /// Those that meet the box of a chord.
+    /// Chords that meet the box of a chord.
     fn near(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = ([Point; 2], u32)> {
         self.boxes.near(Extent::between(from, to)).map(|i| self.chords[i])
     }
 }
 
-/// Parts a contour into what lies on cuts of its own piece and what does not.
+/// Splits a contour into stretches on cuts of its own piece and other stretches.
 pub(super) fn parted(drawn: &[Segment], own: &Chords) -> Vec<Drawn> {
     let mut found = Vec::new();
     for segment in drawn {
@@ -95,7 +94,7 @@ pub(super) fn parted(drawn: &[Segment], own: &Chords) -> Vec<Drawn> {
     found
 }
 
-/// The stretches of a cut, by station, that lie on none of some contours of its own piece.
+/// Stretches of a cut, by station, that lie on none of some contours of its own piece.
 pub(super) fn aside(line: &Line, drawn: &Chords) -> Vec<[f64; 2]> {
     let mut found: Vec<[f64; 2]> = Vec::new();
     for i in 0..line.chords() {
@@ -114,7 +113,7 @@ pub(super) fn aside(line: &Line, drawn: &Chords) -> Vec<[f64; 2]> {
     found
 }
 
-/// From where to where a chord lies on a part of a cut, whichever way that goes.
+/// Stations of a chord between which it lies on a part of a cut, in either direction.
 pub(super) fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 2]> {
     let along = polyline::direction(from, to)?;
     if polyline::direction(ends[0], ends[1])?.dot(&along).abs() < ALONG {
@@ -128,7 +127,7 @@ pub(super) fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 
     (high - low > SAME).then_some([low, high])
 }
 
-/// The spared stretches of a contour, those that follow each other joined.
+/// Spared stretches of a contour; adjacent ones are joined.
 pub(super) fn spared(ring: &[Drawn]) -> impl Iterator<Item = &[Drawn]> {
     let all = ring.chunk_by(|a, b| a.cut.is_none() && b.cut.is_none());
     all.filter(|stretches| stretches[0].cut.is_none())

@@ -35,7 +35,7 @@ pub(super) fn tees(reference: &Reference, grid: &Grid, inside: &Inside, [width, 
                 continue;
             }
             let cuts = [line.cut.index, other.cut.index];
-            // Where both cuts were extended, the drawing has neither.
+            // If both cuts are extended there, the drawing has neither.
             let is_drawn = |chord| !(is_led && is_aside(other, other.chord(chord).deviation(end).1));
             let meets = |&chord: &usize| other.distance_to_chord(chord, end) <= MET_SHARE * limit && is_drawn(chord);
             for chord in run.chords().filter(meets) {
@@ -74,7 +74,7 @@ fn lies_along(line: &Line, other: usize, reference: &Reference, grid: &Grid, lim
     };
     let does = |line: &Line| {
         let Some(stations) = line.points().map(station).collect::<Option<Vec<f64>>>() else { return false };
-        // Where the line crosses a bay of the other one, the way along that one is longer.
+        // Along the other line the way is longer where this one crosses a bay of it.
         let ways = stations.windows(2).map(|ends| along(ends[0], ends[1], of_other.cut.round));
         ways.zip(0..).all(|(way, chord)| way <= line.station(chord + 1) - line.station(chord) + limit)
     };

@@ -1,9 +1,9 @@
-//! Whether what was read is still there behind the passes: every place that the file cuts or drills in the marker as it
-//! was read does so in the marker that is cut, or a pass has lost it.
+//! Audit of the passes: every place that the file cuts or drills in the marker as it was read must do so in the marker that is
+//! cut, or a pass has lost it.
 //!
-//! Passes may cut once what the file cuts twice: a slit that is written there and back becomes one cut, and of two that
-//! are the same one goes. So a stroke whose place is gone is no loss while another one of its piece cuts between the same
-//! two places, or while the file draws it again, along a line that is there.
+//! Passes may cut once what the file cuts twice. A slit that is written there and back becomes one cut, and one of two equal
+//! cuts goes. So a stroke whose place is gone is no loss if another stroke of its piece cuts between the same two places, or if
+//! the file draws it again along a line that is still cut.
 
 use rayon::prelude::*;
 
@@ -15,23 +15,23 @@ use crate::machine::MachineProfile;
 use crate::source::Span;
 use crate::verify::rules;
 
-/// How far rounding moves one place against another, in units of the file: its diagonal.
+/// Greatest displacement of two places against each other by rounding, in units of the file: its diagonal.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
-/// The same where the file has no grid, mm.
+/// Greatest displacement by rounding in a file without a grid, mm.
 const NO_GRID: f64 = 0.01;
-/// Steps out and back that are shorter may be left out, mm.
+/// Length below which steps out and back may be left out, mm.
 const SHORTEST_STEP: f64 = 1.0;
 /// Distance within which a line that is drawn again lies on itself, mm.
 const AGAIN: f64 = 0.15;
-/// Widest mouth of a notch that takes the place of such a line, mm.
+/// Widest mouth of a notch that replaces such a line, mm.
 const MOUTH: f64 = 12.5;
 /// Longest overcut that goes straight on from the start of an outline, mm, and the cosine of its greatest turn there.
 const OVERCUT: f64 = 10.2;
 const STRAIGHT_ON: f64 = 0.998;
-/// Places of a stroke are looked at so far from each other, mm.
+/// Distance between the samples of a stroke, mm.
 const SAMPLE: f64 = 0.2;
 
-/// Place in the file that makes a cut or a hole: a block may hold many, each at a byte of its own.
+/// Place in the file that makes a cut or a hole: a block may hold many, each at its own byte.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Cause {
     block: u32,
@@ -39,7 +39,7 @@ struct Cause {
 }
 
 impl Cause {
-    /// That of a place to which nothing is cut.
+    /// Cause of a place to which nothing is cut.
     const NONE: Self = Self { block: 0, byte: 0 };
 
     fn of(span: Span) -> Self {
@@ -47,30 +47,29 @@ impl Cause {
     }
 }
 
-/// All that a marker cuts or drills, to be compared with what passes make of it: two dozen bytes a segment.
+/// Cuts and holes of a marker, to be compared with the result of the passes: two dozen bytes a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Works {
-    /// Each piece, and where its places end.
+    /// Each piece, and the end of its places.
     pieces: Vec<(Name, usize)>,
-    /// Where the knife or a drill comes to, in cut order: one line behind the other. In one block of memory, which is given
-    /// back as a whole.
+    /// Places of the knife and the drills in cut order, one line after the other. One block of memory, freed as a whole.
     places: Vec<KeptPlace>,
 }
 
-/// A piece by its number and the byte at which it starts: numbers may come again.
+/// A piece by its number and its first byte: numbers may repeat.
 type Name = (u32, u32);
-/// The ends of a stroke by the bits of their coordinates, whichever way round.
+/// The ends of a stroke by the bits of their coordinates, in a canonical order.
 type Ends = [[u64; 2]; 2];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct KeptPlace {
     at: Point,
-    /// What cuts from the place before to this one, or drills here when both are the same; [`Cause::NONE`] where a line
-    /// begins.
+    /// Cause of the cut from the place before to this one, or of the hole here when both are equal; [`Cause::NONE`] where a
+    /// line begins.
     cause: Cause,
 }
 
-/// A cut from one place to another; a hole goes from its place to the same.
+/// A cut from one place to another; a hole starts and ends at one place.
 #[derive(Debug, Clone, Copy)]
 struct KnifeStroke {
     from: Point,
@@ -89,12 +88,12 @@ impl KnifeStroke {
         (self.to - self.from).norm()
     }
 
-    /// Whether each place of it lies so near to one of some others, mm.
+    /// True if each of its samples lies within `reach` mm of one of some others.
     fn is_near(&self, others: &[Self], reach: f64) -> bool {
         self.away(others, reach).iter().all(|is_away| !is_away)
     }
 
-    /// Samples along it, two at least: true where one lies farther than that from all of some others, mm.
+    /// True for each sample along it, at least two, that is farther than `reach` mm from all of some others.
     fn away(&self, others: &[Self], reach: f64) -> Vec<bool> {
         let middle = self.from + (self.to - self.from) / 2.0;
         let around = reach + self.length() / 2.0;
@@ -128,7 +127,7 @@ fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<KeptPlace>) {
     for drill in &piece.drills {
         add(KnifeStroke { from: drill.at, to: drill.at, cause: Cause::of(drill.span) });
     }
-    // What has no length cuts nothing, here and below.
+    // Strokes without length cut nothing, here and below.
     for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
         add(KnifeStroke { from: stroke.from, to: stroke.to, cause: Cause::of(stroke.span) });
     }
@@ -140,13 +139,13 @@ fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<KeptPlace>) {
     }
 }
 
-/// What the file cuts or drills.
+/// Cuts and holes among some places.
 fn strokes(places: &[KeptPlace]) -> impl Iterator<Item = KnifeStroke> {
     let all = places.windows(2).map(|w| KnifeStroke { from: w[0].at, to: w[1].at, cause: w[1].cause });
     all.filter(|stroke| stroke.cause.block != Cause::NONE.block)
 }
 
-/// What is done in the places of a piece and no more in those of the piece as it is cut.
+/// Cuts and holes among the places of a piece as read that are missing in the piece as it is cut.
 fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     if read == cut {
         return Vec::new(); // as of nearly all
@@ -162,7 +161,7 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     ends.sort_unstable();
     lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
     let still: Vec<KnifeStroke> = if lost.is_empty() { Vec::new() } else { strokes(cut).collect() };
-    // Out and straight back in a row, to the bit.
+    // Strokes out and straight back, with identical coordinates.
     let mut back_and_forth: Vec<Ends> = Vec::new();
     let ways = read.windows(3).filter(|w| bits(w[0].at) == bits(w[2].at) && w[1].cause != Cause::NONE);
     back_and_forth.extend(ways.map(|w| KnifeStroke { from: w[0].at, to: w[1].at, cause: w[1].cause }.ends()));
@@ -178,7 +177,7 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     }
     if !lost.is_empty() {
         let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
-        // Open lines of several strokes, by their ends, that are still cut.
+        // Ends of open lines of several strokes that are still cut.
         let is_kept = |place: &KeptPlace| bytes.binary_search(&place.cause.byte).is_ok();
         let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
         let open = lines.filter(|line| line.len() > 2 && line[1..].iter().all(is_kept));
@@ -194,8 +193,7 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     lost
 }
 
-/// The last strokes of lines that come by their start and go straight on from there, by their bytes: overcuts that other
-/// software has drawn.
+/// Bytes of the last strokes of lines that pass their start and go straight on from there: overcuts drawn by other software.
 fn overcuts(read: &[KeptPlace]) -> Vec<u32> {
     let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
     let overcut = |line: &[KeptPlace]| {
@@ -208,8 +206,8 @@ fn overcuts(read: &[KeptPlace]) -> Vec<u32> {
     lines.filter_map(overcut).collect()
 }
 
-/// Test for a line that the file draws again and that notches replace: it is cut but for their mouths. A single stretch as wide
-/// as a mouth needs no notch that is drawn by itself; several need one each.
+/// True if notches replace a line that the file draws again, which is cut but for their mouths. A single gap as wide as a mouth
+/// needs no notch with its own drawn line; each of several gaps needs one.
 fn stands_in_for(
     line: &[KnifeStroke],
     there: &[KnifeStroke],
@@ -244,7 +242,7 @@ fn stands_in_for(
         && line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
 }
 
-/// Test for the edge over the mouth of a notch: a straight stroke between the ends of an open line that is still cut.
+/// True for the edge over the mouth of a notch: a straight stroke between the ends of an open line that is still cut.
 fn is_mouth(line: &[KnifeStroke], open: &[[Point; 2]]) -> bool {
     let [only] = line else { return false };
     let near = |a: Point, b: Point| (a - b).norm() <= AGAIN;
@@ -254,7 +252,7 @@ fn is_mouth(line: &[KnifeStroke], open: &[[Point; 2]]) -> bool {
 }
 
 impl Works {
-    /// What a marker cuts and drills, block by block.
+    /// Cuts and holes of a marker, block by block.
     pub fn of(marker: &Marker) -> Self {
         let mut works = Self { pieces: Vec::with_capacity(marker.pieces.len()), places: Vec::new() };
         let room = |piece: &Piece| {
@@ -275,8 +273,8 @@ impl Works {
         self.pieces.iter().zip(starts).map(|(&(name, end), start)| (name, &self.places[start..end]))
     }
 
-    /// Whether all of it is still cut in what passes made of the marker, of the pieces that are there: those that were not
-    /// selected are gone as a whole.
+    /// Checks that all of it is still cut in the marker after the passes, for the pieces that are there: pieces that were not
+    /// selected are missing as a whole.
     pub fn kept(&self, marker: &Marker, profile: &MachineProfile) -> Finding {
         let rounding = if marker.unit > 0.0 { DIAGONAL * marker.unit } else { NO_GRID };
         let reach = profile.notch.box_max_mm / 2.0 + rounding;

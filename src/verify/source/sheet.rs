@@ -1,5 +1,6 @@
-//! Whether what was drawn lies on the table as the profile or registration marks ask: every piece in every copy, to the last
-//! point, and nothing else. Where it should lie is found here from the keys of the profile or the file of the marks alone.
+//! Audit of the layout: the drawing lies on the table as the profile or registration marks ask, every piece in every copy, to
+//! the last point, and nothing else. The expected places are computed here from the keys of the profile or the file of the
+//! marks alone.
 
 use std::collections::BTreeMap;
 
@@ -16,10 +17,10 @@ use crate::verify::source::marks::ByMarks;
 
 /// Rounding of places on a table that is a kilometre long, mm.
 const PLACE_EPSILON: f64 = 1e-6;
-/// Rounding of directions, rad, and of the unit, as a part of it.
+/// Rounding of directions, rad, and relative rounding of the unit.
 const SAME_EPSILON: f64 = 1e-9;
 
-/// A marker where the file draws it.
+/// A marker as the file draws it.
 #[derive(Debug, Clone)]
 pub struct Drawn(Marker);
 
@@ -27,16 +28,16 @@ pub struct Drawn(Marker);
 type Name = (u32, u32, u32);
 
 impl Drawn {
-    /// A marker that no sheet has moved yet.
+    /// A marker before any sheet has moved it.
     pub fn of(marker: &Marker) -> Self {
         Self(marker.clone())
     }
 
-    /// How far anything of a marker is from where the sheet of the profile has it; infinite where something is missing, is one
-    /// too many or is not the same. Whole pieces may be missing that are not selected.
+    /// Greatest distance of anything in a marker from its place by the sheet of the profile; infinite where something is
+    /// missing, superfluous or different. Whole pieces that are not selected may be missing.
     pub fn laid(&self, marker: &Marker, job: &Job) -> Finding {
         let cloth = Cloth::of(job);
-        // What wanders is followed within the tolerance.
+        // Wander of the cloth is followed within the tolerance.
         let limit = if cloth.is_some() { job.profile.tolerance(marker.unit) } else { PLACE_EPSILON };
         let mut worst = Worst::new(&rules::SOURCE_LAID, Some(limit));
         let Self(drawn) = self;
@@ -58,7 +59,7 @@ impl Drawn {
             for piece in &drawn.pieces {
                 let found = laid.get_mut(&(piece.number, piece.span.start, number)).and_then(Vec::pop);
                 let Some(found) = found else {
-                    // Those before the one that a run begins with, and those of other windows, are gone as well.
+                    // Pieces before the one that a run begins with, and those of other windows, are missing as well.
                     let is_due = job.selection.has(piece.number) && !job.selection.begins_amid();
                     worst.see(if is_due { f64::INFINITY } else { 0.0 }, || of(piece, &table));
                     continue;
@@ -70,7 +71,7 @@ impl Drawn {
             worst.see(f64::INFINITY, || Sighting::at(0.0, Point::origin(), extra.span.block));
         }
         let unit = drawn.unit * table.growth;
-        // On a conveyor the windows of the profile stand in the place of the file's.
+        // On a conveyor the windows of the profile replace those of the file.
         let has_bites = has_bites(&job.profile);
         let is_asked = |event: &Event| match event.kind {
             toolpath::Event::Stop => true,
@@ -89,13 +90,13 @@ impl Drawn {
     }
 }
 
-/// Whether a conveyor moves the cloth on.
+/// True if a conveyor advances the cloth.
 fn has_bites(profile: &MachineProfile) -> bool {
     profile.bite.length_mm.is_some()
 }
 
-/// Where what is so long begins in the corner of the table, along one of its axes, mm: away from the edge by a blade and its
-/// front overlap, or half of what the table is longer by if that is less.
+/// Start, along one axis of the table, of a layout of length `long` in its corner, mm: away from the edge by a blade and its
+/// front overlap, or by half of the room that is left if that is less.
 fn in_corner(profile: &MachineProfile, table: Option<[f64; 2]>, long: f64) -> f64 {
     let Some([edge, end]) = table else { return 0.0 };
     let knife = &profile.knife;
@@ -104,31 +105,31 @@ fn in_corner(profile: &MachineProfile, table: Option<[f64; 2]>, long: f64) -> f6
     if left_over <= 0.0 { edge } else { edge + f64::min(blade, left_over / 2.0) }
 }
 
-/// Where a piece should be.
+/// Expected place of a piece.
 fn of(piece: &Piece, table: &Lay) -> Sighting {
     let labels = piece.labels.iter().filter_map(|label| label.at);
     let place = piece.drills.iter().map(|drill| drill.at).chain(piece.notches.iter().map(|notch| notch.root));
     Sighting::at(0.0, table.place(place.chain(labels).next().unwrap_or(Point::origin())), piece.span.block)
 }
 
-/// Where places of the file come to lie on the table.
+/// Map from places of the file to places on the table.
 #[derive(Debug, Clone, Copy)]
 struct Lay<'a> {
-    /// Where a step of 1 mm along X goes, and one along Y.
+    /// Images of a step of 1 mm along X and of one along Y.
     axes: [[f64; 2]; 2],
     /// Growth of the unit of the file.
     growth: f64,
-    /// From one copy to the next.
+    /// Distance from one copy to the next, mm.
     pitch: f64,
     by: [f64; 2],
-    /// What carries it across.
+    /// The cloth that carries it across.
     cloth: Option<&'a Cloth>,
 }
 
 impl Lay<'_> {
     fn of(drawn: &Marker, profile: &MachineProfile) -> Self {
         let sheet = &profile.sheet;
-        // Factors of X and Y behind the turn.
+        // Factors of X and Y after the turn.
         let mut factors = [sheet.scale_x, sheet.scale_y];
         if sheet.mirror == Mirror::Ends {
             factors[0] *= -1.0;
@@ -159,7 +160,7 @@ impl Lay<'_> {
         let corner = match sheet.origin {
             Some([x, y]) => [before.min.x + x, before.min.y + y],
             None => [
-                // A conveyor brings all that is beyond its first window onto the table later.
+                // A conveyor brings everything beyond its first window onto the table later.
                 in_corner(profile, profile.table.x_mm, if has_bites(profile) { 0.0 } else { far_end - behind.min.x }),
                 in_corner(profile, profile.table.y_mm, behind.max.y - behind.min.y),
             ],
@@ -173,7 +174,7 @@ impl Lay<'_> {
         Self { axes, growth, pitch: 0.0, by, cloth: None }
     }
 
-    /// Of a copy, from 1.
+    /// Map of a copy, counted from 1.
     fn of_copy(self, copy: u32) -> Self {
         let [x, y] = self.by;
         Self { by: [x + f64::from(copy - 1) * self.pitch, y], ..self }
@@ -184,7 +185,7 @@ impl Lay<'_> {
         self.cloth.map_or(laid, |cloth| cloth.carried(laid))
     }
 
-    /// Where the sheet alone has a place.
+    /// Place by the sheet alone.
     fn on_table(&self, at: Point) -> Point {
         let [x, y] = self.turned(at.x, at.y);
         Point::new(x + self.by[0], y + self.by[1])
@@ -198,7 +199,7 @@ impl Lay<'_> {
         (self.place(drawn) - laid).norm()
     }
 
-    /// Compares a piece as it is drawn with one that lies on the table.
+    /// Compares a piece as drawn with one that lies on the table.
     fn compare(&self, drawn: (&Marker, &Piece), laid: (&Marker, &Piece), worst: &mut Worst) {
         let (one, other) = (drawn.1, laid.1);
         let counts = |piece: &Piece| {
@@ -243,7 +244,7 @@ impl Lay<'_> {
         }
     }
 
-    /// How far a notch is from where it should be, mm; infinite where it is another.
+    /// Distance of a notch from its expected place, mm; infinite for a different notch.
     fn notch(&self, drawn: &Notch, laid: &Notch) -> f64 {
         let strokes = |notch: &Notch| notch.strokes().collect::<Vec<_>>();
         let (strokes, found) = (strokes(drawn), strokes(laid));
@@ -254,9 +255,9 @@ impl Lay<'_> {
         ways.map(|(a, b)| self.away(a.from, b.from).max(self.away(a.to, b.to))).fold(0.0, f64::max)
     }
 
-    /// The same of a notch in an outline.
+    /// Distance of an outline notch from its expected place, mm; infinite for a different notch.
     fn outline_notch(&self, drawn: &OutlineNotch, laid: &OutlineNotch) -> f64 {
-        // Lines of a notch may be parted where the cloth wanders.
+        // Lines of a notch may be split where the cloth wanders.
         let parted = if self.cloth.is_some() { laid.segments.saturating_sub(drawn.segments) } else { 0 };
         let told = |n: &OutlineNotch| (n.form, n.outwards, n.span);
         if told(drawn) != told(laid) || drawn.segments + parted != laid.segments {
@@ -268,8 +269,8 @@ impl Lay<'_> {
         away.fold(f64::INFINITY, f64::min).max(self.away(drawn.tip, laid.tip))
     }
 
-    /// How far a contour is from where it should be at the most, mm, and where: closed ones may begin elsewhere, and all may be
-    /// cut the other way.
+    /// Greatest distance of a contour from its expected place, mm, with the place: a closed one may begin elsewhere, and any
+    /// may be cut the other way.
     fn contour(&self, drawn: &[Segment], laid: &[Segment]) -> (f64, Sighting) {
         let turned = laid.iter().rev().map(|&segment| Segment { from: segment.to, to: segment.from, ..segment });
         let turned: Vec<Segment> = turned.collect();
@@ -277,7 +278,7 @@ impl Lay<'_> {
         nearer.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are two")
     }
 
-    /// The farthest of the segments of a contour from where it should be, mm, with its place.
+    /// Greatest distance of the segments of a contour from their expected places, mm, with the place.
     fn farthest(&self, drawn: &[Segment], laid: &[Segment]) -> (f64, Sighting) {
         let first = &drawn[0];
         let begin = (0..laid.len()).filter(|&i| laid[i].span == first.span);
@@ -298,7 +299,7 @@ impl Lay<'_> {
         all.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a contour has a segment")
     }
 
-    /// The same of a contour whose lines may be parted where the cloth wanders.
+    /// Greatest distance of a contour whose lines may be split where the cloth wanders, mm, with the place.
     fn farthest_parted<'s>(
         &self,
         cloth: &Cloth,
@@ -316,7 +317,7 @@ impl Lay<'_> {
         if laid.next().is_some() { (f64::INFINITY, worst.1) } else { worst }
     }
 
-    /// How far a text is from its place; infinite where it is another, or points elsewhere.
+    /// Distance of a text from its place, mm; infinite where it differs or points in another direction.
     fn label(&self, drawn: &Label, laid: &Label) -> f64 {
         let [[a, b], [c, d]] = self.axes;
         let is_mirrored = a * d - b * c < 0.0;
@@ -325,7 +326,7 @@ impl Lay<'_> {
             other => (drawn.span, other),
         };
         let along = drawn.heading.map_or(0.0, Heading::radians);
-        // What has neither place nor direction lies nowhere.
+        // A text without place and direction is nowhere.
         let is_loose = drawn.at.is_none() && drawn.heading.is_none();
         let [x, y] = if is_loose { [1.0, 0.0] } else { self.turned(along.cos(), along.sin()) };
         let askew = laid.heading.unwrap_or(Heading::new(0.0)).turn_to(Heading::new(y.atan2(x))).abs();
@@ -346,8 +347,8 @@ fn contours((marker, piece): (&Marker, &Piece)) -> Vec<Vec<Segment>> {
     piece.contours.iter().map(segments).collect()
 }
 
-/// Things as drawn with those as laid, which may come in another order: by the byte that they begin at, and of those from one
-/// byte, as the two halves of a folded piece are, the nearest.
+/// Pairs drawn things with laid ones, which may come in another order: by their first byte, and by distance among those from
+/// one byte, such as the two halves of a folded piece.
 fn pairs<T>([drawn, laid]: [&[T]; 2], start: impl Fn(&T) -> u32, away: impl Fn(&T, &T) -> f64) -> Vec<(&T, &T)> {
     let mut left: Vec<&T> = laid.iter().collect();
     left.sort_by_key(|thing| start(thing));

@@ -1,8 +1,9 @@
-//! Whether the right lines of a drawing are cut, judged by its strokes alone: no line is cut in the place of the outline
-//! around it, and no stroke from edge to edge of a part is left out.
+//! Audit of the lines of a drawing that are cut, judged by its strokes alone: no line is cut in the place of the outline around
+//! it, and no stroke from edge to edge of a part is left out.
 //!
-//! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are judged by whether they
-//! go around a cut. Where somebody gave pens a meaning, only the lines that close outlines are judged: pens are no shapes.
+//! The judge knows less than the reader and is stricter where it knows. Lines of several strokes are judged by whether they go
+//! around a cut. Where the user gave pens a meaning, only the lines that close outlines are judged, since pens say nothing
+//! about shapes.
 
 use std::cell::{OnceCell, RefCell};
 
@@ -20,53 +21,53 @@ use crate::verify::rules;
 
 /// Smallest line that may be the outline of a part, mm.
 const LEAST_SIZE: f64 = 30.0;
-/// Share of its length that the gap of an outline takes at the most.
+/// Greatest gap of an outline, as a fraction of its length.
 const GAP_SHARE: f64 = 0.08;
-/// Mean width of an outline at least, mm: less is a line out and back.
+/// Least mean width of an outline, mm: a narrower one is a line out and back.
 const LEAST_WIDTH: f64 = 4.0;
 /// Widest hem, mm: marks on one are narrower.
 const WIDEST_HEM: f64 = 75.0;
-/// Outlines in a rectangle that is a part, itself and its seam line; around more, slits are not looked for.
+/// Greatest number of outlines in a rectangle that is a part: itself and its seam line. Slits are not looked for in a rectangle
+/// with more.
 const MOST_IN_A_PART: usize = 2;
-/// Cuts in a rectangle that are compared to find two beside each other.
+/// Greatest number of cuts in a rectangle that are compared to find two side by side.
 const MOST_HELD: usize = 512;
 /// Distance by which parts may stand over the frame that they touch, mm.
 const SAME_BOX: f64 = 0.5;
-/// Least distance allowed between a cut and the outline that it stands for, mm: programs end lines so far beside their
-/// start.
+/// Least distance allowed between a cut and its outline, mm: CAD programs end lines so far beside their start.
 const LEAST_OFF: f64 = 0.2;
 /// Rounding of gaps, mm.
 const CLOSE_EPSILON: f64 = 1e-6;
-/// Share of a cut that an uncut line in it goes around to be its seam line, at the least: then it is an outline.
+/// Least share of a cut that an uncut line in it encloses as its seam line: then the cut is an outline.
 const SEAM_SHARE: f64 = 0.3;
-/// Share by which a frame may be smaller than its box.
+/// Fraction by which the area of a frame may be below that of its box.
 const FRAME_LACK: f64 = 0.01;
-/// Measures of a notch that is a stroke, mm: all of its length, its mouth, its depth.
+/// Limits of a notch that is a stroke, mm: length, mouth, depth.
 const STROKE_LENGTH: f64 = 55.0;
 const STROKE_MOUTH: [f64; 2] = [0.6, 11.5];
 const STROKE_DEPTH: [f64; 2] = [1.5, 14.5];
-/// How near to the outline both its ends lie, mm.
+/// Distance from the outline within which both ends of a notch lie, mm.
 const ON_EDGE: f64 = 0.4;
-/// How far off its edge a stroke begins that may be a letter of a text beside the edge, mm.
+/// Distance from the edge at which a stroke may be a letter of a text beside the edge, mm.
 const OFF_EDGE: f64 = 0.1;
-/// How far from a letter another one of its text stands at the most, as a multiple of its size.
+/// Greatest distance of a letter from the next one of its text, as a multiple of its size.
 const ROOM: f64 = 3.0;
 /// Least fall of the depth between two deeper places of a stroke that makes it an M and no notch, mm.
 const DENT: f64 = 0.6;
-/// How near to the ends of a cut those of its stroke lie, mm.
+/// Greatest distance of the ends of a cut from those of its stroke, mm.
 const SAME_END: f64 = 0.05;
 
-/// Cuts of a drawing, as it was read: the places of each contour and of each leg of a notch.
+/// Cuts of a drawing as it was read: the points of each contour and of each leg of a notch.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DrawingCuts {
     contours: Vec<Vec<Point>>,
     legs: Vec<[Point; 2]>,
-    /// Lines that close an outline and that nobody drew.
+    /// Lines that close an outline and are not in the drawing.
     closed: Vec<Vec<Point>>,
 }
 
 impl DrawingCuts {
-    /// Those of a marker, before any pass.
+    /// Cuts of a marker before any pass.
     pub fn of(marker: &Marker) -> Self {
         let contours = marker.contours().map(|(_, contour)| marker.points(contour)).collect();
         let notches = marker.pieces.iter().flat_map(|piece| &piece.notches);
@@ -76,8 +77,8 @@ impl DrawingCuts {
     }
 }
 
-/// Findings on which lines of a drawing are cut, by its strokes as they are read a second time; none of a dialect that says
-/// itself what is cut.
+/// Findings about the lines of a drawing that are cut, by its strokes as they are read a second time; none for a dialect that
+/// says itself which lines are cut.
 pub fn drawing_audit(dialect: &str, bytes: &[u8], read: &DrawingCuts, job: &Job) -> Vec<Finding> {
     let Some(second) = super::second(dialect) else { return Vec::new() };
     let mut outermost = Worst::new(&rules::SOURCE_OUTERMOST, Some(0.0));
@@ -106,13 +107,13 @@ pub fn drawing_audit(dialect: &str, bytes: &[u8], read: &DrawingCuts, job: &Job)
 
 struct Judging<'a> {
     drawn: &'a [Vec<Point>],
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    /// Grid of the numbers in the file, mm; 0 when they are not rounded.
     unit: f64,
     cuts: &'a DrawingCuts,
     job: &'a Job,
     /// The boxes of the contours that are cut.
     boxes: Boxes,
-    /// The boxes of strokes as small as letters, once they are asked for.
+    /// The boxes of strokes as small as letters, built at first use.
     small: OnceCell<Boxes>,
     work: RefCell<Budget>,
 }
@@ -131,7 +132,7 @@ impl<'a> Judging<'a> {
         }
     }
 
-    /// Where a line is cut inside an outline that is not.
+    /// Places of cuts inside outlines that are not cut.
     fn in_uncut_outlines(&self) -> Vec<Point> {
         let drawn = self.drawn;
         let outlines: Vec<&[Point]> = drawn.iter().map(|stroke| &stroke[..]).filter(|s| goes_around(s)).collect();
@@ -147,7 +148,7 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Places where the edge of the cloth is cut, or a line outside it. Nobody has said which lines these are.
+    /// Places where the edge of the cloth is cut, or a line outside it, unless the user says which lines are cut.
     fn about_the_cloth(&self) -> Vec<Point> {
         let Job { lines, profile, .. } = self.job;
         if lines.all || profile.hpgl.frame != Frame::Auto {
@@ -171,7 +172,7 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Whether large cuts lie beside each other in a rectangle that lies in no cut.
+    /// True if large cuts lie side by side in a rectangle that lies in no cut.
     fn is_around_several(&self, rectangle: &[Point]) -> bool {
         let (boxes, reach) = (self.boxes.all(), Extent::of(rectangle).grown(SAME_BOX));
         let is_large = |k: &usize| boxes[*k].size().0.max(boxes[*k].size().1) >= LEAST_SIZE;
@@ -181,7 +182,7 @@ impl<'a> Judging<'a> {
         several && !self.lies_in_a_cut(rectangle)
     }
 
-    /// Where a line is cut that open ones go around, and that has no seam line itself.
+    /// Places of cuts that open lines enclose and that have no seam line of their own.
     fn surrounded(&self) -> Vec<Point> {
         let close = self.job.profile.drawing.close_mm + CLOSE_EPSILON;
         let found = around::surrounded(self.drawn, &self.cuts.contours, close).into_iter();
@@ -197,7 +198,7 @@ impl<'a> Judging<'a> {
         self.drawn.iter().filter(is_seam).any(|stroke| !self.is_cut(stroke))
     }
 
-    /// Where a line closes an outline over more than a gap and not along the edge of a rectangle.
+    /// Places where a line closes an outline over more than a gap and not along the edge of a rectangle.
     fn made_up(&self) -> Vec<Point> {
         let close = self.job.profile.drawing.close_mm + CLOSE_EPSILON;
         let is_long = |places: &&Vec<Point>| polyline::length(places) > close;
@@ -210,12 +211,12 @@ impl<'a> Judging<'a> {
         closed.into_iter().filter(|places| !is_drawn(places)).map(|places| places[0]).collect()
     }
 
-    /// How near to a cut lies what it stands for, mm: curves are drawn in chords.
+    /// Greatest distance between a cut and its stroke, mm: curves are drawn in chords.
     fn reach(&self) -> f64 {
         self.job.profile.tolerance(self.unit).max(LEAST_OFF)
     }
 
-    /// Whether some cut has the box of a stroke, or goes along all of it and on.
+    /// True if some cut has the box of a stroke, or runs along all of it and on.
     fn is_cut(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
         let reach = self.reach();
@@ -233,8 +234,8 @@ impl<'a> Judging<'a> {
         self.boxes.near(extent).any(has_box) || self.boxes.near(extent).any(follows)
     }
 
-    /// Where the first line is cut that lies in an outline which is not, unless that is a frame or lies in a part
-    /// itself. An outline that no work is left for counts as one with a cut in it.
+    /// Place of the first cut inside an outline that is not cut; `None` if the outline is a frame or lies in a part itself.
+    /// When the work budget is spent, the outline counts as one with a cut inside.
     fn cut_inside(&self, stroke: &[Point]) -> Option<Point> {
         let extent = Extent::of(stroke);
         let boxes = self.boxes.all();
@@ -255,14 +256,14 @@ impl<'a> Judging<'a> {
         }
         let held: Vec<usize> = inside.into_iter().filter(holds).collect();
         let &first = held.first()?;
-        // A frame is a rectangle around parts beside each other.
+        // A frame is a rectangle around parts side by side.
         let beside = held.iter().any(|&k| held.iter().any(|&other| !boxes[k].meets(&boxes[other])))
             || held.len() > 1 && !held.iter().any(|&k| held.iter().all(|&other| boxes[k].covers(&boxes[other])));
         (!is_rectangle || !beside && !self.holds_another(stroke, first)).then(|| self.cuts.contours[first][0])
     }
 
-    /// Whether an outline lies in a rectangle beside a cut that is wider than any hem and not cut, since it is open or
-    /// lies in an open one: then the rectangle is a frame.
+    /// True if a rectangle contains, beside a cut, an outline wider than any hem that is not cut because it is open or lies in
+    /// an open one: then the rectangle is a frame.
     fn holds_another(&self, rectangle: &[Point], cut: usize) -> bool {
         let (reach, beside) = (Extent::of(rectangle).grown(SAME_BOX), &self.boxes.all()[cut]);
         let close = self.job.profile.drawing.close_mm;
@@ -290,7 +291,7 @@ impl<'a> Judging<'a> {
         })
     }
 
-    /// Where a stroke from edge to edge of a part is not cut.
+    /// Tips of strokes from edge to edge of a part that are not cut.
     fn lost_strokes(&self) -> Vec<Point> {
         let drawn = self.drawn;
         let mut ends: Vec<[Point; 2]> = self.cuts.contours.iter().map(|c| [c[0], c[c.len() - 1]]).collect();
@@ -312,7 +313,7 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// Tips of slits that are drawn by themselves and are not cut, and of signs at an edge that are.
+    /// Tips of slits that are drawn by themselves and are not cut, and of signs at an edge that are cut.
     fn slits(&self) -> Vec<Point> {
         if self.job.lines.all {
             return Vec::new();
@@ -337,7 +338,7 @@ impl<'a> Judging<'a> {
         found
     }
 
-    /// The cut that an outline is, if that lies in no other and is no rectangle around others.
+    /// The cut of an outline, if it lies in no other cut and is no rectangle around others.
     fn part_of(&self, outline: &[Point], strokes: &slits::Strokes) -> Option<&Vec<Point>> {
         let (extent, reach) = (Extent::of(outline), self.reach());
         let is_same = |&k: &usize| {
@@ -351,7 +352,7 @@ impl<'a> Judging<'a> {
         (is_one && cut.len() > 3 && !is_frame()).then_some(cut)
     }
 
-    /// Whether a stroke that begins off its edge may be a letter: another small stroke stands near it.
+    /// True if a stroke that begins off its edge may be a letter: another small stroke is near it.
     fn is_in_text(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
         let size = |extent: &Extent| extent.size().0.max(extent.size().1);
@@ -368,8 +369,8 @@ impl<'a> Judging<'a> {
         near().any(|other| other != extent)
     }
 
-    /// Whether one cut goes along all of a stroke, place by place and from edge to edge: the outline that is lifted
-    /// there.
+    /// True if one cut runs along all of a stroke, place by place and from edge to edge: the cut is the outline, which the
+    /// stroke continues there.
     fn is_along_a_cut(&self, stroke: &[Point]) -> bool {
         let extent = Extent::of(stroke);
         let (boxes, reach) = (self.boxes.all(), self.reach());
@@ -383,8 +384,8 @@ impl<'a> Judging<'a> {
         })
     }
 
-    /// Whether two places lie within a reach, mm, of the edge of one part and a third one in it, in no other cut inside, or
-    /// no work is left to find out.
+    /// True if two places lie within `reach` mm of the edge of one part and a third one inside it. Also true when the work
+    /// budget is spent.
     fn is_on_part(&self, ends: [Point; 2], tip: Point, reach: f64) -> bool {
         let around = Extent::between(ends[0], ends[1]).grown(reach);
         let near: Vec<usize> = self.boxes.near(around).collect();
@@ -402,7 +403,7 @@ impl<'a> Judging<'a> {
     }
 }
 
-/// Whether a stroke is large and comes back nearly to where it starts.
+/// True if a stroke is large and comes back nearly to its start.
 fn goes_around(stroke: &[Point]) -> bool {
     let (width, height) = Extent::of(stroke).size();
     if stroke.len() < 3 || width.max(height) < LEAST_SIZE {
@@ -417,7 +418,7 @@ fn gap(stroke: &[Point]) -> f64 {
     (stroke[stroke.len() - 1] - stroke[0]).norm()
 }
 
-/// Whether a stroke is its own box.
+/// True if a stroke fills its own box.
 fn is_own_box(stroke: &[Point]) -> bool {
     let (width, height) = Extent::of(stroke).size();
     ring::area(stroke).abs() >= (1.0 - FRAME_LACK) * width * height
@@ -433,13 +434,13 @@ fn tip(stroke: &[Point]) -> Option<Point> {
     let depth = |at: &Point| polyline::distance_to_segment(*at, first, last);
     let deepest = stroke.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
     let depths: Vec<f64> = stroke.iter().map(depth).collect();
-    // Notches that touch each other come back to the edge between them.
+    // A stroke with several notches comes back to the edge between them.
     let mut notches = depths.split_inclusive(|depth| *depth <= ON_EDGE / 2.0);
     let is_notch = |depths: &[f64]| !has_dent(depths) && depths.iter().all(|depth| *depth <= STROKE_DEPTH[1]);
     (depth(deepest) >= STROKE_DEPTH[0] && notches.all(is_notch)).then_some(*deepest)
 }
 
-/// Whether some depth lies below deeper ones on both sides.
+/// True if some depth lies below greater ones on both sides.
 fn has_dent(depths: &[f64]) -> bool {
     let greatest = |most: &mut f64, depth: &f64| {
         *most = most.max(*depth);
@@ -451,7 +452,7 @@ fn has_dent(depths: &[f64]) -> bool {
     around.zip(depths).any(|((before, behind), depth)| before.min(*behind) - depth > DENT)
 }
 
-/// Whether a cut goes from one place to another; the cuts stand in the order of the X of their starts.
+/// True if a cut goes from one place to another; the cuts are sorted by the X of their starts.
 fn is_among(ends: &[[Point; 2]], [from, to]: [Point; 2]) -> bool {
     let first = ends.partition_point(|cut| cut[0].x < from.x - SAME_END);
     let near = ends[first..].iter().take_while(|cut| cut[0].x <= from.x + SAME_END);

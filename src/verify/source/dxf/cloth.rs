@@ -1,5 +1,5 @@
-//! Where what blocks cut lies on the cloth: in a row, or where insertions put it. The keys of the profile and the options of
-//! the job alone say so.
+//! Layout of the cuts of blocks on the cloth: in a row, or at the places of insertions, by the keys of the profile and the
+//! options of the job alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +18,7 @@ use crate::machine::labels::Labels;
 use crate::machine::patterns::{Curves, Dxf, Quantity, Sizes};
 use crate::units::MM_PER_INCH;
 
-/// Places of a curve that are looked at to find its box.
+/// Number of samples of a curve for its box.
 const SAMPLES: usize = 720;
 
 /// Numbers of units in the header, and their lengths, mm: inch, foot, mm, cm, m, yard, dm.
@@ -28,37 +28,37 @@ const UNITS: [(f64, f64); 7] =
 /// A line longer than the outline of any part, mm.
 const LONGEST: f64 = 3e4;
 
-/// Below this an insertion neither turns nor scales: rounding of an angle in degrees, rad.
+/// Rounding of an angle in degrees, rad: an insertion below it neither turns nor scales.
 const TURNS: f64 = 1e-5;
 
-/// Vertices of a block by which its place is found.
+/// Number of vertices of a block by which its place is found.
 const CORNERS: usize = 16;
-/// By how much a notch may take a bit off the edge of a piece, mm.
+/// Greatest depth by which a notch may take cloth off the edge of a piece, mm.
 const NOTCHED: f64 = 1.0;
 
-/// How a block is moved: where its X and its Y go, and its origin.
+/// Placement of a block: images of its X and its Y axis, and of its origin.
 type Move = [Vector; 3];
 
-/// How often a block is cut of which nothing is said: as it is drawn, and mirrored.
+/// Default count of a block: as drawn, and mirrored.
 const ONCE: [u32; 2] = [1, 0];
 const AS_DRAWN: Move = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0), Vector::new(0.0, 0.0)];
 const MIRRORED: Move = [Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0), Vector::new(0.0, 0.0)];
 
-/// A file in parts.
+/// A file in blocks.
 struct Sheets<'a> {
     blocks: Vec<Sheet<'a>>,
-    /// What stands in no block.
+    /// Items outside blocks.
     loose: Sheet<'a>,
-    /// Blocks by their names; of several with one name the first.
+    /// Blocks by name; the first of several with one name.
     names: BTreeMap<Vec<u8>, usize>,
-    /// How its texts are encoded.
+    /// Encoding of its texts.
     letters: Letters,
     /// Length of a unit, mm.
     unit: f64,
 }
 
-/// All that is cut, and how far places may be off because curves are chords, mm: where insertions put it, or where the pieces
-/// would lie on each other there, also in a row.
+/// All cuts, with the greatest error of places by the chords of curves, mm: at the places of insertions, and in a row if there
+/// are no places or the pieces would overlap there.
 pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f64)> {
     let sheets = Sheets::of(bytes, job);
     let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
@@ -84,12 +84,12 @@ pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f6
         cuts.faults += usize::from(block.base.is_none()) + sheets.nested(block);
     }
     of_blocks.push(cuts_of(&sheets.loose, &Default::default()));
-    // How far laid curves reach is not known here: each piece must lie where its vertices are.
+    // The extent of curves is not known here: each piece must lie where its vertices are.
     let placed = sheets.placed(&of_blocks).map(|placed| (placed, 0.0));
     let has_bows = of_blocks.iter().any(|cuts| !cuts.bows.is_empty());
     let row = Row { of_all: &of_blocks, read, has_bows, sagitta };
     let is_in_a_row = placed.is_none() || sheets.met(&of_blocks).is_some_and(|(met, _)| met > 0);
-    // Somebody must have asked for pieces to be left out.
+    // Only pieces that the user deselected may be missing.
     let mut cloths = Vec::new();
     if let Some((mut placed, off)) = placed {
         placed.faults += wrong_count(sheets.inserted(), &sheets.blocks, read, &job.selection);
@@ -125,7 +125,7 @@ impl<'a> Sheets<'a> {
         sheets
     }
 
-    /// Whether a line would be longer in a unit, mm, than the outline of any part.
+    /// True if a line would be longer than the outline of any part in a unit of `unit` mm.
     fn is_too_long_in(&self, unit: f64) -> bool {
         if unit <= MM_PER_INCH {
             return false;
@@ -137,14 +137,14 @@ impl<'a> Sheets<'a> {
         paths.any(|path| (0..path.curves.len()).map(|k| path.length(k)).sum::<f64>() * unit > LONGEST)
     }
 
-    /// Whether an insertion outside blocks moves its block.
+    /// True if an insertion outside blocks moves its block.
     fn has_places(&self) -> bool {
         let mut inserts = self.loose.items.iter().filter(|item| item.kind == b"INSERT");
         inserts.any(|item| self.block(item).and_then(|k| self.to(item, k)).is_some_and(|to| !is_still(to)))
     }
 
-    /// How many of the boxes around what blocks cut have their middle in another, where insertions put them, and whether
-    /// these put any anywhere; `None` without such boxes.
+    /// Number of boxes around the cuts of inserted blocks whose middle is in another box, and whether any insertion moves its
+    /// block; `None` without such boxes.
     fn met(&self, of_all: &[Cuts]) -> Option<(usize, bool)> {
         let mut laid = Vec::new();
         let mut is_all_still = true;
@@ -170,13 +170,13 @@ impl<'a> Sheets<'a> {
         self.names.get(&insert.text(2).to_ascii_uppercase()).copied()
     }
 
-    /// How many blocks that ask for cuts are inserted in a block.
+    /// Number of insertions in a block of blocks that ask for cuts.
     fn nested(&self, block: &Sheet) -> usize {
         let inserts = block.items.iter().filter(|item| item.kind == b"INSERT");
         inserts.filter_map(|insert| self.block(insert)).filter(|&k| self.blocks[k].asks_for_cuts()).count()
     }
 
-    /// What blocks and, behind them, what stands in none cut, in a row.
+    /// Cuts of blocks in a row, and behind them those outside blocks.
     fn in_a_row(&self, row: &Row, job: &Job) -> (Cuts, f64) {
         let mut all = Cuts::default();
         let (mut x, mut laid, mut behind) = (0.0, 0, 0);
@@ -198,12 +198,12 @@ impl<'a> Sheets<'a> {
                 }
             }
         }
-        // Each piece before one in the row may be so much narrower than its curves, on both sides.
+        // Each piece before one in the row may be narrower than its curves by that much, on both sides.
         let off = if all.rounds.is_empty() { 0.0 } else { 2.0 * row.sagitta * f64::from(laid + 1) };
         (all, off)
     }
 
-    /// How often each block is cut in a row, as it is drawn and mirrored: as it says, else as often as insertions have it.
+    /// Counts of each block in a row, as drawn and mirrored: by its own quantity, else the number of its insertions.
     fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
         if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
             return vec![ONCE; self.blocks.len()];
@@ -222,19 +222,19 @@ impl<'a> Sheets<'a> {
         self.of_each("QUANTITY").into_iter().zip(inserted).map(wanted).collect()
     }
 
-    /// The block of each piece that lies in a row, in their order.
+    /// Block of each piece in a row, in order.
     fn one_behind_the_other(&self, job: &Job) -> impl Iterator<Item = usize> {
         let times = self.wanted(job).into_iter().map(|count| count.iter().map(|&count| count as usize).sum());
         times.enumerate().flat_map(|(k, times): (usize, usize)| std::iter::repeat_n(k, times))
     }
 
-    /// The block of each insertion, in their order.
+    /// Block of each insertion, in order.
     fn inserted(&self) -> impl Iterator<Item = usize> + '_ {
         let inserts = self.loose.items.iter().filter(|item| item.kind == b"INSERT");
         inserts.filter_map(|insert| self.block(insert))
     }
 
-    /// What is said of each block under a key: by an attribute of its insertion, or by a text in it.
+    /// Value of a key for each block: by an attribute of its insertion, or by a text in it.
     fn of_each(&self, key: &str) -> Vec<Option<&[u8]>> {
         let mut told: Vec<Option<&[u8]>> = vec![None; self.blocks.len()];
         let mut behind = None;
@@ -252,16 +252,16 @@ impl<'a> Sheets<'a> {
         self.blocks.iter().zip(told).map(|(block, told)| told.or_else(|| block.says(key))).collect()
     }
 
-    /// Whether each block is of a size that is cut.
+    /// For each block, whether it is a piece of a size that is cut.
     fn are_cut(&self, job: &Job, are_apart: bool) -> Vec<bool> {
         let name = |bytes: &[u8]| {
-            // As people see it, who name sizes.
+            // Users name sizes as they see them.
             let text = Labels::default().text(self.letters.read(bytes).as_bytes());
-            // Bytes that are no text are their own name.
+            // Bytes that are not valid text are their own name.
             let text = if text.contains('\u{fffd}') { format!("{bytes:x?}") } else { text };
             text.trim().to_uppercase()
         };
-        // Blocks without a name of their own are parts of the drawing, unless the drawing itself puts them somewhere.
+        // Blocks without a name of their own are parts of the drawing, unless the drawing itself inserts them.
         let put: BTreeSet<usize> =
             self.loose.items.iter().filter(|item| item.kind == b"INSERT").filter_map(|item| self.block(item)).collect();
         let is_piece =
@@ -279,8 +279,8 @@ impl<'a> Sheets<'a> {
         sizes.iter().enumerate().map(is_cut).collect()
     }
 
-    /// What blocks cut where insertions put them, and what stands in none where it is drawn; `None` when they put nothing
-    /// anywhere.
+    /// Cuts of blocks at the places of their insertions, and of items outside blocks as drawn; `None` when no insertion moves a
+    /// block.
     fn placed(&self, of_all: &[Cuts]) -> Option<Cuts> {
         let mut all = Cuts::default();
         let mut is_all_still = true;
@@ -296,7 +296,7 @@ impl<'a> Sheets<'a> {
         (!is_all_still || all.faults > 0).then_some(all)
     }
 
-    /// How an insertion moves a block; `None` when a number of it is damaged.
+    /// Placement of a block by an insertion; `None` when one of its numbers is damaged.
     fn to(&self, insert: &Item, block: usize) -> Option<Move> {
         let [x, y] = insert.pair([10, 20])?;
         let turn = insert.number(50).unwrap_or(0.0).to_radians();
@@ -312,15 +312,15 @@ impl<'a> Sheets<'a> {
 struct Row<'a> {
     of_all: &'a [Cuts],
     read: &'a CutPlaces,
-    /// Whether curves are laid, so that pieces are larger than their vertices tell.
+    /// True if curves are laid, so that pieces are larger than their vertices.
     has_bows: bool,
-    /// Farthest that chords lie off their curve, mm.
+    /// Greatest distance of chords from their curve, mm.
     sagitta: f64,
 }
 
 impl Row<'_> {
-    /// Where the next contour that has vertices of a block lies, and the box around it; `None` when no curves are laid or there
-    /// is no such contour. `behind` counts those that are taken.
+    /// Origin and box of the next contour that has vertices of a block; `None` when no curves are laid or there is no such
+    /// contour. `behind` counts the contours that are taken.
     fn found(&self, cuts: &Cuts, [right, up, _]: Move, behind: &mut usize) -> Option<(Vector, Extent)> {
         if !self.has_bows {
             return None;
@@ -343,8 +343,8 @@ impl Row<'_> {
             };
             sample.iter().map(|(at, _)| meets(*at)).sum::<f64>()
         };
-        // Places of a curve have the number of the vertex that they lead to, and so has its mirror image. The vertex itself may
-        // be missing: the mouth of a notch takes it away.
+        // Places of a curve and of its mirror image have the number of the vertex that they lead to. The vertex itself may be
+        // missing: the mouth of a notch takes it away.
         let of_corner = |&(corner, block): &(Point, u32)| {
             let own = contour.iter().filter(move |place| place.1 == block);
             own.map(move |place| place.0.coords - turned(corner)).collect::<Vec<Vector>>()
@@ -357,7 +357,7 @@ impl Row<'_> {
     }
 }
 
-/// Length of a unit, mm, by how its name begins in the languages of keys.
+/// Length of a unit, mm, by the first letters of its name in the languages of keys.
 fn unit_of(name: &str) -> f64 {
     let name = name.trim().to_lowercase();
     let begins = |with: &[&str]| with.iter().any(|start| name.starts_with(start));
@@ -370,7 +370,7 @@ fn unit_of(name: &str) -> f64 {
     }
 }
 
-/// How often a text wants a block cut as it is drawn, and mirrored; `None` when it does not say.
+/// Counts of a block as drawn and mirrored, by a text; `None` when the text gives none.
 fn quantity(text: &str) -> Option<[u32; 2]> {
     let whole = |number: &str| {
         let (whole, share) = number.trim().split_once('.').unwrap_or((number.trim(), ""));
@@ -385,7 +385,7 @@ fn quantity(text: &str) -> Option<[u32; 2]> {
     }
 }
 
-/// Words for pieces and names of materials, in small letters, each between blanks.
+/// Words for pieces and names of materials, in lower case, each between blanks.
 const PIECES: &str = " x × pc pcs piece pieces pièce pièces st stk stck styck stück stueck stuks pz pezzo pezzi pieza piezas \
                       peça peças szt sztuk sztuki ks db buc adet шт штук штуки дет 片 件 枚 张 張 个 個 장 매 \
                       self main shell lining fabric contrast interfacing ";
@@ -393,8 +393,8 @@ const PIECES: &str = " x × pc pcs piece pieces pièce pièces st stk stck styck
 /// Words for a right piece and a left one, likewise.
 const PAIRS: &str = " pair pairs pr prs paar paare paire paires paio paia par pares ";
 
-/// How often a text wants a block right and left that has a number and behind it a word for pieces or pairs, something in
-/// parentheses, or both.
+/// Counts of a block, right and left, by a text of a number followed by a word for pieces or pairs, something in parentheses,
+/// or both.
 fn worded(text: &str) -> Option<[u32; 2]> {
     let text = text.trim().to_lowercase();
     let (number, rest) = text.split_at(text.find(|letter: char| !letter.is_ascii_digit())?);
@@ -409,7 +409,7 @@ fn worded(text: &str) -> Option<[u32; 2]> {
     Some([number, if is_pair { number } else { 0 }])
 }
 
-/// Whether a move leaves a block where it is drawn.
+/// True if a placement leaves a block where it is drawn.
 fn is_still([right, up, origin]: Move) -> bool {
     let is_axis = |found: Vector, drawn: Vector| (found - drawn).norm() < TURNS;
     is_axis(right, AS_DRAWN[0]) && is_axis(up, AS_DRAWN[1]) && origin.norm() <= MEETS
@@ -429,7 +429,7 @@ impl Round {
 }
 
 impl Cuts {
-    /// The box around all of it, turned as a move turns it.
+    /// The box around all of it under the axes of a placement.
     fn extent(&self, to: Move) -> Extent {
         let mut extent = Extent::EMPTY;
         self.places.iter().for_each(|place| extent.add(moved(place.at, to)));
@@ -439,7 +439,7 @@ impl Cuts {
         extent
     }
 
-    /// Adds what a block cuts where it comes to lie.
+    /// Adds the cuts of a block at a placement.
     fn add_moved(&mut self, cuts: &Cuts, to: Move) {
         let [right, up, _] = to;
         // Insertions may scale; patterns are scaled alike in both directions.

@@ -1,5 +1,5 @@
-//! Curves of a block, found anew: which fine lines (layers 84 to 87) stand for coarse ones, and which edges of others may bow
-//! because curve points (layer 3) stand on them. It follows no line and lays no curve.
+//! Curves of a block, found anew: fine lines (layers 84 to 87) that replace coarse ones, and edges of other lines that may bow
+//! because curve points (layer 3) are on them. It follows no line and lays no curve.
 
 use std::collections::BTreeMap;
 
@@ -12,16 +12,16 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::machine::patterns::Dxf;
 
-/// How far from a fine line a vertex is still on it, mm.
+/// Distance from a fine line within which a vertex is on it, mm.
 pub(super) const ON: f64 = 0.01;
 /// Layers of fine lines.
 const FINE: [u32; 4] = [84, 85, 86, 87];
-/// How high a curve must stand over its chords at least for it to be missed, mm.
+/// Least height of a curve over its chords for it to be missed, mm.
 const HIGH: f64 = 0.2;
 
-/// What a block says of curves.
+/// Information of a block about curves.
 pub(super) struct Curves {
-    /// Fine lines with their layers, each with those whose ends meet its own.
+    /// Groups of fine lines whose ends meet, each with its layer.
     fine: Vec<(u32, Vec<Path>)>,
     turns: Spots,
     smooth: Spots,
@@ -29,7 +29,7 @@ pub(super) struct Curves {
     may_bow: bool,
 }
 
-/// Points that say the kinds of vertices: those at a vertex, and those beside it.
+/// Points that tell the kinds of vertices: at a vertex, and beside it.
 struct Spots {
     on: Lookup,
     beside: Lookup,
@@ -48,18 +48,18 @@ pub(super) struct Bow {
     pub(super) ends: [Point; 2],
 }
 
-/// A vertex at which a curve goes on, and by how much its chords turn there, rad.
+/// A vertex at which a curve goes on, and the turn of its chords there, rad.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bend {
     pub(super) at: Point,
     pub(super) turn: f64,
 }
 
-/// What becomes of coarse lines that belong together.
+/// Replacement of coarse lines that belong together.
 pub(super) enum Course {
-    /// They are cut as they are; some edges may bow.
+    /// The coarse lines are cut themselves; some edges may bow.
     Own { bows: Vec<Bow>, bends: Vec<Bend>, passed: Vec<Point> },
-    /// Others are cut in their stead, and their spikes.
+    /// Fine lines are cut in their place, and the spikes of the coarse ones.
     Fine(Vec<Path>),
 }
 
@@ -70,7 +70,7 @@ pub(super) fn points(items: &[Item], is_wanted: impl Fn(u32) -> bool, unit: f64)
 }
 
 impl Curves {
-    /// Those of a block, with curve points and turn points that another size of its piece lends it.
+    /// Curves of a block, with curve points and turn points that another size of its piece lends it.
     pub(super) fn of(sheet: &Sheet, lent: &[Vec<Point>; 2], measure: Measure) -> Self {
         let of_layer = |layer: u32, more: &[Point]| {
             let mut all = points(&sheet.items, |of| of == layer, measure.unit);
@@ -93,7 +93,7 @@ impl Curves {
         }
     }
 
-    /// What becomes of lines that belong together, whose fine lines are mostly on another layer.
+    /// Chooses the lines that are cut for a group of coarse lines; `usual` is the most likely layer of their fine lines.
     pub(super) fn course(&self, coarse: &[Path], usual: u32, fold: Option<Fold>) -> Course {
         let (bare, spikes): (Vec<Path>, Vec<Path>) = {
             let (mut bare, mut spikes) = (Vec::new(), Vec::new());
@@ -123,7 +123,7 @@ impl Curves {
                 return Course::Fine([whole, spikes].concat());
             }
         }
-        // A control polygon has a few vertices of a line that is fine itself: most of its curve points bend little.
+        // A control polygon shares a few vertices with a line that is fine itself: most of its curve points bend little.
         let own = self.fine.iter().filter(|(layer, _)| *layer == usual).flat_map(|(_, fine)| fine);
         let own = Lookup::of(own.flat_map(|path| path.points.iter().copied()), ON);
         let count = places.iter().filter(|at| own.has(**at)).count();
@@ -141,13 +141,13 @@ impl Curves {
         Course::Own { bows, bends, passed }
     }
 
-    /// Whether a curve may go on at a vertex.
+    /// True if a curve may go on at a vertex.
     fn goes_on(&self, at: Point) -> bool {
         let is_turn = self.turns.on.has(at) || !self.smooth.on.has(at) && self.turns.beside.has(at);
         self.is_smooth(at) || self.is_notched(at) && !is_turn
     }
 
-    /// Whether a curve point marks a vertex: one beside it does where no turn point is at it.
+    /// True if a curve point marks a vertex: one beside the vertex does if no turn point is at it.
     fn is_smooth(&self, at: Point) -> bool {
         self.smooth.on.has(at) || !self.turns.on.has(at) && self.smooth.beside.has(at)
     }
@@ -156,7 +156,7 @@ impl Curves {
         self.notches.beside.has(at)
     }
 
-    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by [`HIGH`] at least. Returns the count of
+    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by at least [`HIGH`]. Returns the count of
     /// all curve points between chords.
     fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) -> usize {
         let mut smooth = 0;
@@ -173,7 +173,8 @@ impl Curves {
             let [before, behind] = fold.map_or([before, behind], |fold| fold.neighbours(at, [before, behind]));
             let turn = polyline::turn_at(before, at, behind).abs();
             let is_smooth = self.is_smooth(at) && !self.is_notched(at) && !path.doubled.contains(&at);
-            // A round curve that turns so much from chord to chord stands an eighth of that over each, in parts of its length.
+            // A round curve that turns by this angle from chord to chord rises an eighth of it over each chord, relative to the
+            // chord's length.
             smooth += usize::from(is_smooth);
             if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
                 bends.push(Bend { at, turn });
@@ -183,14 +184,14 @@ impl Curves {
     }
 }
 
-/// How many vertices lines have that belong together, those where two of them meet once.
+/// Number of vertices of a group of lines; a vertex where two lines meet counts once.
 fn corners(paths: &[Path]) -> usize {
     let ends = 2 * paths.iter().filter(|path| !path.is_closed).count();
     let joints = (ends - free_ends(paths).len()) / 2;
     paths.iter().map(|path| path.points.len()).sum::<usize>() - joints
 }
 
-/// How many of some places lie on lines.
+/// Number of places that lie on lines.
 fn held(paths: &[Path], places: &[Point]) -> usize {
     let edges: Vec<[Point; 2]> = paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k))).collect();
     let boxes = Boxes::new(edges.iter().map(|[a, b]| Extent::between(*a, *b).grown(ON)).collect());
@@ -198,27 +199,27 @@ fn held(paths: &[Path], places: &[Point]) -> usize {
     places.iter().filter(|at| is_on(**at)).count()
 }
 
-/// The two ends of each open line, one behind the other.
+/// The two ends of each open line, in order.
 fn open_ends(paths: &[Path]) -> Vec<(usize, Point)> {
     let open = paths.iter().enumerate().filter(|(_, path)| !path.is_closed);
     open.flat_map(|(k, path)| [path.points.first(), path.points.last()].into_iter().flatten().map(move |at| (k, *at)))
         .collect()
 }
 
-/// The ends of open lines that no other end meets.
+/// The ends of open lines that meet no other end.
 fn free_ends(paths: &[Path]) -> Vec<(usize, Point)> {
     let ends = open_ends(paths);
     let lookup = Lookup::of(ends.iter().map(|end| end.1), MEETS);
     ends.iter().filter(|(_, at)| lookup.near(*at).nth(1).is_none()).copied().collect()
 }
 
-/// Lines that stand off others that belong to them: those that are taken away, again and again, as lines with a free end, where
-/// a ring remains.
+/// Lines that stand off the others of their group: those that disappear when lines with a free end are removed repeatedly. None
+/// if no ring remains.
 pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
     let ends = open_ends(paths);
     let lookup = Lookup::of(ends.iter().map(|end| end.1), MEETS);
     let mut is_twig = vec![false; paths.len()];
-    // The ends that rely on each end: they are free once its line is gone, unless they find another.
+    // Ends that rely on each end: once its line is gone they are free, unless they find another.
     let mut dependents: Vec<Vec<usize>> = vec![Vec::new(); ends.len()];
     let mut queue: Vec<usize> = (0..ends.len()).collect();
     while let Some(end) = queue.pop() {
@@ -239,8 +240,8 @@ pub(super) fn twigs(paths: &[Path]) -> Vec<bool> {
     if is_twig.iter().all(|&is_twig| is_twig) { vec![false; paths.len()] } else { is_twig }
 }
 
-/// Groups of lines that stand on edges of others: open ones of which one free end is on an edge, or of none but the lines
-/// meet at one place on an edge. Where all are open the longest one is half of an outline, which ends at a fold.
+/// Groups of lines that stand on edges of others: open ones with exactly one free end on an edge, or with none there but all
+/// their meetings at one place on an edge. Where all are open the longest one is half of an outline, which ends at a fold.
 pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
     let is_open = |paths: &Vec<Path>| twigs(paths).iter().all(|is_twig| !is_twig) && !free_ends(paths).is_empty();
     let length = |k: &usize| -> f64 {
@@ -266,7 +267,7 @@ pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
     clusters.iter().enumerate().map(|(k, paths)| half != Some(k) && stands(paths)).collect()
 }
 
-/// Fine lines, with the chord that closes them where the coarse ones are closed.
+/// Fine lines, with the chord that closes them if the coarse ones are closed.
 fn closed(fine: &[Path], coarse: &[Path]) -> Vec<Path> {
     let mut all = fine.to_vec();
     if let ([(_, a), (_, b)], []) = (&free_ends(fine)[..], &free_ends(coarse)[..]) {
@@ -275,8 +276,8 @@ fn closed(fine: &[Path], coarse: &[Path]) -> Vec<Path> {
     all
 }
 
-/// Turn points and curve points of each block that has none: by the places that they have among the vertices of another size
-/// of its piece, of the sample size if that has some.
+/// Turn points and curve points for each block that has none: at the places that they have among the vertices of another size
+/// of its piece, preferably the sample size.
 pub(super) fn lent(blocks: &[Sheet], sample: Option<&[u8]>, unit: f64) -> Vec<[Vec<Point>; 2]> {
     let dots = |block: &Sheet, layer: u32| points(&block.items, |of| of == layer, unit);
     let has_dots =

@@ -1,4 +1,4 @@
-//! What a block cuts, found anew: the places of its lines, holes and notches on both halves, without joining anything.
+//! Cuts of a block, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
 use super::again::once;
 use super::curves::{Bend, Bow, Course, Curves, standing, twigs};
@@ -10,19 +10,19 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::geom::Point;
 
-/// The layer that mostly has the curves of outlines.
+/// Usual layer of the curves of outlines.
 const FINE_OUTLINE: u32 = 84;
 
-/// What is cut, mm.
+/// Cuts, lengths in mm.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cuts {
     /// Places that the knife comes to.
     pub(super) places: Vec<Place>,
-    /// Places that it may come to in their stead: ends of lines on a fold, where ends that meet are one.
+    /// Alternatives to them: ends of lines on a fold, where ends that meet are one.
     pub(super) spare: Vec<Point>,
-    /// Circles along which it may come to more.
+    /// Circles along which there may be more places.
     pub(super) rounds: Vec<Round>,
-    /// Way of the knife, and what chords of curves and gaps may change of it.
+    /// Length of the cuts, and its uncertainty by chords of curves and gaps.
     pub(super) length: f64,
     pub(super) slack: f64,
     pub(super) holes: Vec<Point>,
@@ -30,11 +30,11 @@ pub(super) struct Cuts {
     /// Edges that a curve may leave, and vertices at which it goes on.
     pub(super) bows: Vec<Bow>,
     pub(super) bends: Vec<Bend>,
-    /// Coarse edges in whose stead curves are cut: notches beside them are on the curves.
+    /// Coarse edges that curves replace: notches beside them are on the curves.
     pub(super) chords: Vec<[Point; 2]>,
-    /// Vertices of outlines by the groups of the file that they begin with.
+    /// Vertices of outlines with the number of the group of the file that they begin with.
     pub(super) corners: Vec<(Point, u32)>,
-    /// How much on layers that are cut cannot be understood: numbers that are damaged, planes beside the cloth.
+    /// Number of unreadable items on layers that are cut: damaged numbers, planes other than that of the cloth.
     pub(super) faults: usize,
 }
 
@@ -42,9 +42,9 @@ pub(super) struct Cuts {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) at: Point,
-    /// Whether a line ends here that may be joined to another.
+    /// True if a line ends here that may be joined to another.
     pub(super) is_end: bool,
-    /// Whether a curve may pass it within a hundredth of a millimetre.
+    /// True if a curve may pass it within a hundredth of a millimetre.
     pub(super) is_passed: bool,
 }
 
@@ -59,7 +59,7 @@ pub(super) struct Mark {
 }
 
 impl Cuts {
-    /// What a block cuts.
+    /// Cuts of a block.
     pub(super) fn of(sheet: &Sheet, lent: Option<&[Vec<Point>; 2]>, measure: Measure) -> Self {
         let paths = |layer: u32| paths(&sheet.items, layer, measure);
         let outlines = paths(1);
@@ -112,7 +112,7 @@ impl Cuts {
         cuts
     }
 
-    /// Adds holes with their mirror images, but for those where one is already.
+    /// Adds holes with their mirror images, except where there already is one.
     fn drill(&mut self, asked: &[[Option<Point>; 2]]) {
         let all: Vec<(usize, Point)> =
             asked.iter().enumerate().flat_map(|(k, both)| both.iter().flatten().map(move |at| (k, *at))).collect();
@@ -156,8 +156,8 @@ impl Cuts {
         }
     }
 
-    /// Adds lines that belong together, on both sides of a fold, without what lies on it. A curve may pass some of their
-    /// vertices.
+    /// Adds lines that belong together, on both sides of a fold, without edges on the fold itself. A curve may pass some of
+    /// their vertices.
     fn add(&mut self, paths: &[Path], passed: &[Point], Halving { fold, sagitta }: Halving) {
         for path in paths {
             let times = path.times * if fold.is_some() { 2.0 } else { 1.0 };
@@ -172,7 +172,7 @@ impl Cuts {
                 let mut way = (ends[1] - ends[0]).norm();
                 if let Some(round) = curve {
                     way = round.radius * round.sweep.abs();
-                    // An arc over an angle is longer than its chords by a third of that times their sagitta.
+                    // An arc is longer than its chords by a third of its angle times their sagitta.
                     self.slack += times * sagitta * round.sweep.abs();
                     self.rounds.push(*round);
                     self.rounds.extend(fold.map(|fold| round.across(fold)));
@@ -191,7 +191,7 @@ impl Cuts {
                 if fold.off(at).abs() > MEETS {
                     self.places.push(Place { at: fold.across(at), is_end, is_passed });
                 } else {
-                    // Beside the fold a line goes over to its other half, which may take twice the distance more or less.
+                    // A line that ends beside the fold goes over to its other half: up to twice the distance more or less.
                     self.slack += 2.0 * fold.off(at).abs();
                 }
             }
@@ -199,7 +199,7 @@ impl Cuts {
     }
 }
 
-/// On how many sides lines are, and how far chords may lie off their curves, mm.
+/// Number of sides of the lines, and greatest distance of chords from their curves, mm.
 #[derive(Debug, Clone, Copy)]
 struct Halving {
     fold: Option<Fold>,

@@ -1,9 +1,9 @@
-//! Folds of half pieces, found anew: which edges lie on them, and where a place is on the other half.
+//! Folds of half pieces, found anew: edges on the fold, and mirror images of places.
 
 use super::lines::{MEETS, Path, Round};
 use crate::geom::{Point, Vector, cross, left};
 
-/// A fold line as it is drawn, and about what a half is mirrored.
+/// A fold line as drawn, and the axis of the mirror.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fold {
     drawn: Axis,
@@ -33,7 +33,7 @@ impl Axis {
 }
 
 impl Fold {
-    /// That from the first place of a line to its last; `None` where it has no length.
+    /// Fold from the first point of a line to its last; `None` if it has no length.
     pub(super) fn of(path: &Path) -> Option<Self> {
         let (first, last) = (path.points.first()?, path.points.last()?);
         let length = (last - first).norm();
@@ -41,14 +41,14 @@ impl Fold {
         (length > MEETS).then_some(Self { drawn, length, about: drawn })
     }
 
-    /// Whether a line between two places lies on the fold: it is in line with it, and goes some way along it.
+    /// True if the line between two places lies on the fold: it is collinear with the fold and overlaps it.
     fn has(&self, ends: [Point; 2]) -> bool {
         let [a, b] = ends.map(|end| self.drawn.station(end));
         let both = a.max(b).min(self.length) - a.min(b).max(0.0);
         ends.iter().all(|end| self.drawn.off(*end).abs() <= MEETS) && both >= (a - b).abs().min(MEETS)
     }
 
-    /// Whether an edge lies on it; a curve does so with its middle, too.
+    /// True if an edge lies on it; for a curve its middle must lie on it, too.
     pub(super) fn has_edge(&self, ends: [Point; 2], curve: Option<Round>) -> bool {
         let middle = curve.map_or(ends[0], |round| round.at(0.5));
         self.has(ends) && self.drawn.off(middle).abs() <= MEETS
@@ -58,7 +58,8 @@ impl Fold {
         self.about.off(at)
     }
 
-    /// Neighbours of a vertex on the whole outline: those of the half, but for one along the fold the other's mirror image.
+    /// Neighbours of a vertex on the whole outline: those on the half, but a neighbour along the fold is replaced by the mirror
+    /// image of the other one.
     pub(super) fn neighbours(&self, at: Point, [before, behind]: [Point; 2]) -> [Point; 2] {
         match [before, behind].map(|end| self.has_edge([end, at], None)) {
             [true, false] => [self.across(behind), behind],
@@ -72,7 +73,7 @@ impl Fold {
         at - left(self.about.along) * (2.0 * self.off(at))
     }
 
-    /// Whether lines lie on one side, and not all of them on the fold itself: then they are half of something.
+    /// True if lines lie on one side of the fold and not all of them on the fold itself: then they are half of an outline.
     pub(super) fn halves(&self, paths: &[Path]) -> bool {
         let middles = |path: &Path| path.curves.iter().flatten().map(|round| round.at(0.5)).collect::<Vec<_>>();
         let places = || paths.iter().flat_map(|path| path.points.iter().copied().chain(middles(path)));
@@ -80,7 +81,8 @@ impl Fold {
         offs().any(|off| off > MEETS) != offs().any(|off| off < -MEETS)
     }
 
-    /// The fold of a half: where an edge of its outline is as long on the line as that is, the cloth is folded along the longest.
+    /// Fold of a half piece: if an edge of the outline is at least as long on the fold line as the line itself, the longest
+    /// such edge is the axis.
     pub(super) fn of_half(self, outlines: &[Path]) -> Self {
         let edges = outlines.iter().flat_map(|path| (0..path.curves.len()).map(|k| (path.edge(k), path.curves[k])));
         let mut longest = self.length - 2.0 * MEETS;
