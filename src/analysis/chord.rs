@@ -29,7 +29,7 @@ pub(super) fn first_stop(path: &[Point], heels: Range<usize>, width: f64) -> Opt
     let direction = |chord: usize| -> Vector {
         polyline::direction(path[chord], path[chord + 1]).expect("no chord of a run has length zero")
     };
-    // Where the rest of the path is within one blade width, one plunge cuts it.
+    // If the rest of the path is within one blade width, one plunge cuts it.
     let plunge = Plunge::at_start(&path[heels.start..], width);
     let mut heel = Foot { point: plunge.heel, chord: heels.start };
     let mut tip = Foot { point: plunge.tip, chord: plunge.chord + heels.start };

@@ -1,4 +1,4 @@
-//! The cloth around a cut: which parts lie on it, and how far a blade may go before it enters one.
+//! The cloth around a cut: the parts on it, and the distance that a blade may go before it enters one.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -13,41 +13,39 @@ use crate::ir::toolpath::Overcut;
 use crate::ir::{Marker, Toolpath};
 use crate::machine::{Knife, MachineProfile, NotchStyle};
 
-/// Part of the tolerance by which a straight extension may lie in a part: then it runs along an edge that is cut anyway.
-/// The rest is for how far the tip may leave its path.
+/// Fraction of the tolerance by which a straight extension may be in a part: then it runs along an edge that is cut anyway. The
+/// rest is for deviations of the tip.
 const SLACK_SHARE: f64 = 0.9;
-/// Distance of two places of a way that are looked at, mm.
+/// Distance of the samples of a segment, mm.
 const STEP: f64 = 0.1;
-/// A way that enters the part within this length begins in it, mm: rounding.
+/// Length within which an extension that enters the part counts as beginning in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;
 
 /// The parts that lie on the cloth.
 #[derive(Debug)]
 pub struct Cloth<'a> {
-    /// Inside their outlines as these are cut, not inside their cut-outs, whichever way round these are drawn.
+    /// Interiors of the outlines as they are cut, without the cut-outs, in either orientation.
     parts: Regions<'a>,
-    /// The slits that are cut, and their boxes: what lies on one of them is cut anyway.
+    /// Slits that are cut, and their boxes: places on them are cut anyway.
     slits: Vec<[Point; 2]>,
     slit_boxes: Boxes,
-    /// The part to which each piece belongs: one that lies in another is a cut-out of that.
+    /// The part to which each piece belongs: a piece in another one is a cut-out of that.
     part_of: Vec<u32>,
-    /// By how much parts may overlap that only touch, mm.
+    /// Overlap up to which parts only touch, mm.
     band: f64,
-    /// A blade is plunged once, without a run, where its way would be no longer than this, mm: half of it stays uncut at either
-    /// end.
+    /// Length up to which the blade plunges once instead of moving, mm: half of it stays uncut at either end.
     least_way: f64,
 }
 
-/// How long a way of the blade is none, in lengths that may be left uncut: less than two, since half of it is left at either
-/// end.
+/// Shortest motion that counts as a cut, in multiples of `max_uncut`: less than two, since half of it is left at either end.
 const LEAST_WAY_SHARE: f64 = 1.5;
 
 impl<'a> Cloth<'a> {
-    /// The cloth on which a marker lies. Contours that do not close bound nothing.
+    /// The cloth under a marker. Contours that do not close bound nothing.
     pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let nesting = Nesting::of(marker, profile.band(marker.unit));
         let contours: Vec<&Contour> = marker.contours().map(|(_, contour)| contour).collect();
-        // The closed lines of each part, by the piece that its outline is of.
+        // The closed lines of each part, by the piece of its outline.
         let mut lines: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for line in (0..contours.len()).filter(|&line| contours[line].closed) {
             let outline = nesting.outline(line).unwrap_or(line);
@@ -57,7 +55,7 @@ impl<'a> Cloth<'a> {
         let points = |&line: &usize| {
             let points = marker.list.points(contours[line].range);
             let notches = &marker.pieces[nesting.lines()[line].group as usize].outline_notches;
-            // The cloth of a notch that is a slit, or none, stays with its part.
+            // The cloth of a notch that is cut as a slit, or not at all, stays with its part.
             let is_as_drawn = style == NotchStyle::AsDrawn || notches.is_empty();
             if is_as_drawn { points } else { Cow::Owned(bridged(&points, notches)) }
         };
@@ -71,13 +69,12 @@ impl<'a> Cloth<'a> {
         Self { parts, slits, slit_boxes, part_of, band: profile.band(marker.unit), least_way }
     }
 
-    /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
+    /// True if a place is in the part to which a piece belongs; the piece is given by its index.
     pub fn is_in_part(&self, piece: usize, place: Point) -> bool {
         self.parts.owners_at(place).contains(&self.part_of[piece])
     }
 
-    /// The part in which a way from one place to another lies deepest, of those that a piece does not belong to; `None` when it
-    /// lies in none.
+    /// The part in which a segment lies deepest, except for the part of the given piece; `None` when it is in none.
     pub fn deepest_other(&self, piece: usize, [from, to]: [Point; 2]) -> Option<u32> {
         let own = self.part_of[piece];
         let length = (to - from).norm();
@@ -87,40 +84,40 @@ impl<'a> Cloth<'a> {
         depths.filter(|(part, _)| *part != own).reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|deepest| deepest.0)
     }
 
-    /// Whether a place lies no farther than so many mm from a slit that is cut.
+    /// True if a place is at most `slack` mm from a slit that is cut.
     fn is_on_slit(&self, place: Point, slack: f64) -> bool {
         let mut near = self.slit_boxes.near(Extent::between(place, place).grown(slack)).map(|i| self.slits[i]);
         near.any(|[from, to]| polyline::distance_to_segment(place, from, to) <= slack)
     }
 
-    /// The cloth as the cuts of a toolpath see it.
+    /// The cloth as seen from the cuts of a toolpath.
     pub fn around(&'a self, toolpath: &Toolpath, knife: &'a Knife) -> Surroundings<'a> {
         let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);
         Surroundings { knife, tolerance: toolpath.tolerance, least_way: self.least_way, cloth: self, part }
     }
 }
 
-/// What the cuts of one piece go by: the blade, its tolerance, and the cloth as seen from the part of that piece.
+/// Surroundings of the cuts of one piece: the blade, its tolerance, and the cloth as seen from the part of that piece.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
-    /// The blade, and how far it should go past the ends of cuts.
+    /// The blade, with its overlaps at the ends of cuts.
     pub knife: &'a Knife,
     /// Permitted deviation of the tip, mm.
     pub tolerance: f64,
-    /// A way of the blade between plunge and lift that is no longer is none, mm.
+    /// Length up to which the blade plunges once instead of moving, mm.
     pub least_way: f64,
     cloth: &'a Cloth<'a>,
     part: u32,
 }
 
 impl Surroundings<'_> {
-    /// How far a straight way goes before it enters a part.
+    /// Distance that a straight extension goes before it enters a part.
     pub fn room(&self, ray: &Ray) -> Room {
         self.cloth.parts.room(ray, self.part, [SLACK_SHARE * self.tolerance, self.cloth.band])
     }
 
-    /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge, or in
-    /// the outer quarter of a strip, is not in the part, and what lies on a slit, of whichever part, is cut anyway.
+    /// Depths of a place in parts, mm, at most `reach`: its distance from their edges. A place in the band at an edge, or in
+    /// the outer quarter of a strip, is not in the part, and a place on any slit is cut anyway.
     pub fn depths(&self, place: Point, reach: f64) -> Overcut {
         let mut depths = Overcut::default();
         if self.cloth.is_on_slit(place, SLACK_SHARE * self.tolerance) {
@@ -138,13 +135,13 @@ impl Surroundings<'_> {
         self.cloth.band
     }
 
-    /// Whether a straight way leads into the part to which the piece belongs from its very start.
+    /// True if a straight extension leads into the part of the piece from its start.
     pub fn leads_inside(&self, ray: &Ray) -> bool {
         begins_inside(self.room(ray))
     }
 }
 
-/// Whether a way with this room begins in the part to which its piece belongs.
+/// True if an extension with this room begins in the part of its piece.
 pub fn begins_inside(room: Room) -> bool {
     room.own <= INSIDE_EPSILON
 }

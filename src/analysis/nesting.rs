@@ -1,9 +1,9 @@
-//! Which line lies in which: what holds each line of a marker or a drawing, and which part each belongs to.
+//! Nesting: the closed lines around each line of a marker or a drawing, and the part that each line belongs to.
 //!
-//! A closed line holds a smaller one if a place well inside the smaller one lies in it and most of the smaller one, as [`Hold`]
-//! says, does not stick out. It holds an open line if the middle of its first segment or all of its vertices lie in it. A line
-//! that an odd number of closed lines hold is an inner line: it bounds a cut-out of the part whose outline is the smallest
-//! around it. What lies in a cut-out is a part again.
+//! A closed line holds a smaller one if a place well inside the smaller one is in it and most of the smaller one, as [`Hold`]
+//! defines, does not protrude. It holds an open line if the middle of its first segment or all of its vertices are in it. A
+//! line that an odd number of closed lines hold is an inner line: it bounds a cut-out of the part whose outline is the smallest
+//! around it. A closed line in a cut-out is a part again.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -21,57 +21,57 @@ use crate::ir::Marker;
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Piece};
 
-/// Lines lie in one another less deep than this.
+/// Usual limit of the depth of nesting.
 const DEEP: usize = 16;
-/// What a line costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
-/// place in it looks at them all.
+/// Cost of each line around another beyond that depth, relative to the comparison of two boxes: every query of a place visits
+/// them all.
 const HELD: usize = 200;
-/// Distance within which a vertex of an open line lies on an outline, neither in it nor outside, mm: coordinates are rounded.
+/// Distance within which a vertex of an open line is on an outline, neither inside nor outside, mm: coordinates are rounded.
 const ON_OUTLINE: f64 = 0.1;
-/// Places of a line that are looked at to see whether it sticks out.
+/// Number of samples of a line to see whether it protrudes.
 const SAMPLES: usize = 12;
 
-/// A line that may lie in others.
+/// A line of a nesting.
 #[derive(Debug, Clone, Copy)]
 pub struct Line {
     /// The box around it.
     pub extent: Extent,
-    /// Which lines belong together, such as those of a piece.
+    /// Group of lines that belong together, such as those of a piece.
     pub group: u32,
-    /// Whether it is closed, so that it has an inside.
+    /// True if it is closed, so that it has an inside.
     pub is_closed: bool,
-    /// Whether others may lie in it.
+    /// True if others may be in it.
     pub may_hold: bool,
 }
 
-/// What it takes for a line to hold another.
+/// Conditions for a line to hold another.
 #[derive(Debug, Clone, Copy)]
 pub struct Hold {
-    /// Share of the other's box that its own covers, at the least; within a group any share does.
+    /// Least share of the other's box that its own covers; within a group any share suffices.
     pub box_share: f64,
-    /// Share of the other's places that lie in it, at the least.
+    /// Least share of the other's samples that are in it.
     pub share: f64,
-    /// Whether the first of two that are alike holds the other.
+    /// True if the first of two equal lines holds the other.
     pub twins: bool,
-    /// By how much lines of other groups may stick out and still lie inside, mm: edges that near are one.
+    /// Distance by which lines of other groups may protrude and still be inside, mm: edges within it are one.
     pub band: f64,
 }
 
-/// Outlines of cutter files: their cut-outs lie wholly inside, and a part that is cut twice is no cut-out of itself.
+/// Conditions for cutter files: cut-outs are wholly inside, and a part that is cut twice is no cut-out of itself.
 const WHOLLY: Hold = Hold { box_share: 1.0, share: 0.0, twins: false, band: 0.0 };
 
-/// What holds each line.
+/// The lines around each line.
 #[derive(Debug, Default)]
 pub struct Nesting {
     lines: Vec<Line>,
-    /// The lines around each that lies in any, the smallest first.
+    /// For each line in any other, the lines around it, the smallest first.
     around: BTreeMap<usize, Vec<u32>>,
-    /// The line at which no work was left: of it and those behind it nothing is known.
+    /// The line at which the work budget was spent: nothing is known of it and of later ones.
     ended: Option<usize>,
 }
 
 impl Nesting {
-    /// What holds each of some lines; `points` gives the points of one, a closed one ending with its first.
+    /// Nesting of some lines; `points` gives the points of one, a closed one ending with its first.
     pub fn new<'a>(
         lines: Vec<Line>,
         hold: Hold,
@@ -98,13 +98,13 @@ impl Nesting {
         Self { lines: search.lines, around, ended }
     }
 
-    /// What holds each contour of a marker, in which edges of different pieces nearer than `band`, mm, are one edge: its lines
-    /// are those of [`Marker::contours`], in that order, the groups the places of its pieces.
+    /// Nesting of the contours of a marker, where edges of different pieces within `band` mm are one edge: its lines are those
+    /// of [`Marker::contours`], in that order, its groups the indices of its pieces.
     pub fn of(marker: &Marker, band: f64) -> Self {
         Self::of_contours(&marker.list, &marker.contours().collect::<Vec<_>>(), Hold { band, ..WHOLLY })
     }
 
-    /// What holds each contour of a piece, seen by itself: its lines are the contours.
+    /// Nesting of the contours of a piece alone: its lines are the contours.
     pub fn of_piece(list: &SegmentList, piece: &Piece) -> Self {
         match &piece.contours[..] {
             [_] => Self::default(), // as of nearly all
@@ -115,7 +115,7 @@ impl Nesting {
         }
     }
 
-    /// What holds each of some lines, each by itself; closed ones end with their first point.
+    /// Nesting of some lines, each its own group; closed ones end with their first point.
     pub fn of_lines(lines: &[&[Point]]) -> Self {
         let line = |(group, points): (usize, &&[Point])| {
             let is_closed = points.len() > 2 && points.first() == points.last();
@@ -125,7 +125,7 @@ impl Nesting {
         Self::new(all, WHOLLY, |i| Cow::Borrowed(lines[i]), &mut Budget::of_a_marker())
     }
 
-    /// What holds each of some contours, each with its group.
+    /// Nesting of some contours, each with its group.
     fn of_contours(list: &SegmentList, contours: &[(usize, &Contour)], hold: Hold) -> Self {
         let line = |&(group, contour): &(usize, &Contour)| Line {
             extent: list.extent(contour.range),
@@ -140,8 +140,8 @@ impl Nesting {
         nesting
     }
 
-    /// Takes lines of other groups from those around a line that holds a line of theirs: around their cut-out it lies over their
-    /// part, not in it.
+    /// Removes lines of other groups from those around a line that holds a line of theirs: around their cut-out it lies over
+    /// their part, not in it.
     fn part_overlaid(&mut self) {
         let group = |line: usize| self.lines[line].group;
         let pairs =
@@ -161,18 +161,18 @@ impl Nesting {
         &self.lines
     }
 
-    /// The lines of a group, where those of one stand behind each other and groups in order, as in a marker.
+    /// The lines of a group; lines must be sorted by group, as in a marker.
     pub fn of_group(&self, group: usize) -> Range<usize> {
         let first = |group: usize| self.lines.partition_point(|line| (line.group as usize) < group);
         first(group)..first(group + 1)
     }
 
-    /// The line at which the search was ended before its time.
+    /// The line at which the search ended early; `None` if it is complete.
     pub fn ended(&self) -> Option<usize> {
         self.ended
     }
 
-    /// Whether no line lies in another.
+    /// True if no line is in another.
     pub fn is_flat(&self) -> bool {
         self.around.is_empty()
     }
@@ -192,13 +192,13 @@ impl Nesting {
         self.around(line).next_back()
     }
 
-    /// Whether an odd number of lines is around one: a closed one bounds a cut-out then, an open one lies in a part.
+    /// True if an odd number of lines is around one: then a closed one bounds a cut-out, and an open one is in a part.
     pub fn is_inner(&self, line: usize) -> bool {
         self.around(line).len() % 2 == 1
     }
 
-    /// The outline of the part to which a line belongs: of an outline that itself, of any other the smallest around it;
-    /// `None` of an open line that lies in no part.
+    /// Outline of the part to which a line belongs: itself for an outline, otherwise the smallest outline around it; `None` for
+    /// an open line in no part.
     pub fn outline(&self, line: usize) -> Option<usize> {
         if self.is_inner(line) {
             self.around(line).find(|&outer| !self.is_inner(outer))
@@ -215,7 +215,7 @@ impl Nesting {
         widest.or_else(|| self.of_group(group).next())
     }
 
-    /// The other groups within whose closed lines a group lies, in order: its widest line holds all else of it.
+    /// The other groups within whose closed lines a group lies, in order; its widest line represents it.
     pub fn holders(&self, group: usize) -> Vec<usize> {
         let Some(outline) = self.widest(group) else { return Vec::new() };
         let others = self.around(outline).map(|line| self.lines[line].group as usize);
@@ -225,8 +225,8 @@ impl Nesting {
         holders
     }
 
-    /// The part to which a group belongs, by the group of its outline: another where its widest closed line bounds a
-    /// cut-out of that; `None` where none of its lines is closed.
+    /// The part to which a group belongs, by the group of its outline: another group if its widest closed line bounds a cut-out
+    /// of that; `None` if none of its lines is closed.
     pub fn part_of(&self, group: usize) -> Option<usize> {
         let widest = self.widest(group).filter(|&line| self.lines[line].is_closed)?;
         self.outline(widest).map(|outline| self.lines[outline].group as usize)
@@ -238,14 +238,14 @@ fn box_area(extent: &Extent) -> f64 {
     width * height
 }
 
-/// The boxes of the lines that may hold others; those of the others are empty.
+/// Boxes of the lines that may hold others, with empty boxes for the rest.
 fn holding(lines: &[Line]) -> Boxes {
     Boxes::new(lines.iter().map(|line| if line.may_hold { line.extent } else { Extent::EMPTY }).collect())
 }
 
 struct Search<'w, P> {
     lines: Vec<Line>,
-    /// The area within each, mm2, once it was asked for: few lines lie near enough to others.
+    /// Area within each line, mm2, computed at first use: few lines are near enough to others.
     areas: Vec<OnceCell<f64>>,
     boxes: Boxes,
     hold: Hold,
@@ -254,7 +254,7 @@ struct Search<'w, P> {
 }
 
 impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
-    /// By their boxes alone, what may hold each line, and the line at which no work was left.
+    /// Candidates around each line, by their boxes alone, and the line at which the work budget was spent.
     fn candidates(&mut self) -> (BTreeMap<usize, Vec<u32>>, Option<usize>) {
         let mut candidates = BTreeMap::new();
         for (i, line) in self.lines.iter().enumerate() {
@@ -277,7 +277,7 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
         (candidates, None)
     }
 
-    /// Whether one line is larger than another and its box leaves little of the other's uncovered.
+    /// True if one line is larger than another and its box leaves little of the other's uncovered.
     fn may_hold(&self, outer: usize, inner: usize) -> bool {
         let (around, own) = (&self.lines[outer], &self.lines[inner]);
         let both = Extent { min: own.extent.min.sup(&around.extent.min), max: own.extent.max.inf(&around.extent.max) };
@@ -291,7 +291,7 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
 
     fn is_larger(&self, one: usize, other: usize) -> bool {
         if self.are_alike(one, other) {
-            // A part that fills a cut-out lies in it, whichever of the two was drawn larger.
+            // A part that fills a cut-out is in it, whichever of the two was drawn larger.
             match [one, other].map(|line| self.is_cut_out(line)) {
                 [true, false] => return true,
                 [false, true] => return false,
@@ -302,14 +302,14 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
         a > b || self.hold.twins && a == b && one < other
     }
 
-    /// Whether the boxes of two lines of different groups are one within the band.
+    /// True if the boxes of two lines of different groups agree within the band.
     fn are_alike(&self, one: usize, other: usize) -> bool {
         let [a, b] = [one, other].map(|line| &self.lines[line]);
         let covers = |outer: &Line, inner: &Line| outer.extent.grown(self.hold.band).covers(&inner.extent);
         a.group != b.group && covers(a, b) && covers(b, a)
     }
 
-    /// Whether the box of a line lies in that of a larger one of its group, as those of cut-outs do.
+    /// True if the box of a line is in that of a larger one of its group, as for cut-outs.
     fn is_cut_out(&self, line: usize) -> bool {
         let own = &self.lines[line];
         let first = self.lines.partition_point(|other| other.group < own.group);
@@ -323,7 +323,7 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
         *self.areas[line].get_or_init(area)
     }
 
-    /// Those of the candidates that hold a line, the smallest first; `None` when the work is spent.
+    /// The candidates that hold a line, the smallest first; `None` when the work budget is spent.
     fn around(&mut self, line: usize, candidates: &[u32], regions: &Regions) -> Option<Vec<u32>> {
         let points = (self.points)(line);
         let is_closed = self.lines[line].is_closed;
@@ -368,7 +368,7 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
     }
 }
 
-/// Middles of edges of a ring, evenly among them: edges that lie on those of another ring count either way.
+/// Middles of edges of a ring, evenly distributed; edges on those of another ring count either way.
 fn samples(ring: &[Point]) -> impl Iterator<Item = Point> {
     let edges = ring.len() - 1;
     (0..SAMPLES).map(move |k| {

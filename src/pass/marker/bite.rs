@@ -1,16 +1,16 @@
-//! Bite: windows of a conveyor, and the ways of the cloth between them.
+//! Bite: windows of a conveyor, and the advances of the cloth between them.
 //!
-//! Needs: the pieces on the table, what lies within a part before it. Leaves true: without `bite.length_mm` everything; else
-//! every piece, or section of one that is longer than a window, lies in one window with all that the blade reaches beyond its
-//! lines, windows come in the order of their places along X, and before the first piece of each stands the way of the cloth, in
-//! whole mm. Within a window pieces keep their order, and early sections come last. What is asked of the operator stays between
-//! the same pieces.
+//! Needs: the pieces on the table, the content of a part before the part. Without `bite.length_mm` changes nothing. Leaves
+//! true: every piece, or section of a piece longer than a window, is in one window with all that the blade reaches beyond its
+//! lines; windows come in the order of their places along X; before the first piece of each window stands the advance of the
+//! cloth, in whole mm. Within a window pieces keep their order, and early sections come last. Requests to the operator stay
+//! between the same pieces.
 //!
-//! A window takes every piece that ends in it, and the next one begins where the first of the others does. Where no piece is
-//! split, no other choice needs fewer windows where nothing is asked between pieces: one that begins farther back ends farther
-//! back. A longer piece is split in as few sections as can be, and there where that costs least ([`Long`]); its first section
-//! waits for a window of its own only where it would need more of them otherwise. Where the file moves the cloth on by itself
-//! (M69) its own windows are kept.
+//! A window takes every piece that ends in it, and the next window begins at the first of the others. If no piece is split and
+//! nothing is asked between pieces, no other choice needs fewer windows, since a window that begins farther back ends farther
+//! back. A longer piece is split into the fewest sections possible, at the places of least cost ([`Long`]). Its first section
+//! waits for a window of its own only if it would need more sections otherwise. If the file advances the cloth itself (M69),
+//! its own windows are kept.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -31,7 +31,7 @@ pub(super) const PASS: MarkerPass =
 
 /// Decimals of lengths in messages, mm.
 const DECIMALS: u32 = 1;
-/// Distance by which a piece may begin before its window, mm: rounding of the sum of a place and a way.
+/// Distance by which a piece may begin before its window, mm: rounding of a sum.
 const PLACE_EPSILON: f64 = 1e-6;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
@@ -62,7 +62,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Least start of the stretches from each place on, and behind the last.
+/// Least start of the stretches from each index on; infinite after the last.
 fn firsts(stretches: &[Option<Stretch>]) -> Vec<f64> {
     let mut firsts = vec![f64::INFINITY; stretches.len() + 1];
     for (i, stretch) in stretches.iter().enumerate().rev() {
@@ -71,22 +71,22 @@ fn firsts(stretches: &[Option<Stretch>]) -> Vec<f64> {
     firsts
 }
 
-/// Whether the file moves the cloth on.
+/// True if the file advances the cloth.
 fn is_advance(event: &Event) -> bool {
     event.kind == toolpath::Event::Advance
 }
 
 /// A piece, or a section of one, in a window.
 struct Placed {
-    /// The place of the piece.
+    /// Index of the piece.
     piece: usize,
-    /// Way of the cloth by then, mm.
+    /// Advance of the cloth by then, mm.
     advance: u32,
-    /// Stretch of the section along X, mm, and whether it is the last one; `None` of a whole piece.
+    /// Stretch of the section along X, mm, and whether it is the last one; `None` for a whole piece.
     section: Option<([f64; 2], bool)>,
 }
 
-/// The stretch of a piece; `None` where nothing of it is cut.
+/// Stretch of a piece; `None` if nothing of it is cut.
 fn stretch(marker: &Marker, piece: &Piece, job: &Job) -> Option<Stretch> {
     let mut extent = Extent::EMPTY;
     piece.contours.iter().for_each(|contour| extent.join(&marker.list.extent(contour.range)));
@@ -99,8 +99,8 @@ fn stretch(marker: &Marker, piece: &Piece, job: &Job) -> Option<Stretch> {
     (!extent.is_empty()).then_some(Stretch { from: extent.min.x - reach, to: extent.max.x + reach })
 }
 
-/// Has the stretch of each part reach as far as those of the pieces in it: they are cut before it is free. An axis that stands
-/// beside its drill reaches farther than the part around the hole, and a piece may stick out by the band of the nest.
+/// Extends the stretch of each part to cover those of the pieces in it, which are cut before it comes free. The axis of an
+/// offset drill reaches farther than the part around the hole, and a piece may protrude by the band of the nest.
 fn wait_for_held(marker: &Marker, stretches: &mut [Option<Stretch>], job: &Job) {
     let nesting = Nesting::of(marker, job.profile.band(marker.unit));
     let extent = |piece: &Piece| {
@@ -125,24 +125,24 @@ fn wait_for_held(marker: &Marker, stretches: &mut [Option<Stretch>], job: &Job) 
     }
 }
 
-/// Pieces between two places where something is asked for.
+/// Ranges of pieces between requests.
 fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
     let mut starts: Vec<usize> = (0..pieces.len()).filter(|&i| i == 0 || !pieces[i].events.is_empty()).collect();
     starts.push(pieces.len());
     starts.windows(2).map(|ends| ends[0]..ends[1]).collect()
 }
 
-/// Windows as they are laid.
+/// Windows under construction.
 struct Windows {
     /// Length of each, mm.
     length: f64,
     /// Start of the first one, mm.
     start: f64,
-    /// Way of the cloth so far, whole mm.
+    /// Advance of the cloth so far, whole mm.
     advance: u32,
-    /// Number of the present one, from 0.
+    /// Number of the present window, from 0.
     number: u32,
-    /// Whether anything was cut so far.
+    /// True if anything was cut so far.
     is_begun: bool,
     /// The pieces that are longer than a window.
     longs: BTreeMap<usize, Long>,
@@ -150,20 +150,20 @@ struct Windows {
 
 /// Reason that a piece fits no window.
 enum Misfit {
-    /// It is longer than a window: its length with what the blade needs beside it, mm.
+    /// It is longer than a window: its length with the room that the blade needs, mm.
     Long(usize, f64),
-    /// It begins before a window that has passed, by so much, mm.
+    /// It begins before a window that has passed: by that distance, mm.
     Behind(usize, f64),
 }
 
 impl Windows {
-    /// Start of the present one, mm.
+    /// Start of the present window, mm.
     fn begins(&self) -> f64 {
         self.start + f64::from(self.advance)
     }
 
-    /// Puts the pieces of a block into windows: the place of each, with the way of the cloth by then. Behind an advance of the
-    /// file a window begins; `later` is where the first piece of later blocks begins.
+    /// Assigns the pieces of a block to windows: appends their order, with the advance of the cloth by then. An advance of the
+    /// file starts a new window; `later` is the start of the first piece of later blocks.
     fn take(
         &mut self,
         mut left: Vec<(usize, Option<Stretch>)>,
@@ -175,13 +175,13 @@ impl Windows {
             let cut = left.iter().filter_map(|&(i, stretch)| Some((i, stretch?)));
             let first = cut.min_by(|(_, a), (_, b)| a.from.total_cmp(&b.from));
             if let Some((i, first)) = first {
-                // Of the first window the table is the judge.
+                // The first window is judged by the pass `table`.
                 let behind = self.begins() - first.from;
                 if behind > PLACE_EPSILON && self.advance > 0 {
                     return Err(Misfit::Behind(i, behind));
                 }
                 if is_next {
-                    // A section begins where its window does.
+                    // A section begins at the start of its window.
                     let section = self.longs.get(&i).map(|_| first.from + self.length - 1.0);
                     let to = section.map_or(first.to, |to| to.min(first.to));
                     let next = self.next(Stretch { to, ..first }, later);
@@ -204,7 +204,7 @@ impl Windows {
         Ok(())
     }
 
-    /// Takes what fits in the present window: whole pieces, and sections of longer ones.
+    /// Takes the pieces that fit in the present window: whole pieces, and sections of longer ones.
     fn fill(&mut self, left: &mut Vec<(usize, Option<Stretch>)>, order: &mut Vec<Placed>) {
         let (begin, end) = (self.begins(), self.begins() + self.length + PLACE_EPSILON);
         left.retain(|&(piece, stretch)| {
@@ -228,7 +228,7 @@ impl Windows {
         }
     }
 
-    /// Way of the cloth to the next window, which holds `first`: as far as that and what comes `later` allow. `None` where that
+    /// Advance of the cloth at the next window, which holds `first`: as far as that piece and `later` ones allow. `None` if the
     /// piece is too long.
     fn next(&self, first: Stretch, later: f64) -> Option<u32> {
         let most = (first.from - self.start + PLACE_EPSILON).floor();
@@ -266,8 +266,9 @@ impl Misfit {
     }
 }
 
-/// Puts pieces in order, and the ways of the cloth before the first of each window. Events before a block stay before it; an
-/// advance at the end moves all off the table. Advances of the file that move nothing are left out, and told.
+/// Puts pieces in order, with the advances of the cloth before the first piece of each window. Events before a block stay
+/// before it; an advance at the end moves everything off the table. Advances of the file that move nothing are left out and
+/// reported.
 fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[Placed], end: u32) -> Option<Diagnostic> {
     let of_block = |block: &Range<usize>| (block.start, std::mem::take(&mut marker.pieces[block.start].events));
     let mut asked = blocks.iter().map(of_block).collect::<Vec<_>>().into_iter().peekable();
@@ -297,7 +298,7 @@ fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[Placed], end: u32)
     Some(Diagnostic::new(&code::MARKER_IDLE_ADVANCE, message).at(first.span).hint(hint))
 }
 
-/// A piece, or the next section of it: with the holes and slits in that, and with all that is left if it is the last.
+/// A piece, or the next section of it with its holes and slits; the last section also has the rest of the piece.
 fn placed(piece: &mut Option<Piece>, section: Option<([f64; 2], bool)>) -> Piece {
     let left = piece.as_mut().expect("each piece is in one window");
     match section {
@@ -314,7 +315,8 @@ fn placed(piece: &mut Option<Piece>, section: Option<([f64; 2], bool)>) -> Piece
     }
 }
 
-/// Puts a way of the cloth in place of the first advance among some events, or before all: the other advances, taken out.
+/// Replaces the first advance among some events by an advance of `way` mm, or inserts one before all, and returns the other
+/// advances.
 fn put(events: &mut Vec<Event>, way: u32, plain: Event) -> Vec<Event> {
     if way > 0 {
         if !events.iter().any(is_advance) {

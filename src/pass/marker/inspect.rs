@@ -51,13 +51,13 @@ const FAR: f64 = 300.0;
 const FAR_SHARE: f64 = 0.1;
 /// Least area of a contour without its far point, as a multiple of that of the spike.
 const REST: f64 = 4.0;
-/// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded for itself.
+/// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded by itself.
 const MISSES: f64 = 2.5;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
 const GAP_DECIMALS: u32 = 3;
-/// Boxes that begin beside one and are compared with it.
+/// Greatest number of boxes with which one is compared.
 const MOST_COMPARED: usize = 16;
-/// Decimals of how far a contour runs beside another one, mm.
+/// Decimals of the distance between contours side by side, mm.
 const BESIDE_DECIMALS: u32 = 2;
 /// Distance within which a contour lies on another one, mm: what a drawing rounds.
 const ON_IT: f64 = 0.1;
@@ -85,20 +85,20 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Contours that stand again.
+/// Repeated contours.
 struct Repeats {
     all: BTreeSet<ContourPlace>,
-    /// Those that a drawing repeats within a piece: they are cut once. Cut files say themselves how often they cut.
+    /// Those that a drawing repeats within a piece: they are cut once. Cut files tell the number of cuts.
     spared: BTreeSet<ContourPlace>,
 }
 
-/// Says that a drawing has a contour of a piece twice.
+/// Reports that a drawing has a contour of a piece twice.
 fn say_once(piece: u32, span: Span, diagnostics: &mut Diagnostics) {
     let message = format!("a contour of piece {piece} stands twice: cut once");
     diagnostics.push(Diagnostic::new(&code::MARKER_ROUND_AGAIN, message).at(span));
 }
 
-/// Says how many contours have a point far off between two that lie near each other, and which is the farthest.
+/// Reports the number of contours that have a point far off between two neighbours that are close together, and the farthest.
 fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
     if marker.drawing.is_some() {
         return; // its outlines are copied to be looked at, which is dear
@@ -136,15 +136,15 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
     diagnostics.push(finding.hint("a digit may be doubled or lost: look at the picture (`-t svg`), export it again"));
 }
 
-/// Whether a point and its neighbours are a spike out of what the contour is without the point: the tip of a strip or of a godet
-/// is most of its part, and a dart or a slash leads into its part.
+/// True if a point and its neighbours are a spike out of the rest of the contour: the tip of a strip or of a godet is most of
+/// its part, and a dart or a slash leads into its part.
 fn stands_out(points: &[Point], [before, at, after]: [usize; 3]) -> bool {
     let rest: Vec<Point> = points.iter().copied().filter(|point| *point != points[at]).collect();
     let spike = ring::area(&[points[before], points[at], points[after]]).abs();
     ring::area(&rest).abs() >= REST * spike && !ring::contains(&rest, points[at])
 }
 
-/// Says so where all contours together are smaller than a part. Readers of files with a grid doubt their unit themselves.
+/// Reports contours that together are smaller than a part. Readers of files with a grid check their unit themselves.
 fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
     let mut extent = Extent::EMPTY;
     for (_, contour) in marker.contours() {
@@ -167,7 +167,7 @@ fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Marks the open contours of a file with a grid of which both ends lie beside an end of another one and not at it; warns of
+/// Marks the open contours of a file with a grid both ends of which are beside an end of another one and not at it; warns of
 /// them once.
 fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnostics) -> Vec<bool> {
     let reach = MISSES * marker.unit;
@@ -224,20 +224,20 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     }
 }
 
-/// Whether an open line goes around something, and does not lead to and fro.
+/// True if an open line encloses an area and does not merely lead to and fro.
 fn goes_around(points: &[Point], length: f64) -> bool {
     ring::area(points).abs() >= AROUND_AREA * length * length
 }
 
-/// A line that comes by its start and goes on.
+/// A line that returns to its start and goes on.
 struct Passing {
     /// Distance from its start, mm.
     off: f64,
-    /// Length that it has from there on, mm.
+    /// Length after that, mm.
     past: f64,
 }
 
-/// Nearest return of a line to its start after it has left it, and the length behind that.
+/// Nearest return of a line to its start after it has left it, and the length after that.
 fn comes_by(points: &[Point]) -> Option<Passing> {
     let first = points[0];
     let away = points.iter().position(|at| (at - first).norm() > NEAR_ENDS)?;
@@ -250,11 +250,11 @@ fn comes_by(points: &[Point]) -> Option<Passing> {
     (off <= NEAR_ENDS && past > NEAR_ENDS).then_some(Passing { off, past })
 }
 
-/// A contour: the place of its piece among all, and its own in that.
+/// A contour: index of its piece among all, and its own index in the piece.
 type ContourPlace = [u32; 2];
 
-/// A number made of the lower left corner of a contour's box, the same for all that cut the same segments, wherever they
-/// start and whichever way they go; and the contour.
+/// A number made of the lower left corner of a contour's box, equal for all contours of the same segments, in any direction and
+/// from any start; and the contour.
 type Print = (u64, ContourPlace);
 
 /// Contours of a marker with the boxes around them, in the order of the marker.
@@ -277,7 +277,7 @@ impl Boxed {
     }
 }
 
-/// Tells contours that stand again: which they are.
+/// Reports and returns contours that are repeated.
 fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> Repeats {
     let piece = |[piece, _]: ContourPlace| &marker.pieces[piece as usize];
     let range = |contour: ContourPlace| piece(contour).contours[contour[1] as usize].range;
@@ -325,7 +325,7 @@ fn twice(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) -> Repea
     Repeats { all: repeats.into_iter().map(|(later, _)| later).collect(), spared }
 }
 
-/// Tells closed contours that run beside another one within a reach, mm; those that stand again are told already. Which of them
+/// Reports closed contours that run beside another one within `reach` mm, except those already reported, and returns those that
 /// are spared.
 fn beside(
     marker: &Marker,
@@ -377,7 +377,7 @@ fn beside(
     spared
 }
 
-/// Quick test for boxes that nearly agree; true also where many begin beside each other, so that a search must tell.
+/// Quick test for boxes that nearly agree; also true if many begin side by side, so that a search must decide.
 fn may_be_beside(mut boxes: Vec<Extent>, reach: f64) -> bool {
     boxes.sort_unstable_by(|a, b| a.min.x.total_cmp(&b.min.x));
     let off = |a: &Extent, b: &Extent| (b.min - a.min).amax().max((b.max - a.max).amax());
@@ -387,7 +387,7 @@ fn may_be_beside(mut boxes: Vec<Extent>, reach: f64) -> bool {
     })
 }
 
-/// A segment as its two ends, the lesser first: the same whichever way it is cut.
+/// A segment as its two ends in a canonical order, independent of its direction.
 type Edge = [[u64; 2]; 2];
 
 fn edges(list: &SegmentList, range: Range) -> Vec<Edge> {

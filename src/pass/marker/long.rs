@@ -1,8 +1,8 @@
-//! Pieces that are longer than a window of the conveyor, and where they are split.
+//! Pieces longer than a window of the conveyor, and the places where they are split.
 //!
-//! Splits are looked for on a grid along X. From the far end back, for each place on it the best way on is known: the fewest
-//! sections, then the least cost of the splits between them (dynamic programming). Going forward a window then takes the section
-//! that leaves the best rest, of such the longest.
+//! Splits are looked for on a grid along X. From the far end back, the best continuation of each place is computed: the fewest
+//! sections, then the least cost of the splits between them (dynamic programming). Going forward, a window takes the section
+//! that leaves the best rest; among equals, the longest.
 
 use std::collections::BTreeMap;
 
@@ -12,14 +12,14 @@ use crate::geom::ring;
 use crate::ir::marker::{Marker, Piece};
 use crate::machine::{Bite, Job, NotchStyle};
 
-/// Distance of two borders that are looked at, mm.
+/// Distance of the borders that are tried, mm.
 const GRID: f64 = 5.0;
-/// Least length of a section, mm: two joins on an edge are no nearer to each other.
+/// Least length of a section, mm, so that two joins on an edge are at least that far apart.
 const SHORTEST: f64 = 60.0;
-/// What a section is shorter than a window, mm: ways of the cloth are whole mm.
+/// Least difference of a section and its window, mm: advances of the cloth are whole mm.
 const ROOM: f64 = 1.0;
 
-/// Stretch along X that the blade, or the axis over a drill, may take for a piece, mm.
+/// Stretch along X that the blade, or the axis of a drill, may need for a piece, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stretch {
     pub(super) from: f64,
@@ -31,13 +31,13 @@ pub(super) struct Stretch {
 pub(super) struct Long {
     /// Ends of the piece along X, mm.
     ends: [f64; 2],
-    /// The places where it may begin to be cut: its start, then where it may be split.
+    /// Places where a section may begin: the start of the piece, then the possible splits.
     places: Vec<Place>,
-    /// The one from which it is cut next.
+    /// Index of the place where the next section begins.
     next: usize,
-    /// The window that has the section before that, if there is one.
+    /// Window of the section before that, if there is one.
     window: Option<u32>,
-    /// How far the blade may reach beyond a border, mm.
+    /// Greatest reach of the blade beyond a border, mm.
     reach: f64,
 }
 
@@ -45,15 +45,15 @@ pub(super) struct Long {
 #[derive(Debug, Clone, Copy)]
 struct Place {
     x: f64,
-    /// Where the blade may begin, mm.
+    /// Start of the stretch that the blade may need, mm.
     from: f64,
     cost: u32,
-    /// The fewest sections from here to the end, and what the splits between them cost; `None` where there is no way on.
+    /// Fewest sections from here to the end, and the cost of the splits between them; `None` where the end cannot be reached.
     rest: Option<(u32, u32)>,
 }
 
 impl Long {
-    /// The pieces of a marker that are longer than a window and may be split, by their places.
+    /// Pieces of a marker that are longer than a window and may be split, by their indices.
     pub(super) fn of(marker: &Marker, stretches: &[Option<Stretch>], job: &Job) -> BTreeMap<usize, Self> {
         let length = job.profile.bite.length_mm.unwrap_or(f64::INFINITY) - ROOM;
         let is_long = |i: usize| {
@@ -96,23 +96,23 @@ impl Long {
         Self { ends, places, next: 0, window: None, reach }
     }
 
-    /// Where the blade may begin what is left, mm.
+    /// Start of the stretch that the blade may need for the rest, mm.
     pub(super) fn begins(&self) -> f64 {
         self.places[self.next].from
     }
 
-    /// Whether a section in a window would lie too many advances behind the one before it: each of them may be off.
+    /// True if a section in a window would be too many advances behind the one before it: each of them may be off.
     pub(super) fn is_late(&self, window: u32) -> bool {
         self.window.is_some_and(|before| window - before > Bite::MOST_ADVANCES)
     }
 
-    /// Ends along X of what is left, mm.
+    /// Ends of the rest along X, mm.
     pub(super) fn rest(&self) -> [f64; 2] {
         [self.places[self.next].x, self.ends[1]]
     }
 
-    /// Takes the next section in a window, by its number and its end: the ends of the section along X, mm. `None` where that would
-    /// make more sections of what is left, or splits that cost more, than a window of its own.
+    /// Takes the next section in a window, by the number and the end of the window, and returns the ends of the section along
+    /// X, mm. `None` if a window of its own would need fewer sections for the rest, or cheaper splits.
     pub(super) fn take(&mut self, window: u32, end: f64) -> Option<[f64; 2]> {
         let begin = self.places[self.next];
         let fits = |next: &&(usize, Place)| next.1.x + self.reach <= end && next.1.x - begin.x >= SHORTEST;
@@ -128,20 +128,20 @@ impl Long {
 }
 
 impl Place {
-    /// Sections and cost of a way that has a split here, from the one before it on.
+    /// Sections and cost of a continuation with a split here, counted from the split before it.
     fn with_rest(&self) -> Option<(u32, u32)> {
         self.rest.map(|(sections, cost)| (sections + 1, cost + self.cost))
     }
 }
 
-/// Whether a piece has but a closed outline, slits and holes, none of which a section could not have in its window.
+/// True if a piece has only a closed outline, slits and holes, all of which a section can have in its window.
 fn is_plain(piece: &Piece, job: &Job) -> bool {
     let is_as_drawn = piece.outline_notches.is_empty() || job.profile.notch.style == NotchStyle::AsDrawn;
     let is_drilled_aside = !piece.drills.is_empty() && job.profile.drill.offset_mm != [0.0; 2];
     piece.contours.len() == 1 && piece.contours[0].closed && is_as_drawn && !is_drilled_aside
 }
 
-/// Whether a piece lies in no other, and none in it.
+/// True if a piece is in no other, and no other is in it.
 fn is_alone(piece: usize, nesting: &Nesting) -> bool {
     let own = nesting.of_group(piece);
     let is_in = |line: usize| nesting.around(line).any(|outer| own.contains(&outer));

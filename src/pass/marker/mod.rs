@@ -1,7 +1,7 @@
-//! Passes over the marker: what is cut, and in which order.
+//! Passes over the marker: they make the cuts, and put them in order.
 //!
-//! Receives a marker as it was read, promises one whose cuts are made, in cut order; what is doubtful is reported. Never knows
-//! how the blade moves.
+//! Receives a marker as it was read, promises one with cuts, in cut order, and reports doubts. Knows nothing of the motion of
+//! the blade.
 
 mod bite;
 mod centre;
@@ -53,8 +53,8 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     near::PASS,
 ];
 
-/// How many of the first passes find what is drawn, where the file draws it: the next one lays it on the table.
+/// Number of the first passes, which work on the drawing in the coordinates of the file: the next one lays it on the table.
 pub const DRAWN_PASSES: usize = 9;
 
-/// How many of the last passes say how the knife cuts what is drawn: only programs need these.
+/// Number of the last passes, which make the cuts: only programs need these.
 pub const CUTTING_PASSES: usize = 2;

@@ -1,10 +1,10 @@
-//! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour, and a line there and
-//! back the line that it draws.
+//! Retrace: an outline that runs past its own start, or goes round again, becomes one closed contour, and a line there and back
+//! becomes the line that it draws.
 //!
-//! Needs: welded contours. Other software lays an overcut at the end of an outline, plotters draw bold lines by going round
-//! twice, or there and back. The knife has overlaps of its own, so what retraces the outline is left out, and the area counts
-//! once. Leaves true: such a contour ends where it starts, and keeps its start and direction; every edge of an open line is
-//! there once, but for short straight lines: the pass that finds slits needs them as they are drawn.
+//! Needs: welded contours. Other software adds an overcut at the end of an outline; plotters draw bold lines by going round
+//! twice, or there and back. The knife has overlaps of its own, so the retraced stretch is left out, and the area counts once.
+//! Leaves true: such a contour ends at its start, and keeps its start and direction; every edge of an open line is there once,
+//! except for short straight lines, which the pass that finds slits needs as drawn.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code, pieces};
@@ -66,7 +66,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     lines.say_there_and_back(diagnostics);
 }
 
-/// Puts the lines that a line there and back draws in its place, but for straight ones up to a length, mm, which may be
+/// Replaces a line there and back by the lines that it draws, except for straight ones up to `longest_slit` mm, which may be
 /// slits.
 pub(super) fn there_and_back(piece: &mut Piece, list: &mut SegmentList, longest_slit: f64, found: &mut Found) {
     for k in 0..piece.contours.len() {
@@ -93,8 +93,8 @@ pub(super) fn there_and_back(piece: &mut Piece, list: &mut SegmentList, longest_
     }
 }
 
-/// Whether a line ends where it starts, does not turn back on its way there and has not been near there before, as nearly all
-/// have not.
+/// True if a line ends at its start, does not turn back on its way there and has not been near it before, like nearly all
+/// lines.
 fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
     let [first, inner @ .., last] = points else { return true };
     let is_near = |at: &Point| (at.x - first.x).abs() <= reach && (at.y - first.y).abs() <= reach;
@@ -108,7 +108,7 @@ fn never_returns(points: &[Point], chains: &Chains, reach: f64) -> bool {
     first == last && !runs_back && !chains.each().any(returns)
 }
 
-/// Outlines or lines that something was found about.
+/// Outlines or lines of one finding.
 #[derive(Default)]
 pub(super) struct Found {
     pieces: Vec<u32>,
@@ -134,7 +134,7 @@ impl Found {
         });
     }
 
-    /// Reports ways of outlines there and back that are longer than slits.
+    /// Reports spurs of outlines that are longer than slits.
     pub(super) fn say_out_and_back(&self, diagnostics: &mut Diagnostics) {
         self.say(&code::MARKER_ROUND_AGAIN, "outline", diagnostics, |longest| {
             format!("out and back on one line of up to {} mm", fixed(longest, DECIMALS))

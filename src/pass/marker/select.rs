@@ -1,7 +1,7 @@
-//! Select: the pieces that this run cuts, in their order, each whole; the others go.
+//! Select: keeps the pieces that this run cuts, in their order, each whole.
 //!
-//! Needs: numbered pieces. Leaves true: something is left to cut. A number that the operator wrote and the file does
-//! not have is an error, not an empty choice: it is a slip of the hand or the wrong file, and a machine would start.
+//! Needs: numbered pieces. Leaves true: something is left to cut. A number that the operator gives and the file does not have
+//! is an error, not an empty choice: it is a slip of the hand or the wrong file, and a machine would start.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -90,7 +90,7 @@ fn place(start: Start, marker: &Marker, windows: &[u32], job: &Job) -> Result<us
     }
 }
 
-/// The window of the conveyor that each piece is cut in, from 1.
+/// Number of the conveyor's window of each piece, from 1.
 fn windows(marker: &Marker) -> Vec<u32> {
     let stations = marker.stations();
     let begins = |i: usize| i > 0 && stations[i] != stations[i - 1];
@@ -101,7 +101,7 @@ fn windows(marker: &Marker) -> Vec<u32> {
     (0..stations.len()).scan(1, number).collect()
 }
 
-/// A piece that is chosen in some of the windows that split it, and not in others.
+/// Refusal of a selection that has a piece in some of its windows and not in others.
 fn parted(marker: &Marker, chosen: &[bool], windows: &[u32], selection: &Selection) -> Option<Diagnostic> {
     let owners = marker.owners();
     let is_parted = |&i: &usize| chosen[i] != chosen[owners[i]] && selection.has(marker.pieces[i].number);
@@ -113,7 +113,7 @@ fn parted(marker: &Marker, chosen: &[bool], windows: &[u32], selection: &Selecti
     Some(Diagnostic::new(&code::MARKER_BITE, message).at(piece.span).about(vec![piece.number]).hint(hint))
 }
 
-/// A window that an option names and the marker does not have.
+/// Refusal of the number of a window that the marker does not have.
 fn unknown_bite(flag: &str, bite: u32, last: u32, job: &Job) -> Diagnostic {
     let hint = match job.profile.bite.length_mm {
         Some(_) => format!("the marker is cut in {last} windows"),
@@ -122,9 +122,9 @@ fn unknown_bite(flag: &str, bite: u32, last: u32, job: &Job) -> Diagnostic {
     Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, format!("{flag}: there is no bite {bite}")).hint(hint)
 }
 
-/// Keeps the pieces that are chosen, by their places. A run that begins amid the marker begins with the cloth as it lies when
-/// its first piece is cut. Else every advance before a piece that is left stays, and where the file has one at its end so do
-/// those behind the last piece.
+/// Keeps the pieces that are chosen, by index. A run that begins amid the marker begins with the cloth in its position for its
+/// first piece. Otherwise every advance before a remaining piece stays, and if the file has one at its end, so do those after
+/// the last piece.
 fn keep(marker: &mut Marker, is_chosen: &[bool], selection: &Selection) {
     let first = is_chosen.iter().position(|is| *is).unwrap_or(0);
     let Marker { pieces, moved_on, closing, .. } = marker;
@@ -146,12 +146,12 @@ fn keep(marker: &mut Marker, is_chosen: &[bool], selection: &Selection) {
     }
 }
 
-/// Whether anything of a piece is cut or drilled.
+/// True if anything of a piece is cut or drilled.
 fn cuts(piece: &Piece) -> bool {
     !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty())
 }
 
-/// What the file has, in words.
+/// Numbers of the pieces of the file, in words.
 fn known(marker: &Marker) -> String {
     let mut numbers: Vec<u32> = marker.pieces.iter().map(|piece| piece.number).collect();
     numbers.sort_unstable();

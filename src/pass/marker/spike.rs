@@ -1,17 +1,15 @@
-//! Spike: ways of an outline that go out and straight back, and boxes that are too narrow to be anything else, become
-//! slits.
+//! Spike: spurs of an outline, out and straight back, and boxes too narrow for anything else become slits.
 //!
-//! Needs: welded contours. From the tip of such a way, or its narrow bottom, both sides lead back to the mouth:
+//! Needs: welded contours. From the tip of such a spur, or its narrow bottom, both sides lead back to the mouth:
 //!
-//! - sides within rounding of each other are one line that is drawn twice. 1 to 25 mm of it is a slit. Of what comes back to
-//!   its root to the bit less is the jitter of a digitiser and is dropped, and more is a line from the edge on: it is cut once,
-//!   and told. All else stays as it is drawn;
-//! - sides up to `notch.box_max_mm` apart and 1.5 to 15 mm long are a box or a needle, and that is a slit along its middle.
+//! - Sides within rounding of each other are one line that is drawn twice. A length of 1 to 25 mm is a slit. If the sides meet
+//!   at the root to the bit, a shorter spur is the jitter of a digitiser and is dropped, and a longer one is a line from the
+//!   edge on, which is cut once and reported. Everything else stays as drawn.
+//! - Sides up to `notch.box_max_mm` apart and 1.5 to 15 mm long are a box or a needle, which is a slit along its middle.
 //!
-//! Where the way does not come back to its root to the bit, the outline must leave the mouth to both sides: sides that
-//! go on are those of a strap, or of a corner. A way that bends is cut by its straight stretches. Leaves true: three
-//! segments at least in each outline; these run straight over the mouths, and each slit starts on the edge at the
-//! middle of its mouth.
+//! Where the sides do not meet at the root to the bit, the outline must turn away from the mouth on both sides: sides that go
+//! on belong to a strap, or to a corner. A bent spur is cut in straight stretches. Leaves true: each outline has at least three
+//! segments and runs straight over the mouths, and each slit starts on the edge at the middle of its mouth.
 
 use rayon::prelude::*;
 
@@ -27,24 +25,24 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "spike", about: "makes slits of narrow boxes and of ways out and back in an outline", run };
 
-/// Lengths of a slit that is drawn out and back, mm: shorter ones are jitter, longer ones no notch.
+/// Lengths of a slit that is drawn out and back, mm: shorter ones are jitter, longer ones are no notches.
 const SHORTEST: f64 = 1.0;
 const LONGEST: f64 = 25.0;
 /// Depths of boxes, mm.
 const BOX_DEPTH: [f64; 2] = [1.5, 15.0];
-/// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
+/// Distance by which rounding to a grid may move two points against each other, in units of the grid: its diagonal.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
-/// The same where there is no grid, mm: files without one are written with two or three decimals.
+/// Distance by which rounding may move two points in a file without a grid, mm: such files have two or three decimals.
 const LEAST_SLACK: f64 = 0.01;
 /// Cosine of the least angle between a slit and the outline beside its mouth: 25 degrees.
 const LEAVING: f64 = 0.906;
-/// The outline beside a mouth has its direction over so much of it, mm: shorter segments may have that of the grid.
+/// Length of outline beside a mouth that gives its direction, mm: shorter segments may have that of the grid.
 const BESIDE: f64 = 1.0;
-/// Vertices that one side may have, and that are looked at beside a mouth: a guard against tangles.
+/// Greatest number of vertices of one side, and beside a mouth: a guard against tangles.
 const MOST_STEPS: usize = 256;
-/// How often an outline is looked at again, since a way may have ways of its own.
+/// Greatest number of searches of an outline, since a spur may have spurs of its own.
 const MOST_ROUNDS: usize = 8;
-/// What an outline has left at least, segments.
+/// Least number of segments that an outline keeps.
 const LEAST_LEFT: usize = 3;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
@@ -70,19 +68,19 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         }
         if !slits.is_empty() {
             piece.notches.extend(slits);
-            piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
+            piece.notches.sort_by_key(|notch| notch.span); // stable: notches without a block keep their order
         }
     }
     long.say_out_and_back(diagnostics);
 }
 
-/// What the ways of an outline are.
+/// Cuts that replace the spurs of an outline.
 struct Pruned {
     slits: Vec<Notch>,
     lines: Vec<Vec<Segment>>,
 }
 
-/// Takes the ways out of an outline, again until there are no more.
+/// Removes the spurs of an outline, repeatedly until there are none.
 fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Pruned {
     let mut segments: Vec<Segment> = list.walk(*range).map(|(_, segment)| segment).collect();
     let (mut slits, mut lines) = (Vec::new(), Vec::new());
@@ -103,24 +101,24 @@ fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Pruned 
     Pruned { slits, lines }
 }
 
-/// How ways are told from what else lies near itself, mm.
+/// Limits for spurs, mm.
 #[derive(Debug, Clone, Copy)]
 struct Measure {
-    /// What rounding may part.
+    /// Distance that rounding may cause.
     slack: f64,
     /// Greatest distance between two sides.
     width: f64,
 }
 
-/// A way out and back of an outline.
+/// A spur of an outline.
 #[derive(Debug)]
 struct Way {
-    /// Its first segment and how many it has.
+    /// Its first segment and the number of its segments.
     first: usize,
     count: usize,
-    /// Where the outline goes on.
+    /// The point where the outline goes on.
     root: Point,
-    /// What is cut for it: slits, or a line that is too long for one.
+    /// Its cuts: slits, or a line that is too long for one.
     slits: Vec<Notch>,
     line: Vec<Segment>,
 }
@@ -131,14 +129,14 @@ impl Measure {
         Self { slack, width: job.profile.notch.box_max_mm + slack }
     }
 
-    /// Whether two sides that start at a tip, or beside each other at a narrow bottom, stay beside each other at first.
+    /// True if two sides that start at a tip, or side by side at a narrow bottom, stay side by side at first.
     fn may_follow(self, one: [Point; 2], other: [Point; 2]) -> bool {
         let off = |[_, end]: [Point; 2], [from, to]: [Point; 2]| polyline::distance_to_segment(end, from, to);
         off(one, other).min(off(other, one)) <= self.width
     }
 
-    /// Whether a closed line has a tip; the last of its points is the first again. A line does not turn back within a
-    /// chain: the bottom of a tip is the first segment of a chain or the last.
+    /// True if a closed line has a tip; its last point is the first again. A line does not turn back within a chain, so the
+    /// bottom of a tip is the first or the last segment of a chain.
     fn has_tip(self, points: &[Point], chains: &[Chain]) -> bool {
         let count = points.len() - 1;
         if count <= LEAST_LEFT {
@@ -157,8 +155,8 @@ impl Measure {
         })
     }
 
-    /// Whether the sides beside a segment of a closed line stay beside each other at first, or the one before it does so
-    /// beside the segment itself.
+    /// True if the sides beside a segment of a closed line stay side by side at first, or the previous segment and the segment
+    /// itself do.
     fn is_narrow(self, points: &[Point], i: usize) -> bool {
         let count = points.len() - 1;
         let [a, b] = [points[if i == 0 { count - 1 } else { i - 1 }], points[i]];
@@ -167,13 +165,13 @@ impl Measure {
     }
 }
 
-/// Whether a line turns back where the first of three segments ends, or over the second when that is short; `most` is the
-/// square of how long that may be.
+/// True if a line turns back at the end of the first of three segments, or over the second one if that is short; `most` is the
+/// square of its greatest length.
 fn is_tip([before, bottom, next]: [Vector; 3], most: f64) -> bool {
     before.dot(&bottom) < 0.0 || before.dot(&next) < 0.0 && bottom.norm_squared() <= most
 }
 
-/// The ways of an outline, none of which has a segment of another.
+/// Spurs of an outline; no two share a segment.
 fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     let count = segments.len();
     let mut found: Vec<Way> = Vec::new();
@@ -192,7 +190,7 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
         if is_taken[i] || !is_tip([before, bottom, next], most) {
             continue;
         }
-        // The bottom of a box first: a way back that starts askew may look like a tip of its own.
+        // The bottom of a box is tried first: a way back that starts at an angle may look like a tip of its own.
         let bottoms = [bottom.norm_squared() <= most && before.dot(&next) < 0.0, before.dot(&bottom) < 0.0];
         let tips = [[i, i + 1], [i, i]].into_iter().zip(bottoms).filter(|(_, may_be)| *may_be);
         let best = tips.filter_map(|(tip, _)| Sides::new(segments, tip).way(measure)).max_by_key(|way| way.count);
@@ -208,14 +206,14 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     found
 }
 
-/// The two sides of a way, from its tip on.
+/// The two sides of a spur, from its tip on.
 struct Sides<'a> {
     segments: &'a [Segment],
-    /// The vertices at the ends of the bottom, the same at a tip.
+    /// The vertices at the ends of the bottom; equal at a tip.
     tip: [usize; 2],
-    /// How many vertices each side has left behind, back and ahead.
+    /// Number of vertices passed on each side, back and ahead.
     steps: [usize; 2],
-    /// Greatest distance between the two so far.
+    /// Greatest distance between the sides so far.
     apart: f64,
 }
 
@@ -226,18 +224,18 @@ impl<'a> Sides<'a> {
         sides
     }
 
-    /// The vertex so many steps before the tip.
+    /// The vertex `steps` steps before the tip.
     fn back(&self, steps: usize) -> Point {
         let count = self.segments.len();
         self.segments[(self.tip[0] + count - steps % count) % count].from
     }
 
-    /// The vertex so many steps behind it.
+    /// The vertex `steps` steps after the tip.
     fn ahead(&self, steps: usize) -> Point {
         self.segments[(self.tip[1] + steps) % self.segments.len()].from
     }
 
-    /// Follows both sides as far as they stay beside each other: the longest way that ends at a mouth.
+    /// Follows both sides while they stay side by side, and returns the longest spur that ends at a mouth.
     fn way(mut self, measure: Measure) -> Option<Way> {
         let most = self.segments.len().saturating_sub(LEAST_LEFT).min(MOST_STEPS);
         let mut longest = None;
@@ -268,12 +266,12 @@ impl<'a> Sides<'a> {
         longest
     }
 
-    /// How wide the way is where its sides end now.
+    /// Distance of the sides at their present ends.
     fn gap(&self) -> f64 {
         (self.ahead(self.steps[1]) - self.back(self.steps[0])).norm()
     }
 
-    /// The way up to here, if it is one.
+    /// The spur up to here, if it is one.
     fn judged(&self, measure: Measure) -> Option<Way> {
         let [back, ahead] = self.steps;
         if back == 0 || ahead == 0 {
@@ -311,7 +309,7 @@ impl<'a> Sides<'a> {
         is_slit.then(|| self.taken(root, vec![[root, tip]]))
     }
 
-    /// Whether the outline leaves the mouth to both sides of a way in that direction.
+    /// True if the outline turns away from the mouth on both sides of a spur in that direction.
     fn leaves(&self, along: Vector, measure: Measure) -> bool {
         let [back, ahead] = self.steps;
         let least = BESIDE.max(2.0 * measure.slack);
@@ -335,7 +333,7 @@ impl<'a> Sides<'a> {
         (first..first + back).map(|k| Segment { joint: Joint::default(), ..self.segments[k % total] }).collect()
     }
 
-    /// The way, with a slit between each two ends.
+    /// The spur, with a slit between each pair of ends.
     fn taken(&self, root: Point, cuts: Vec<[Point; 2]>) -> Way {
         let total = self.segments.len();
         let [back, ahead] = self.steps;
@@ -343,7 +341,7 @@ impl<'a> Sides<'a> {
         let count = back + ahead + (self.tip[1] - self.tip[0]);
         let percent = (first..first + count).map(|k| self.segments[k % total].percent).min().unwrap_or_default();
         let span = self.segments[(self.tip[0] + total - 1) % total].span;
-        // Of a way in several stretches each has the block that leads to its end.
+        // Each stretch of a bent spur has the block that leads to its end.
         let span_of = |to: Point| {
             let leads = (first..first + back).map(|k| &self.segments[k % total]).find(|segment| segment.to == to);
             leads.map_or(span, |segment| segment.span)
@@ -353,7 +351,7 @@ impl<'a> Sides<'a> {
     }
 }
 
-/// The straight stretches of a line, by their ends: none of their places is farther off them than `slack`, mm.
+/// Straight stretches of a line, by their ends: all places between are within `slack` mm of them.
 fn stretches(line: &[Point], slack: f64) -> Vec<[usize; 2]> {
     let mut stretches = Vec::new();
     let mut first = 0;
@@ -369,17 +367,17 @@ fn stretches(line: &[Point], slack: f64) -> Vec<[usize; 2]> {
     stretches
 }
 
-/// An outline that runs straight over the mouths of its ways.
+/// An outline that runs straight over the mouths of its spurs.
 fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
     let count = segments.len();
-    // Behind the last segment comes the first again, and before the first the last.
+    // The entry after the last segment is the first segment again, and the one before the first is the last.
     let mut way_of: Vec<Option<&Way>> = vec![None; count + 2];
     for way in ways {
         (way.first..way.first + way.count).for_each(|k| way_of[k % count + 1] = Some(way));
     }
     (way_of[0], way_of[count + 1]) = (way_of[count], way_of[1]);
     let mut left: Vec<Segment> = Vec::with_capacity(count);
-    // What is asked at the mouth is asked where the outline goes on; at the start of the contour, for all of it.
+    // Requests at the mouth move to the next segment of the outline; at the start of the contour they hold for all of it.
     let mut asked = Joint::default();
     for ((i, segment), ways) in segments.iter().enumerate().zip(way_of.windows(3)) {
         let [before, own, after] = *ways else { unreachable!("windows of three have three") };
@@ -387,7 +385,7 @@ fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
             if i == way.first || i == 0 {
                 asked = merged(asked, segment.joint);
             }
-            // Two ways may begin where the same segment ends: between their mouths the outline goes straight on.
+            // The segment before two spurs may be their common neighbour: between their mouths the outline goes straight on.
             if let Some(other) = before.filter(|other| other.first != way.first && other.root != way.root) {
                 left.push(Segment { from: other.root, to: way.root, joint: Joint::default(), ..*segment });
             }
@@ -422,7 +420,7 @@ mod tests {
     use crate::ir::list::FULL_SPEED;
     use crate::source::Span;
 
-    /// An outline with two teeth that stand side by side, from any of its points on.
+    /// Fixture: an outline with two adjacent teeth, from each of its points on.
     #[test]
     fn an_outline_goes_on_from_mouth_to_mouth_of_ways_that_touch() {
         let points = [(0, 0), (400, 0), (400, 50), (402, 1), (404, 50), (406, 0), (800, 0), (800, 800), (0, 800)];

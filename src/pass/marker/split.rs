@@ -1,8 +1,8 @@
-//! Split: where borders of a conveyor's windows may part the outline of a piece, and the cuts that this leaves.
+//! Split: places where borders of a conveyor's windows may divide the outline of a piece, and the resulting cuts.
 //!
-//! Both halves of a split cut run along the line past the border by the overlap. There each of them leaves the line, straight
-//! on into the waste, by more than the conveyor may bring the cloth beside its place. So either end is farther from the other
-//! half than that moves: wherever the cloth comes to lie the halves cross, and no thread is left between them.
+//! Both halves of a split cut run along the line past the border by the overlap. There each of them leaves the line straight
+//! into the waste, by more than the conveyor may move the cloth from its place. So each end is farther from the other half than
+//! the cloth moves: the halves cross for every position of the cloth, and no thread is left between them.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Rotation, Vector, polyline};
@@ -11,74 +11,75 @@ use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::Notch;
 use crate::machine::Job;
 
-/// Length of the way aside, as a multiple of how far that leads: ten degrees, which no blade needs to be lifted for.
+/// Length of the deviation, as a multiple of its offset: ten degrees, for which no blade needs to be lifted.
 const LEAD_SHARE: f64 = 6.0;
-/// What the way aside is longer by than the blade, mm: that plunges on a straight line.
+/// Excess length of the deviation over the blade, mm, so that the blade plunges on a straight line.
 const BLADE_ROOM: f64 = 1.0;
-/// Way before a bend within which a line has another vertex, mm: a curve through its points bulges the less the shorter its
-/// pieces are.
+/// Distance before a bend at which a line gets another vertex, mm: a curve through shorter segments bulges less.
 const BEND: f64 = 1.0;
 /// Distance of the halves' ends from any corner, notch or hole, mm.
 const FREE: f64 = 15.0;
-/// Greatest turn at a vertex amid the halves, rad (6 degrees), and how far the line may bow there, mm.
+/// Greatest turn at a vertex between the halves, rad (6 degrees), and greatest bow of the line there, mm.
 const MOST_TURN: f64 = 0.105;
 const MOST_BOW: f64 = 0.5;
 /// Bow beyond which a line counts as a curve, mm: a plunge harms it more.
 const CURVE: f64 = 0.05;
-/// Cost of a split on a straight line, and on a curve.
+/// Costs of a split on a straight line, and on a curve.
 const COST: u32 = 1;
 const CURVE_COST: u32 = 3;
 /// Least sine of the angle between the line and the border (10 degrees).
 const LEAST_SINE: f64 = 0.174;
-/// How much nearer a line that is cut in another window may lie, in tolerances of the conveyor: the diagonal of two advances.
+/// Greatest amount by which a line that is cut in another window may be nearer, in tolerances of the conveyor: the diagonal of
+/// two advances.
 const MATCHES: f64 = 3.0;
-/// What of the line itself next to such a stretch is not looked at, mm, beside that distance.
+/// Length of the line itself next to such a stretch that is ignored, mm, in addition to that distance.
 const ROOM: f64 = 1.0;
-/// Lengths that differ by less are alike, mm: rounding.
+/// Rounding of lengths, mm.
 const SAME_EPSILON: f64 = 1e-6;
 
-/// How the halves of a split cut overlap.
+/// Overlap of the halves of a split cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lap {
-    /// Past the border along the line, mm.
+    /// Length past the border along the line, mm.
     overlap: f64,
-    /// Aside from there, mm.
+    /// Offset from the line after that, mm.
     veer: f64,
-    /// Length of the way aside, mm.
+    /// Length of the deviation, mm.
     lead: f64,
     /// Least distance of any other line, mm.
     clear: f64,
 }
 
 impl Lap {
-    /// That of a job, for a file whose numbers are multiples of `unit` mm.
+    /// Overlap for a job and a file with a grid of `unit` mm.
     pub(super) fn of(job: &Job, unit: f64) -> Self {
         let (bite, knife) = (&job.profile.bite, &job.profile.knife);
         let veer = bite.veer(job.profile.tolerance(unit));
         let lead = (LEAD_SHARE * veer).max(knife.width_mm + BLADE_ROOM);
         let [heel, front] = knife.most_overlaps();
-        // The overlaps of the blade go on aside, and what is cut in another window may lie nearer by as much as that is off.
+        // The overlaps of the blade continue in the direction of the deviation, and a cut in another window may be nearer by
+        // the tolerance.
         let aside = veer * (1.0 + heel.max(front) / lead);
         let clear = aside + MATCHES * bite.match_mm + knife.clearance_mm + job.profile.band(unit);
         Self { overlap: bite.overlap_mm, veer, lead, clear }
     }
 
-    /// How far a half goes past its border, mm.
+    /// Length of a half past its border, mm.
     pub(super) fn length(&self) -> f64 {
         self.overlap + self.lead
     }
 }
 
-/// A closed outline by the way along it.
+/// A closed outline, addressed by stations.
 pub(super) struct Ring {
     segments: Vec<Segment>,
-    /// Where each begins and the last ends, mm.
+    /// Stations of the starts of the segments and of the last end, mm.
     stations: Vec<f64>,
     is_part_left: bool,
 }
 
 impl Ring {
-    /// A closed range of a list, with its part on the left or on the right.
+    /// Outline of a closed range of a list, with its part on the left or on the right.
     pub(super) fn new(list: &SegmentList, range: Range, is_part_left: bool) -> Self {
         let segments: Vec<Segment> = list.walk(range).map(|(_, segment)| segment).collect();
         Self { stations: polyline::stations(&list.points(range)), segments, is_part_left }
@@ -88,7 +89,7 @@ impl Ring {
         self.stations[self.segments.len()]
     }
 
-    /// Where the outline crosses a border, mm along it, and whether it goes on towards greater X there.
+    /// Stations at which the outline crosses a border, mm, each with true if it goes towards greater X there.
     fn crossings(&self, x: f64) -> Vec<(f64, bool)> {
         let crossing = |(segment, start): (&Segment, &f64)| {
             let [a, b] = [segment.from.x, segment.to.x];
@@ -97,7 +98,7 @@ impl Ring {
         self.segments.iter().zip(&self.stations).filter_map(crossing).collect()
     }
 
-    /// The outline from one station to a greater one, once round at the most.
+    /// The outline from one station to a greater one, at most once round.
     fn between(&self, from: f64, to: f64) -> Vec<Segment> {
         let (length, count) = (self.length(), self.segments.len());
         let laps = (from / length).floor() * length;
@@ -126,7 +127,7 @@ impl Ring {
         found
     }
 
-    /// The cuts that borders leave of the outline, each with the number of the section that it is of, from 0.
+    /// Cuts of the outline between borders, each with the number of its section, from 0.
     pub(super) fn sections(&self, borders: &[f64], lap: Lap) -> Vec<(usize, Vec<Segment>)> {
         let mut starts: Vec<(f64, usize)> = Vec::new();
         for (before, &x) in borders.iter().enumerate() {
@@ -142,16 +143,16 @@ impl Ring {
         .collect()
     }
 
-    /// The outline between two stations, led on at both ends into the waste.
+    /// The outline between two stations, extended at both ends into the waste.
     fn led(&self, [from, to]: [f64; 2], lap: Lap) -> Vec<Segment> {
         let line = [[from, from + BEND], [from + BEND, to - BEND], [to - BEND, to]];
         let mut line: Vec<Segment> = line.into_iter().flat_map(|[from, to]| self.between(from, to)).collect();
-        // The ends of stretches are places by two stations: rounding parts them.
+        // Both ends are computed from stations: rounding may separate them.
         for i in 1..line.len() {
             line[i].from = line[i - 1].to;
         }
         let turn = Rotation((lap.veer / lap.lead).asin()).unit();
-        // Ahead the waste is on the one side, back from the start on the other.
+        // The waste is on one side ahead, and on the other side looking back from the start.
         let side = if self.is_part_left { -1.0 } else { 1.0 };
         let aside = |way: Vector, side: f64| {
             Vector::new(way.x * turn.x - side * way.y * turn.y, side * way.x * turn.y + way.y * turn.x)
@@ -173,15 +174,15 @@ fn direction(segment: &Segment) -> Vector {
     (segment.to - segment.from) / segment.length()
 }
 
-/// The lines of a marker that a split must stay away from.
+/// Lines of a marker that a split must keep away from.
 pub(super) struct Lines {
-    /// Each with the piece whose contour it is of; none of slits and holes.
+    /// Lines with the piece of their contour; `None` for slits and holes.
     lines: Vec<([Point; 2], Option<usize>)>,
     boxes: Boxes,
 }
 
 impl Lines {
-    /// Those of a marker: contours, slits and holes.
+    /// Lines of a marker: contours, slits and holes.
     pub(super) fn of(marker: &Marker) -> Self {
         let mut lines = Vec::new();
         for (i, piece) in marker.pieces.iter().enumerate() {
@@ -195,7 +196,7 @@ impl Lines {
         Self { lines, boxes }
     }
 
-    /// What it costs to split the outline of a piece at a border; `None` where it must not be.
+    /// Cost of splitting the outline of a piece at a border; `None` where it must not be split.
     pub(super) fn cost(&self, ring: &Ring, piece: usize, x: f64, lap: Lap) -> Option<u32> {
         let crossings = ring.crossings(x);
         crossings.iter().map(|&(at, _)| self.cost_at(ring, piece, at, lap)).sum()
@@ -223,8 +224,8 @@ impl Lines {
         Some(if bow > CURVE { CURVE_COST } else { COST })
     }
 
-    /// Whether any other line, or the same one farther on, is in the way of the halves of a split at a station, which `reach` so
-    /// far along the line, mm.
+    /// True if any other line, or the same one farther on, is in the way of the halves of a split at a station; the halves
+    /// reach `reach` mm along the line.
     fn is_crowded(&self, ring: &Ring, piece: usize, (at, reach): (f64, f64), lap: Lap) -> bool {
         let line = ring.between(at - reach, at + reach);
         let chord = [line[0].from, line[line.len() - 1].to];

@@ -1,10 +1,9 @@
 //! Stroke: a notch that a drawing draws as an open stroke between two places of an outline becomes a part of that outline.
 //!
-//! Needs: welded contours. The stroke takes the place of the edge over its mouth, as if the file drew the notch in the
-//! outline, so that all passes behind this one see the same notches whatever drew them. Leaves true: outlines stay closed,
-//! each stroke that is part of one is listed as its notch, and a stroke that overlaps the mouth of another one stays a contour
-//! of its own. Cutter files are left alone: what they
-//! cut is meant.
+//! Needs: welded contours. The stroke replaces the edge over its mouth, as if the file drew the notch in the outline, so that
+//! all later passes see the same notches for both kinds of drawing. Leaves true: outlines stay closed, each stroke that is part
+//! of one is listed as its notch, and a stroke that overlaps the mouth of another one stays a contour of its own. Cutter files
+//! are left alone: their cuts are meant.
 
 use super::pass::MarkerPass;
 use super::search;
@@ -18,10 +17,10 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "stroke", about: "makes notches that are drawn from edge to edge part of their outlines", run };
 
-/// Distance by which rounding moves a place: in units of the file, and without a grid in mm.
+/// Distance by which rounding moves a place: in units of the file, or in mm without a grid.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 const NO_GRID: f64 = 0.01;
-/// Notches that touch each other in one stroke, at the most.
+/// Greatest number of notches that touch each other in one stroke.
 const MOST_TOUCHING: usize = 3;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
@@ -41,12 +40,12 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
 
 struct Joining<'a> {
     list: &'a mut SegmentList,
-    /// Places nearer than this are one, mm.
+    /// Distance within which places are one, mm.
     grid: f64,
     work: Budget,
 }
 
-/// A place on an outline: a segment, and the share of it.
+/// A place on an outline: the index of a segment, and the share of it.
 type Place = (usize, f64);
 
 /// A stroke between two places of an outline, in the direction of the outline.
@@ -59,7 +58,7 @@ struct Mouth {
 }
 
 impl Mouth {
-    /// Its notch in an outline, with the form of what is neither a V nor a castle.
+    /// Its notch in an outline; the form is that of a notch that is neither a V nor a castle.
     fn notch(&self, outline: &[Segment]) -> OutlineNotch {
         let mouth = [self.from, self.to].map(|place| at(outline, place));
         let depth = |segment: &&Segment| polyline::distance_to_segment(segment.to, mouth[0], mouth[1]);
@@ -94,7 +93,7 @@ impl Joining<'_> {
         !contour.closed && points().len() > 2 && polyline::length(&points()) <= longest
     }
 
-    /// Puts the strokes that stand on an outline into it: which ones.
+    /// Puts the strokes that stand on an outline into it, and returns their indices.
     fn join_outline(&mut self, piece: &mut Piece, outline: usize, strokes: &[usize]) -> Vec<usize> {
         let range = piece.contours[outline].range;
         let reach = Extent::of(&self.list.points(range)).grown(self.reach());
@@ -133,7 +132,7 @@ impl Joining<'_> {
         mouths.iter().map(|mouth| mouth.contour).collect()
     }
 
-    /// How far from the edge a stroke may end, mm.
+    /// Greatest distance of a stroke's end from the edge, mm.
     fn reach(&self) -> f64 {
         Notch::MISS + ROUNDING * self.grid
     }
@@ -172,8 +171,8 @@ impl Joining<'_> {
         mouths
     }
 
-    /// The segments of each notch of a stroke, which comes back to the outline between two that touch each other; `None` where
-    /// one of them is none.
+    /// The segments of each notch of a stroke, which comes back to the outline between two notches that touch; `None` if one of
+    /// them is no notch.
     fn notches(&mut self, outline: &[Segment], range: Range) -> Option<Vec<Vec<Segment>>> {
         let segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
         let [start, end] = self.list.ends_of(range);
@@ -190,7 +189,7 @@ impl Joining<'_> {
                 off.push(if side(segment) * deepest < 0.0 { 0.0 } else { distance });
             }
             let is_off = |distance: &f64| *distance > self.reach();
-            // Where it comes back it lies nearest to the outline before it leaves it again.
+            // Between two notches it is nearest to the outline before it leaves it again.
             let count = off.iter().position(is_off).and_then(|deep| {
                 let back = deep + off[deep..].iter().position(|distance| !is_off(distance))?;
                 let again = back + off[back..].iter().position(is_off)?;
@@ -223,7 +222,7 @@ impl Joining<'_> {
         let Segment { from, to, .. } = outline[nearest];
         let share = polyline::foot(point, from, to).clamp(0.0, 1.0);
         let at = from + (to - from) * share;
-        // No segment shorter than the grid is left beside a mouth.
+        // Segments beside a mouth must not be shorter than the grid.
         let share = if (at - from).norm() < self.grid {
             0.0
         } else if (at - to).norm() < self.grid {

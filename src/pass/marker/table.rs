@@ -1,7 +1,7 @@
-//! Table: whether what is cut lies on the table of the profile. Changes nothing.
+//! Table: checks that the cuts are on the table of the profile. Changes nothing.
 //!
-//! Needs: the pieces of this run. Here only the lines are looked at, which the tip follows to their ends: what is off
-//! the table now stays so. Overlaps and the swing of the blade are judged in the program.
+//! Needs: the pieces of this run. Only lines count here, which the tip follows to their ends: a line off the table now stays
+//! off. Overlaps and the swing of the blade are judged in the program.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -13,12 +13,12 @@ use crate::units::number::{exact, fixed, up};
 
 pub(super) const PASS: MarkerPass = MarkerPass { name: "table", about: "finds what lies off the table", run };
 
-/// A marker that leaves the table by less does so by rounding of the computation, mm.
+/// Rounding of the computation, mm.
 const OFF_EPSILON: f64 = 1e-6;
-/// Decimals of distances, and of those that have no room for rounding.
+/// Decimals of distances, and of distances without room for rounding.
 const DECIMALS: u32 = 1;
 const FINE_DECIMALS: u32 = 3;
-/// The steps of both, mm.
+/// Last digits of both, mm.
 const STEP: f64 = 0.1;
 const FINE_STEP: f64 = 0.001;
 
@@ -39,7 +39,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     ];
     let ways: Vec<String> = axes.iter().filter_map(Axis::over).collect();
     if job.profile.bite.length_mm.is_some() {
-        // A conveyor brings the rest of the marker: where its first window lies decides.
+        // A conveyor brings the rest of the marker: the place of its first window decides.
         axes[0].lies[1] = axes[0].lies[0];
     }
     let (code, what) = if off > Table::EDGE_MM {
@@ -59,7 +59,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     diagnostics.push(hints.into_iter().fold(finding, Diagnostic::hint));
 }
 
-/// How to move a marker that fits, and the key that does it.
+/// Hint for moving a marker that fits, with the key that does it.
 fn moved(moves: &[Option<Advice>; 2], job: &Job) -> String {
     let words: Vec<String> =
         moves.iter().zip(["X", "Y"]).filter_map(|(advice, name)| Some(advice.as_ref()?.way(name))).collect();
@@ -68,18 +68,18 @@ fn moved(moves: &[Option<Advice>; 2], job: &Job) -> String {
     }
     let hint = format!("move the marker by {}", words.join(" and "));
     let Some(origin) = job.profile.sheet.origin else { return hint };
-    // Three decimals are all that is said of a way.
+    // Messages have three decimals.
     let place = |i: usize| exact(((origin[i] + moves[i].as_ref().map_or(0.0, Advice::by)) * 1e3).round() / 1e3);
     format!("{hint}: sheet.origin = [{}, {}]", place(0), place(1))
 }
 
-/// What fits where the marker does not: fewer copies, or the marker turned by a quarter.
+/// Hint with a layout that fits where the marker does not: fewer copies, or the marker turned by a quarter.
 fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
     if job.marks.is_some() {
         return None;
     }
     let (sheet, table) = (&job.profile.sheet, &job.profile.table);
-    // A conveyor brings along X what a table does not hold.
+    // Along X a conveyor brings the cloth beyond the table.
     let along = table.x_mm.filter(|_| job.profile.bite.length_mm.is_none());
     let room = [along, table.y_mm].map(|ends| ends.map_or(f64::INFINITY, |[least, most]| most - least + OFF_EPSILON));
     let (width, height) = extent.size();
@@ -106,23 +106,23 @@ fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
         return (more >= 0.0).then(|| format!("so many copies fit: sheet.copies = {}", exact(more + 1.0)));
     }
     let fits = height <= room[0] && width <= room[1];
-    // Scaled alike the box of the turned marker is this one, turned.
+    // With equal scales the box of the turned marker is this one, turned.
     (fits && job.selection.is_all() && sheet.scale_x == sheet.scale_y).then(|| {
         let turned = exact((sheet.rotate_deg + 90.0).rem_euclid(360.0));
         format!("turned by a quarter it fits: sheet.rotate_deg = {turned}, sheet.origin = \"corner\"")
     })
 }
 
-/// What to do about a marker that is beyond the table along an axis.
+/// Advice about a marker that is beyond the table along an axis.
 enum Advice {
-    /// To move it by that, mm, told with so many decimals: it has no more.
+    /// Move it by that distance, mm, told with that number of decimals.
     Move { by: f64, decimals: u32 },
-    /// It does not fit: how long it is, how much too long, and how long the table.
+    /// It does not fit: its length, the excess, and the length of the table.
     TooLong([String; 3]),
 }
 
 impl Advice {
-    /// How far it is moved, mm.
+    /// Distance of the move, mm.
     fn by(&self) -> f64 {
         match self {
             Self::Move { by, .. } => *by,
@@ -130,7 +130,7 @@ impl Advice {
         }
     }
 
-    /// The same in words.
+    /// The move in words.
     fn way(&self, name: &str) -> String {
         match self {
             Self::Move { by, decimals } => {
@@ -141,7 +141,7 @@ impl Advice {
         }
     }
 
-    /// In words.
+    /// The advice in words.
     fn alone(&self, name: &str) -> String {
         match self {
             Self::Move { .. } => format!("move the marker by {}", self.way(name)),
@@ -152,7 +152,7 @@ impl Advice {
     }
 }
 
-/// The place of the marker that is the farthest off, with its source.
+/// Place of the marker that is farthest off the table, with its source.
 fn farthest(marker: &Marker, table: &Table) -> Option<(Point, Span)> {
     let mut worst = (0.0, None);
     let mut see = |point: Point, on_table: Point, span: Span| {
@@ -181,21 +181,21 @@ fn farthest(marker: &Marker, table: &Table) -> Option<(Point, Span)> {
 /// One direction of the table.
 struct Axis<'a> {
     name: &'static str,
-    /// Where the marker lies along it, mm.
+    /// Extent of the marker along it, mm.
     lies: [f64; 2],
     table: Option<[f64; 2]>,
     knife: &'a Knife,
 }
 
 impl Axis<'_> {
-    /// How far the marker is beyond the two ends of the table, mm; nothing when it is beyond none.
+    /// Distances of the marker beyond the two ends of the table, mm; `None` when it is beyond neither.
     fn beyond(&self) -> Option<[f64; 2]> {
         let [least, most] = self.table?;
         let beyond = [least - self.lies[0], self.lies[1] - most];
         (beyond[0].max(beyond[1]) > OFF_EPSILON).then_some(beyond)
     }
 
-    /// By how much, in words.
+    /// Excess at each end, in words.
     fn over(&self) -> Option<String> {
         let over = self.beyond()?.into_iter().zip(self.table?).filter(|(by, _)| *by > OFF_EPSILON);
         let words = over.map(|(by, end)| {
@@ -204,7 +204,7 @@ impl Axis<'_> {
         Some(words.collect::<Vec<_>>().join(" and "))
     }
 
-    /// How to move the marker; or that it does not fit.
+    /// Advice for this axis; `None` when the marker is on the table.
     fn advice(&self) -> Option<Advice> {
         let ([below, above], [least, most]) = (self.beyond()?, self.table?);
         let room = (most - least) - (self.lies[1] - self.lies[0]);
@@ -212,7 +212,7 @@ impl Axis<'_> {
             let [lies, has] = [self.lies[1] - self.lies[0], most - least].map(|size| fixed(size, DECIMALS));
             return Some(Advice::TooLong([lies, up(-room - OFF_EPSILON, DECIMALS), has]));
         }
-        // The blade reaches so far from its tip; where there is room for that it is to stay on the table, too.
+        // Reach of the blade from its tip: if there is room, the blade shall stay on the table, too.
         let spare = self.knife.reach().min(room / 2.0);
         let by = below.max(above) + spare;
         let (by, decimals) = if spare > STEP {
@@ -240,10 +240,10 @@ mod tests {
             assert_eq!(advice(lies, table), (Some(over.to_owned()), Some(hint.to_owned())));
         };
         assert_eq!(advice([0.0, 100.0], [0.0, 100.0]), (None, None));
-        // As far as the blade reaches, beside what it takes.
+        // Distance off the table plus the reach of the blade.
         check([-5.0, 100.0], [0.0, 205.0], "5.0 mm beyond X 0.0", "move the marker by X +12.4 mm");
         check([100.0, 305.01], [0.0, 300.0], "5.1 mm beyond X 300.0", "move the marker by X -12.5 mm");
-        // As far as there is room.
+        // Limited by the room on the table.
         check([-5.0, 100.0], [0.0, 105.0], "5.0 mm beyond X 0.0", "move the marker by X +5.000 mm");
         let hint = "along X the marker does not fit: its 105.0 mm are 5.0 mm more than the table has, 100.0 mm";
         check([0.0, 105.0], [0.0, 100.0], "5.0 mm beyond X 100.0", hint);

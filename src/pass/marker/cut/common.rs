@@ -311,7 +311,7 @@ impl Sharing<'_> {
                     Some(past) => past.end,
                     None => self.leads.lead(ring, arrival, neighbour(k)).ok_or([i, next][k])?,
                 };
-                // Where the outlines overlap, it crosses the other before its extension.
+                // If the outlines overlap, it crosses the other before its extension.
                 let over = arrival.at - arrival.along * (2.0 * self.asked.near.distance);
                 led.ways.extend([[over, arrival.at], [arrival.at, ends[k]]]);
                 led.ways.extend(past.map(|past| past.corner));

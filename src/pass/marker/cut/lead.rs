@@ -116,7 +116,7 @@ impl<'a> Leads<'a> {
     /// crosses that already; `None` if it finds nothing to cross.
     pub(super) fn lead(&self, ring: usize, arrival: Arrival, to: Neighbour) -> Option<Point> {
         let Arrival { at, along, .. } = arrival;
-        // Where it passes the neighbour's outline at an angle, as beside a corner, it needs no transition.
+        // If it passes the neighbour's outline at an angle, as beside a corner, it needs no transition.
         let through = self.straight_on(ring, at, along, |other| other == Some(to.ring));
         if let Some(way) = through.filter(|&way| way <= self.asked.near.distance) {
             return Some(at + along * way.max(0.0));

@@ -1,10 +1,9 @@
-//! Cut: what the knife does, made from the pieces as they are drawn: slits first, then contours, piece by piece.
+//! Cut: cuts of the knife, made from the pieces as drawn: slits first, then contours, piece by piece.
 //!
-//! Needs: pieces in cut order, with the notches that their outlines make, and only those that this run cuts. Leaves
-//! true: a cut for each contour and each stroke of a notch, in the style of the profile; where edges of two parts are one,
-//! open cuts for what is left of the later part's. A contour that is cut as it is drawn is the same range of the list; one
-//! that runs straight over the mouths of its notches has a range of its own. Says where a slit that the profile makes
-//! deeper leads out of its part.
+//! Needs: pieces in cut order, with the notches that their outlines make, and only those that this run cuts. Leaves true: a cut
+//! for each contour and each stroke of a notch, in the style of the profile; where edges of two parts are one, open cuts for
+//! the rest of the later part. A contour that is cut as drawn keeps its range of the list; one that runs straight over the
+//! mouths of its notches has a range of its own. Reports slits that the profile makes deeper and that lead out of their part.
 
 mod common;
 mod facing;
@@ -50,14 +49,14 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     arrange(marker, &groups, job);
 }
 
-/// Makes the cuts as the pass does, without a word; for each the group that it is of.
+/// Makes the cuts without messages, and returns the group of each.
 pub(super) fn made(marker: &mut Marker, job: &Job) -> Vec<Group> {
     let groups = make(marker, job, &mut Diagnostics::default());
     arrange(marker, &groups, job);
     groups
 }
 
-/// Makes the cuts; for each the group that it is of.
+/// Makes the cuts, and returns the group of each.
 fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Group> {
     let style = job.profile.notch;
     if style.depth_mm.is_some() && style.style != NotchStyle::Skip {
@@ -81,7 +80,7 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
         Some(asked) => cutting.share(pieces, &mut styled, asked, (common, junctions), diagnostics),
         None => BTreeMap::new(),
     };
-    // What would be cut were each part cut all round.
+    // Length of the cuts if each part were cut all round.
     let alone = (!shared.is_empty()).then(|| {
         let outlines = styled.iter().flat_map(|styled| &styled.outlines);
         slits + outlines.map(|&range| polyline::length(&cutting.list.points(range))).sum::<f64>()
@@ -111,10 +110,10 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
     groups
 }
 
-/// What is cut of the outline of a piece with a section of it.
+/// Cuts of the outline of a piece that belong to a section of it.
 struct Section {
     cuts: Vec<Vec<Segment>>,
-    /// The outline, and its line.
+    /// The outline, and the index of its line.
     outline: Range,
     line: usize,
 }
@@ -126,19 +125,19 @@ struct Styled {
     outlines: Vec<Range>,
 }
 
-/// The cuts of a piece, as they are made.
+/// The cuts of a piece while they are made.
 struct Cutting<'a> {
     list: &'a mut SegmentList,
     nesting: &'a Nesting,
     style: Notches,
-    /// Its place in the marker.
+    /// Index of the piece in the marker.
     piece: usize,
     cuts: &'a mut Vec<Cut>,
-    /// For each of them the group that it is of.
+    /// Group of each cut.
     groups: Vec<Group>,
 }
 
-/// The open cuts of a line that has edges in common with others: the legs of notches on these, and what is left of its own.
+/// Open cuts of a line that has edges in common with others: the legs of notches on these edges, and the rest of its own edges.
 type OfLine = [Vec<Vec<Segment>>; 2];
 
 impl Cutting<'_> {
@@ -150,7 +149,7 @@ impl Cutting<'_> {
         Styled { slits, outlines }
     }
 
-    /// What is cut with the sections of pieces that windows of a conveyor split, by their places.
+    /// Cuts of the sections of pieces that windows of a conveyor split, by the indices of the pieces.
     fn sections(&self, pieces: &[Piece], styled: &[Styled], lap: Lap) -> BTreeMap<usize, Section> {
         let mut found = BTreeMap::new();
         for (i, owner) in pieces.iter().enumerate().filter(|(_, piece)| piece.section.is_some()) {
@@ -173,8 +172,8 @@ impl Cutting<'_> {
         found
     }
 
-    /// What is cut of the lines that have edges in common with those of other parts; what these are cut with is added to
-    /// `common`, where cuts cross each other to `junctions`, and slits on them are led on to these.
+    /// Cuts of the lines that have edges in common with those of other parts. Adds the cuts that stand for these edges to
+    /// `common`, crossings of cuts to `junctions`, and extends slits on these edges to the cuts.
     fn share(
         &mut self,
         pieces: &[Piece],
@@ -226,12 +225,12 @@ impl Cutting<'_> {
         cuts
     }
 
-    /// A closed line that bounds a part, as it is cut, straight over the mouths of its notches.
+    /// A closed line that bounds a part as it is cut: straight over the mouths of its notches.
     fn ring(&self, i: usize, piece: &Piece, range: Range, line: usize) -> Ring {
         let part = self.part(line).expect("a closed line bounds a part");
         let mut segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
         let is_drawn = self.style.style == NotchStyle::AsDrawn;
-        // What stands out of the part is cloth of it: a cut over its mouth would take it off.
+        // A notch that protrudes is cloth of the part: a cut over its mouth would take it off.
         let inwards: Vec<OutlineNotch> =
             piece.outline_notches.iter().copied().filter(|notch| !notch.outwards).collect();
         let mouths = if is_drawn { style::bridge(&mut segments, &inwards) } else { Vec::new() };
@@ -239,7 +238,7 @@ impl Cutting<'_> {
         Ring::new([i, part], self.is_part_left(range, line), segments, mouths)
     }
 
-    /// The part that a line is of, by the piece that its outline is of.
+    /// Part of a line, by the index of the piece of its outline.
     fn part(&self, line: usize) -> Option<usize> {
         self.nesting.outline(line).map(|outline| self.nesting.lines()[outline].group as usize)
     }
@@ -250,7 +249,7 @@ impl Cutting<'_> {
         style::strokes(notch, self.style).map(move |stroke| Slit { stroke, percent })
     }
 
-    /// A contour as it is cut; what its notches become instead is added to the slits.
+    /// A contour as it is cut; slits that replace its notches are added to `slits`.
     fn outline(&mut self, range: Range, notches: &[OutlineNotch], slits: &mut Vec<Slit>) -> Range {
         if self.style.style == NotchStyle::AsDrawn || notches.is_empty() {
             return range;
@@ -285,23 +284,23 @@ impl Cutting<'_> {
         self.push(kind, range, self.sides(range, line));
     }
 
-    /// The parts on the left and on the right of a closed line, or of cuts that go the same way, of this range.
+    /// Parts on the left and on the right of a closed line, or of cuts in the same direction, of this range.
     fn sides(&self, range: Range, line: usize) -> [Option<usize>; 2] {
         let part = self.part(line);
         if self.is_part_left(range, line) { [part, None] } else { [None, part] }
     }
 
-    /// Whether the part that a closed line bounds is on its left: the inside of a ring that runs counter-clockwise is.
+    /// True if the part that a closed line bounds is on its left: the inside of a counter-clockwise ring is.
     fn is_part_left(&self, range: Range, line: usize) -> bool {
         (geom::ring::area(&self.list.points(range)) > 0.0) != self.nesting.is_inner(line)
     }
 
-    /// What was made since the last group is one.
+    /// Puts the cuts since the last group into one group.
     fn group(&mut self, group: Group) {
         self.groups.resize(self.cuts.len(), group);
     }
 
-    /// The cuts of a line, of this range, that has edges in common with others.
+    /// Adds the cuts of a line, of this range, that has edges in common with others.
     fn edges(&mut self, of_line: OfLine, drawn: Range, line: usize) {
         for cuts in of_line {
             let first = self.cuts.len();

@@ -1,21 +1,21 @@
 //! Notch: recognises the notches that outlines make, and lists them with their piece. The outlines keep them.
 //!
-//! Needs: welded contours without narrow boxes and spikes, which are slits. A notch is a way between two places of a
-//! closed contour, of which all of this is true, to rounding:
+//! Needs: welded contours without narrow boxes and spurs, which are slits. A notch is a stretch of a closed contour for which
+//! all of this is true, to rounding:
 //!
 //! - it is a V (mouth 1 to 12 mm), a castle or a U (mouth 1.5 to 12 mm), 1.5 to 15 mm deep along its axis;
 //! - its axis, from the middle of the mouth to that of the bottom, leans up to 60 degrees from the square to the mouth;
-//! - the walls of a castle or U follow the axis within 10 degrees, its bottom lies square to them or along the mouth;
-//! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction; that of a V may bend there, as a
+//! - the walls of a castle or U follow the axis within 10 degrees, its bottom is square to them or along the mouth;
+//! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction; at a V it may bend there, as a
 //!   corner of the part does or where another notch begins, and turns by more than a right angle into the notch;
-//! - it is none of four or more in a row whose next is nearer than their mouths are wide: the teeth of a pinked hem;
-//! - three vertices at least belong to none of the contour's notches.
+//! - it does not belong to a row of four or more with gaps narrower than their mouths: the teeth of a pinked hem;
+//! - at least three vertices belong to none of the contour's notches.
 //!
-//! What a drawing draws as a stroke from edge to edge is a notch whatever its measures; the pass `stroke` has listed it.
+//! A stroke that a drawing draws from edge to edge is a notch whatever its measures; the pass `stroke` has listed it.
 //!
-//! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are none.
-//! What lies in the part goes inwards: on the inner side of a contour that lies within none or two others of its piece,
-//! on the outer side of a cut-out. Any other stands out; where that is over another piece there is a warning.
+//! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are not notches.
+//! A notch goes inwards if it is on the inner side of a contour that lies within none or two others of its piece, or on the
+//! outer side of a cut-out. Any other protrudes; there is a warning if it protrudes over another piece.
 
 mod mouth;
 
@@ -43,14 +43,13 @@ pub(super) const PASS: MarkerPass =
 
 /// Vertices that must belong to no notch.
 const LEAST_OTHERS: usize = 3;
-/// Notches beside each other, nearer than their mouths are wide, at the most: double and triple notches tell a back
-/// from a front.
+/// Greatest number of notches in a row with gaps narrower than their mouths: double and triple notches tell a back from a
+/// front.
 const MOST_BESIDE: usize = 3;
-/// What a vertex that is looked at to tell cut-outs from parts costs beside the comparison of two boxes. In a drawing
-/// made to be slow, what is left counts as a part.
+/// Cost of a vertex when cut-outs are told from parts, relative to the comparison of two boxes. When the budget of a drawing
+/// made to be slow is spent, the rest counts as parts.
 const VERTEX: usize = 4;
-/// How deep a notch may lie in another piece without a word, mm, beside the diagonal of the file's unit: pieces that
-/// touch.
+/// Depth of a notch in another piece without a warning, mm, in addition to the diagonal of the file's unit: pieces that touch.
 const TOUCH: f64 = 0.2;
 /// Decimals of depths in messages, mm.
 const DEPTH_DECIMALS: u32 = 1;
@@ -69,7 +68,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
                     continue;
                 }
                 let counter_clockwise = ring::area(outline.ring()) > 0.0;
-                // Other pieces do not matter to what is a cut-out: two jobs in one file may lie on each other.
+                // Cut-outs are found within the piece alone: two jobs in one file may overlap.
                 let nesting = nesting.get_or_init(|| Nesting::of_piece(list, piece));
                 let is_left = counter_clockwise != nesting.is_inner(k);
                 let mouths = outline.notches(is_left);
@@ -82,7 +81,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
                 found.push(Found { spans: list.spans(outline.range), tips });
             }
         }
-        // All in a row, since blocks stand far from points in memory: then none waits for the one before.
+        // Spans are read in one sweep: blocks are far from points in memory, and this way no read waits for another.
         let spans = found.iter().flat_map(Found::spans);
         let notches = pieces.iter_mut().flat_map(|piece| &mut piece.outline_notches);
         notches.zip(spans).for_each(|(notch, span)| notch.span = span);
@@ -92,14 +91,14 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
 
 /// The notches of an outline.
 struct Found<'a> {
-    /// The blocks of its segments.
+    /// Source spans of its segments.
     spans: Cow<'a, [Span]>,
-    /// The vertices at their tips.
+    /// Indices of the vertices at their tips.
     tips: Vec<usize>,
 }
 
 impl Found<'_> {
-    /// The blocks that the tips came from: those of the segments that lead there.
+    /// Source spans of the segments that lead to the tips.
     fn spans(&self) -> impl Iterator<Item = Span> {
         self.tips.iter().map(|tip| self.spans[tip.checked_sub(1).unwrap_or(self.spans.len() - 1)])
     }
@@ -110,9 +109,9 @@ struct Outline<'a> {
     range: Range,
     /// Its points; the last is the first again.
     points: Cow<'a, [Point]>,
-    /// What may be notches, whichever side the part is on.
+    /// Candidates for notches, on either side.
     mouths: Vec<Mouth>,
-    /// What the drawing says are notches.
+    /// Notches that the drawing declares.
     said: Vec<Mouth>,
 }
 
@@ -126,7 +125,7 @@ impl<'a> Outline<'a> {
         outline
     }
 
-    /// The first vertex of a notch, and its segments; `None` where other passes made something else of it.
+    /// First vertex and number of segments of a notch; `None` if other passes have changed it.
     fn place(&self, notch: &OutlineNotch) -> Option<[usize; 2]> {
         let count = self.points.len() - 1;
         let first = (0..count).find(|&i| self.points[i] == notch.mouth[0])?;
@@ -139,13 +138,13 @@ impl<'a> Outline<'a> {
         &self.points[..self.points.len() - 1]
     }
 
-    /// A vertex, less than three times round.
+    /// A vertex; indices may be up to three times the count.
     fn at(&self, i: usize) -> Point {
         let count = self.points.len() - 1;
         self.points[if i < count { i } else { i % count }]
     }
 
-    /// A notch, when the part lies on the left or not.
+    /// A notch, given whether the part is on the left.
     fn notch(&self, mouth: &Mouth, is_left: bool) -> OutlineNotch {
         let Mouth { first, segments, form, tip, is_left: notch_is_left, .. } = *mouth;
         OutlineNotch {
@@ -158,7 +157,7 @@ impl<'a> Outline<'a> {
         }
     }
 
-    /// Its notches, when its part lies on the left or not, in their order.
+    /// Its notches in order, given whether its part is on the left.
     fn notches(&self, is_left: bool) -> Vec<Mouth> {
         let count = self.points.len() - 1;
         let [inward, outward] = [true, false].map(|is_inward| {
@@ -188,7 +187,7 @@ impl<'a> Outline<'a> {
         kept
     }
 
-    /// Of notches that share a segment the one with the shortest way.
+    /// Among notches that share a segment, keeps the one with the shortest length.
     fn apart(&self, mouths: impl Iterator<Item = Mouth>) -> Vec<Mouth> {
         let count = self.points.len() - 1;
         let length = |mouth: &Mouth| {
@@ -205,7 +204,7 @@ impl<'a> Outline<'a> {
                 Some(_) | None => kept.push(mouth),
             }
         }
-        // The last may go over the start of the outline, where the first lies.
+        // The last may reach over the start of the outline to the first.
         if let [first, .., last] = kept[..]
             && last.first + last.segments > count + first.first
         {
@@ -218,10 +217,10 @@ impl<'a> Outline<'a> {
         kept
     }
 
-    /// Notches that go the same way, those that are teeth in a row left out.
+    /// Notches of one side without rows of teeth.
     fn alone(&self, all: &[Mouth]) -> Vec<Option<Mouth>> {
         let count = self.points.len() - 1;
-        // Whether one and the next, round the ring, are nearer than their mouths are wide.
+        // True if a notch and the next one, round the ring, have a gap narrower than their mouths.
         let is_crowded = |k: usize| {
             let (mouth, next) = (all[k], all[(k + 1) % all.len()]);
             let width = |mouth: &Mouth| (self.at(mouth.first + mouth.segments) - self.at(mouth.first)).norm();
@@ -259,7 +258,7 @@ fn selected(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
     let mut all: Vec<(usize, usize)> = (0..2).flat_map(|side| (0..sides[side].len()).map(move |k| (side, k))).collect();
     let mouth = |(side, k): (usize, usize)| sides[side][k];
     all.sort_by_key(|&place| mouth(place).first);
-    // Whether a segment is shared with the next one, by each or by a longer one before it, round the ring.
+    // True if a segment is shared with the next notch, by this one or by a longer one before it, round the ring.
     let mut reach = 0;
     let shares = |i: usize| {
         let [this, next] = [all[i], all[(i + 1) % all.len()]].map(mouth);
@@ -269,7 +268,7 @@ fn selected(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
     };
     let shared: Vec<bool> = (0..all.len()).map(shares).collect();
     let mut selected = sides.map(|side| vec![true; side.len()]);
-    // A row begins behind a notch that shares nothing; a gear, all round which each shares, anywhere.
+    // A row begins after a notch that shares nothing; a gear, in which all share, begins anywhere.
     let begin = shared.iter().rposition(|shares| !shares).map_or(0, |i| i + 1);
     let mut row: Vec<(usize, usize)> = Vec::new();
     for i in (0..all.len()).map(|i| (begin + i) % all.len()) {
@@ -290,11 +289,11 @@ fn selected(sides: [&[Mouth]; 2], count: usize) -> [Vec<bool>; 2] {
 struct Over {
     depth: f64,
     notch: OutlineNotch,
-    /// The pieces: its own, and the one that it is cut into.
+    /// Indices of its own piece and of the piece that it is cut into.
     pieces: [usize; 2],
 }
 
-/// Says how many notches that stand out lie over other pieces, and which of them does farthest.
+/// Reports the number of protruding notches over other pieces, and the deepest of them.
 fn warn_of_neighbours(marker: &Marker, diagnostics: &mut Diagnostics) {
     let stands_out = |notch: &&OutlineNotch| notch.outwards;
     let notches = marker.pieces.iter().enumerate();
@@ -328,7 +327,7 @@ fn warn_of_neighbours(marker: &Marker, diagnostics: &mut Diagnostics) {
         if let Some((depth, other)) =
             deepest.filter(|(depth, _)| *depth > TOUCH.max(std::f64::consts::SQRT_2 * marker.unit))
         {
-            // No more of it lies there than there is.
+            // The depth is at most that of the notch.
             over.push(Over { depth: depth.min(notch.depth()), notch, pieces: [own, other] });
         }
     }

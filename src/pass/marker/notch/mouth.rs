@@ -1,7 +1,7 @@
-//! What an outline makes between two places of its edge: whether that is a V, a castle or a U notch, whichever way it goes.
+//! Recognition of one notch: whether the outline between two places of its edge is a V, a castle or a U, inwards or outwards.
 //!
-//! The mouth is found from its first end. There an outline turns off, and it comes back to the line that its edge had, on a
-//! short way. Nearly all vertices are passed over at their turn, nearly all others at the next vertex.
+//! The mouth is found from its first end: there the outline turns off, and it comes back soon to the line of its edge. Nearly
+//! all vertices are rejected by their turn, nearly all others at the next vertex.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -11,70 +11,70 @@ use arrayvec::ArrayVec;
 use crate::geom::{Point, Vector, angle, cross, polyline};
 use crate::ir::marker::{Notch, NotchForm};
 
-/// Width of mouths, mm: of a V, and of a castle or U.
+/// Widths of mouths, mm: of a V, and of a castle or U.
 const V_MOUTH: [f64; 2] = [1.0, Notch::WIDEST];
 const MOUTH: [f64; 2] = [1.5, Notch::WIDEST];
 /// Depth, mm.
 const DEPTH: [f64; 2] = [1.5, Notch::LONGEST];
-/// Tangent of how far the axis of a notch may lean from the square to its mouth: 60 degrees, as in the notches of
-/// pattern DXF. Pattern makers point notches along seams that meet the edge askew.
+/// Tangent of the greatest lean of the axis of a notch from the square to its mouth: 60 degrees, as in the notches of pattern
+/// DXF. Pattern makers point notches along seams that meet the edge at an angle.
 const AXIS_LEAN: f64 = 1.733;
-/// How far the sides of a castle may lean from its axis, of its depth.
+/// Greatest lean of the sides of a castle from its axis, as a fraction of its depth.
 const LEAN: f64 = 0.2;
-/// Tangent of how far the bottom of a castle may be askew to its mouth, and a leg of a U to the square: 10 degrees. A notch is
-/// laid square to the seam, and the edge that it stands on is not quite parallel to that.
+/// Tangent of the greatest tilt of the bottom of a castle to its mouth, and of a leg of a U to the square: 10 degrees. A notch
+/// is laid square to the seam, and its edge is not quite parallel to that.
 const TILT: f64 = 0.176;
-/// Least turn at the bottom of a castle, rad: it is round where the turn is spread.
+/// Least turn at the bottom of a castle, rad: a bottom with a gradual turn is round.
 const CORNER: f64 = 65.0 * PI / 180.0;
-/// Least area of a U, of the rectangle around it: a semicircle has 0.785, a V 0.5.
+/// Least area of a U, as a fraction of the rectangle around it: a semicircle has 0.785, a V 0.5.
 const U_AREA: f64 = 0.68;
-/// How far the outline may turn where the mouth begins or ends, against the mouth, rad; of the segment beside it, which may
-/// be short, more.
+/// Greatest turn of the outline at either end of the mouth, relative to the mouth, rad; the segment beside it, which may be
+/// short, may turn by more.
 const MOUTH_TURN: f64 = PI / 6.0;
 const NEXT_TURN: f64 = PI / 3.0;
-/// Cosine of that turn.
+/// Cosine of [`NEXT_TURN`].
 const NEXT_COSINE: f64 = 0.5;
-/// Least turn from the edge into a V whose mouth begins or ends at a corner, rad. A cut-out at a corner turns by a right
-/// angle at the most, so that none is a notch.
+/// Least turn from the edge into a V whose mouth begins or ends at a corner, rad. A cut-out at a corner turns by at most a
+/// right angle, so it is no notch.
 const CORNER_INTO: f64 = 95.0 * PI / 180.0;
-/// Greatest turn of the edge at such corners together, rad: those of a swallowtail turn by more.
+/// Greatest sum of the turns of the edge at such corners, rad: the corners of a swallowtail turn by more.
 const CORNERS_MOST: f64 = 135.0 * PI / 180.0;
-/// Notches before and behind one among which those are looked for that touch it: their sides alternate.
+/// Number of notches before and after one among which its neighbours are looked for: their sides alternate.
 const BESIDE: usize = 4;
 /// Square of the cosine of the least turn at the end of a mouth: 12 degrees.
 const LEAST_TURN: f64 = 0.957;
 /// Tangent of a turn that is less than that one, beyond all rounding: 11 degrees.
 const SURELY_STRAIGHT: f64 = 0.194;
-/// The edge before a mouth has its direction over so much of it, mm.
+/// Length of edge before a mouth that gives its direction, mm.
 const EDGE: f64 = 2.0;
-/// How far from the first end a notch can go, mm: the far corner of the largest.
+/// Greatest distance of a notch from the first end of its mouth, mm: the far corner of the largest.
 const FAR: f64 = 21.0;
-/// How many vertices a way may have, and how many are looked at for the direction of an edge: a guard against tangles.
+/// Greatest number of vertices of a notch, and of an edge for its direction: a guard against tangles.
 const MOST_STEPS: usize = 64;
-/// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
+/// Distance by which rounding to a grid may move two points against each other, in units of the grid: its diagonal.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
-/// The same where there is no grid, mm: files without one are written with two or three decimals.
+/// Distance by which rounding may move two points in a file without a grid, mm: such files have two or three decimals.
 const LEAST_SLACK: f64 = 0.01;
 
-/// What may be a notch of an outline.
+/// A candidate for a notch of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mouth {
-    /// The vertex at which it begins, and how many segments it has.
+    /// The vertex at which it begins, and the number of its segments.
     pub(super) first: usize,
     pub(super) segments: usize,
     pub(super) form: NotchForm,
     /// The middle of its bottom, and the vertex there or before it.
     pub(super) tip: Point,
     pub(super) deepest: usize,
-    /// Whether it lies to the left of the outline.
+    /// True if it lies to the left of the outline.
     pub(super) is_left: bool,
     /// Tangent of the angle from its direction to that of the outline beside it; infinite at a corner.
     pub(super) askew: f64,
-    /// Turns of the outline from the edge to the mouth and back, where these are corners, rad; 0 where they are not.
+    /// Turns of the outline from the edge to the mouth and back, rad; 0 where there is no corner.
     corners: [f64; 2],
 }
 
-/// What may be notches of a ring, whose last point is the first again; in the order of their first vertices.
+/// Candidates for notches of a ring, whose last point is the first again, in the order of their first vertices.
 pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     let count = points.len() - 1;
     let mut found = Vec::new();
@@ -93,8 +93,7 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     found
 }
 
-/// A notch of a ring that the drawing says is one, by its first vertex and its segments: what is neither a V nor a castle is a
-/// U.
+/// A notch that the drawing declares, by its first vertex and its segments: anything but a V or a castle is a U.
 pub(super) fn said(points: &[Point], unit: f64, [first, segments]: [usize; 2]) -> Option<Mouth> {
     let count = points.len() - 1;
     let ring = Ring { points: &points[..count], slack: if unit > 0.0 { ROUNDING * unit } else { LEAST_SLACK } };
@@ -108,7 +107,7 @@ pub(super) fn said(points: &[Point], unit: f64, [first, segments]: [usize; 2]) -
 }
 
 impl Mouth {
-    /// Whether two share a segment of a ring with so many vertices.
+    /// True if two share a segment of a ring with `count` vertices.
     pub(super) fn overlaps(&self, other: &Self, count: usize) -> bool {
         let ahead = |from: &Self, to: &Self| (to.first + count - from.first) % count;
         ahead(self, other) < self.segments || ahead(other, self) < other.segments
@@ -119,8 +118,8 @@ impl Mouth {
     }
 }
 
-/// Calls `see` for each vertex of a line at which a notch may begin. Most turn by far less, which takes no lengths to see, and
-/// half as many steps where two are looked at together.
+/// Calls `see` for each vertex of a line at which a notch may begin. Most turn by far less: that test needs no lengths, and two
+/// vertices at a time take half as many steps.
 #[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
 fn each_turn(points: &[Point], mut see: impl FnMut(usize)) {
     let may_turn = |before: Vector, after: Vector| cross(before, after).abs() >= SURELY_STRAIGHT * before.dot(&after);
@@ -140,7 +139,7 @@ fn each_turn(points: &[Point], mut see: impl FnMut(usize)) {
     }
 }
 
-/// Whether a notch may begin between two segments.
+/// True if a notch may begin between two segments.
 fn is_turn(before: Vector, after: Vector) -> bool {
     let (dot, next) = (before.dot(&after), after.norm_squared());
     next <= FAR * FAR && (dot <= 0.0 || dot * dot < LEAST_TURN * before.norm_squared() * next)
@@ -150,42 +149,43 @@ fn is_turn(before: Vector, after: Vector) -> bool {
 #[derive(Clone, Copy)]
 struct Ring<'a> {
     points: &'a [Point],
-    /// How far rounding may move one point against another, mm.
+    /// Distance by which rounding may move one point against another, mm.
     slack: f64,
 }
 
-/// Places of a way from its first vertex on.
+/// Vertices of a notch relative to the first one.
 type Room = ArrayVec<Vector, MOST_STEPS>;
 
-/// A way between the ends of a mouth as one sees it who looks along the axis of the notch: whatever the edge does, the walls
-/// of a castle or U are upright in one view. The mouth is as wide as from wall to wall, and level with the longer one.
+/// A candidate seen along the axis of the notch: in one view the walls of a castle or U are upright, whatever the edge does.
+/// The mouth reaches from wall to wall, level with the longer one.
 struct Way {
-    /// Its vertices: across the axis from the first one, and along the axis from the mouth.
+    /// Vertices: across the axis from the first one, and along the axis from the mouth.
     places: Room,
-    /// The directions of the view, of which the vertices are multiples.
+    /// Base vectors of the view.
     axes: [Vector; 2],
     width: f64,
     depth: f64,
 }
 
 impl Ring<'_> {
-    /// A vertex, less than twice round.
+    /// A vertex; indices may be up to twice the count.
     fn at(&self, i: usize) -> Point {
         let count = self.points.len();
         self.points[if i < count { i } else { i - count }]
     }
 
-    /// The notch that begins at a vertex, to that side.
+    /// The notch that begins at a vertex, on the given side.
     fn begun(&self, i: usize, is_left: bool) -> Option<Mouth> {
         let long = self.edge(i, EDGE.max(4.0 * self.slack));
         let by_long = long.and_then(|edge| self.mouth(i, edge, is_left));
-        // Beside a tooth the edge is short, on a grid it has the direction of the grid where it is.
+        // Beside a tooth the edge is short, and on a grid it has the direction of the grid there.
         let short = self.edge(i, 2.0 * self.slack);
         let by_short = || short.filter(|_| long != short).and_then(|edge| self.mouth(i, edge, is_left));
         by_long.or_else(by_short).or_else(|| short.and_then(|edge| self.at_corner(i, edge, is_left)))
     }
 
-    /// The notch that begins at a corner, to that side. The edge that leads there does not tell where its mouth leads.
+    /// The notch that begins at a corner, on the given side. The edge before the corner does not give the direction of its
+    /// mouth.
     fn at_corner(&self, i: usize, edge: Vector, is_left: bool) -> Option<Mouth> {
         let side = if is_left { 1.0 } else { -1.0 };
         let from = self.points[i];
@@ -200,8 +200,8 @@ impl Ring<'_> {
         ends.find_map(|steps| self.between(i, steps, side))
     }
 
-    /// Leaves those whose mouth follows the edge: where it begins or ends at a corner, the outline turns by no more there
-    /// than a corner of a part does, or another notch of that side ends or begins at the corner.
+    /// Keeps those whose mouth follows the edge: at an end of the mouth at a corner, the outline must turn by at most the angle
+    /// of a part's corner, or another notch of the same side must end or begin there.
     fn leave_between_edges(&self, found: &mut Vec<Mouth>) {
         let all = found.clone();
         let end = |mouth: &Mouth, end: usize| self.at(mouth.first + if end == 0 { 0 } else { mouth.segments });
@@ -221,7 +221,7 @@ impl Ring<'_> {
         });
     }
 
-    /// The notch that begins at a vertex, to that side of the edge that leads there.
+    /// The notch that begins at a vertex, on the given side of the edge before it.
     fn mouth(&self, i: usize, edge: Vector, is_left: bool) -> Option<Mouth> {
         let count = self.points.len();
         let side = if is_left { 1.0 } else { -1.0 };
@@ -231,7 +231,7 @@ impl Ring<'_> {
             let way = self.at(i + steps) - from;
             let height = side * cross(edge, way);
             let width = way.norm();
-            // It came back too soon, or never will. So near the first vertex rounding hides which way it goes.
+            // The line comes back too soon, or never. Near the first vertex rounding hides its direction.
             let is_low = height <= self.slack && width > 2.0 * self.slack;
             if width > FAR || is_low && highest < DEPTH[0] - self.slack {
                 return None;
@@ -250,7 +250,7 @@ impl Ring<'_> {
         None
     }
 
-    /// The direction of the edge that leads to a vertex, over so much of it, mm.
+    /// Direction of the edge before a vertex, over a length of at least `least` mm.
     fn edge(&self, i: usize, least: f64) -> Option<Vector> {
         let count = self.points.len();
         let mut ways = (1..count.min(MOST_STEPS)).map(|k| self.points[i] - self.at(i + count - k));
@@ -263,7 +263,7 @@ impl Ring<'_> {
         (way.norm() > 0.0).then(|| way / way.norm())
     }
 
-    /// The notch between a vertex and the one so many steps ahead.
+    /// The notch between a vertex and the one `steps` steps ahead.
     #[inline(never)] // seldom asked for: apart, it leaves the registers to the steps
     fn between(&self, i: usize, steps: usize, side: f64) -> Option<Mouth> {
         let (form, tip, deepest) = self.shape(i, steps, side)?;
@@ -286,7 +286,7 @@ impl Ring<'_> {
         })
     }
 
-    /// The form that a way has to that side of its mouth, the middle of its bottom, and the vertex there or before it.
+    /// Form of a candidate on that side of its mouth, the middle of its bottom, and the vertex there or before it.
     fn shape(&self, i: usize, steps: usize, side: f64) -> Option<(NotchForm, Point, usize)> {
         let chord = self.at(i + steps) - self.points[i];
         let along = chord / chord.norm();
@@ -311,7 +311,7 @@ impl Ring<'_> {
         Some((form, tip, (i + deepest) % self.points.len()))
     }
 
-    /// Turn of the outline from its edge to a mouth, or back, if that is a corner that a notch is cut into, rad: the outline
+    /// Turn of the outline between its edge and a mouth at a corner that a notch is cut into, rad; `None` unless the outline
     /// turns by more than a right angle from the edge into the notch.
     fn corner(&self, i: usize, is_end: bool, steps: usize, side: f64) -> Option<f64> {
         let count = self.points.len();
@@ -332,9 +332,9 @@ impl Ring<'_> {
         (into >= CORNER_INTO && bend >= 0.0).then_some(bend)
     }
 
-    /// Tangent of the angle from the direction of a mouth to that of the outline that comes to it, or leaves it; `None` when
-    /// that is too far. Near the mouth the outline may have very short segments, whose direction is that of the grid; a
-    /// stretch as long as the mouth is wide has its own.
+    /// Tangent of the angle between the direction of a mouth and that of the outline beside it; `None` if the angle is too
+    /// large. Near the mouth the outline may have very short segments with the direction of the grid; a stretch as long as the
+    /// mouth is wide has its own direction.
     fn askew(&self, i: usize, is_end: bool, steps: usize, mouth: Vector) -> Option<f64> {
         let count = self.points.len();
         let beside = |k: usize| {
@@ -342,7 +342,7 @@ impl Ring<'_> {
         };
         let width = mouth.norm();
         let turn = |way: Vector| angle::turn(way, mouth).abs();
-        // The one that turns least has the greatest cosine.
+        // The direction with the least turn has the greatest cosine.
         let (mut straightest, mut cosine, mut is_next) = (None, f64::NEG_INFINITY, None);
         for k in 1..(count - steps).min(MOST_STEPS) {
             let way = beside(k);
@@ -372,20 +372,20 @@ fn rounding(slack: f64) -> f64 {
     2.0 * slack
 }
 
-/// Whether a length lies between two, to rounding.
+/// True if a length is between two limits, to rounding.
 fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
     (least - slack..=most + slack).contains(&length)
 }
 
 impl Way {
-    /// A way whose mouth lies along the first axis.
+    /// A view whose first axis is the direction of the mouth.
     fn upright(places: Room) -> Self {
         let width = places[places.len() - 1].x;
         let depth = places.iter().map(|place| place.y).fold(0.0, f64::max);
         Self { places, axes: [Vector::x(), Vector::y()], width, depth }
     }
 
-    /// The way in another view; its tip lies up to so far from the middle of its mouth as a notch is deep.
+    /// The candidate in another view; its tip may be off the middle of its mouth by up to the depth of a notch.
     fn seen(&self, axes: [Vector; 2]) -> Self {
         let [across, along] = axes;
         let whole = cross(across, along);
@@ -398,8 +398,9 @@ impl Way {
         Self { places, axes, width: last.x, depth }
     }
 
-    /// What it looks like, and the middle of its bottom: a V by its legs; a castle or a U in one of three views. Its base and
-    /// its mouth are square to its axis, or both follow the edge while the axis leans, or the edge cuts its walls off askew.
+    /// Its form, and the middle of its bottom: a V by its legs; a castle or a U in one of three views. In these its base and
+    /// its mouth are square to its axis, or both follow the edge while the axis leans, or the edge cuts its walls off at an
+    /// angle.
     fn form(&self, slack: f64) -> Option<(NotchForm, Vector)> {
         let middle = Vector::new(self.width / 2.0, 0.0);
         let is_deep = |tip: &Vector| is_within((tip - middle).norm(), DEPTH, slack);
@@ -422,7 +423,7 @@ impl Way {
         castle.or_else(u).filter(|(_, tip)| is_deep(tip))
     }
 
-    /// The direction of its walls, if they lean from the square to its mouth and not too far: the longer one has more weight.
+    /// Direction of its walls, if they lean from the square to its mouth by a permitted angle: the longer one has more weight.
     fn axis(&self, slack: f64) -> Option<Vector> {
         let last = self.places.len() - 1;
         let left = (1..=self.apex()).rev().find(|&k| self.is_straight([0, k], slack))?;
@@ -432,14 +433,14 @@ impl Way {
         leans.contains(&way.x.abs()).then(|| way.normalize())
     }
 
-    /// A place of this view, as the outline draws it: from its first vertex on.
+    /// A place of this view in the coordinates of the outline, relative to the first vertex.
     fn drawn(&self, place: Vector) -> Vector {
         let [across, along] = self.axes;
         // The first vertex lies on the mouth or, where its wall is the shorter one, above it.
         across * place.x + along * (place.y - self.places[0].y)
     }
 
-    /// The vertex that lies deepest.
+    /// The deepest vertex.
     fn apex(&self) -> usize {
         (0..self.places.len()).max_by(|&a, &b| self.places[a].y.total_cmp(&self.places[b].y)).unwrap_or(0)
     }
@@ -460,13 +461,13 @@ impl Way {
         self.places[k].into()
     }
 
-    /// Whether the vertices between two lie on the line between them.
+    /// True if the vertices between two are on the line between them.
     fn is_straight(&self, [from, to]: [usize; 2], slack: f64) -> bool {
         let [a, b] = [from, to].map(|k| self.place(k));
         (from + 1..to).all(|k| polyline::distance_to_segment(self.place(k), a, b) <= slack)
     }
 
-    /// Two straight legs, whose tip leans no farther from the middle of the mouth than the axis of a notch does.
+    /// True for two straight legs whose tip is off the middle of the mouth by at most the lean of an axis.
     fn is_v(&self, slack: f64) -> bool {
         let (apex, last) = (self.apex(), self.places.len() - 1);
         let leans = (self.places[apex].x - self.width / 2.0).abs();
@@ -475,7 +476,7 @@ impl Way {
             && self.is_straight([apex, last], slack)
     }
 
-    /// The middle of the bottom, if it is a rectangle.
+    /// The middle of the bottom, if the candidate is a rectangle.
     fn castle(&self, slack: f64) -> Option<Vector> {
         let last = self.places.len() - 1;
         let (left, right) = self.bottom(1..last, self.bottom_tolerance(slack))?;
@@ -489,7 +490,7 @@ impl Way {
         is_castle.then(|| (self.places[left] + self.places[right]) / 2.0)
     }
 
-    /// Whether it turns by nearly a right angle at a vertex, and not little by little around it.
+    /// True if the line turns by nearly a right angle at a vertex, not gradually around it.
     fn is_corner(&self, k: usize, slack: f64) -> bool {
         let least = (self.depth.min(self.width) / 4.0).max(2.0 * slack);
         let at = self.place(k);
@@ -500,13 +501,13 @@ impl Way {
         angle::is_turned(at - before, after - at, CORNER)
     }
 
-    /// The share of the rectangle around it that a way fills which leads down, across and up again.
+    /// Share of its rectangle that a candidate fills, if it leads down, across and up again.
     fn u(&self, slack: f64) -> Option<f64> {
         let (apex, last) = (self.apex(), self.places.len() - 1);
         let beside = LEAN * self.width + TILT * self.depth + slack;
         let (left, right) = (-beside, self.width + beside);
         let steps = || self.places.windows(2);
-        // Whether a step leads on by one measure, or back no more than its tilt has it do by the way along the other.
+        // A step must lead on by one measure; it may lead back by at most its tilt times the step along the other.
         let leads_on = |on: f64, along: f64| on >= -2.0 * slack - TILT * along.abs();
         let is_round = self.places.iter().all(|place| (left..=right).contains(&place.x))
             && steps().all(|ends| leads_on(ends[1].x - ends[0].x, ends[1].y - ends[0].y))
