@@ -1,5 +1,5 @@
-//! Doubts about parts, by the numbers of their pieces: outlines that were closed or stay open, parts without a seam
-//! line, and lines that begin on an outline and are not cut.
+//! Doubts about parts, with the numbers of their pieces: outlines that were closed or stay open, parts without a seam line, and
+//! uncut lines that begin on an outline.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,15 +14,15 @@ use crate::geom::Point;
 use crate::machine::{Beside, CLOSE_MOST_MM, Job};
 use crate::units::number::fixed;
 
-/// Shortest open line outside of parts that is named, mm: marks and letters are shorter.
+/// Shortest open line outside of parts that is reported, mm: marks and letters are shorter.
 pub(super) const SHORTEST_NAMED: f64 = 100.0;
 /// Decimals of lengths, mm.
 const DECIMALS: u32 = 1;
-/// The step in which `drawing.close_mm` is named, mm, and the rounding of a gap that is a multiple of it, in steps.
+/// Step in which `drawing.close_mm` is suggested, mm, and the rounding of a gap that is a multiple of it, in steps.
 const CLOSE_STEP: f64 = 0.1;
 const CLOSE_EPSILON: f64 = 1e-6;
 
-/// Adds every doubt about parts.
+/// Reports every doubt about parts.
 pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let owners = owners(sheet);
     open_parts(sheet, out);
@@ -46,7 +46,7 @@ fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
     numbers
 }
 
-/// Outlines with a gap around closed lines, each with how many of those it holds.
+/// Outlines with a gap around closed lines, each with the number of these.
 fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     let is_held = |line: &Line| line.is_closed && line.size() >= SIGN && !line.is_set_aside();
     // An outline that is only drawn matters where a pen that is a knife draws the line in it.
@@ -57,7 +57,7 @@ fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     };
     let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i && is_told(outer, i));
     let holders = sheet.indices(is_held).into_iter().filter_map(outer);
-    // A part is missing where one was taken for a seam line, whatever the pen of the line around it.
+    // A part is missing if it was taken for a seam line, whatever the pen of the line around it.
     let single = |remains: &&Remains| remains.is_sure && remains.lines.len() == 1;
     let remains = sheet.remains.iter().filter(single).map(|remains| remains.lines[0]);
     let mut held = BTreeMap::new();
@@ -68,7 +68,7 @@ fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     held
 }
 
-/// Outlines of several strokes that are not whole.
+/// Outlines of several strokes that are incomplete.
 fn broken_outlines(sheet: &Sheet) -> impl Iterator<Item = &Remains> {
     let is_left = |remains: &&Remains| remains.is_sure && remains.lines.len() > 1 && !sheet.lines[remains.inner].is_cut;
     sheet.remains.iter().filter(is_left)
@@ -80,7 +80,7 @@ pub(super) fn doubtful_outlines(sheet: &Sheet) -> [BTreeSet<usize>; 2] {
     [open_outlines(sheet).into_keys().collect(), broken.collect()]
 }
 
-/// Says how many outlines have a gap around closed lines, and how many in several strokes are not whole.
+/// Reports outlines with a gap around closed lines, and incomplete outlines of several strokes.
 fn open_parts(sheet: &Sheet, out: &mut Diagnostics) {
     let broken: Vec<&Remains> = broken_outlines(sheet).collect();
     if let Some(first) = broken.first() {
@@ -121,8 +121,8 @@ pub(super) fn how_to_close(gap: f64) -> Option<String> {
     Some(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={close}`"))
 }
 
-/// Parts that open lines run beside from outside: each may be the seam line of an outline that is not whole, and too small.
-/// Nothing is cut until somebody says what those lines are, or leaves the parts out.
+/// Parts with open lines beside them from outside: each may be the seam line of an incomplete outline, and too small. Nothing
+/// is cut until the user says what those lines are, or leaves the parts out.
 fn maybe_seams(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
     let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
     let doubtful = sheet.remains.iter().filter(|remains| !remains.is_sure && sheet.lines[remains.inner].is_cut);
@@ -148,7 +148,7 @@ fn maybe_seams(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics
     }
 }
 
-/// Distance between the ends of a line as it is drawn, mm.
+/// Distance between the ends of a line as drawn, mm.
 fn gap(line: usize, sheet: &Sheet) -> f64 {
     let drawn = sheet.lines[line].as_drawn(&sheet.vertices);
     (drawn[drawn.len() - 1].at - drawn[0].at).norm()
@@ -341,13 +341,13 @@ const EDGE_DOUBTS: &[EdgeDoubt] = &[
     },
 ];
 
-/// Lines that begin on the outline of a part and are not cut, and small closed ones that stand on it.
+/// Uncut lines that begin on the outline of a part, and small closed ones that stand on it.
 fn from_edges(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
     let is_left = |&EdgeLine { line, outline, other, .. }: &EdgeLine| {
         let Line { is_cut, usage, .. } = sheet.lines[line];
         !is_cut && usage != Use::Drawn && [Some(outline), other].iter().flatten().any(|&on| sheet.lines[on].is_cut)
     };
-    // Somebody who says what becomes of lines in parts has looked at them.
+    // A user who chooses what becomes of lines in parts has looked at them.
     let lie_of = |edge: &EdgeLine| match edge.lie {
         Lie::Between if job.lines.inner.is_some() => Lie::Divides,
         lie => lie,

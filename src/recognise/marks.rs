@@ -13,41 +13,42 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::Notch;
 
-/// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from
-/// edge to edge.
+/// Distance from its edge within which the other end of a mark is on the edge, too, mm: such a line lies along it, or leads
+/// from edge to edge.
 pub(super) const TOUCH: f64 = 0.1;
 /// Farthest that a place of a crossbar lies off the straight line between its ends, mm: rounding of decimals.
 const ON_LINE: f64 = 1e-6;
-/// How far from an outline a stroke as long as a notch ends and is named, mm: it may be a notch that misses its edge.
+/// Distance from an outline within which the end of a stroke as long as a notch is reported, mm: it may be a notch that misses
+/// its edge.
 const NEAR: f64 = 2.0;
 /// Longest stroke across an edge that may be a notch, mm: as far outside as inside.
 const LONGEST_ACROSS: f64 = 2.0 * Notch::LONGEST;
-/// Where lines are looked at that may divide a part, as shares of their length.
+/// Samples of lines that may divide a part, as fractions of their length.
 const PROBES: [f64; 3] = [0.25, 0.5, 0.75];
-/// Outlines that meet at one place, at the most.
+/// Greatest number of outlines that meet at one place.
 const MEETING: usize = 4;
 
 /// A stroke that is a notch of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mark {
-    /// The line that draws it, and the outline that it stands on, as indices of lines.
+    /// Its line, and the outline that it stands on, as indices of lines.
     pub(super) line: usize,
     pub(super) outline: usize,
     /// From the edge inwards.
     pub(super) cut: [Point; 2],
-    /// Which of its places leads to the tip.
+    /// Index of its vertex that leads to the tip.
     pub(super) leg: usize,
-    /// The line that is its crossbar.
+    /// Index of the line that is its crossbar.
     pub(super) bar: Option<usize>,
-    /// How far from its edge it begins, mm.
+    /// Distance of its start from the edge, mm.
     pub(super) miss: f64,
 }
 
-/// A stroke that may be a notch, by its shape: one line, or one of two legs.
+/// A stroke that may be a notch, by its shape: a whole line, or one of two legs.
 pub(super) struct Candidate {
     pub(super) line: usize,
     leg: usize,
-    /// Whether the line has another.
+    /// True if the line has another leg.
     is_leg: bool,
     pub(super) ends: [Point; 2],
     /// The outlines that each end stands on, with the distance.
@@ -61,7 +62,7 @@ impl Candidate {
     }
 }
 
-/// What is looked at.
+/// Data of a search for marks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Search<'a> {
     pub(super) lines: &'a [Line],
@@ -72,7 +73,7 @@ pub(super) struct Search<'a> {
     pub(super) outlines: &'a [usize],
 }
 
-/// A stroke of a line: the place that leads to its end, and both its ends.
+/// A stroke of a line: the index of the vertex that leads to its end, and both its ends.
 type Stroke = (usize, [Point; 2]);
 
 /// The stroke of a straight line that may be a notch.
@@ -102,7 +103,7 @@ fn is_notch([a, b]: [Point; 2]) -> bool {
     (SHORTEST_NOTCH..=Notch::LONGEST).contains(&(b - a).norm())
 }
 
-/// The notches among the open lines that were not taken for anything yet.
+/// Notches among the open lines without a class.
 pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
     let Search { lines, vertices, unit, .. } = search;
     let open = (0..lines.len()).filter(|&i| !lines[i].is_closed && lines[i].is_open_question());
@@ -122,13 +123,13 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
     meet(&mut candidates, search, Notch::MISS + slack, work);
     let mut marks: Vec<(bool, Mark)> = Vec::new();
     for candidate in &candidates {
-        // What is a notch as a whole has no legs.
+        // A line that is a notch as a whole has no legs.
         let is_taken = marks.last().is_some_and(|(is_leg, mark)| mark.line == candidate.line && !is_leg);
         if let Some(mark) = mark(candidate, search, TOUCH + slack, work).filter(|_| !is_taken) {
             marks.push((candidate.is_leg, mark));
         }
     }
-    // Of two legs both are cut or none is.
+    // Legs are cut in pairs only.
     let is_kept = |k: usize, (is_leg, mark): &(bool, Mark)| {
         let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|k| marks.get(k));
         !is_leg || beside.filter(|(_, other)| other.line == mark.line).count() == 1
@@ -174,7 +175,7 @@ pub(super) fn meet(candidates: &mut [Candidate], search: Search, reach: f64, wor
     }
 }
 
-/// Notes that an end stands on an outline, so near.
+/// Records the distance of an end from an outline that it stands on.
 fn note(on: &mut ArrayVec<(f64, usize), MEETING>, outline: usize, distance: f64) {
     if let Some(known) = on.iter_mut().find(|(_, known)| *known == outline) {
         known.0 = known.0.min(distance);
@@ -183,7 +184,7 @@ fn note(on: &mut ArrayVec<(f64, usize), MEETING>, outline: usize, distance: f64)
     }
 }
 
-/// The notch that a candidate is: of the outline that it starts on and leads into.
+/// The notch of a candidate: of the outline that it starts on and leads into.
 fn mark(candidate: &Candidate, search: Search, touch: f64, work: &mut Budget) -> Option<Mark> {
     let Search { lines, vertices, .. } = search;
     let mut best: Option<(f64, Mark)> = None;
@@ -199,7 +200,7 @@ fn mark(candidate: &Candidate, search: Search, touch: f64, work: &mut Budget) ->
             {
                 continue;
             }
-            // Into a part, and from a cut-out into what is around it.
+            // A notch leads into a part, and from a cut-out into the cloth around it.
             let is_in = ring::contains(&points(), tip);
             if is_in == (lines[outline].class == Class::Part) {
                 let Candidate { line, leg, ends, .. } = *candidate;
@@ -211,16 +212,16 @@ fn mark(candidate: &Candidate, search: Search, touch: f64, work: &mut Budget) ->
     best.map(|(_, mark)| mark)
 }
 
-/// Whether a stroke goes straight from its first place to its last: those of a T in one stroke have a place amid.
+/// True if a stroke goes straight from its first vertex to its last; a T in one stroke does not.
 fn goes_straight(places: &[Vertex]) -> bool {
     places.len() == 2 || polyline::is_straight(&places.iter().map(|place| place.at).collect::<Vec<Point>>(), ON_LINE)
 }
 
-/// Gives the strokes that the tip of a notch divides to that notch, as its crossbar: the lines that are such.
+/// Assigns strokes divided by the tip of a notch to it as crossbars, and returns the lines of these.
 pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     let Search { lines, vertices, unit, .. } = search;
     let tips = sorted(marks.iter().map(|mark| mark.cut[1]));
-    // A file may be rounded more than the units of its plotter tell.
+    // A file may be rounded more than the unit of its plotter tells.
     let mut near = Near::within(TOUCH + ROUNDING * unit);
     let mut bars = Vec::new();
     let is_bar = |&i: &usize| {
@@ -249,18 +250,18 @@ pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
     bars
 }
 
-/// How a line lies at an outline.
+/// Position of a line at an outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lie {
     /// An open line starts or ends on it.
     Ends,
     /// An open stroke as long as a notch goes from it to itself, with a mouth that is too wide for one.
     Wide,
-    /// The same, deeper than a notch.
+    /// An open stroke between two places of it, deeper than a notch.
     Deep,
-    /// An open line goes from it to itself through the inside, longer than a notch: it divides the part.
+    /// An open line between two places of it through the inside, longer than a notch: it divides the part.
     Divides,
-    /// The same, between places where strokes of the outline meet: it may be the common edge of two parts.
+    /// A dividing line between places where strokes of the outline meet: it may be the common edge of two parts.
     Between,
     /// An open line outside joins two places of it and is longer than a notch: it may bound a part that has an edge in common.
     Outside,
@@ -278,7 +279,7 @@ pub(super) enum Lie {
     Sign,
 }
 
-/// A line at an outline that was taken for no notch.
+/// A line at an outline that is no notch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeLine {
     pub(super) line: usize,
@@ -288,8 +289,7 @@ pub(super) struct EdgeLine {
     pub(super) lie: Lie,
 }
 
-/// Open lines that were taken for nothing else and start or end on an outline; of strokes as long as a notch those,
-/// too, that nearly do.
+/// Open lines without a class that start or end on an outline; also strokes as long as a notch that nearly do.
 pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
     let is_open = |line: &Line| !line.is_closed && line.is_open_question();
@@ -342,7 +342,7 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     found
 }
 
-/// Short straight strokes across an outline that end at none: each at the first outline that it crosses.
+/// Short straight strokes across an outline that end at none, each with the first outline that it crosses.
 fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, .. } = search;
     strokes.retain(|&(line, _)| {
@@ -352,7 +352,7 @@ fn crossing(mut strokes: Vec<(usize, [Point; 2])>, search: Search, work: &mut Bu
     edge_lines(&strokes, Lie::Crosses, 0.0, search, work)
 }
 
-/// Lines of which a stroke comes within `reach` of an outline, mm: each once, with the first such outline.
+/// Lines with a stroke within `reach` mm of an outline: each once, with the first such outline.
 fn edge_lines(
     strokes: &[(usize, [Point; 2])],
     lie: Lie,
@@ -413,7 +413,7 @@ fn lie(line: usize, outline: usize, Search { lines, vertices, unit, .. }: Search
     }
 }
 
-/// Why a stroke from edge to edge is no notch.
+/// Position of a stroke from edge to edge that is no notch: the measure that it violates.
 fn as_notch(places: &[Point]) -> Lie {
     let [first, last] = [places[0], places[places.len() - 1]];
     let depth = places.iter().map(|at| polyline::distance_to_segment(*at, first, last)).fold(0.0, f64::max);
@@ -425,7 +425,7 @@ fn as_notch(places: &[Point]) -> Lie {
     }
 }
 
-/// Small closed lines that touch an outline, nearly do or lie across it: notches that somebody closed, or signs.
+/// Small closed lines that touch an outline, nearly do or lie across it: closed notches, or signs.
 fn standing(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
     let may_be = |line: &Line| match line.class {

@@ -1,21 +1,20 @@
-//! Recognising: a [`Drawing`] to a [`Marker`]. A plot says what a pen draws, not what a knife cuts.
+//! Recognition: a [`Drawing`] to a [`Marker`]. A plot tells the lines of a pen, not the cuts of a knife.
 //!
-//! Receives strokes and texts with the names of their pens, whatever dialect they came from. Promises a marker like
-//! that of a cut file - parts with their notches, equal places equal to the bit, texts never cut - and an account of
-//! every line: what it was taken for, and whether it is cut. Wrong cuts inside a part cannot be mended and a cut that
-//! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
-//! Never knows the dialect.
+//! Receives strokes and texts with the names of their pens, from any dialect. Promises a marker like that of a cut file - parts
+//! with their notches, equal places equal to the bit, texts never cut - and an account of every line: its class, and whether it
+//! is cut. A wrong cut inside a part cannot be mended and a missing cut can, so nothing inside a part is cut but notches on its
+//! edge, unless a pen or an option asks for it. Knows nothing of the dialect.
 //!
-//! `nodes` parts loose lines where they meet, `faces` puts them in the order of the parts that they bound, by the places of their
-//! ends that `meeting` finds; `again`
-//! puts strokes aside that are drawn twice, `join` makes lines (`chains`) of the others, by their `succession` where parts touch,
-//! over the gaps that `bridge` finds and without the slits that `slits` and `tails` find, `close` closes them, `twins` puts those aside that
-//! lie along another; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies in what, `remains`
-//! the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them, `letters` and
-//! `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what pens stand for, `layers`
-//! says it of layers, `shared` refuses parts that are lost. `torn` finds outlines whose numbers have
-//! lost a byte, `parts` says what lies in parts; `piece` makes the marker, `say` names what is doubtful, `doubts` that
-//! about pieces.
+//! - Lines: `nodes` splits loose lines where they meet, `faces` orders them by the parts that they bound, at the meetings of
+//!   their ends that `meeting` finds. `again` puts strokes aside that are drawn twice. `join` makes lines (`chains`) of the
+//!   others, by their `succession` where parts touch, over the gaps that `bridge` finds and without the slits that `slits` and
+//!   `tails` find. `close` closes the lines, `twins` puts those aside that lie along another.
+//! - Classes: `sheet` classifies the lines with the help of the others. `frame` finds the frames, `nest` the nesting of lines,
+//!   `remains` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them,
+//!   `letters` the letters and `seam` the seam lines. `line` has the table of classes and of when each is cut, `pens` the
+//!   meaning of pens, `layers` that of layers. `parts` finds the lines in parts.
+//! - Results: `piece` makes the marker. `shared` refuses parts that are lost, `torn` outlines whose numbers have lost a byte.
+//!   `say` reports doubts about the drawing, `doubts` those about pieces.
 
 mod again;
 mod bridge;
@@ -58,7 +57,7 @@ use crate::ir::drawing::Drawing;
 use crate::machine::Job;
 use crate::machine::plot::Inner;
 
-/// Decides what of a drawing is cut, and makes the marker of it.
+/// Decides which lines of a drawing are cut, and makes the marker from them.
 pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
     layers::say(&drawing.pens, job, diagnostics);
     if diagnostics.has_errors() {

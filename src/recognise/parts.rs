@@ -1,4 +1,4 @@
-//! Parts by their place, and whether they hold a line.
+//! Parts by their place, and a test for lines in them.
 
 use std::cell::RefCell;
 
@@ -13,11 +13,11 @@ pub(super) struct Parts<'a> {
     sheet: &'a Sheet,
     lines: Vec<usize>,
     boxes: Boxes,
-    /// What may still be looked at: then lines count as lying in parts, and nothing is said of them.
+    /// Work budget: once it is spent, lines count as lying in parts, and nothing is reported of them.
     work: RefCell<Budget>,
 }
 
-/// Places of a line that are looked at, and parts that are looked at for each.
+/// Number of samples of a line, and of parts that are tested for each.
 const PROBES: usize = 5;
 const MOST_PARTS: usize = 16;
 
@@ -28,7 +28,7 @@ impl<'a> Parts<'a> {
         Self { sheet, lines, boxes, work: RefCell::new(Budget::of_a_marker()) }
     }
 
-    /// Whether most of a line lies in parts.
+    /// True if most of a line is in parts.
     pub(super) fn hold(&self, line: &Line) -> bool {
         let vertices = line.vertices(&self.sheet.vertices);
         let probe = |k: usize| {

@@ -1,6 +1,5 @@
-//! Remains of outlines: open lines around a closed line. The closed line is then the seam line of an outline that is not
-//! whole, and no part. One open line may do so, or several together: dashes, sides that do not meet, stretches between
-//! notches.
+//! Remains of outlines: open lines around a closed line. The closed line is then the seam line of an incomplete outline, and no
+//! part. The remains may be one open line, or several together: dashes, sides that do not meet, stretches between notches.
 
 use super::line::{Class, Line, SMALL_OUTLINE, is_straight};
 use super::seam;
@@ -10,20 +9,19 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, Vector, cross, left, polyline, ring};
 use crate::ir::drawing::Vertex;
 
-/// Share of a closed line that open ones together run beside: that of two sides of four, less what its corners take.
+/// Share of a closed line that open ones together run beside: that of two sides of four, minus the corners.
 const BESIDE: f64 = 0.45;
-/// Share of a closed line that open ones run beside where one doubts whether it is a part.
+/// Share of a closed line beside open ones at which it is doubtful that it is a part.
 const DOUBTFUL: f64 = 0.15;
-/// The same of one that lacks a seam line where most parts have one.
+/// That share for a closed line that lacks a seam line where most have one.
 const DOUBTFUL_BARE: f64 = 0.08;
-/// Share of a closed line that open lines must run beside where some of them go far beyond it, as two outlines drawn
-/// without a lift do.
+/// Least share of a closed line beside open lines if some of these go far beyond it, as two outlines drawn without a lift do.
 const SURELY: f64 = 0.75;
-/// Least number of its four sides beside which they must then run: neighbours lie beside one or two.
+/// Least number of its four sides beside which they must run in that case: neighbours lie beside one or two.
 const LEAST_SIDES: usize = 3;
-/// Share of an open line that runs beside the closed one, at the least: the outline of a neighbour has one side there.
+/// Least share of an open line that runs beside the closed one: the outline of a neighbour has one side there.
 const OWN: f64 = 0.4;
-/// Least distance of an outline from its seam line, mm: a nearer line is that edge drawn again.
+/// Least distance of an outline from its seam line, mm: a nearer line is the same edge drawn again.
 const LEAST_OFF: f64 = 1.0;
 /// Cosine of the greatest angle between the way to an open line and the square to the closed one.
 const SQUARE: f64 = 0.7;
@@ -31,11 +29,11 @@ const SQUARE: f64 = 0.7;
 const LETTER: f64 = 15.0;
 /// Share of an open line along one side that lies at one distance from the part: its ends stick out beyond the corners.
 const EVEN: f64 = 0.75;
-/// Greatest difference between distances that are one, mm: rounding, and curves in chords.
+/// Greatest difference between equal distances, mm: rounding, and curves in chords.
 const SAME_OFF: f64 = 0.3;
-/// Seam lines of other parts that are measured to know the usual distance.
+/// Number of seam lines of other parts that are measured for the usual distance.
 const MEASURED: usize = 32;
-/// Length that lines must have around a closed one to be looked at, as a multiple of what they must run beside.
+/// Least length of the lines around a closed one to be searched, as a multiple of the length that they must cover.
 const LEAST_DRAWN: f64 = 2.0 / 3.0;
 
 /// Open lines, and the closed line that they go around.
@@ -47,7 +45,7 @@ pub(super) struct Remains {
     pub(super) is_sure: bool,
 }
 
-/// The lines of a drawing, and what lies in what.
+/// The lines of a drawing, and their nesting.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Drawn<'a> {
     pub(super) lines: &'a [Line],
@@ -58,9 +56,9 @@ pub(super) struct Drawn<'a> {
 /// An edge near a closed line.
 struct Edge {
     ends: [Point; 2],
-    /// The line that it is of.
+    /// Index of its line.
     line: usize,
-    /// Whether its line stays near the closed one.
+    /// True if its line stays near the closed one.
     is_own: bool,
 }
 
@@ -99,8 +97,8 @@ pub(super) fn find(all: Drawn, work: &mut Budget) -> Vec<Remains> {
     found
 }
 
-/// Finds stretches of outlines beside parts that lack a seam line where most have one, but for lines that are `known` to be
-/// what is left of other outlines.
+/// Finds stretches of outlines beside parts that lack a seam line where most have one, except for lines that are `known`
+/// remains of other outlines.
 pub(super) fn beside_bare(all: Drawn, bare: &[usize], known: &[Remains], work: &mut Budget) -> Vec<Remains> {
     let mut is_known = vec![false; all.lines.len()];
     for remains in known {
@@ -121,11 +119,11 @@ struct Near {
     open_boxes: Boxes,
     parts: Vec<usize>,
     part_boxes: Boxes,
-    /// Whether the parts that are looked at lack a seam line where most have one.
+    /// True if the parts lack a seam line where most have one.
     are_bare: bool,
 }
 
-/// Share of a closed line that lines must run beside to be told.
+/// Least share of a closed line beside open lines at which these are reported.
 fn least(is_bare: bool) -> f64 {
     if is_bare { DOUBTFUL_BARE } else { DOUBTFUL }
 }
@@ -152,7 +150,7 @@ impl Drawn<'_> {
         self.lines[line].points(self.vertices)
     }
 
-    /// Whether the pen of a closed line is named as a knife, and that of an open one is not.
+    /// True if the pen of a closed line is declared a knife, and that of an open one is not.
     fn is_named_knife(&self, part: usize, open: usize) -> bool {
         self.lines[part].usage.is_knife() && !self.lines[open].usage.is_knife()
     }
@@ -188,7 +186,7 @@ impl Drawn<'_> {
         let is_beside = |&open: &usize| {
             let line = &self.lines[open];
             let may_be = line.size() > LETTER || is_straight(line.vertices(self.vertices));
-            // What lies in the box of a part mostly lies in the part; a slanted side may not.
+            // A line in the box of a part is usually in the part; a slanted side may not be.
             let may_lie_beside = near.are_bare || !extent.covers(&line.extent);
             may_be && may_lie_beside && !self.is_named_knife(part, open)
         };
@@ -211,7 +209,7 @@ impl Drawn<'_> {
             Cover::Little => return None,
             Cover::Side(_) | Cover::Partial(_) | Cover::Most(_) => {}
         }
-        // Few parts come so far: nothing closed may stand between, and a part with a seam line is an outline.
+        // Few parts come here: no closed line may stand between, and a part with a seam line is an outline.
         edges.walls = Walls::new(self.walls(part, near, work));
         let remains = match edges.around(&places, work) {
             Cover::Unsearched => unsearched(open),
@@ -258,7 +256,7 @@ impl Drawn<'_> {
         walls
     }
 
-    /// Whether an open line runs as far from a part as another part does from its seam line.
+    /// True if an open line is as far from a part as another part is from its seam line.
     fn is_usual(&self, open: usize, part: usize, places: &[Point], work: &mut Budget) -> bool {
         if !work.spend(self.lines.len() + seam::COST * places.len()) {
             return true;
@@ -278,7 +276,7 @@ impl Drawn<'_> {
         })
     }
 
-    /// Whether a closed line has a seam line inside it: then it is an outline.
+    /// True if a closed line has a seam line inside it: then it is an outline.
     fn has_seam(&self, part: usize, places: &[Point], work: &mut Budget) -> bool {
         work.spend(self.lines.len());
         let is_inner = |&i: &usize| self.nest.parent(i) == Some(part) && self.lines[i].is_outline();
@@ -332,7 +330,7 @@ impl Walls {
 
 /// Extent to which open lines run along a closed one.
 enum Cover {
-    /// The budget does not last to find them.
+    /// The budget is spent.
     Unsearched,
     Little,
     /// One runs beside one side of it.
@@ -348,7 +346,7 @@ struct Edges {
     list: Vec<Edge>,
     boxes: Boxes,
     walls: Walls,
-    /// Whether the closed line lacks a seam line where most parts have one.
+    /// True if the closed line lacks a seam line where most parts have one.
     is_bare: bool,
 }
 
@@ -370,7 +368,7 @@ impl Edges {
             (any, _) if any.share >= SURELY && any.sides >= LEAST_SIDES => Cover::Most(any.lines),
             // A line along one side of a part that lacks its seam line is no guide.
             (_, own) if own.share >= least(self.is_bare) && (own.met > 1 || self.is_bare) => Cover::Partial(own.lines),
-            // A line along one side is a fold, a grain line or the edge of the cloth, or runs as far off as outlines do.
+            // A line along one side is a fold, a grain line or the edge of the cloth, or is as far off as outlines are.
             (_, own) if own.share >= DOUBTFUL && own.sides == 1 => match own.lines[..] {
                 [line] => Cover::Side(line),
                 _ => Cover::Little,
@@ -379,8 +377,7 @@ impl Edges {
         }
     }
 
-    /// The lines beside a closed line from outside: all open ones, or those that stay near it. `None` when the budget
-    /// does not last.
+    /// The lines beside a closed line from outside: all open ones, or those that stay near it. `None` when the budget is spent.
     fn beside(&self, places: &[Point], is_own: bool, work: &mut Budget) -> Option<Beside> {
         let samples = seam::samples(places);
         let turn = ring::area(places).signum();
@@ -388,7 +385,7 @@ impl Edges {
         let mut sides = [[0_usize; 2]; 4];
         let mut beside = 0_usize;
         for (k, (at, way)) in samples.iter().enumerate() {
-            // The samples that are left are too few to reach the share.
+            // The remaining samples are too few to reach the share.
             if ((beside + samples.len() - k) as f64) < least(self.is_bare) * samples.len() as f64 {
                 break;
             }
@@ -420,7 +417,7 @@ impl Edges {
     /// The open line that runs beside a place of a closed one, with nothing closed between them.
     fn line_beside(&self, at: Point, way: Vector, outward: Vector, is_own: bool) -> Option<usize> {
         let around = Extent::between(at, at).grown(seam::FARTHEST);
-        // How far ahead an edge is, if it is.
+        // Distance of an edge straight ahead, if it is there.
         let ahead = |[a, b]: [Point; 2]| {
             let off = a + (b - a) * polyline::foot(at, a, b) - at;
             let distance = off.norm();
@@ -430,7 +427,7 @@ impl Edges {
         let along = edges.filter(|edge| (edge.is_own || !is_own) && seam::is_along(way, edge.ends[1] - edge.ends[0]));
         let near = along.filter_map(|edge| Some((ahead(edge.ends)?, edge.line)));
         let off = near.filter(|(distance, _)| *distance > LEAST_OFF);
-        // The edges come in no order.
+        // The edges are in no order.
         let (distance, line) = off.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
         let mut walls = self.walls.boxes.near(around).filter_map(|k| ahead(self.walls.ends[k]));
         // The outline of a neighbour may lie in this one.

@@ -1,4 +1,4 @@
-//! Doubts about a drawing, in words: each once, with how many lines it concerns and what to type.
+//! Reports of doubts about a drawing: each once, with the number of its lines and the option to type.
 
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,7 +25,7 @@ use crate::units::number::fixed;
 
 /// Shortest line that may be an outline which the end of the file has cut short, mm.
 const SHORTEST_CUT_SHORT: f64 = 25.0;
-/// Closed lines in a part that make one doubt whether it is one.
+/// Number of closed lines in a part at which it may be a frame.
 const DOUBTFUL: usize = 2;
 /// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
 const LEAST_SINGLE_FILL: f64 = 0.15;
@@ -35,14 +35,14 @@ const LEAST_EDGE_FILL: f64 = 0.85;
 const WIDEST_SEAM: f64 = 15.0;
 /// Farthest that two even margins differ, mm.
 const EVEN: f64 = 1.0;
-/// Margins of four that are wide or of a width of their own, at the least, where the outline may be a frame.
+/// Least number of margins out of four that are wide or of a width of their own if the outline may be a frame.
 const ODD_MARGINS: usize = 3;
-/// Parts in a frame that make nobody doubt that it is one.
+/// Number of parts in a frame at which it is surely one.
 const SURE_PARTS: usize = 4;
 /// Most pens that a message names.
 const SHOWN_PENS: usize = 8;
 
-/// Says all of it, the worst first.
+/// Reports all doubts, the worst first.
 pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     if sheet.nest.ended().is_some() {
         let message = "there are too many closed lines to tell which lies in which: inner lines would be cut as parts";
@@ -94,7 +94,7 @@ fn drawn_again(sheet: &Sheet, out: &mut Diagnostics) {
     out.push(found.hint("look whether the file holds a plot twice; the copies are never cut"));
 }
 
-/// Several lines: how many, and how long in all.
+/// Number and total length of several lines, in words.
 fn counted(lines: &[&Line], noun: &str) -> String {
     let total = lines.iter().fold(0.0, |sum, line| sum + line.length);
     let length =
@@ -192,7 +192,7 @@ fn seams_of_knives(sheet: &Sheet, out: &mut Diagnostics) {
     out.push(found.hint("`--inner all` cuts the seam lines: parts without allowance"));
 }
 
-/// Small circles that stand alone in parts, where nobody has said up to which size circles are holes.
+/// Small circles that stand alone in parts, if the user has not set the size of holes.
 fn unsaid_holes(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     if job.profile.hpgl.drill_max_mm.is_some() {
         return;
@@ -261,14 +261,14 @@ fn crosses(sheet: &Sheet, out: &mut Diagnostics) {
     out.push(finding.hint("if they mark holes, let the CAD draw circles, and set `hpgl.drill_max_mm`"));
 }
 
-/// Whether one part takes nearly all the area, beside test squares and titles: it may be the edge of the cloth.
+/// True if one part takes nearly all the area, beside test squares and titles: it may be the edge of the cloth.
 fn has_one_main_part(sheet: &Sheet) -> bool {
     let areas = sheet.lines.iter().filter(|line| line.class == Class::Part).map(|line| line.area);
     let (all, largest) = areas.fold((0.0, 0.0), |(all, largest): (f64, f64), area| (all + area, largest.max(area)));
     all - largest <= frame::MOST_OUTSIDE * largest
 }
 
-/// Whether a short stroke begins on a seam line in a rectangle on whose edge no notch stands: the seam line may be the part.
+/// True if a short stroke begins on a seam line inside a rectangle without notches: the seam line may be the part.
 fn has_notches(sheet: &Sheet, seam: usize) -> bool {
     let Some(part) = sheet.nest.outermost(seam).filter(|&part| sheet.lines[part].is_rectangle(sheet.band())) else {
         return false;
@@ -290,7 +290,7 @@ fn has_notches(sheet: &Sheet, seam: usize) -> bool {
     sheet.lines.iter().filter(is_short).any(is_on)
 }
 
-/// Whether the outline of a seam line is a rectangle that may be a frame around a part: most of its sides lie farther off than
+/// True if the outline of a seam line is a rectangle that may be a frame around a part: most of its sides are farther off than
 /// seams are wide, or at distances of their own.
 fn has_wide_margins(sheet: &Sheet, seam: usize) -> bool {
     let inner = sheet.lines[seam].extent;
@@ -359,7 +359,7 @@ pub(super) fn open_lines(sheet: &Sheet) -> Vec<usize> {
     (0..sheet.lines.len()).filter(is_open).collect()
 }
 
-/// A rectangle that may be a frame or a part, where nobody has said what becomes of the lines in it.
+/// Error about a rectangle that may be a frame or a part, if the user has not said whether the lines in it are cut.
 fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     let line = &sheet.lines[sheet.frame_doubt.filter(|_| job.lines.inner.is_none() && !job.lines.all)?];
     let held = sheet.lines.iter().filter(|inner| inner.is_closed && !inner.is_cut && inner.size() > SMALL_OUTLINE);
@@ -403,7 +403,7 @@ fn outside_frames(sheet: &Sheet, out: &mut Diagnostics) {
     );
 }
 
-/// Frames that may be a part with cut-outs, or that somebody may miss who asks for every line.
+/// Frames that may be a part with cut-outs, or that a user who asks for every line may miss.
 fn frames(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let parts = sheet.indices(|line| line.class == Class::Part).len();
     let count = frame::cloths(&sheet.lines, sheet.band()).len();
@@ -463,7 +463,7 @@ fn cut_short(sheet: &Sheet) -> Option<Diagnostic> {
     Some(found.hint("most likely it is cut short: export it again; if it is complete, put `PU;` at its end"))
 }
 
-/// Why nothing is cut: which pens there are, and what left them out.
+/// Error that nothing is cut: the pens of the drawing, and the reason that left them out.
 fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     if sheet.lines.is_empty() {
         let finding = Diagnostic::new(&code::DRAWING_NOTHING_TO_CUT, "the drawing has no line");
@@ -517,7 +517,7 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     }
 }
 
-/// Why no line of a sheet is a part, and the line that says so.
+/// Reason that no line of a sheet is a part, and the line that shows it.
 fn unclosed(sheet: &Sheet) -> (String, Option<&Line>) {
     let ends = |line: &Line| {
         let places = line.as_drawn(&sheet.vertices);

@@ -1,4 +1,4 @@
-//! A drawing whose lines are sorted out: what each is, then whether it is cut.
+//! A drawing with classified lines, and the decision which of them are cut.
 
 use std::collections::BTreeSet;
 
@@ -15,16 +15,17 @@ use crate::ir::marker::Label;
 use crate::machine::Job;
 use crate::machine::plot::Inner;
 
-/// Lines that touch may lie so far in one another, mm, or a diagonal of the unit: each was rounded by itself.
+/// Depth to which lines that touch may be in one another, mm; at least a diagonal of the unit, since each was rounded by
+/// itself.
 const BAND: f64 = 0.2;
-/// How much longer one side of a hole's box may be than the other.
+/// Greatest ratio of the sides of a hole's box.
 const HOLE_RATIO: f64 = 1.1;
-/// Share of its box that a circle of eight chords fills; a square fills all of it.
+/// Least share of its box that a hole fills: a circle of eight chords; a square fills all of it.
 const HOLE_FILL: f64 = 0.7;
-/// Share of its part that an inner line takes at most to be cut: more is the part itself, drawn once more.
+/// Greatest share of its part that an inner line encloses to be cut: a larger one is the part itself, drawn once more.
 const LARGEST_INNER: f64 = 0.5;
 
-/// Parts with a seam line for each part without one, at least, and in all: fewer say nothing about the others.
+/// Least number of parts with a seam line, in all and for each part without one: fewer say nothing about the others.
 const MANY: usize = 3;
 
 /// Distance within which lines are at one place in a file with that unit, mm.
@@ -32,7 +33,7 @@ pub(super) fn band(unit: f64) -> f64 {
     BAND.max(ROUNDING * unit)
 }
 
-/// A drawing whose lines are sorted out.
+/// A drawing with classified lines.
 #[derive(Debug)]
 pub(super) struct Sheet {
     pub(super) vertices: Vec<Vertex>,
@@ -43,35 +44,35 @@ pub(super) struct Sheet {
     pub(super) strokes: Vec<Stroke>,
     /// Lines at the edge of a part, other than notches.
     pub(super) from_edges: Vec<EdgeLine>,
-    /// Open lines that are what is left of outlines, with the closed lines that they go around.
+    /// Open lines that are remains of outlines, with the closed lines that they go around.
     pub(super) remains: Vec<Remains>,
     /// A rectangle that may be a frame or a part.
     pub(super) frame_doubt: Option<usize>,
     /// The pens that draw them.
     pub(super) pens: Vec<Pen>,
     pub(super) texts: Vec<Label>,
-    /// What was drawn by encoded polylines.
+    /// Encoded polylines.
     pub(super) encoded: Vec<Encoded>,
     pub(super) unit: f64,
     pub(super) ending: Ending,
     pub(super) moved: Moved,
-    /// Whether a search ended before its time.
+    /// True if a search ended early.
     pub(super) is_cut_short: bool,
 }
 
-/// Whether parts with a seam line are so many that one doubts those without.
+/// True if so many parts have a seam line that those without are doubtful.
 pub(super) fn are_many(with: &[usize], without: &[usize]) -> bool {
     with.len() >= MANY * without.len().max(1)
 }
 
-/// Whether a closed line is a square or a circle.
+/// True if a closed line is a square or a circle.
 pub(super) fn is_square_or_circle(line: &Line) -> bool {
     let (width, height) = line.extent.size();
     width.max(height) <= HOLE_RATIO * width.min(height) && line.area >= HOLE_FILL * width * height
 }
 
 impl Sheet {
-    /// Finds what every line is.
+    /// Classifies every line.
     pub(super) fn sort_out(&mut self, job: &Job) {
         let band = self.band();
         let reach = close::Reach::of(self.unit, job);
@@ -108,15 +109,15 @@ impl Sheet {
         let parts = self.indices(|line| line.class == Class::Part);
         let from_edges = marks::from_edges(self.search(&parts), &mut work);
         self.from_edges.extend(from_edges);
-        // A closed line stays what it is.
+        // A closed line keeps its class.
         for &EdgeLine { line, .. } in self.from_edges.iter().filter(|edge| edge.lie != Lie::Stands) {
             self.lines[line].class = Class::FromEdge;
         }
         self.is_cut_short |= work.is_spent() || remains.is_spent();
     }
 
-    /// Takes the large lines that lie in none for parts. Where a frame shows the cloth, closed lines outside it lie on none:
-    /// title blocks, test squares. Lines of a pen that is said to be a knife are parts all the same.
+    /// Makes parts of the large lines that are in no other. If a frame shows the cloth, closed lines outside it are not on the
+    /// cloth: title blocks, test squares. Lines of a pen that is declared a knife are parts all the same.
     fn find_parts(&mut self) {
         let band = self.band();
         let frames = frame::cloths(&self.lines, band);
@@ -135,12 +136,12 @@ impl Sheet {
         }
     }
 
-    /// Depth to which lines that touch may lie in one another, mm.
+    /// Depth to which lines that touch may be in one another, mm.
     pub(super) fn band(&self) -> f64 {
         band(self.unit)
     }
 
-    /// The lines of some kind.
+    /// Indices of the lines that satisfy a condition.
     pub(super) fn indices(&self, is: impl Fn(&Line) -> bool) -> Vec<usize> {
         (0..self.lines.len()).filter(|&i| is(&self.lines[i])).collect()
     }
@@ -149,8 +150,7 @@ impl Sheet {
         Search { lines: &self.lines, vertices: &self.vertices, unit: self.unit, outlines }
     }
 
-    /// Finds the open lines that are what is left of an outline: the closed line that they go around is no part, but
-    /// its seam line.
+    /// Finds the open lines that are remains of an outline: the closed line that they go around is its seam line, and no part.
     fn find_remains(&mut self, work: &mut Budget) {
         let all = remains::Drawn { lines: &self.lines, vertices: &self.vertices, nest: &self.nest };
         self.remains = remains::find(all, work);
@@ -159,7 +159,7 @@ impl Sheet {
         }
     }
 
-    /// Finds open lines beside those few parts that lack a seam line.
+    /// Finds open lines beside parts that lack a seam line where most have one.
     fn find_stretches(&mut self, work: &mut Budget) {
         let [with, without] = self.parts_by_seam();
         if !without.is_empty() && are_many(&with, &without) {
@@ -216,8 +216,8 @@ impl Sheet {
         self.marks.extend(marks);
     }
 
-    /// Sets those strokes apart that have the shape of notches and are letters: each comes with its outline, and how far
-    /// from that it begins, mm.
+    /// Sets apart strokes that have the shape of notches and are letters; each comes with its outline and its distance from it,
+    /// mm.
     fn letters(&mut self, strokes: &[(usize, usize, f64)], work: &mut Budget) -> BTreeSet<usize> {
         let touch = marks::TOUCH + ROUNDING * self.unit;
         let mut off: Vec<usize> = strokes.iter().filter(|stroke| stroke.2 > touch).map(|stroke| stroke.0).collect();
@@ -228,7 +228,7 @@ impl Sheet {
         }
         let letters = letters::among(&off, &self.lines, &self.vertices, touch, work);
         for &(line, outline, _) in strokes.iter().filter(|stroke| letters.contains(&stroke.0)) {
-            // Of two legs the other one has told it.
+            // The other one of two legs has already set it.
             if self.lines[line].class != Class::FromEdge {
                 self.lines[line].class = Class::FromEdge;
                 self.from_edges.push(EdgeLine { line, outline, other: None, lie: Lie::Letters });
@@ -237,7 +237,7 @@ impl Sheet {
         letters
     }
 
-    /// Takes the outermost lines of a pen that is a knife for parts, whatever others draw around them: the edge of a
+    /// Makes parts of the outermost lines of a pen that is a knife, whatever other pens draw around them, such as the edge of a
     /// table.
     fn find_parts_of_knives(&mut self, work: &mut Budget) {
         let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage == Use::Drawn);
@@ -267,7 +267,7 @@ impl Sheet {
         }
     }
 
-    /// Finds the seam line of each closed line that has one: inside a part, or inside one that a frame was taken for.
+    /// Finds the seam line of each closed line that has one: inside a part, or inside a frame.
     fn find_seams(&mut self, work: &mut Budget) {
         let may_be = |line: &Line| line.is_outline() && line.is_open_question() && line.size() >= SIGN;
         let mut inner = self.indices(may_be);
@@ -281,7 +281,7 @@ impl Sheet {
             let Some(parent) = self.nest.parent(children[0]) else { continue };
             let outline = self.lines[parent].points(&self.vertices);
             let tried = children.iter().take(seam::CANDIDATES);
-            // What nobody has looked at is not cut for a cut-out.
+            // A line that was not compared is not cut as a cut-out.
             let mut is_seam = |&&i: &&usize| {
                 !work.spend(seam::COST * outline.len())
                     || seam::follows(&self.lines[i].points(&self.vertices), &outline)
@@ -299,7 +299,7 @@ impl Sheet {
         }
     }
 
-    /// Whether each line is cut, after the table.
+    /// Decides for each line whether it is cut, by the table of classes.
     pub(super) fn decide(&mut self, job: &Job) {
         let inner = job.lines.inner.unwrap_or(job.profile.hpgl.inner);
         for i in 0..self.lines.len() {
@@ -333,14 +333,14 @@ impl Sheet {
         }
     }
 
-    /// Takes some lines for a class.
+    /// Sets the class of some lines.
     pub(super) fn set_class(&mut self, lines: impl IntoIterator<Item = usize>, class: Class) {
         for line in lines {
             self.lines[line].class = class;
         }
     }
 
-    /// Whether an inner line takes most of its part.
+    /// True if an inner line encloses most of its part.
     fn is_too_large(&self, line: usize) -> bool {
         let part = self.nest.parent(line).map_or(f64::INFINITY, |part| self.lines[part].area);
         self.lines[line].area > LARGEST_INNER * part

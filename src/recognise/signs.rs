@@ -1,7 +1,7 @@
-//! Signs at an edge that are drawn as notches are: the barbs of an arrow and the arms of a cross.
+//! Signs at an edge that are drawn like notches: the barbs of an arrow and the arms of a cross.
 //!
-//! Two strokes from one foot, as long as each other and askew on both sides of the way between them, are an arrow. Two
-//! that halve each other are a cross; so are four arms from one place.
+//! Two strokes of one length from one foot, at equal angles to the bisector between them, are an arrow. Two that halve each
+//! other are a cross; so are four arms from one place.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, Vector, cross};
 use crate::ir::marker::Notch;
 
-/// Share of its length by which one barb differs from the other at the most.
+/// Greatest difference of the barbs, as a fraction of their length.
 const ALIKE: f64 = 0.1;
 /// Half the angle between the barbs of an arrow, rad.
 const BARBS: [f64; 2] = [0.1, 1.3];
@@ -21,10 +21,10 @@ const STEM: f64 = 0.2;
 /// Shares of their lengths at which the arms of a cross halve each other, and the greatest ratio of these lengths.
 const HALF: [f64; 2] = [0.3, 0.7];
 const LONGER: f64 = 1.5;
-/// Strokes beside an arm that meet in the middle of a cross.
+/// Number of strokes beside an arm that meet in the middle of a cross.
 const ARMS: usize = 3;
 
-/// The lines among some marks that are signs, and no notches. Strokes meet within `touch`, mm.
+/// Lines among some marks that are signs and no notches. Strokes meet within `touch` mm.
 pub(super) fn among(marks: &[Mark], search: Search, touch: f64, work: &mut Budget) -> BTreeSet<usize> {
     let mut signs = BTreeSet::new();
     arrows(marks, touch, &mut signs, work);
@@ -53,7 +53,7 @@ pub(super) fn among(marks: &[Mark], search: Search, touch: f64, work: &mut Budge
     signs
 }
 
-/// Crosses among the lines that were taken for nothing: the first stroke of each, and their middle.
+/// Crosses among the lines without a class: the first stroke of each, and its middle.
 pub(super) fn crosses(search: Search, work: &mut Budget) -> Vec<(usize, Point)> {
     let Search { lines, vertices, .. } = search;
     let may_be = |&i: &usize| {

@@ -1,5 +1,5 @@
-//! Notches that are drawn as one open stroke from a place of an outline to another: V, castle and U, or some of them that
-//! touch each other.
+//! Notches that are drawn as one open stroke from a place of an outline to another: V, castle and U, or several that touch each
+//! other.
 
 use super::line::{Class, ROUNDING, SHORTEST_NOTCH, is_straight};
 use super::marks::{Candidate, Search, meet};
@@ -10,7 +10,7 @@ use crate::ir::marker::Notch;
 /// An open stroke that is a notch of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {
-    /// The line that draws it, and the outline that it stands on, as indices of lines.
+    /// Its line, and the outline that it stands on, as indices of lines.
     pub(super) line: usize,
     pub(super) outline: usize,
     /// Its place farthest from the mouth.
@@ -22,7 +22,7 @@ pub(super) struct Stroke {
 /// Greatest fall of the depth of a notch between two deeper places, mm: strokes with a greater one are an M or a W.
 const DENT: f64 = 0.7;
 
-/// Whether a stroke gets no less deep before its deepest place, and no deeper behind it: depths, mm.
+/// True if a stroke gets no shallower before its deepest place, and no deeper after it: depths, mm.
 fn has_one_tip(depths: &[f64]) -> bool {
     let mut deepest = 0;
     for (k, depth) in depths.iter().enumerate() {
@@ -41,7 +41,7 @@ fn rises(mut depths: impl Iterator<Item = f64>) -> bool {
     })
 }
 
-/// Notches that touch each other in one stroke, at the most.
+/// Greatest number of notches that touch each other in one stroke.
 const MOST_TOUCHING: usize = 3;
 
 /// The tip of a stroke with the shape of a notch, or of some that touch each other: the deepest place of the first one.
@@ -74,7 +74,7 @@ fn tip(places: &[Point]) -> Option<Point> {
     tips.first().copied().filter(|_| tips.len() <= MOST_TOUCHING)
 }
 
-/// The notches among the open lines that were not taken for anything yet.
+/// Notches among the open lines without a class.
 pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     let Search { lines, vertices, unit, .. } = search;
     let may_be = |&i: &usize| {
@@ -105,7 +105,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
             let other = on[1].iter().find(|(_, other)| *other == outline);
             other.map(|&(other, _)| ([near, other], outline))
         });
-        // Into a part, and from a cut-out into what is around it.
+        // A notch leads into a part, and from a cut-out into the cloth around it.
         let leads_in = both.filter(|&(_, outline)| {
             let points = lines[outline].points(vertices);
             work.spend(points.len()) && ring::contains(&points, tip) == (lines[outline].class == Class::Part)

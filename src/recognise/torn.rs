@@ -1,6 +1,6 @@
-//! Encoded outlines that have lost a byte. Each place of an encoded polyline hangs on the one before: when a number loses a
-//! byte, the outline misses its start along one axis, by as much as that number lacks. When the flag is lost that lifts the pen,
-//! the outline hangs on a line that leads to it.
+//! Encoded outlines that have lost a byte. Each vertex of an encoded polyline depends on the one before. If a number loses a
+//! byte, the outline misses its start along one axis by the difference. If the flag that lifts the pen is lost, a line leads to
+//! the outline.
 
 use super::line::{Class, Closing, Line, SMALL_OUTLINE};
 use super::parts::Parts;
@@ -12,17 +12,17 @@ use crate::units::number::fixed;
 
 /// Decimals of lengths, mm.
 const DECIMALS: u32 = 1;
-/// Share of a step by which places may lie off whole steps: they are sums of multiples of it.
+/// Tolerance of whole steps, as a fraction of a step: vertices are sums of multiples of it.
 const WHOLE_EPSILON: f64 = 1e-3;
-/// Most bytes of a number.
+/// Greatest number of bytes of a number.
 const MOST_DIGITS: u32 = 8;
 
-/// Names the first outline that has lost a byte.
+/// Finding about the first outline that has lost a byte.
 pub(super) fn first(sheet: &Sheet) -> Option<Diagnostic> {
     let parts = Parts::of(sheet);
     let is_open = |line: &&Line| match line.closing {
         Closing::Gap(_) => true,
-        // An overcut goes on from the start itself.
+        // An overcut continues from the start itself.
         Closing::Retraced => {
             let drawn = line.as_drawn(&sheet.vertices);
             !drawn[1..drawn.len() - 1].iter().any(|vertex| vertex.at == drawn[0].at)
@@ -48,7 +48,7 @@ fn drawn_by<'a>(vertices: &[Vertex], encoded: &'a [Encoded]) -> Option<&'a Encod
     encoded.get(next.checked_sub(1)?).filter(|one| last.end <= one.span.end)
 }
 
-/// The finding about a line that has lost a byte.
+/// Finding about a line that has lost a byte.
 fn told(vertices: &[Vertex], encoded: &Encoded) -> Option<Diagnostic> {
     let lacking = vertices.windows(2).find(|ends| lacks_a_byte(ends, vertices, encoded));
     let (at, how) = if let Some(ends) = lacking {
@@ -62,7 +62,7 @@ fn told(vertices: &[Vertex], encoded: &Encoded) -> Option<Diagnostic> {
     Some(found.hint("transfer the file again, as binary data; `--cut-pens` leaves the pen of a right line out"))
 }
 
-/// Where a line joins the ring that one of its ends closes.
+/// Vertex where a line joins the ring that one of its ends closes.
 fn hangs_on_a_line(line: &[Vertex]) -> Option<Vertex> {
     let [first, last] = [0, line.len() - 1];
     let is_ring = |from: usize, to: usize| {
@@ -74,7 +74,7 @@ fn hangs_on_a_line(line: &[Vertex]) -> Option<Vertex> {
     of_end.or_else(of_start).map(|k| line[k])
 }
 
-/// Whether the line would close if the number that leads along one edge had a byte more.
+/// True if the line would close with another byte in the number of one edge.
 fn lacks_a_byte(edge: &[Vertex], line: &[Vertex], encoded: &Encoded) -> bool {
     let way = edge[1].at - edge[0].at;
     let gap = line[line.len() - 1].at - line[0].at;
@@ -95,10 +95,10 @@ fn steps(length: f64, step: f64) -> Option<i64> {
     ((length / step - count).abs() <= WHOLE_EPSILON).then_some(count as i64)
 }
 
-/// Whether a number is what is left of a whole one when one of its bytes but the last is lost.
+/// True if a number is the rest of a whole one after one of its bytes, except the last, is lost.
 fn is_left_of(number: i64, whole: i64, digit_bits: u32) -> bool {
     let encoded = |number: i64| number.unsigned_abs() << 1 | u64::from(number < 0);
-    // Of zero the sign is lost.
+    // Zero has no sign.
     let is_it = |left: u64| left == encoded(number) || number == 0 && left == 1;
     let whole = encoded(whole);
     (0..MOST_DIGITS).map(|digit| digit * digit_bits).take_while(|low| whole >> low >> digit_bits > 0).any(|low| {
