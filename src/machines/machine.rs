@@ -19,26 +19,26 @@ pub struct Machine {
     pub name: &'static str,
     /// Description in a line.
     pub about: &'static str,
-    /// Work of its programs, as a verb.
+    /// Verb for the work of its programs.
     pub works: &'static str,
-    /// Planner of `cutc compile`; `None` of a machine with a command of its own.
+    /// Planner of `cutc compile`; `None` for a machine with a command of its own.
     pub tool: Option<Tool>,
     /// Formats of its programs; the first is the default.
     pub targets: fn() -> Vec<Listed>,
     /// Promises that its programs keep.
     pub rules: &'static [&'static Rule],
-    /// Whether `--line` and `--inset` choose what is made of a file, and the knife's options do nothing.
+    /// True if `--line` and `--inset` choose what is made of a file, and the knife's options have no effect.
     pub is_sewn: bool,
-    /// Whether a program is one of its own, where its name or its provenance tells.
+    /// True if a program is one of its own, by name or provenance.
     pub claims: fn(Claim) -> bool,
-    /// Fault of a job that it cannot do, and what to do about it.
+    /// Reason why it cannot do a job, and what to do about it.
     pub refusal: fn(&Job) -> Option<[&'static str; 2]>,
-    /// Files beside a program that its bytes name, with their digests; `None` where each program is one file.
+    /// Files that the bytes of a program name, with their digests; `None` if each program is one file.
     pub parts: Option<fn(&[u8]) -> Vec<Part>>,
-    /// Reads a source and finds all that is wrong with it for this machine; `None` when nothing can be read.
+    /// Reads a source and finds its faults for this machine; `None` when nothing can be read.
     pub check: fn(&Source, &Asked, &Job, &mut Diagnostics) -> Option<Checked>,
-    /// Judges a program by a source; `None` when that has errors: then the diagnostics say which. `None` of a machine whose
-    /// programs are judged only while they are written.
+    /// Judges a program by a source; returns `None` when the source has errors, which the diagnostics tell. `None` for a
+    /// machine whose programs are judged only while they are written.
     pub judge: Option<Judge>,
 }
 
@@ -52,9 +52,9 @@ pub struct Tool {
     pub kinds: &'static [ToolKind],
     /// Compiles a source to programs, as [`compile_all`](crate::pipeline::compile_all) does.
     pub compile: fn(&Source, &Job, Choices, &mut [Product], &mut Diagnostics) -> io::Result<Option<Compiled>>,
-    /// Makes of an input what is cut of it, before it is planned.
+    /// Makes the cuts of an input before planning.
     pub cuts: fn(&mut Input, &Source, &Job, &mut Diagnostics),
-    /// Figures of the program that an input with its cuts would become.
+    /// Figures of the program of an input with its cuts.
     pub estimate: fn(&mut Input, &Source, &Job, &mut Diagnostics) -> io::Result<Program>,
 }
 
@@ -67,7 +67,7 @@ pub struct Listed {
     pub about: &'static str,
     /// Ending of its files, without the first dot.
     pub extension: &'static str,
-    /// Whether its bytes are read back and judged.
+    /// True if its bytes are read back and judged.
     pub is_judged: bool,
 }
 

@@ -1,9 +1,9 @@
 //! The machines of the sewing floor, a row of [`MACHINES`] each.
 //!
-//! Receives names, jobs and programs, promises the functions of the machine that they are for. Commands read rows and know no
-//! machine by name. Plans nothing: that is the business of the pipelines behind the rows.
+//! Receives names, jobs and programs, promises the functions of their machine. Commands read rows and know no machine by name.
+//! Plans nothing: the pipelines behind the rows do.
 //!
-//! A machine is added by a pipeline of its own (plan and targets), a file here that ends in its `MACHINE`, and its row.
+//! A new machine needs a pipeline of its own (plan and targets), a file here that ends in its `MACHINE`, and its row.
 
 mod cutter;
 pub mod flow;
@@ -30,12 +30,12 @@ pub fn tool_of(job: &Job) -> &'static Tool {
     of(job).tool.as_ref().expect("it was found by its tool")
 }
 
-/// The machine whose name or provenance a program has; `None` of a program that only its bytes may tell.
+/// The machine of a program by its name or provenance; `None` if only the bytes may tell.
 pub fn claimant(claim: Claim) -> Option<&'static Machine> {
     MACHINES.iter().find(|machine| (machine.claims)(claim))
 }
 
-/// Whether programs of a target are judged, by any machine that has one of this name.
+/// True if programs of a target are judged by any machine that has a target of this name.
 pub fn is_judged(target: &str) -> bool {
     let judged = MACHINES.iter().filter(|machine| machine.judge.is_some());
     let mut targets = judged.flat_map(|machine| (machine.targets)());

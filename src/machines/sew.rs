@@ -31,7 +31,7 @@ pub(super) const MACHINE: Machine = Machine {
     judge: Some(judge),
 };
 
-/// The target that a program was made by, as its provenance or else its name tells, if programs of it are judged.
+/// The target of a program by its provenance or else its name, if programs of it are judged.
 fn target(claim: Claim) -> Option<&'static Target> {
     let found = match claim.target {
         Some(told) => TARGETS.iter().find(|target| target.name == told),

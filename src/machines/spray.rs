@@ -97,7 +97,7 @@ fn figures(program: &Program, peaks: &Peaks) -> pipeline::Program {
     pipeline::Program { time_s, axes, ..pipeline::Program::default() }
 }
 
-/// The targets of the products; one that tells of a knife is an error.
+/// The targets of the products; a target for knives is an error.
 fn targets(products: &[Product], diagnostics: &mut Diagnostics) -> Vec<&'static Target> {
     let mut targets = Vec::new();
     for name in products.iter().map(|product| product.target.name) {
@@ -119,7 +119,7 @@ fn setpoints() -> (&'static Target, Reader) {
     judged.expect("setpoints are a target")
 }
 
-/// The verdict on the setpoints: those that were written, or else some that are made to be judged.
+/// The verdict on the setpoints: those that were written, or temporary ones.
 fn verdict_of(
     program: &Program,
     products: &mut [Product],
@@ -137,7 +137,7 @@ fn verdict_of(
     judged(&mut bytes, input, job, audit)
 }
 
-/// The verdict on the bytes of a program, with what is known of its source.
+/// The verdict on the bytes of a program, with the findings about its source.
 fn judged(program: &mut dyn Medium, input: &Input, job: &Job, audit: Vec<Finding>) -> io::Result<Verdict> {
     program.rewind()?;
     let ground = Ground::new(&input.marker, &job.profile);

@@ -1,13 +1,13 @@
 //! The manual, a page a topic, in markdown: `cutc manual PAGE` prints one.
 //!
-//! What stands there in code blocks is run by the tests: commands, scripts for many machines.
+//! The tests run the code blocks: commands, and scripts for many machines.
 
 /// A page.
 #[derive(Debug, Clone, Copy)]
 pub struct Page {
-    /// As it is asked for: the name of its file.
+    /// Name by which it is asked for: that of its file.
     pub name: &'static str,
-    /// What it is about, in a sentence.
+    /// Subject, in a sentence.
     pub about: &'static str,
     /// Its text in markdown.
     pub text: &'static str,
@@ -18,7 +18,7 @@ pub struct Page {
 pub struct Entry {
     /// The word.
     pub term: &'static str,
-    /// What it means, without line breaks.
+    /// Definition, without line breaks.
     pub text: String,
 }
 

@@ -1,4 +1,4 @@
-//! Reading: a source becomes a marker, and passes edit that.
+//! Reading: a source becomes a marker, and passes edit it.
 
 use std::path::Path;
 
@@ -14,43 +14,43 @@ use crate::recognise;
 use crate::source::Source;
 use crate::verify::{Census, CutPlaces, DrawingCuts, Drawn, Works};
 
-/// A file as read and passed: what is cut, in which order.
+/// A file as read, after passes: the cuts in their order.
 #[derive(Debug)]
 pub struct Input {
-    /// What it was read as.
+    /// Dialect that it was read as.
     pub dialect: &'static Dialect,
-    /// What it says, as far as the job wants it cut.
+    /// Its content, as far as the job wants it cut.
     pub marker: Marker,
-    /// Whether the source was read without errors: then there is something to show, whatever passes say of it.
+    /// True if the source was read without errors: then there is something to show, whatever passes report.
     pub is_whole: bool,
 }
 
 /// An input that programs are judged against.
 #[derive(Debug)]
 pub struct Judged {
-    /// What is cut.
+    /// The input.
     pub input: Input,
-    /// What is known of how it was read.
+    /// Data about how it was read.
     pub reading: Reading,
 }
 
-/// What a file says in all, as it was read, and what passes kept of that.
+/// Content of a file as it was read, and the part of it that passes kept.
 #[derive(Debug)]
 pub struct Reading {
-    /// Before any pass.
+    /// Counts before any pass.
     pub census: Census,
-    /// Where the patterns of a set are cut, likewise; `None` of any other file.
+    /// Places of the cuts of a set of patterns, before any pass; `None` for any other file.
     pub patterns: Option<CutPlaces>,
-    /// What is cut of a drawing, likewise.
+    /// Cuts of a drawing, before any pass; `None` for any other file.
     pub drawing: Option<DrawingCuts>,
-    /// Whether all of it is still cut behind them.
+    /// Finding that all of it is still cut after the passes.
     pub kept: Finding,
-    /// Whether that lies where the sheet of the profile has it; `None` where it lies as the file has it.
+    /// Finding that it lies where the sheet of the profile has it; `None` if it lies where the file has it.
     pub laid: Option<Finding>,
 }
 
-/// Reads a source as `from`, or as what its content looks like, and runs the marker passes. `None` when nothing can be
-/// read; faults of the data are diagnostics.
+/// Reads a source as `from`, or as the dialect of its content, and runs the marker passes. `None` when nothing can be read;
+/// faults of the data are diagnostics.
 pub fn read(
     source: &Source,
     from: Option<&'static Dialect>,
@@ -62,7 +62,7 @@ pub fn read(
     Some(input)
 }
 
-/// The same, with what it takes to judge a program.
+/// Reads a source with the data for judging a program; see [`read`].
 pub fn read_to_judge(
     source: &Source,
     from: Option<&'static Dialect>,
@@ -77,7 +77,7 @@ pub fn read_to_judge(
     let drawing = is_drawing.then(|| DrawingCuts::of(&input.marker));
     let (finding, laying) = marker_passes().0.split_at(DRAWN_PASSES);
     run_passes(finding, &mut input.marker, source, job, diagnostics);
-    // What a sheet or the cloth moves cannot be compared with the file, but only with what was drawn.
+    // After a sheet or the cloth has moved the marker, it can be compared only with the marker before that, not with the file.
     let is_moved = !job.profile.sheet.is_plain() || job.centre.is_some() || job.marks.is_some();
     let drawn = is_moved.then(|| (works.kept(&input.marker, &job.profile), Drawn::of(&input.marker)));
     run_passes(laying, &mut input.marker, source, job, diagnostics);
@@ -88,7 +88,7 @@ pub fn read_to_judge(
     Some(Judged { input, reading: Reading { census, patterns, drawing, kept, laid } })
 }
 
-/// Reads a source with what it takes to judge a program, where that is wanted, or else without.
+/// Reads a source, with the data for judging a program if `verify` is set.
 pub fn read_for(
     (from, verify): (Option<&'static Dialect>, bool),
     source: &Source,
@@ -102,7 +102,7 @@ pub fn read_for(
     }
 }
 
-/// The marker as the source says it, before any pass.
+/// The marker of a source before any pass.
 pub(super) fn read_alone(
     source: &Source,
     from: Option<&'static Dialect>,
@@ -112,7 +112,7 @@ pub(super) fn read_alone(
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = front::choose(source, from, extension, diagnostics)?;
     let marker = marker_of(dialect, source, job, diagnostics);
-    // Only a drawing leaves it to others which of its lines are cut.
+    // Only a drawing leaves open which of its lines are cut.
     let is_plot = matches!(dialect.read, Reader::Drawing(_));
     if !is_plot && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
         let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: they change nothing";
@@ -130,29 +130,29 @@ pub(super) fn read_alone(
     Some(Input { dialect, marker, is_whole: !diagnostics.has_errors() })
 }
 
-/// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
+/// Cuts of a source, as a dialect reads them, or as they are recognised in the drawing of the dialect.
 pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
     match dialect.read {
         Reader::Marker(read) | Reader::Patterns { cut: read, .. } => read(source, job, diagnostics),
         Reader::Drawing(read) => {
             let drawing = read(source, job, diagnostics);
-            // What is not read to its end would only be recognised wrongly.
+            // A drawing that was not read to its end would be recognised wrongly.
             if diagnostics.has_errors() { Marker::default() } else { recognise::marker(drawing, job, diagnostics) }
         }
     }
 }
 
-/// The passes that say what is drawn, and those that say how it is cut.
+/// The passes that edit the drawing, and those that make its cuts.
 fn marker_passes() -> (&'static [MarkerPass], &'static [MarkerPass]) {
     MARKER_PASSES.split_at(MARKER_PASSES.len() - CUTTING_PASSES)
 }
 
-/// Makes the cuts of what was read.
+/// Makes the cuts of an input.
 pub fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
     run_passes(marker_passes().1, &mut input.marker, source, job, diagnostics);
 }
 
-/// Runs marker passes. What they find is placed before a pass can take it away.
+/// Runs marker passes. Findings get their places before a later pass can remove them.
 pub(super) fn run_passes(
     passes: &[MarkerPass],
     marker: &mut Marker,

@@ -1,4 +1,4 @@
-//! Judging: a program is read back, and what is broken is said.
+//! Judging: a program is read back, and broken rules are reported.
 
 use std::fmt::Write as _;
 use std::io::{self, BufRead as _, BufReader, Read as _};
@@ -18,24 +18,24 @@ use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed, up};
 use crate::verify::{self, Declared, Ground, Kind, rules};
 
-/// The rule on what can be read.
+/// The rules about readable programs.
 static FORMAT: [&Rule; 2] = [&rules::FORMAT, &verify::spray::rules::FORMAT];
-/// The least that is said of the rule on the table while it holds, mm.
+/// Least excess over the edge of the table that is reported while the rule holds, mm.
 const EDGE_SHOWN: f64 = 0.01;
-/// What is said of outlines that cross themselves or others: which side of them is the part is in doubt there.
+/// Codes of outlines that cross themselves or others: the side of the part is in doubt there.
 const CROSSING: [&Code; 2] = [&code::MARKER_SELF_CROSSING, &code::MARKER_OVERLAPPING];
-/// Rules that a run may break which is parted where the blade has no room for that.
+/// Rules that may be broken where runs are split and the blade has no room for it.
 static OF_PARTS: [&Rule; 6] =
     [&rules::ON_PATH, &rules::STRAY, &rules::ONCE, &rules::COMPLETE, &rules::HEADING, &rules::BODY];
 /// Significant digits at which figures of findings are shown to people.
 const DIGITS: i32 = 4;
 /// Below this, in any unit, an allowed value is rounding of the computation.
 const NOISE_EPSILON: f64 = 0.99e-9;
-/// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
+/// Greatest number of digits that tell a worst value from its limit; beyond, they differ by rounding alone.
 const MOST_DIGITS: i32 = 15;
 
-/// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then
-/// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
+/// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then the diagnostics tell
+/// them. The diagnostics are about the source alone; broken rules of the program are in the verdict.
 pub fn judge_program(
     program: &mut dyn Medium,
     source: &Source,
@@ -61,29 +61,29 @@ pub fn judge_program(
     Ok(Some(Explained { verdict, told }))
 }
 
-/// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
+/// Reason that a file is no program that can be judged, by its first bytes, and what to do about it; `None` when it is one.
 pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     file.rewind()?;
     let mut file = BufReader::with_capacity(BLOCK, file);
     if verify::spray::begins(file.fill_buf()?) { Ok(None) } else { verify::foreign(&mut file) }
 }
 
-/// What a program is judged by.
+/// Input of a judgement.
 #[derive(Clone, Copy)]
 pub(super) struct Asked<'a> {
     pub(super) source: &'a Source,
     pub(super) marker: &'a Marker,
-    /// What is known of the marker, where that was made before.
+    /// The ground of the marker, if it was made before.
     pub(super) ground: Option<&'a Ground<'a>>,
-    /// What the program says that it does beside the drawing; `None` when it says nothing at all.
+    /// Deviations from the drawing that the program declares; `None` when it declares nothing at all.
     pub(super) declared: Option<&'a Declared>,
     pub(super) job: &'a Job,
 }
 
-/// Reads a program back from its start and judges it; `audit` is what is known of its source.
+/// Reads a program back from its start and judges it; `audit` holds the findings about its source.
 ///
-/// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
-/// stroke is one too many, and the rules on how something is cut say nothing.
+/// If the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every stroke is one
+/// too many, and the rules about the manner of cutting are left out.
 pub(super) fn judge(
     Asked { source, marker, ground, declared, job }: Asked,
     audit: &[Finding],
@@ -116,7 +116,7 @@ pub(super) fn judge(
     Ok(verdict)
 }
 
-/// What was read of the source against its bytes, and what the passes kept of that.
+/// Findings about the reading of the source against its bytes, and about the passes.
 pub fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
     let Reading { census, patterns, drawing, kept, laid } = reading;
     let audit = match patterns {
@@ -127,7 +127,7 @@ pub fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) 
     audit.into_iter().flatten().chain(drawing.into_iter().flatten()).chain([kept]).chain(laid).collect()
 }
 
-/// What is left of a marker where the knife stays up: the events of a dry run, and nothing of a frame.
+/// Rest of a marker if the knife stays up: the events for a dry run, nothing for a frame.
 fn uncut(marker: &Marker, mode: Mode) -> Marker {
     match mode {
         Mode::Cut | Mode::Dry => {
@@ -139,7 +139,7 @@ fn uncut(marker: &Marker, mode: Mode) -> Marker {
     }
 }
 
-/// The verdict on two programs of one compile: of each rule the finding that is worse, the first of two that are alike.
+/// Verdict on two programs of one compile: for each rule the worse finding, the first of two equal ones.
 pub fn both(first: Verdict, second: Verdict) -> Verdict {
     let mut findings = first.findings;
     for finding in second.findings {
@@ -159,7 +159,7 @@ pub fn both(first: Verdict, second: Verdict) -> Verdict {
     Verdict { findings, unread: first.unread.or(second.unread), untimed, uncut }
 }
 
-/// A diagnostic for each rule that does not hold.
+/// Adds a diagnostic for each broken rule.
 pub fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let crossing = diagnostics.iter().map(|known| known.code).find(|code| CROSSING.contains(code));
     for finding in verdict.broken() {
@@ -197,7 +197,7 @@ pub fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut D
     over_the_edge(verdict, job, diagnostics);
 }
 
-/// Advice on a broken rule that no key of the profile limits. Outlines may be known to cross, as they do where every line of a
+/// Advice on a broken rule that no key of the profile limits. Outlines may be known to cross, as they do if every line of a
 /// plot is cut.
 fn fault(crossing: Option<&Code>, is_all_cut: bool) -> String {
     match crossing {
@@ -216,7 +216,7 @@ fn fault(crossing: Option<&Code>, is_all_cut: bool) -> String {
     }
 }
 
-/// One line on a blade that leaves the table by less than is refused, unless the marker itself is known to.
+/// Adds a line about a blade that leaves the table by less than is refused, unless the marker itself is known to.
 fn over_the_edge(verdict: &Verdict, job: &Job, diagnostics: &mut Diagnostics) {
     let over = verdict.under(&rules::TABLE).filter(|finding| finding.holds());
     let Some((by, place)) = over.and_then(|finding| Some((finding.worst, finding.place?))) else { return };
@@ -228,7 +228,7 @@ fn over_the_edge(verdict: &Verdict, job: &Job, diagnostics: &mut Diagnostics) {
     diagnostics.push(if overreach::may_lay(job) { finding.hint(overreach::LAY) } else { finding });
 }
 
-/// The keys of the profile by which runs are parted amid a line, as a sentence begins with them; `None` when none does.
+/// The keys of the profile by which runs are split amid a line, as the start of a sentence; `None` if there are none.
 fn parting_keys(job: &Job) -> Option<&'static str> {
     match (job.profile.knife.max_down_mm, job.profile.c.range_deg) {
         (Some(_), Some(_)) => Some("`knife.max_down_mm` or `c.range_deg`"),
@@ -238,14 +238,14 @@ fn parting_keys(job: &Job) -> Option<&'static str> {
     }
 }
 
-/// The worst value and the limit of a finding for people: short, but told apart where the one breaks the other.
+/// The worst value and the limit of a finding for people: short, but distinct if the worst value breaks the limit.
 pub fn figures(finding: &Finding) -> (String, Option<String>) {
     let shown = |value: f64, digits| match value {
         f64::INFINITY => "infinite".to_owned(),
         noise if noise < NOISE_EPSILON && finding.holds() => "0".to_owned(),
         _ => exact(significant(value, digits)),
     };
-    // Rounded up, so that the worst value passes where it is set as the limit.
+    // Rounded up, so that the worst value passes if it is set as the limit.
     let above = |digits| {
         if !finding.worst.is_normal() || finding.worst < NOISE_EPSILON {
             return finding.worst;

@@ -64,44 +64,45 @@ use crate::plan;
 use crate::source::Source;
 use crate::verify::Ground;
 
-/// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
+/// Size of setpoints up to which they are kept in memory when they are made only to be judged, bytes; more go to a temporary
+/// file.
 const SCRATCH_BYTES: usize = 64 << 20;
 
-/// What is asked of a compile beside the job.
+/// Options of a compile to one program, beside the job.
 #[derive(Debug, Clone, Copy)]
 pub struct Order {
-    /// What the source is read as; `None` = what its content looks like.
+    /// Dialect of the source; `None` = by its content.
     pub from: Option<&'static Dialect>,
-    /// What is written.
+    /// Target that is written.
     pub target: &'static Target,
-    /// Whether the program is read back and judged.
+    /// True if the program is read back and judged.
     pub verify: bool,
 }
 
-/// What is chosen for a compile to several programs.
+/// Options of a compile to several programs.
 #[derive(Debug, Clone, Copy)]
 pub struct Choices<'a> {
-    /// What the source is read as; `None` = what its content looks like.
+    /// Dialect of the source; `None` = by its content.
     pub from: Option<&'static Dialect>,
-    /// Whether the programs are read back and judged.
+    /// True if the programs are read back and judged.
     pub verify: bool,
     /// Progress of the compile.
     pub advance: &'a Advance,
 }
 
-/// What a compile gives.
+/// Result of a compile.
 #[derive(Debug)]
 pub struct Compiled {
     /// The figures of the program.
     pub report: Report,
-    /// What it is worth; `None` when nobody asked.
+    /// The verdict on it; `None` without judgement.
     pub verdict: Option<Verdict>,
-    /// What it does beside the drawing, as it says itself.
+    /// Deviations from the drawing that the program declares.
     pub declared: Vec<Declaration>,
 }
 
-/// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
-/// `out` then holds must be thrown away.
+/// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: the content
+/// of `out` must then be thrown away.
 pub fn compile(
     source: &Source,
     job: &Job,
@@ -115,7 +116,7 @@ pub fn compile(
 }
 
 /// Compiles a source to several programs at once: each stage runs once for all of them. `None` when the diagnostics hold
-/// errors: then all that was written must be thrown away, but for pictures that show what was refused.
+/// errors: everything written must then be thrown away, except pictures of the refused program.
 pub fn compile_all(
     source: &Source,
     job: &Job,
@@ -143,7 +144,7 @@ pub fn compile_all(
     let mut pages = Pages::of(products, &context);
     let mut audit = Vec::new();
     let written = rayon::in_place_scope(|scope| {
-        // The source is looked at beside all that is done with what was read of it.
+        // The audit of the source runs in parallel with everything that uses its marker.
         scope.spawn(|_| {
             let audited = |reading| judge::audited(source, input.dialect, reading, job);
             audit.extend(reading.into_iter().flat_map(audited));
@@ -168,7 +169,7 @@ pub fn compile_all(
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
 }
 
-/// Pages about the programs of a compile, one for each product, while they are made.
+/// Pages about the programs of a compile under construction, one for each product.
 struct Pages<'a>(Vec<Option<Box<dyn PageWriter + 'a>>>);
 
 impl<'a> Pages<'a> {
@@ -181,7 +182,7 @@ impl<'a> Pages<'a> {
     }
 }
 
-/// Writes all programs but the tails of those that show a verdict; `beside` takes the setpoints that are only judged.
+/// Writes all programs except the tails of those that show a verdict; `beside` takes the setpoints that are only judged.
 fn write(
     context: &Context,
     (products, pages): (&mut [Product], &mut Pages),
@@ -215,7 +216,7 @@ fn write(
     Ok(written)
 }
 
-/// What is known of programs when they are ended.
+/// Data for the tails of programs.
 #[derive(Clone, Copy)]
 struct Known<'a> {
     verdict: Option<&'a Verdict>,
@@ -223,7 +224,7 @@ struct Known<'a> {
     deviations: &'a [Declaration],
 }
 
-/// Ends the programs that show the verdict, and says which of them show what was refused.
+/// Writes the tails of programs that show the verdict, and marks those that show a refused program.
 fn finish(
     context: &Context,
     (products, pages): (&mut [Product], &mut Pages),
@@ -252,14 +253,13 @@ fn finish(
     Ok(())
 }
 
-/// How the programs of a compile are judged.
+/// Ways to judge the programs of a compile.
 #[derive(Debug, Clone, Copy)]
 struct Proofs {
-    /// Whether setpoints are made only to be judged. A target that cannot be judged by its own bytes shows the verdict
-    /// on setpoints; when no target's own bytes are those, they are made beside the others, so that a picture can show
-    /// the worst places.
+    /// True if setpoints are made only to be judged. A target that cannot be judged by its own bytes shows the verdict on
+    /// setpoints. If no product is setpoints, they are made in addition, so that a picture can show the worst places.
     beside: bool,
-    /// Whether any program is judged by how it moves.
+    /// True if any program is judged by its motion.
     by_motion: bool,
 }
 
@@ -300,8 +300,7 @@ impl Proofs {
     }
 }
 
-/// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
-/// the diagnostics say why.
+/// Figures of the program of an input, without writing or judging it; if it cannot be planned the diagnostics tell why.
 pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
     if diagnostics.has_errors() {
         return Ok(Program::default());

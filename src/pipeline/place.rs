@@ -1,4 +1,4 @@
-//! Where findings lie on the cloth: the piece and the point that a span of the source became.
+//! Places of findings on the cloth: the piece and the point for a span of the source.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use crate::machine::Job;
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
 
-/// The most letters of a label that are shown.
+/// Greatest number of letters of a label that are shown.
 const LETTERS: usize = 24;
 
-/// Tells findings that have a span in which piece they are and where, as far as the marker knows; what is known stays,
-/// and so do the first `known` ones. One walk over the marker, and none when there is nothing to tell.
+/// Adds piece and point to findings with a span, as far as the marker knows them. Known places stay, and so do the first
+/// `known` findings. One walk over the marker, and none without such findings.
 pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, source: &Source, job: &Job) {
     let mut wanted: BTreeMap<u32, Vec<OnCloth>> = BTreeMap::new();
     for finding in diagnostics.iter().skip(known).filter(|finding| finding.piece.is_none()) {
@@ -23,10 +23,10 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
     let Some((least, most)) = wanted.keys().copied().next().zip(wanted.keys().copied().next_back()) else { return };
     for (i, piece) in marker.pieces.iter().enumerate() {
         let mut see = |span: Span, point: Option<Point>| {
-            // What came from no block is at no place of the source.
+            // Segments without a block have no place in the source.
             if span.block > 0
                 && let Some(places) = wanted.get_mut(&span.start)
-                // The first in each copy of the marker.
+                // The first one in each copy of the marker.
                 && places.iter().all(|place| place.copy != piece.copy)
             {
                 places.push(OnCloth { piece: Some(i), copy: piece.copy, point });
@@ -44,7 +44,7 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
         piece.events.iter().for_each(|event| see(event.span, None));
         see(piece.span, None);
     }
-    // What a drawing has beside that is of no piece.
+    // Other lines of a drawing belong to no piece.
     for vertex in marker.drawing.iter().flat_map(|account| &account.aside.vertices) {
         if let Some(places) = wanted.get_mut(&vertex.span.start).filter(|places| places.is_empty()) {
             places.push(OnCloth { piece: None, copy: 0, point: Some(vertex.at) });
@@ -53,7 +53,7 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
     let letters = marker.letters(&job.profile.labels);
     diagnostics.revise(known, |finding| {
         let places = finding.span.and_then(|span| wanted.get(&span.start)).into_iter().flatten();
-        // Of several copies the one where it was found.
+        // Of several copies, the one at the place of the finding.
         let away = |place: &OnCloth| {
             let [at, point] =
                 [finding.at.as_deref().copied().map(Point::from), place.point].map(|at| at.unwrap_or(Point::origin()));
@@ -66,7 +66,7 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
     });
 }
 
-/// A piece, by its index, and a point of it or of what is not cut.
+/// A piece, by its index, and a point of it; no piece for lines that are not cut.
 struct OnCloth {
     piece: Option<usize>,
     copy: u32,

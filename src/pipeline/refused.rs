@@ -6,10 +6,10 @@ use super::product::Product;
 use crate::back::{Context, Emit, Outcome, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 
-/// The most errors that a picture marks: it is looked at, the messages tell the rest.
+/// Greatest number of errors that a picture marks; the messages tell the rest.
 const MOST: usize = 24;
 
-/// Whether a target draws what the knife would do, and may do so where no program is written.
+/// True if a target draws the motion of the knife, so that it may be written even for a refused program.
 pub(super) fn is_picture(target: &Target) -> bool {
     matches!(target.emit, Emit::Toolpath(_) | Emit::Page(_)) && target.proof.is_none()
 }
@@ -20,7 +20,7 @@ pub(super) fn errors(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
     diagnostics.iter().filter(is_error).take(MOST).collect()
 }
 
-/// The warnings that are about some of the pieces, or about lines that are not cut and may be outlines.
+/// Warnings about some of the pieces, or about uncut lines that may be outlines.
 pub(super) fn doubts(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
     let is_uncut = |d: &Diagnostic| *d.code == code::DRAWING_OPEN_PART || *d.code == code::DRAWING_OPEN_OUTLINES;
     let is_of_some = |d: &Diagnostic| !d.pieces.is_empty() || is_uncut(d);

@@ -1,7 +1,7 @@
-//! What a compile has to tell about its input and its program: the figures of the summary.
+//! Figures of the input and the program of a compile: the summary.
 //!
-//! Serialised figures are rounded, all of them here: lengths and times far below what a machine resolves, peaks to
-//! [`PEAK_DIGITS`]. What is kept in memory is not.
+//! Serialised figures are rounded, all of them here: lengths and times far below the resolution of a machine, peaks to
+//! [`PEAK_DIGITS`]. Figures in memory are exact.
 
 use serde::{Serialize, Serializer};
 
@@ -22,22 +22,22 @@ use crate::units::{MM_PER_M, deg};
 /// Significant digits of a peak.
 const PEAK_DIGITS: i32 = 6;
 
-/// The figures of one file; `None` is what only planning knows.
+/// Figures of one file; `None` before planning.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
     /// Name of the dialect that was read.
     pub dialect: &'static str,
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    /// Grid of the numbers in the file, mm; 0 when they are not rounded.
     #[serde(serialize_with = "micro")]
     pub unit_mm: f64,
-    /// Width and height of everything that is cut or drilled, mm.
+    /// Width and height of all cuts and holes, mm.
     #[serde(serialize_with = "micro_pair")]
     pub extent_mm: [f64; 2],
     /// Pieces.
     pub pieces: usize,
     /// Contours, closed and open.
     pub contours: usize,
-    /// Contours that end where they start.
+    /// Contours that end at their start.
     pub closed_contours: usize,
     /// Notches by kind.
     pub notches: Notches,
@@ -48,28 +48,28 @@ pub struct Report {
     /// Length of contours and slits, without overlaps, m.
     #[serde(serialize_with = "micro")]
     pub cut_m: f64,
-    /// What is cut once for two parts; not there where nothing is.
+    /// Edges that are cut once for two parts; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub common: Option<Common>,
-    /// Length of the near lines, m: where edges of two parts run beside each other and both are cut, each counts; not there
-    /// where nothing is.
+    /// Length of the near lines, m: if edges of two parts run side by side and both are cut, each counts; absent if there are
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "micro_known")]
     pub near_m: Option<f64>,
-    /// Windows of a conveyor, in order; not there where the cloth lies still.
+    /// Windows of a conveyor, in order; absent if the cloth lies still.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bites: Vec<Bite>,
-    /// Of a plot: what its lines were taken for.
+    /// Classes of the lines of a plot.
     #[serde(flatten)]
     pub drawn: Option<Drawn>,
-    /// What planning adds.
+    /// Figures of planning.
     #[serde(flatten)]
     pub program: Program,
-    /// What the program does beside the drawing because it cannot do otherwise, by kind.
+    /// Unavoidable deviations of the program from the drawing, by kind.
     pub declared: Vec<Total>,
-    /// What a controller that plans for itself makes of the program; not there without such a target.
+    /// Estimate for a controller that plans for itself; absent without such a target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<Controller>,
-    /// How a head follows each edge at its distance; not there with another tool.
+    /// Distances of a head that follows edges, by edge; absent with another tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edges: Option<Vec<spray::Edge>>,
 }
@@ -77,41 +77,41 @@ pub struct Report {
 /// Edges that are cut once for two parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Common {
-    /// How many there are.
+    /// Number of edges.
     pub edges: usize,
     /// Their length, m.
     #[serde(serialize_with = "micro")]
     pub length_m: f64,
-    /// How much less is cut than if every part were cut all round, m: less than their length, since open cuts are led on.
+    /// Length saved compared with cutting every part all round, m: less than their length, since open cuts are extended.
     #[serde(serialize_with = "micro")]
     pub spared_m: f64,
-    /// How far one of them is from where it is cut at the most, mm.
+    /// Greatest distance of such an edge from its cut, mm.
     #[serde(serialize_with = "micro")]
     pub shift_mm: f64,
-    /// Each of them, in the order of the pieces that are spared.
+    /// The edges, in the order of the pieces that are spared.
     pub all: Vec<CommonEdge>,
 }
 
 /// An edge that is cut once for two parts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CommonEdge {
-    /// The number of the piece that it is cut with.
+    /// Number of the piece that it is cut with.
     pub piece: u32,
-    /// That of the piece that is spared it.
+    /// Number of the piece that is spared it.
     pub spared: u32,
-    /// The copies of the marker that the two are of, from 1; not there where there is but one.
+    /// Copies of the marker that the two belong to, from 1; absent if there is only one copy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub copies: Option<[u32; 2]>,
     /// Its length, m.
     #[serde(serialize_with = "micro")]
     pub length_m: f64,
-    /// How far that of the piece that is spared is from there at the most, mm.
+    /// Greatest distance of the spared piece's edge from the cut, mm.
     #[serde(serialize_with = "micro")]
     pub shift_mm: f64,
 }
 
 impl Common {
-    /// Those of a marker.
+    /// Common edges of a marker; `None` if there are none.
     fn of(marker: &Marker) -> Option<Self> {
         let all: Vec<CommonEdge> = marker.common.iter().map(|edge| CommonEdge::of(marker, edge)).collect();
         let shift_mm = all.iter().map(|edge| edge.shift_mm).fold(0.0, f64::max);
@@ -138,10 +138,10 @@ impl CommonEdge {
 /// A program on a controller that plans for itself.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Controller {
-    /// How long that is likely to take, s.
+    /// Likely duration, s.
     #[serde(serialize_with = "micro")]
     pub time_s: f64,
-    /// Arcs and lines with the knife down.
+    /// Number of arcs and lines with the knife down.
     pub moves: usize,
 }
 
@@ -151,17 +151,17 @@ impl From<Estimate> for Controller {
     }
 }
 
-/// The lines of a plot.
+/// Lines of a plot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Drawn {
-    /// Way of the pen while it is down, mm; lettered texts are not in it.
+    /// Length of lines drawn with the pen down, mm, without lettered texts.
     #[serde(serialize_with = "micro")]
     pub pen_down_mm: f64,
-    /// Texts that stand in no part, and so belong to no piece.
+    /// Number of texts in no part, which belong to no piece.
     pub texts_outside: usize,
-    /// What the lines were taken for; classes without any are left out.
+    /// Lines by class; classes without lines are left out.
     pub lines: Vec<Lines>,
-    /// The layers of a drawing that has such.
+    /// Layers of a drawing; absent for pens.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<Layer>,
 }
@@ -171,27 +171,27 @@ pub struct Drawn {
 pub struct Layer {
     /// Name of the layer.
     pub name: String,
-    /// What is said of its lines.
+    /// Use of its lines.
     pub used: &'static str,
-    /// How many there are.
+    /// Number of lines.
     pub count: usize,
     /// Length as drawn, mm.
     #[serde(serialize_with = "micro")]
     pub length_mm: f64,
 }
 
-/// Lines of a plot that were taken for the same thing.
+/// Lines of a plot in one class.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Lines {
-    /// What they were taken for.
+    /// Name of the class.
     pub class: &'static str,
     /// How such lines are told from others.
     pub about: &'static str,
-    /// Whether they are cut or drilled.
+    /// True if they are cut or drilled.
     pub cut: bool,
-    /// How many there are.
+    /// Number of lines.
     pub count: usize,
-    /// Length as drawn, mm; that of notches in an outline counts with it.
+    /// Length as drawn, mm; notches in an outline count as part of it.
     #[serde(serialize_with = "micro")]
     pub length_mm: f64,
 }
@@ -230,19 +230,19 @@ pub struct Notches {
     pub castle: usize,
     /// Notches of an outline with a round bottom.
     pub u: usize,
-    /// Of the outlines, those that stand out of the part.
+    /// V notches of an outline that protrude from the part.
     #[serde(rename = "v-out")]
     pub v_out: usize,
-    /// Rectangles that stand out.
+    /// Castle notches of an outline that protrude.
     #[serde(rename = "castle-out")]
     pub castle_out: usize,
-    /// Round ones that stand out.
+    /// U notches of an outline that protrude.
     #[serde(rename = "u-out")]
     pub u_out: usize,
 }
 
 impl Notches {
-    /// Those of a marker.
+    /// Counts of a marker.
     fn of(marker: &Marker) -> Self {
         let mut counts = Self::default();
         for piece in &marker.pieces {
@@ -282,16 +282,16 @@ impl Notches {
 /// The figures of a program.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Program {
-    /// Way of the C axis with the knife up, m.
+    /// Length of the C axis's path with the knife up, m.
     #[serde(serialize_with = "micro_known")]
     pub travel_m: Option<f64>,
     /// Times that the knife goes down: runs and plunge cuts.
     pub runs: Option<usize>,
-    /// How notches are cut.
+    /// Style in which notches are cut.
     pub notch_style: Option<NotchStyle>,
-    /// How the blade lies on curves.
+    /// Orientation mode of the blade.
     pub follow: Option<Follow>,
-    /// Cuts whose blade lies along the tangent, because it cannot be a chord of a curve on them, although it should.
+    /// Cuts in the tangent mode because the chord mode, which the profile asks for, is impossible on them.
     pub tangent_runs: Option<usize>,
     /// Plunges without motion.
     #[serde(rename = "stabs")]
@@ -301,44 +301,44 @@ pub struct Program {
     /// Duration of the program, s.
     #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
-    /// Where the blade goes beyond the ends of its cuts.
+    /// Overlaps beyond the ends of cuts.
     pub sides: Option<Sides>,
-    /// Where that time goes.
+    /// Parts of that time.
     pub spent: Option<Spent>,
-    /// What it could save.
+    /// Possible savings.
     pub savings: Option<Savings>,
-    /// The same for each piece by its number and its place in the marker, in cut order.
+    /// Parts of the time of each piece by its number and its index in the marker, in cut order.
     #[serde(skip)]
     pub by_piece: Vec<([u32; 2], Spent)>,
-    /// The farthest that the way of the knife bulges beyond the chords of flattened curves, mm.
+    /// Greatest bulge of the knife's path beyond the chords of flattened curves, mm.
     #[serde(skip)]
     pub bulge_mm: Option<f64>,
-    /// The greatest speed, acceleration and jerk of each axis beside its limit.
+    /// Greatest speed, acceleration and jerk of each axis, with their limits.
     pub axes: Option<Axes>,
 }
 
-/// What was done so that the blade cuts beyond the ends of its cuts where it harms nothing.
+/// Measures by which the blade avoids harm beyond the ends of its cuts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Sides {
-    /// Ends behind which the part itself lies.
+    /// Ends in front of which the part itself lies.
     pub inside: usize,
-    /// Overlaps that a gap shortens.
+    /// Overlaps that a narrow gap shortens.
     pub shortened: usize,
-    /// Cuts that go the other way round than the file has them.
+    /// Cuts in the reverse direction of the file.
     pub turned: usize,
-    /// Cuts that the back edge of the blade makes.
+    /// Cuts with the back edge of the blade leading.
     pub backwards: usize,
     /// Plunge cuts that cut into a part.
     pub harmful: usize,
-    /// How deep the worst of them lies in one, mm.
+    /// Depth of the worst of them in a part, mm.
     #[serde(serialize_with = "micro")]
     pub overcut_mm: f64,
-    /// Plunge cuts that cut into another part than their own.
+    /// Plunge cuts that cut into a part other than their own.
     pub trespassing: usize,
-    /// How deep the worst of them lies in one, mm.
+    /// Depth of the worst of them in such a part, mm.
     #[serde(serialize_with = "micro")]
     pub neighbour_overcut_mm: f64,
-    /// Cuts that go on where the knife is lifted amid a contour.
+    /// Cuts that continue where the knife was lifted amid a contour.
     pub rejoined: usize,
 }
 
@@ -370,7 +370,7 @@ pub struct Peak {
     /// The greatest value of the program, by finite differences of its setpoints.
     #[serde(serialize_with = "peak")]
     pub worst: f64,
-    /// What the profile allows.
+    /// Limit of the profile.
     #[serde(serialize_with = "peak")]
     pub limit: f64,
 }
@@ -388,18 +388,18 @@ impl Axes {
 }
 
 impl Report {
-    /// What the program takes, s, as planned here or as a controller is likely to; `None` when it was not planned.
+    /// Time of the program, s, as planned here or as estimated for a controller; `None` when it was not planned.
     pub fn time_s(&self) -> Option<f64> {
         self.program.time_s.or(self.controller.map(|controller| controller.time_s))
     }
 
-    /// The report with what planning found of its marker.
+    /// The report with the figures of planning.
     #[must_use]
     pub fn planned(self, program: Program, marker: &Marker) -> Self {
         Self { bites: bites::of(marker, &program.by_piece), program, ..self }
     }
 
-    /// What is in a marker, before any planning.
+    /// Content of a marker, before any planning.
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();
         Self {
@@ -425,7 +425,7 @@ impl Report {
     }
 }
 
-// The signatures are those that serde calls.
+// Serde requires these signatures.
 fn micro_pair<S: Serializer>(values: &[f64; 2], out: S) -> Result<S::Ok, S::Error> {
     values.map(to_millionths).serialize(out)
 }

@@ -1,5 +1,4 @@
-//! What is told of a broken rule beside its figures: the piece, the line of the program and what stands there, so that people
-//! find both.
+//! Details of a broken rule beside its figures: the piece, and the line of the program with its text, so that people find both.
 
 use std::io::{self, BufRead, BufReader};
 
@@ -14,34 +13,34 @@ use crate::machine::Job;
 use crate::source::Source;
 use crate::verify::{self, rules};
 
-/// The most letters of a line of a program that are shown.
+/// Greatest number of letters of a program line that are shown.
 const LETTERS: usize = 100;
 
-/// A verdict, and what is told of each rule that is broken, in the order of [`Verdict::broken`].
+/// A verdict with the details of each broken rule, in the order of [`Verdict::broken`].
 #[derive(Debug)]
 pub struct Explained {
     /// The verdict.
     pub verdict: Verdict,
-    /// What is told.
+    /// The details.
     pub told: Vec<Told>,
 }
 
 impl Explained {
-    /// The findings, and what is told of those that do not hold.
+    /// The findings, with details for those that do not hold.
     pub fn findings(&self) -> impl Iterator<Item = (&Finding, Option<&Told>)> {
         let mut told = self.told.iter();
         self.verdict.findings.iter().map(move |finding| (finding, if finding.holds() { None } else { told.next() }))
     }
 }
 
-/// What is told of a broken rule.
+/// Details of a broken rule.
 #[derive(Debug, Default)]
 pub struct Told {
-    /// The piece that the worst value was seen at, if it was at one.
+    /// Piece at the worst value; `None` if it was seen at no piece.
     pub piece: Option<PieceName>,
-    /// The pieces of which nothing is cut, where the rule is on that.
+    /// Pieces of which nothing is cut, for the rule about that.
     pub uncut: Vec<PieceName>,
-    /// Where the program does it.
+    /// Place in the program.
     pub line: Option<Line>,
 }
 
@@ -68,7 +67,7 @@ pub enum Line {
     Entry(u64),
 }
 
-/// Tells of each rule that a program breaks; no line is quoted yet.
+/// Details of each rule that a program breaks, without quoted lines.
 pub fn told(verdict: &Verdict, marker: &Marker, source: &Source, job: &Job) -> Vec<Told> {
     let letters = marker.letters(&job.profile.labels);
     let named = |piece: &Piece| name(piece, source, letters);
@@ -85,7 +84,7 @@ pub fn told(verdict: &Verdict, marker: &Marker, source: &Source, job: &Job) -> V
     verdict.broken().map(|finding| tell(finding).unwrap_or_default()).collect()
 }
 
-/// Quotes the lines of a program of which something is told, where it has lines.
+/// Quotes the lines of a program that the details refer to, if it has lines.
 pub fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
     program.rewind()?;
     let mut program = BufReader::with_capacity(BLOCK, program);
@@ -104,7 +103,7 @@ pub fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
             }
             read += 1;
         }
-        // Of what a terminal would obey the escape is shown.
+        // Characters that a terminal would obey are shown as escapes.
         let all: String = String::from_utf8_lossy(text.trim_ascii_end()).escape_debug().collect();
         let text = match all.char_indices().nth(LETTERS) {
             Some((end, _)) => format!("{}...", &all[..end]),
@@ -115,7 +114,7 @@ pub fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
     Ok(())
 }
 
-/// The number of a place that may be quoted.
+/// Number of a place that can be quoted.
 fn numbered(line: &Line) -> Option<u64> {
     match line {
         Line::Record(number) => Some(*number),
@@ -123,7 +122,7 @@ fn numbered(line: &Line) -> Option<u64> {
     }
 }
 
-/// The piece in which a block cuts; of several copies the one that lies nearest to a place.
+/// The piece in which a block cuts; among several copies, the nearest to a place.
 fn piece_of(marker: &Marker, block: u32, place: Point) -> Option<&Piece> {
     let has = |piece: &&Piece| {
         let contours = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range)).map(|(_, s)| s.span);
