@@ -1,20 +1,19 @@
-//! Formats that cutc does not read: by their first bytes, else by the names of files. A table says what each is, and what to
-//! do instead.
+//! Formats that cutc does not read, by their first bytes, else by file names: a table with the name of each and advice.
 
 use super::sewn;
 
-/// Bytes that are looked at, and rows of a table behind its header.
+/// Number of bytes that are looked at, and of rows of a table after its header.
 const SNIFFED: usize = 4096;
 const MOST_ROWS: usize = 8;
 
 /// A format that no dialect reads.
 #[derive(Debug)]
 pub(super) struct Format {
-    /// How a message names it.
+    /// Name for messages.
     pub(super) what: &'static str,
-    /// What to do.
+    /// Advice.
     pub(super) hint: &'static str,
-    /// Whether its name tells more than its bytes, if that is known.
+    /// True if the file name tells more than the bytes, if it is known.
     pub(super) is_vague: bool,
     is: fn(&[u8]) -> bool,
 }
@@ -90,7 +89,7 @@ const FORMATS: &[Format] = &[
     known("G-code for a machine tool", "its blocks end with the line; cutter files end them with `*`", is_g_code),
 ];
 
-/// A format of which only the names of files tell.
+/// A format that is recognised by file names alone.
 struct Named {
     extensions: &'static [&'static str],
     format: Format,
@@ -115,24 +114,24 @@ const NAMED: &[Named] = &[
     named(&["studio", "studio3"], "a drawing of Silhouette Studio", EXPORT_PLOT),
 ];
 
-/// The format that the content is.
+/// Format of a content.
 pub(super) fn of_content(bytes: &[u8]) -> Option<&'static Format> {
     FORMATS.iter().find(|format| (format.is)(bytes))
 }
 
-/// The format that files of such a name have.
+/// Format of files with such a name.
 pub(super) fn of_name(name: &str) -> Option<&'static Format> {
     let (_, extension) = name.rsplit_once('.')?;
     let is = |known: &&'static str| extension.eq_ignore_ascii_case(known);
     NAMED.iter().find(|named| named.extensions.iter().any(is)).map(|named| &named.format)
 }
 
-/// The first bytes of a file: those that are looked at.
+/// First bytes of a file, as far as they are looked at.
 pub(super) fn head(bytes: &[u8]) -> &[u8] {
     &bytes[..bytes.len().min(SNIFFED)]
 }
 
-/// Whether a text holds some bytes, in capital letters or small ones.
+/// True if a text holds some bytes, in upper or lower case.
 fn has(bytes: &[u8], text: &[u8]) -> bool {
     head(bytes).windows(text.len()).any(|window| window.eq_ignore_ascii_case(text))
 }
@@ -141,13 +140,13 @@ fn is_illustrator(bytes: &[u8]) -> bool {
     (bytes.starts_with(b"%!PS") || bytes.starts_with(b"%PDF")) && has(bytes, b"Adobe Illustrator")
 }
 
-/// A PDF document, be it behind lines of a printer (PJL) or a mark of its encoding.
+/// A PDF document; printer commands (PJL) or a byte order mark may precede it.
 fn is_pdf(bytes: &[u8]) -> bool {
     let is_printed = bytes.starts_with(b"\x1b%-12345X") || bytes.starts_with(b"\xef\xbb\xbf");
     bytes.starts_with(b"%PDF") || is_printed && has(bytes, b"%PDF-")
 }
 
-/// A zip archive of parts that their first one lists, as office programs write them.
+/// A zip archive whose first entry lists its parts, as office programs write it.
 fn is_office(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK") && has(bytes, b"[Content_Types].xml")
 }
@@ -158,21 +157,21 @@ fn is_iges(bytes: &[u8]) -> bool {
         && bytes.get(73..80).is_some_and(|number| number.trim_ascii() == b"1" || number == b"0000001")
 }
 
-/// An object or a list of JSON: a bracket with a quoted key, or with another bracket behind it.
+/// An object or a list of JSON: a bracket followed by a quoted key or another bracket.
 fn is_json(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     let behind = |open: u8| bytes.strip_prefix(&[open]).map(<[u8]>::trim_ascii_start).and_then(<[u8]>::first);
     behind(b'{') == Some(&b'"') || matches!(behind(b'['), Some(b'{' | b'['))
 }
 
-/// A page of HTML, behind a mark of its encoding.
+/// An HTML page; a byte order mark may precede it.
 fn is_web_page(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     let begins = |with: &[u8]| bytes.get(..with.len()).is_some_and(|start| start.eq_ignore_ascii_case(with));
     begins(b"<!DOCTYPE html") || begins(b"<html") || begins(b"<head") || begins(b"<body")
 }
 
-/// Keys of ASTM D6673 that DXF files do not have as lines of their own.
+/// Keys of ASTM D6673 that are no lines of their own in DXF files.
 fn is_rule_table(bytes: &[u8]) -> bool {
     if memchr::memmem::find(head(bytes), b"RULE").is_none() {
         return false;
@@ -183,7 +182,7 @@ fn is_rule_table(bytes: &[u8]) -> bool {
     keys.iter().filter(|key| lines().any(|line| starts(line, key))).count() >= 2
 }
 
-/// Rows of two numbers or more, with semicolons, tabs or blanks between them and commas in them.
+/// Rows of at least two numbers with decimal commas, separated by semicolons, tabs or blanks.
 fn is_comma_table(bytes: &[u8]) -> bool {
     table(bytes, |byte| b"; \t".contains(byte)).iter().any(|row| row.contains(&b','))
 }
@@ -222,7 +221,7 @@ fn unquoted(field: &[u8]) -> &[u8] {
     field.strip_prefix(b"\"").and_then(|field| field.strip_suffix(b"\"")).unwrap_or(field)
 }
 
-/// Whether a field is a number, with a comma or a point for decimals.
+/// True if a field is a number, with a comma or a point for decimals.
 fn is_number(field: &[u8]) -> bool {
     let digits = field.strip_prefix(b"-").or_else(|| field.strip_prefix(b"+")).unwrap_or(field);
     let mut parts = digits.split(|byte| b",.".contains(byte));
@@ -240,14 +239,14 @@ fn is_gp_gl(bytes: &[u8]) -> bool {
     leads.count() >= 2
 }
 
-/// The two letters, and then either four reserved bytes that are 0 or the size of a header that there is.
+/// The signature, and then either four reserved bytes that are 0 or a known header size.
 fn is_bmp(bytes: &[u8]) -> bool {
     let sizes = [12, 40, 52, 56, 64, 108, 124];
     bytes.starts_with(b"BM")
         && (bytes.get(6..10) == Some(&[0; 4]) || sizes.iter().any(|&size| bytes.get(14..18) == Some(&[size, 0, 0, 0])))
 }
 
-/// Lines of one letter with pairs of numbers, moves and lines, among commands of mode 2 behind a circumflex; or these alone.
+/// Lines of one letter with pairs of numbers, moves and lines, among commands of mode 2 after a circumflex; or the lines alone.
 fn is_camm_gl(bytes: &[u8]) -> bool {
     let begins = |bytes: &[u8]| matches!(bytes, [first, second, ..] if *first == b'^' || !second.is_ascii_alphabetic());
     let holds = |byte: u8| memchr::memchr(byte, head(bytes)).is_some();
@@ -267,7 +266,7 @@ fn is_camm_gl(bytes: &[u8]) -> bool {
     leads >= 3 && 2 * leads > all
 }
 
-/// Whether commands of two letters stand behind a circumflex each.
+/// True if there are commands of two letters, each after a circumflex.
 fn is_mode_2(bytes: &[u8]) -> bool {
     let commands = head(bytes).split(|byte| b";\r\n".contains(byte)).map(<[u8]>::trim_ascii);
     let is_of_it =
@@ -275,7 +274,7 @@ fn is_mode_2(bytes: &[u8]) -> bool {
     commands.filter(is_of_it).take(3).count() == 3
 }
 
-/// Whether a command is one of some letters, with a pair of numbers and a comma between them.
+/// True if a command is one of some letters with a pair of numbers, separated by a comma.
 fn is_lead(command: &[u8], letters: &[u8]) -> bool {
     let Some((letter, numbers)) = command.split_first() else { return false };
     let is_number = |byte: &u8| byte.is_ascii_digit() || b"+-., ".contains(byte);
@@ -294,7 +293,7 @@ fn is_utf16(bytes: &[u8]) -> bool {
     zeros(0) || zeros(1)
 }
 
-/// More than one byte in ten that no text has. NUL bytes at the end of the file do not count.
+/// More than one byte in ten that is in no text. NUL bytes at the end of the file do not count.
 fn is_binary(bytes: &[u8]) -> bool {
     let whole = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     let head = head(&bytes[..whole]);
@@ -311,7 +310,7 @@ fn is_raster(bytes: &[u8]) -> bool {
     has(b"\x1b*r") && has(b"\x1b*b") && !has(b"PD") && !has_vectors(bytes)
 }
 
-/// Instructions of a plot, and switches to them: it may hold a raster picture beside its lines.
+/// Instructions of a plot, or switches to them: it may hold a raster picture beside its lines.
 fn has_vectors(bytes: &[u8]) -> bool {
     let holds = |text: &&[u8]| memchr::memmem::find(bytes, text).is_some();
     [&b"\x1b%0B"[..], b"\x1b%1B", b";PD", b"PD;", b";PU", b"PU;"].iter().any(holds)
@@ -350,7 +349,7 @@ fn is_circuit_board(bytes: &[u8]) -> bool {
     head(bytes).split(|&byte| byte == b'*' || byte == b'\n').take(20).any(|block| starts(block.trim_ascii()))
 }
 
-/// Lines of words that begin with G, M, N and the like, and no asterisks to end them.
+/// Lines of words that begin with G, M, N and the like, without asterisks at the end.
 fn is_g_code(bytes: &[u8]) -> bool {
     let head = head(bytes);
     let begins_word = |at: usize| at == 0 || head[at - 1].is_ascii_whitespace();
@@ -366,7 +365,7 @@ fn is_g_code(bytes: &[u8]) -> bool {
             line[0].is_ascii_alphabetic() && line.get(1).is_some_and(|b| b.is_ascii_digit() || b"-. ".contains(b));
         sound += usize::from(comment || word);
     }
-    // Some senders add a checksum behind an asterisk, one a line at most, and never behind each word.
+    // Some senders add a checksum after an asterisk, at most one per line, never after each word.
     let asterisks = memchr::memchr_iter(b'*', head).count();
     2 * sound > all && all >= 2 && asterisks == 0
 }

@@ -1,39 +1,39 @@
 //! Polylines in the compact encoding of PE.
 //!
-//! Numbers are digits of base 64 (seven-bit mode: 32), the least significant first, the last one marked by a higher range
-//! of bytes; the lowest bit of the whole is the sign. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.) Plots
-//! that an editor saved again as UTF-8 have two bytes where a last digit was: those are put together.
+//! Numbers are digits of base 64 (seven-bit mode: 32), the least significant first, the last one marked by a higher range of
+//! bytes; the lowest bit of the whole is the sign. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.) Plots that an
+//! editor saved again as UTF-8 have two bytes in the place of a last digit: these are combined.
 
 use super::instruction::{Instruction, instruction};
 use super::syntax;
 
-/// What stands in the body of PE.
+/// An item in the body of PE.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Item {
     /// `:` the next number is a pen.
     Pen,
     /// `<` the next move is with the pen up.
     Up,
-    /// `>` the next number is how many binary fraction bits follow.
+    /// `>` the next number is the number of binary fraction bits.
     Fraction,
     /// `=` the next place is absolute.
     Absolute,
-    /// A whole number, its fraction bits not yet divided off.
+    /// A whole number that still includes its fraction bits.
     Number(i64),
 }
 
-/// How a body ends.
+/// End of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// It goes on.
+    /// The body continues.
     More,
-    /// With its semicolon.
+    /// Semicolon.
     Done,
-    /// With the file, between two numbers.
+    /// End of the file, between two numbers.
     Open,
-    /// Without a semicolon: the next instruction begins, or another language.
+    /// No semicolon: the next instruction begins, or another language.
     Next,
-    /// Amid a number, or with a byte that cannot stand there.
+    /// Inside a number, or at an invalid byte.
     Damaged,
 }
 
@@ -46,13 +46,13 @@ struct Mode {
     last: u8,
 }
 
-/// Least byte of a last digit of eight bits.
+/// Least byte of a last digit in the eight-bit mode.
 pub(super) const LAST_DIGIT: u8 = 191;
 const EIGHT_BIT: Mode = Mode { bits: 6, digit: 63, last: LAST_DIGIT };
 const SEVEN_BIT: Mode = Mode { bits: 5, digit: 63, last: 95 };
-/// A byte that is no digit of either mode, and none that a body may hold.
+/// A byte that is no digit of either mode and is invalid in a body.
 const NO_DIGIT: u8 = u8::MAX;
-/// Bits of a number that are kept: more cannot be a place on any table.
+/// Number of bits of a number that are kept: a longer number is beyond any table.
 const MOST_BITS: u32 = 60;
 
 /// Reads the body of one PE.
@@ -61,14 +61,14 @@ pub(super) struct Body<'a> {
     bytes: &'a [u8],
     /// Its first byte.
     pub(super) start: usize,
-    /// What one step of a number stands for, units.
+    /// Length of one step of a number, units.
     pub(super) step: f64,
     /// The next byte.
     pub(super) at: usize,
     mode: Mode,
-    /// Whether bytes above 127 come in pairs of UTF-8.
+    /// True if bytes above 127 come in pairs of UTF-8.
     paired: bool,
-    /// Whether such a pair was met.
+    /// True if such a pair was met.
     pub(super) repaired: bool,
     pub(super) ending: Ending,
 }
@@ -80,12 +80,12 @@ impl<'a> Body<'a> {
         Self { bytes, start, step: 1.0, at, mode, paired, repaired: false, ending }
     }
 
-    /// Bits of a number that one byte holds.
+    /// Number of bits of a number that one byte holds.
     pub(super) fn digit_bits(&self) -> u32 {
         self.mode.bits
     }
 
-    /// The next item; `None` at the end, and then [`Body::ending`] says which.
+    /// The next item; `None` at the end, and then [`Body::ending`] tells the kind of end.
     pub(super) fn next(&mut self) -> Option<Item> {
         loop {
             let Some(&byte) = self.bytes.get(self.at) else {
@@ -112,7 +112,7 @@ impl<'a> Body<'a> {
                     self.ending = Ending::Next;
                     return None;
                 }
-                // Controls and blanks are passed over.
+                // Controls and blanks are skipped.
                 0..=b' ' | 127 => {
                     self.at += 1;
                     continue;
@@ -154,8 +154,8 @@ impl<'a> Body<'a> {
         None
     }
 
-    /// Whether an instruction that is known begins at a byte, and ends as instructions do: `AutoCAD`'s driver writes no
-    /// semicolon behind its last encoded polyline.
+    /// True if a known instruction begins at a byte, and ends as instructions do: `AutoCAD`'s driver writes no semicolon after
+    /// its last encoded polyline.
     fn is_instruction(&self, at: usize) -> bool {
         let Ok((rest, found)) = syntax::mnemonic(&self.bytes[at..]) else { return false };
         let numbers = rest.iter().position(|byte| !b"+-., 0123456789".contains(byte)).unwrap_or(rest.len());
@@ -163,17 +163,17 @@ impl<'a> Body<'a> {
         goes_on && instruction(found) != Instruction::Unknown
     }
 
-    /// The next byte as it was before an editor made text of it.
+    /// The next byte, with the effect of saving as UTF-8 undone.
     fn byte(&mut self) -> Option<u8> {
         let first = *self.bytes.get(self.at)?;
         self.at += 1;
         if !self.paired || first < 0xc0 {
             return Some(first);
         }
-        // Two bytes of UTF-8 hold what was one: 110000ab 10cdefgh.
+        // Two bytes of UTF-8 hold the original byte: 110000ab 10cdefgh.
         let second = *self.bytes.get(self.at)?;
         if !matches!(first, 0xc2 | 0xc3) || second & 0xc0 != 0x80 {
-            // Another character, such as the one that stands for lost bytes: what it was nobody can tell.
+            // Another character, such as the replacement of lost bytes: the original is unknown.
             return Some(NO_DIGIT);
         }
         self.at += 1;
@@ -182,7 +182,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Whether bytes are text in UTF-8 with characters beyond ASCII; an end that is cut off does not matter.
+/// True if bytes are text in UTF-8 with characters beyond ASCII; a truncated end does not matter.
 pub(super) fn is_paired(bytes: &[u8]) -> bool {
     !bytes.is_ascii() && std::str::from_utf8(bytes).map_or_else(|fault| fault.error_len().is_none(), |_| true)
 }

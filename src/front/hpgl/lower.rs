@@ -19,12 +19,12 @@ use crate::ir::marker::Label;
 use crate::source::{Source, Span};
 use crate::units::rad;
 
-/// How a plot is measured.
+/// Measures of a plot.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     /// Length of a unit, mm.
     pub(super) unit: f64,
-    /// Farthest that the chords of a curve may lie off it, mm.
+    /// Greatest distance of the chords of a curve from it, mm.
     pub(super) sagitta: f64,
 }
 
@@ -55,25 +55,25 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
 struct Lowering<'a> {
     reader: Reader<'a>,
     plotter: Plotter,
-    /// Of curves, in units of the plotter.
+    /// Sagitta of curves, units of the plotter.
     sagitta: f64,
     labels: Vec<Label>,
-    /// Direction of labels, when it is not along +X.
+    /// Direction of labels, if it is not +X.
     heading: Option<Heading>,
-    /// The text that BL has left for PB.
+    /// Text of BL for PB.
     buffer: Option<Span>,
     pages: Pages,
-    /// What left the scale to the device, as long as nothing was drawn in it: the corners may follow.
+    /// Place that left the scale to the device, as long as nothing was drawn in it: the corners may follow.
     unsized_at: Option<Span>,
-    /// What was said of scales, each thing once.
+    /// Doubts about scales that were reported, each once.
     doubts: Vec<Unknown>,
-    /// Whether the last statement has drawn something.
+    /// True if the last statement has drawn something.
     last_drew: bool,
     tally: Tally,
     out: &'a mut Diagnostics,
 }
 
-/// A pen number beyond this is damage: it is taken as no pen.
+/// Greatest pen number; a greater one is damage and is taken as no pen.
 const MOST_PENS: f64 = 999.0;
 /// Fraction bits of PE, of either sign; more are damage. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.)
 const FRACTION_BITS: std::ops::RangeInclusive<i64> = -26..=26;
@@ -118,7 +118,7 @@ impl Lowering<'_> {
         self.pages.report(&self.plotter.drawing, self.out);
     }
 
-    /// The end of the file: a line that the pen is still drawing there may be cut short.
+    /// End of the file: a line that the pen is still drawing there may be cut short.
     fn end(&mut self) {
         if let Some(last) = self.plotter.unfinished() {
             let message = "the file ends amid a polygon (PM), which is not drawn";
@@ -214,7 +214,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Texts, where they end, and which way they are written.
+    /// Instructions for texts, their terminators and their direction.
     fn say(&mut self, instruction: Instruction, span: Span) {
         match instruction {
             Instruction::Label => self.label(span),
@@ -235,7 +235,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The places behind PA and PR, which say nothing of whether the pen is down.
+    /// The places after PA and PR, which do not tell whether the pen is down.
     fn moves_as_it_is(&mut self) {
         let first = self.reader.at();
         self.moves();
@@ -250,7 +250,7 @@ impl Lowering<'_> {
         self.take_pen(pen);
     }
 
-    /// PM: a polygon begins, goes on with another part, or ends.
+    /// PM: a polygon begins, continues with another part, or ends.
     fn polygon(&mut self, span: Span) {
         match self.values::<1>().first() {
             None | Some(0.0) => self.plotter.begin_polygon(span),
@@ -271,7 +271,7 @@ impl Lowering<'_> {
         (self.heading, self.unsized_at) = (None, None);
     }
 
-    /// PG, FR: the drawing before it is whole, whatever follows. EC may be a setting; `EC0` switches the cutter off.
+    /// PG, FR: the drawing before it is complete. EC may be a setting; `EC0` switches the cutter off.
     fn page(&mut self, end: End, span: Span) {
         let is_off = end == End::CutOff && self.values::<1>().first() == Some(&0.0);
         if end != End::CutOff {
@@ -300,7 +300,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The next pair of the instruction; what is none is counted.
+    /// The next pair of the instruction; incomplete pairs are counted.
     fn pair(&mut self) -> Option<(Pair, Span)> {
         loop {
             match self.reader.pair() {
@@ -318,7 +318,7 @@ impl Lowering<'_> {
         self.plotter.lose(span);
     }
 
-    /// Behind every move.
+    /// Check after every move.
     fn check(&mut self, outcome: Result<(), Refusal>, span: Span) {
         if let Err(refusal) = outcome {
             self.tally.refused(refusal, span);
@@ -331,7 +331,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The places behind PU, PD, PA and PR.
+    /// The places after PU, PD, PA and PR.
     fn moves(&mut self) {
         while let Some((pair, span)) = self.pair() {
             let to = self.plotter.target(pair);
@@ -345,7 +345,7 @@ impl Lowering<'_> {
         self.plotter.take_pen(if (0.0..=MOST_PENS).contains(&pen) { pen as u16 } else { NO_PEN });
     }
 
-    /// What numbers mean from here on.
+    /// Instructions that change the meaning of numbers.
     fn reframe(&mut self, instruction: Instruction, span: Span) {
         match instruction {
             Instruction::Scale => self.frame(Frame::set_scale, span),
@@ -369,7 +369,7 @@ impl Lowering<'_> {
         self.unsized_at = self.plotter.frame.is_left_to_device().then_some(first);
     }
 
-    /// Warns of a scale, of each kind of doubt once.
+    /// Warns of a scale, once for each kind of doubt.
     fn doubt(&mut self, doubt: Unknown, span: Span) {
         if self.doubts.contains(&doubt) {
             return;
@@ -392,7 +392,7 @@ impl Lowering<'_> {
     fn encoded(&mut self) {
         let mut body = self.reader.body();
         let (mut is_absolute, mut is_up) = (false, false);
-        // What the next number is, and the first of two coordinates with its place.
+        // Meaning of the next number, and the first of two coordinates with its place.
         let mut flag = None;
         let mut first: Option<(f64, usize)> = None;
         loop {
@@ -400,7 +400,7 @@ impl Lowering<'_> {
             let Some(item) = body.next() else { break };
             let number = match item {
                 Item::Number(number) => number,
-                // Flags stand before places, not amid them.
+                // Flags stand before places, not inside them.
                 Item::Pen | Item::Fraction | Item::Up | Item::Absolute if first.is_some() => {
                     body.ending = Ending::Damaged;
                     break;
@@ -445,7 +445,7 @@ impl Lowering<'_> {
         self.reader.behind(&body);
         let start = first.map_or(body.at.saturating_sub(1), |(_, start)| start);
         if first.is_some() {
-            // A body with a number without a partner has lost one.
+            // A body with an unpaired number has lost one.
             body.ending = Ending::Damaged;
         }
         self.end_encoded(&body, self.reader.within(start, body.at));
@@ -580,14 +580,14 @@ impl Lowering<'_> {
         text
     }
 
-    /// Writes a text where the pen is.
+    /// Adds a text at the place of the pen.
     fn write(&mut self, text: Span) {
         let (at, heading) = (Some(self.plotter.place()), self.heading);
         self.labels.push(Label { at, heading, span: text, mirrored: None });
         self.plotter.drift();
     }
 
-    /// An instruction that draws and lacks numbers.
+    /// Counts an instruction that draws and lacks numbers.
     fn incomplete(&mut self, span: Span) {
         self.plotter.lost.add(span);
     }

@@ -1,4 +1,4 @@
-//! The state of the plotter: pen, mode, place, scale, polygon buffer. Makes strokes of moves.
+//! State of the plotter: pen, mode, place, scale, polygon buffer. Makes strokes of moves.
 
 use super::count::Count;
 use super::scale::{Frame, Pair};
@@ -8,14 +8,14 @@ use crate::ir::Drawing;
 use crate::ir::drawing::Encoded;
 use crate::source::Span;
 
-/// The pen that draws when the file takes none: many files do.
+/// The pen that draws if the file selects none, as many files do.
 const FIRST_PEN: u16 = 1;
-/// The number that stands for no pen (SP0).
+/// The number for no pen (SP0).
 pub(super) const NO_PEN: u16 = 0;
 /// Farthest place from the origin, mm: no table is a kilometre long.
 const FARTHEST: f64 = 1e6;
-/// Moves that curves and repeated polygons may make beyond one for each byte of the file: a hundred times what the largest
-/// plots need, and no more than the memory of a small computer holds.
+/// Number of moves that curves and repeated polygons may add to one per byte of the file: a hundred times the need of the
+/// largest plots, and within the memory of a small computer.
 const MOST_CURVED: usize = 5_000_000;
 
 /// Follows the moves.
@@ -27,24 +27,24 @@ pub(super) struct Plotter {
     unit: f64,
     /// Farthest place from the origin, units.
     farthest: f64,
-    /// Moves that it may still make, drawing or not.
+    /// Number of moves that it may still make, drawing or not.
     moves_left: usize,
     standing: Standing,
-    /// Whether a letter that lowers or lifts the pen may be lost: where it was.
+    /// Place of a possibly lost letter that lowers or lifts the pen.
     torn: Option<Span>,
-    /// Lines that were drawn from a place that hangs on letters, and from one that hangs on what could not be read.
+    /// Lines drawn from a place that depends on letters, and from one that depends on unreadable items.
     pub(super) adrift: Count,
     pub(super) lost: Count,
     pen: u16,
-    /// The same among the pens of the drawing, once it draws.
+    /// Its pen among the pens of the drawing, once it draws.
     drawing_pen: Option<u16>,
     is_down: bool,
     is_relative: bool,
-    /// Where it is, in units of the plotter before RO.
+    /// Its place, in units of the plotter before RO.
     at: Pair,
-    /// Corners of the polygon that PM gathers, and where its last part starts; `None` outside PM.
+    /// Index of the start of the current part of the polygon that PM gathers; `None` outside PM.
     gathering: Option<usize>,
-    /// Whether the next place starts another part of it.
+    /// True if the next place starts another part of it.
     awaits_part: bool,
     polygon: Vec<Corner>,
 }
@@ -54,31 +54,31 @@ pub(super) struct Plotter {
 struct Corner {
     at: Pair,
     span: Span,
-    /// Whether the edge that ends here is drawn.
+    /// True if the edge that ends here is drawn.
     is_edge: bool,
 }
 
-/// Whether the file says where the pen is.
+/// Knowledge of the pen's place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Standing {
-    /// It does.
+    /// The place is known.
     Known,
-    /// A text was written since the last absolute place: it depends on the letters.
+    /// A text was written since the last absolute place: the place depends on the letters.
     Lettered,
-    /// Something that stood there could not be read.
+    /// Something before it could not be read.
     Lost(Span),
 }
 
-/// Why a move is refused.
+/// Reason that a move is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Refusal {
     /// The place is beyond any table.
     TooFar,
-    /// Curves and polygons have more moves than a plot may take.
+    /// Curves and polygons have more moves than a plot may have.
     TooMany,
 }
 
-/// What is drawn by a plotter.
+/// Measures of the file that a plotter draws.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sheet {
     /// Length of a unit, mm.
@@ -87,7 +87,7 @@ pub(super) struct Sheet {
     pub(super) bytes: usize,
 }
 
-/// Bytes of a large plot for each of its vertices: more than most have, so that no memory is taken in vain.
+/// Number of bytes of a large plot for each of its vertices: more than in most, so that no memory is wasted.
 const BYTES_A_VERTEX: usize = 16;
 
 impl Plotter {
@@ -114,7 +114,7 @@ impl Plotter {
         }
     }
 
-    /// IN and the like: as switched on, the pen up at the origin.
+    /// IN and similar: state as switched on, the pen up at the origin.
     pub(super) fn reset(&mut self) {
         self.lift();
         self.frame.reset();
@@ -124,14 +124,14 @@ impl Plotter {
         self.take_pen(FIRST_PEN);
     }
 
-    /// DF: places are absolute and not scaled; the pen stays where and as it is.
+    /// DF: places are absolute and not scaled; the pen keeps its place and state.
     pub(super) fn set_default(&mut self) {
         self.is_relative = false;
         self.frame.set_default();
     }
 
-    /// Changes what numbers mean. The pen stays where it is on the table, even where its numbers change: "the physical
-    /// location of the pen does not change when you rotate". (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", RO.)
+    /// Changes the meaning of numbers. The pen keeps its place on the table, even if its numbers change: "the physical location
+    /// of the pen does not change when you rotate". (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", RO.)
     pub(super) fn reframe<T>(&mut self, change: impl FnOnce(&mut Frame) -> T) -> T {
         let on_table = self.frame.turned(self.at);
         let outcome = change(&mut self.frame);
@@ -141,12 +141,12 @@ impl Plotter {
         outcome
     }
 
-    /// The pen moves by letters, whose size is not known.
+    /// Records that letters of unknown size move the pen.
     pub(super) fn drift(&mut self) {
         self.standing = Standing::Lettered;
     }
 
-    /// What stands in the file there cannot be read, and may have led the pen somewhere. Amid a line that is a place less.
+    /// Records an unreadable item that may have moved the pen. Inside a line it is a missing place.
     pub(super) fn lose(&mut self, span: Span) {
         if self.is_down && !self.drawing.is_closed() {
             self.lost.add(span);
@@ -155,48 +155,48 @@ impl Plotter {
         }
     }
 
-    /// What stands there may have lowered or lifted the pen.
+    /// Records an item that may have lowered or lifted the pen.
     pub(super) fn tear(&mut self, span: Span) {
         self.torn = Some(span);
     }
 
-    /// A move whose instruction says nothing of whether the pen is down.
+    /// Records a move whose instruction does not tell whether the pen is down.
     pub(super) fn trust_pen(&mut self) {
         if let Some(span) = self.torn.take() {
             self.lost.add(span);
         }
     }
 
-    /// What was drawn by the encoded polyline that stands there, its numbers in steps of so many units.
+    /// Records an encoded polyline, with numbers in steps of `step` units.
     pub(super) fn encoded(&mut self, span: Span, digit_bits: u32, step: f64) {
         if self.frame.is_plain() {
             self.drawing.encoded.push(Encoded { span, digit_bits, step: step * self.unit });
         }
     }
 
-    /// An absolute move ends that.
+    /// Records an absolute move: the place is known again.
     pub(super) fn settle(&mut self) {
         self.standing = Standing::Known;
     }
 
-    /// What a move in the mode in force does to that.
+    /// Records a move in the current mode: if it is absolute, the place is known again.
     pub(super) fn settle_by_mode(&mut self) {
         if !self.is_relative {
             self.settle();
         }
     }
 
-    /// Where it is, mm.
+    /// Its place, mm.
     pub(super) fn place(&self) -> Point {
         self.point(self.at)
     }
 
-    /// Where it is, in units of the plotter.
+    /// Its place, in units of the plotter.
     pub(super) fn at(&self) -> Pair {
         self.at
     }
 
-    /// PA, PR: places from here on are relative to the one before, or are not.
+    /// PA, PR: following places are absolute, or relative to the one before.
     pub(super) fn set_relative(&mut self, is_relative: bool) {
         self.is_relative = is_relative;
     }
@@ -212,7 +212,7 @@ impl Plotter {
         (self.is_down, self.torn) = (true, None);
     }
 
-    /// Whether the pen is down.
+    /// True if the pen is down.
     pub(super) fn is_drawing(&self) -> bool {
         self.is_down
     }
@@ -225,23 +225,24 @@ impl Plotter {
         }
     }
 
-    /// Where two numbers lead in the mode in force.
+    /// Target of two numbers in the current mode.
     pub(super) fn target(&self, pair: Pair) -> Pair {
         if self.is_relative { self.relative(pair) } else { self.absolute(pair) }
     }
 
-    /// Where two numbers lead that are a place.
+    /// Target of two numbers that are an absolute place.
     pub(super) fn absolute(&self, pair: Pair) -> Pair {
         if self.frame.is_plain() { pair } else { self.frame.place(pair) }
     }
 
-    /// Where two numbers lead that are a way.
+    /// Target of two numbers that are a displacement.
     pub(super) fn relative(&self, pair: Pair) -> Pair {
         let way = if self.frame.is_plain() { pair } else { self.frame.way(pair) };
         [self.at[0] + way[0], self.at[1] + way[1]]
     }
 
-    /// Along the ends of the chords of a curve, with the pen as it is. Where they leave no trace, only the last one counts.
+    /// Moves along the ends of the chords of a curve, in the current state of the pen. If the pen is up, only the last one
+    /// counts.
     pub(super) fn follow(
         &mut self,
         mut chords: impl DoubleEndedIterator<Item = Pair>,
@@ -253,7 +254,7 @@ impl Plotter {
         chords.next_back().map_or(Ok(()), |to| self.go(to, span))
     }
 
-    /// A move with the pen as it is.
+    /// Moves in the current state of the pen.
     pub(super) fn go(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         if self.is_down { self.draw(to, span) } else { self.jump(to, span) }
     }
@@ -292,7 +293,7 @@ impl Plotter {
         Ok(())
     }
 
-    /// A figure of its own, drawn whether the pen is up or down; the pen is then where it was.
+    /// Draws a separate figure, whether the pen is up or down; the pen then returns.
     pub(super) fn figure(
         &mut self,
         start: Pair,
@@ -306,7 +307,7 @@ impl Plotter {
         drawn
     }
 
-    /// PM 0: what follows is gathered.
+    /// PM 0: the following moves are gathered.
     pub(super) fn begin_polygon(&mut self, span: Span) {
         self.drawing.lift();
         self.polygon.clear();
@@ -314,7 +315,7 @@ impl Plotter {
         (self.gathering, self.awaits_part) = (Some(0), false);
     }
 
-    /// PM 1: the part is closed, and the next place starts another.
+    /// PM 1: the part is closed, and the next place starts another one.
     pub(super) fn close_part(&mut self, span: Span) {
         let Some(start) = self.gathering else { return };
         let first = self.polygon[start].at;
@@ -326,7 +327,7 @@ impl Plotter {
         (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), true);
     }
 
-    /// A move to a place that the file gives. The first one behind PM 1 starts a part, pen up or down.
+    /// Moves to a place that the file gives. The first one after PM 1 starts a part, whether the pen is up or down.
     pub(super) fn lead(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         if !self.awaits_part {
             return self.go(to, span);
@@ -336,14 +337,14 @@ impl Plotter {
         Ok(())
     }
 
-    /// A polygon that PM is still gathering and that has edges: the place of its last corner.
+    /// Place of the last corner of a polygon that PM is still gathering; `None` without edges.
     pub(super) fn unfinished(&self) -> Option<Span> {
         self.gathering?;
         let last = self.polygon.iter().rfind(|corner| corner.is_edge)?;
         Some(last.span)
     }
 
-    /// PM 2: the polygon is whole.
+    /// PM 2: the polygon is complete.
     pub(super) fn end_polygon(&mut self, span: Span) {
         self.close_part(span);
         (self.gathering, self.awaits_part) = (None, false);
@@ -366,13 +367,13 @@ impl Plotter {
         Ok(())
     }
 
-    /// A place of the plotter, mm. One multiplication, so that equal places of the file are equal to the bit.
+    /// A place of the plotter, mm. A single multiplication, so that equal places of the file are equal to the bit.
     fn point(&self, at: Pair) -> Point {
         let [x, y] = if self.frame.is_turned() { self.frame.turned(at) } else { at };
         Point::new(x * self.unit, y * self.unit)
     }
 
-    /// One move more, to a place on a table; what is not a number is none.
+    /// Counts a move, and refuses places beyond any table and NaN.
     fn check(&mut self, to: Pair) -> Result<(), Refusal> {
         let is_near = to[0].abs() <= self.farthest && to[1].abs() <= self.farthest;
         if !is_near {

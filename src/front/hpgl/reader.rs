@@ -1,4 +1,4 @@
-//! The bytes of a plot as statements: instructions with their numbers, texts, escape sequences, and junk between them.
+//! Bytes of a plot as statements: instructions with their numbers, texts, escape sequences, and junk between them.
 
 use super::encoded::{self, Body};
 use super::escape::{Escape, escape, job};
@@ -7,7 +7,7 @@ use super::label::{self, Terminator};
 use super::syntax::{self, Fault};
 use crate::source::Span;
 
-/// What stands next in a plot.
+/// Next statement of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Statement {
     /// An instruction; its numbers are taken with [`Reader::pair`] and [`Reader::value`], its text by the other methods.
@@ -18,28 +18,28 @@ pub(super) enum Statement {
     Junk,
 }
 
-/// Two numbers, and where they stand.
+/// Two numbers, and their place.
 pub(super) type Pair = ([f64; 2], Span);
 
-/// What a list of numbers holds next.
+/// Next item of a list of numbers.
 #[derive(Debug, PartialEq)]
 pub(super) enum Next<T> {
     /// A value.
     Some(T),
-    /// Nothing more.
+    /// End of the list.
     End,
-    /// The first of two numbers, and no second.
+    /// An unpaired number.
     Odd(Span),
     /// A number beyond any table.
     Overflow(Span),
 }
 
-/// What is wrong behind a mnemonic, and where.
+/// Fault after a mnemonic, and its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Flaw {
     /// A number beyond any table.
     Overflow(Span),
-    /// An encoded polyline holds a byte that cannot stand there.
+    /// An encoded polyline holds an invalid byte.
     Damaged(Span),
     /// An encoded polyline has no semicolon.
     Open(Span),
@@ -53,28 +53,28 @@ pub(super) struct Reader<'a> {
     /// Number of the instruction, from 1: the block of its spans.
     block: u32,
     terminator: Terminator,
-    /// Whether the file is text in UTF-8, once somebody asked.
+    /// True if the file is text in UTF-8; computed at first use.
     paired: Option<bool>,
 }
 
-/// Numbers of the fewest places that make an outline.
+/// Least number of numbers that make an outline.
 const NUMBERS_OF_A_LINE: usize = 6;
-/// Begins the sequences of [`super::escape`].
+/// First byte of the sequences of [`super::escape`].
 const ESCAPE: u8 = 0x1b;
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Bytes behind a torn mnemonic that are looked at, and how many last digits of numbers are among them at the least.
+/// Number of bytes after a torn mnemonic that are looked at, and least number of last digits among them.
 const LOOKED_AT: usize = 12;
 const LAST_DIGITS: usize = 3;
 
 impl<'a> Reader<'a> {
-    /// At the first statement.
+    /// Starts at the first statement.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
         Self { bytes, at, block: 0, terminator: Terminator::new(), paired: None }
     }
 
-    /// The next statement and where its first bytes stand.
+    /// The next statement and the place of its first bytes.
     pub(super) fn next(&mut self) -> Option<(Statement, Span)> {
         self.finish();
         loop {
@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
                 (Statement::Reset, rest)
             } else {
                 let begun = || i[1..].iter().position(|&byte| begins(byte)).unwrap_or(i.len() - 1);
-                // Words of a text run nothing, whatever it stands behind.
+                // Words of a text are never run as instructions.
                 let length = label::in_quotes(i, 0).unwrap_or_else(|| 1 + begun());
                 (Statement::Junk, &i[length..])
             };
@@ -114,7 +114,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Takes what is left of an instruction's numbers, and its end.
+    /// Consumes the rest of an instruction's numbers, and its end.
     fn finish(&mut self) {
         if self.block == 0 {
             return;
@@ -127,17 +127,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Whether the last byte of all is one of a number.
+    /// True if the last byte of the file belongs to a number.
     pub(super) fn ends_with_digit(&self) -> bool {
         self.bytes.last().is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
     }
 
-    /// Whether the file ends with a number.
+    /// True if the file ends with a number.
     pub(super) fn ends_with(&self, number: Span) -> bool {
         number.end as usize >= self.bytes.len()
     }
 
-    /// From `start` to the next byte.
+    /// Span from `start` to the next byte.
     fn span(&self, start: usize) -> Span {
         // A `Source` is below 4 GiB.
         Span { start: start as u32, end: self.at as u32, block: self.block }
@@ -169,7 +169,7 @@ impl<'a> Reader<'a> {
             Some((rest, [x, y]))
         });
         if let Some((rest, pair)) = pair {
-            // The comma before them is no part of their place.
+            // The comma before the pair does not belong to its place.
             let start = self.at + usize::from(i.first() == Some(&b','));
             self.at = self.bytes.len() - rest.len();
             return Next::Some((pair, self.span(start)));
@@ -181,7 +181,7 @@ impl<'a> Reader<'a> {
                 _ => Next::Odd(self.span(start)),
             },
             Next::Overflow(span) => {
-                // Its partner goes with it, so that the places behind it stay pairs.
+                // The second number is consumed too, so that the following places stay pairs.
                 self.value();
                 Next::Overflow(span)
             }
@@ -189,7 +189,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// As many numbers as `most`, or fewer when the instruction has fewer.
+    /// Up to `MOST` numbers; fewer if the instruction has fewer.
     pub(super) fn values<const MOST: usize>(&mut self) -> Result<arrayvec::ArrayVec<f64, MOST>, Span> {
         let mut values = arrayvec::ArrayVec::new();
         while !values.is_full() {
@@ -202,7 +202,7 @@ impl<'a> Reader<'a> {
         Ok(values)
     }
 
-    /// LB: the place of its text, and whether its terminator is missing.
+    /// LB: the place of its text, and true if its terminator is missing.
     pub(super) fn text(&mut self) -> (Span, bool) {
         let start = self.at;
         let text = self.terminator.text(self.bytes, start);
@@ -220,8 +220,7 @@ impl<'a> Reader<'a> {
         self.at = label::quoted(self.bytes, self.at);
     }
 
-    /// Passes over the text of WD, which programs write in quotes, or as that of a label. Returns whether its terminator is
-    /// missing.
+    /// Skips the text of WD, which programs write in quotes or like a label. Returns true if its terminator is missing.
     pub(super) fn display(&mut self) -> bool {
         match label::in_quotes(self.bytes, self.at) {
             Some(next) if self.bytes.get(next).is_none_or(|byte| b";\r\n\x03".contains(byte)) => {
@@ -248,7 +247,7 @@ impl<'a> Reader<'a> {
             let is_value = between.contains(&b',') && !between.contains(&b'\n');
             match self.bytes.get(self.at + separators) {
                 Some(b'"') => {}
-                // A title without quotes: its words run nothing.
+                // The words of a title without quotes are not run as instructions.
                 Some(byte) if is_value && !matches!(*byte, b';' | ESCAPE) => {}
                 Some(_) | None => return,
             }
@@ -257,33 +256,33 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The next byte.
+    /// Offset of the next byte.
     pub(super) fn at(&self) -> usize {
         self.at
     }
 
-    /// Whether a number stands next.
+    /// True if a number is next.
     pub(super) fn number_follows(&self) -> bool {
         syntax::parameter(&self.bytes[self.at..]).is_ok()
     }
 
-    /// How many numbers stand among some bytes.
+    /// Number of numbers within a span.
     pub(super) fn numbers_within(&self, span: Span) -> usize {
         let bytes = &self.bytes[span.start as usize..span.end as usize];
         bytes.chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit()).filter(|run| run[0].is_ascii_digit()).count()
     }
 
-    /// Whether some bytes follow a number without anything between.
+    /// True if a span directly follows a number.
     pub(super) fn follows_number(&self, span: Span) -> bool {
         span.start > 0 && self.bytes[span.start as usize - 1].is_ascii_digit()
     }
 
-    /// Whether some bytes are a text in quotes.
+    /// True if a span is a text in quotes.
     pub(super) fn is_quoted(&self, span: Span) -> bool {
         label::in_quotes(self.bytes, span.start as usize) == Some(span.end as usize)
     }
 
-    /// Whether some bytes hold an instruction that draws, and places enough for a line.
+    /// True if a span holds an instruction that draws, with enough places for a line.
     pub(super) fn draws(&self, span: Span) -> bool {
         let bytes = &self.bytes[span.start as usize..span.end as usize];
         let instructions = bytes.split(|byte| b";\r\n\"".contains(byte)).map(<[u8]>::trim_ascii);
@@ -296,13 +295,12 @@ impl<'a> Reader<'a> {
         numbers.sum::<usize>() >= NUMBERS_OF_A_LINE
     }
 
-    /// Whether some bytes are what is left of PU or PD when a letter is lost.
+    /// True if a span may be PU or PD with a lost letter.
     pub(super) fn is_torn_pen(&self, span: Span) -> bool {
         matches!(self.bytes[span.start as usize].to_ascii_uppercase(), b'P' | b'U' | b'D')
     }
 
-    /// Whether some bytes are what is left of an encoded polyline whose mnemonic has lost a letter: flags stand behind it, or
-    /// numbers of eight bits.
+    /// True if a span may be an encoded polyline whose mnemonic has lost a letter: flags follow, or numbers of eight bits.
     pub(super) fn is_torn_encoded(&self, span: Span) -> bool {
         let bytes = &self.bytes[span.start as usize..span.end as usize];
         matches!(bytes, [b'P' | b'p' | b'E' | b'e', b'<' | b'=' | b'>' | b':' | b'7', ..])
@@ -310,14 +308,14 @@ impl<'a> Reader<'a> {
             || memchr::memmem::find(bytes, b"<=").is_some()
     }
 
-    /// Whether numbers in the encoding of eight bits begin within some bytes: no text has so many bytes of theirs.
+    /// True if numbers of the eight-bit encoding begin within a span: no text has so many of these bytes.
     fn is_encoded_behind(&self, span: Span) -> bool {
         let bytes = &self.bytes[span.start as usize + 1..];
         let body = bytes.iter().take(LOOKED_AT).take_while(|byte| **byte != b';');
         body.filter(|byte| **byte >= encoded::LAST_DIGIT).count() >= LAST_DIGITS
     }
 
-    /// Passes over what stands behind a mnemonic; a fault in it.
+    /// Skips the rest of an instruction, and returns a fault in it.
     pub(super) fn pass_over(&mut self, tail: Tail) -> Option<Flaw> {
         match tail {
             Tail::Text => _ = self.text(),
@@ -354,7 +352,7 @@ impl<'a> Reader<'a> {
         Body::new(self.bytes, self.at, paired)
     }
 
-    /// The file goes on behind a body, or behind the semicolon that follows its damage.
+    /// Continues after a body, or after the semicolon that follows a damaged one.
     pub(super) fn behind(&mut self, body: &Body<'a>) {
         self.at = match body.ending {
             encoded::Ending::Damaged => {
@@ -370,7 +368,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether a byte may begin a statement.
+/// True if a byte may begin a statement.
 fn begins(byte: u8) -> bool {
     byte.is_ascii_alphabetic() || matches!(byte, b';' | ESCAPE | b'@' | b'"')
 }

@@ -24,7 +24,7 @@ pub(super) struct Blocks<'a> {
 }
 
 impl Clone for Blocks<'_> {
-    /// The same position with empty buffers: one damaged block may have filled them with megabytes.
+    /// A copy with empty buffers: one damaged block may have filled them with megabytes.
     fn clone(&self) -> Self {
         Self { text: Vec::new(), origins: Vec::new(), ..*self }
     }

@@ -13,11 +13,11 @@ use crate::ir::marker::{Notch, NotchKind, NotchStroke};
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Distance to both sides of a notch between which the direction of the edge is taken, mm.
+/// Distance on both sides of a notch over which the direction of the edge is measured, mm.
 const BESIDE: f64 = 1.0;
 /// Least and largest width of a notch in the outline, mm: others become slits.
 pub(super) const MOUTHS: [f64; 2] = [1.0, Notch::WIDEST];
-/// Least length of a mouth, as a part of the edge that it is cut into: there the edge bends by a third of a right angle.
+/// Least length of a mouth, as a fraction of its edge: at this value the edge bends by a third of a right angle.
 const STRAIGHT: f64 = 0.98;
 /// Chords of a round bottom.
 const ROUND: usize = 12;
@@ -62,14 +62,14 @@ struct Site {
     root: Point,
     /// Unit vector into the part.
     inwards: Vector,
-    /// Whether its angle leads out of the part.
+    /// True if its angle leads out of the part.
     is_turned: bool,
 }
 
 /// Outline with its measures.
 struct Edge<'a> {
     vertices: &'a [Vertex],
-    /// Places, the first once more at the end, and their stations.
+    /// Points, with the first one repeated at the end, and their stations.
     points: Vec<Point>,
     stations: Vec<f64>,
     is_left: bool,
@@ -112,7 +112,7 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         let mark = &notch.mark;
         let is_bar = mark.form == Form::T && edge.has_room_for_bar(notch, work);
         match taken.peek().filter(|mouth| mouth.from <= notch.station) {
-            // Its own mouth, or that of another in which it would be cut a second time: its mirrored half is another, too.
+            // Its own mouth, or that of another notch that already makes this cut; its mirror image is another notch, too.
             Some(mouth) if mouth.notch.mark.span == mark.span && mouth.notch.station == notch.station => {
                 notched.doubts.extend(notch.turned());
             }
@@ -156,7 +156,7 @@ struct Mouth {
     to: f64,
 }
 
-/// Places of an outline, the first once more at the end.
+/// Points of an outline, with the first one repeated at the end.
 fn around(outline: &[Vertex]) -> Vec<Point> {
     outline.iter().chain(&outline[..1]).map(|vertex| vertex.at).collect()
 }
@@ -178,7 +178,7 @@ impl<'a> Edge<'a> {
         polyline::place(&self.points, &self.stations, station.rem_euclid(self.length()))
     }
 
-    /// Site of a mark on the outline; otherwise why it has none, with the measure of that, mm.
+    /// Site of a mark on the outline; otherwise the reason that it has none, with its measure, mm.
     fn place(&self, mark: &Mark, work: &mut Budget) -> Result<Site, (Reason, f64)> {
         if mark.depth > Notch::LONGEST {
             return Err((Reason::TooDeep, mark.depth));
@@ -200,7 +200,7 @@ impl<'a> Edge<'a> {
         let way = self.at(station + beside) - self.at(station - beside);
         let inwards = left(way).try_normalize(0.0).unwrap_or(left(b - a) / (b - a).norm());
         let inwards = if self.is_left { inwards } else { -inwards };
-        // An angle that leads out of the part is that of the notch seen from outside. One along the edge is ignored.
+        // An angle that leads out of the part is that of the notch seen from outside. An angle along the edge is ignored.
         let is_turned = mark.along.is_some_and(|along| along.dot(&inwards) <= -FRAC_PI_3.cos());
         let along = mark.along.map(|along| if along.dot(&inwards) < 0.0 { -along } else { along });
         let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
@@ -209,7 +209,7 @@ impl<'a> Edge<'a> {
         if is_inside { Ok(placed) } else { Err((Reason::LeavesPart, mark.depth)) }
     }
 
-    /// Whether the crossbar of a T has the width of crossbars, and stays in the part.
+    /// True if the crossbar of a T has the width of crossbars, and is inside the part.
     fn has_room_for_bar(&self, notch: &Site, work: &mut Budget) -> bool {
         let [least, most] = MOUTHS;
         let ring = &self.points[..self.vertices.len()];
@@ -218,7 +218,7 @@ impl<'a> Edge<'a> {
             && notch.bar().iter().all(|&end| ring::contains(ring, end))
     }
 
-    /// First vertex outside all mouths, or else the first one: there the outline begins.
+    /// First vertex outside all mouths, or else the first vertex: the start of the outline.
     fn start(&self, placed: &[Site]) -> usize {
         let length = self.length();
         let mut mouths: Vec<[f64; 2]> = Vec::new();
@@ -289,7 +289,7 @@ impl Site {
         if self.mark.width > 0.0 { self.mark.width } else { self.mark.depth }
     }
 
-    /// Whether the notch is a stretch of the outline.
+    /// True if the notch is a stretch of the outline.
     fn is_wide(&self) -> bool {
         match self.mark.form {
             Form::T => false,
@@ -336,7 +336,7 @@ impl Site {
         [self.tip() - half, self.tip() + half]
     }
 
-    /// Whether two notches at one place are alike.
+    /// True if two notches at one place are equal.
     fn asks_for_the_same_as(&self, other: &Self) -> bool {
         let [own, its] = [self, other].map(|placed| (placed.mark.form, placed.mark.depth, placed.mark.width));
         own == its && (self.inwards - other.inwards).norm() <= SAME_WAY

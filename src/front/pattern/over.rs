@@ -1,4 +1,4 @@
-//! Pieces that the file puts on others, where no cloth has room for both, or far from them.
+//! Pieces that the file places on others, where no cloth has room for both, or far from them.
 
 use super::chain::Chain;
 use super::lay::Laid;
@@ -9,7 +9,7 @@ use crate::geom::shape::Shape;
 use crate::geom::{Extent, Point, ring};
 use crate::source::Span;
 
-/// A piece where it lies.
+/// A piece on the cloth.
 struct Cloth<'p> {
     laid: Laid<'p>,
     extent: Extent,
@@ -45,14 +45,14 @@ impl<'p> Cloth<'p> {
 /// Pieces that lie on each other.
 #[derive(Debug, Default)]
 pub(super) struct OnOthers {
-    /// Those a place of which, well inside, lies in the cloth of another.
+    /// Source spans of pieces with a place, well inside, in the cloth of another.
     pub(super) spans: Vec<Span>,
-    /// How many of all lie on another or have another on them.
+    /// Number of pieces that lie on another or have another on them.
     pub(super) count: usize,
 }
 
-/// The pieces that lie on others, as far as there is work left to find out. Pieces whose edges overlap are told by the pass
-/// that looks for that in every marker.
+/// The pieces that lie on others, as far as the work budget lasts. The pass that looks for overlapping edges in every marker
+/// reports those.
 pub(super) fn on_others(laid: &[Laid], work: &mut Budget) -> OnOthers {
     let cut = laid.iter().filter(|laid| !laid.piece.is_at_fault());
     let all: Vec<Cloth> = cut.map_while(|laid| Cloth::of(laid, work)).collect();
@@ -72,7 +72,7 @@ pub(super) fn on_others(laid: &[Laid], work: &mut Budget) -> OnOthers {
 /// Longest stretch of cloth without a piece, mm: no marker leaves so much, and a table is hardly as long.
 const LONGEST_EMPTY: f64 = 20_000.0;
 
-/// A piece that lies far from all others or, with some, from most: where its block begins and how far that is, mm.
+/// A piece far from all others or, with some, from most: the start of its block and the distance, mm.
 pub(super) fn far_off(laid: &[Laid]) -> Option<(Span, f64)> {
     let places = laid.iter().filter_map(|laid| {
         let first = laid.piece.plain.vertices.first()?;

@@ -1,4 +1,4 @@
-//! The set of patterns: a file becomes the pieces that are cut of it, on the cloth.
+//! The set of patterns: the pieces of a file that are cut, on the cloth.
 
 use std::collections::BTreeMap;
 
@@ -37,29 +37,29 @@ use crate::units::MM_PER_M;
 #[derive(Debug, Default)]
 pub(super) struct Set {
     pieces: Vec<Piece>,
-    /// Which of them each block draws, in the order of the file.
+    /// Pieces of each block, in the order of the file.
     drawn: Vec<Drawn>,
-    /// Where each lies when the file says so: its place among the pieces, and how it is moved.
+    /// Places of the pieces if the file gives them: index of the piece, and its motion.
     placed: Option<Vec<(usize, Motion)>>,
-    /// How many of them stand in no block: the last ones.
+    /// Number of pieces in no block; they come last.
     loose: usize,
-    /// Whether neither texts nor blocks say that it is a set of patterns.
+    /// True if neither texts nor blocks tell that it is a set of patterns.
     is_plain: bool,
     /// Source of the quantities: the file, or one of each.
     quantity: Quantity,
-    /// Room between those that lie in a row, mm.
+    /// Gap between pieces in a row, mm.
     gap: f64,
-    /// Its sizes, as they are told.
+    /// Its sizes, in words.
     sizes: String,
-    /// How its texts are encoded.
+    /// Encoding of its texts.
     pub(super) letters: Option<Letters>,
-    /// What its layers are called.
+    /// Names of its layers.
     pub(super) names: Names,
-    /// Texts that are of no piece.
+    /// Texts that belong to no piece.
     pub(super) texts: Vec<Label>,
-    /// Lines of blocks that have no outline, as they are drawn.
+    /// Lines of blocks without an outline, as drawn.
     pub(super) apart: Vec<(Named, Chain)>,
-    /// What is not read of it.
+    /// Items that are not read.
     pub(super) unread: Vec<Unread>,
 }
 
@@ -73,7 +73,7 @@ impl Set {
     }
 }
 
-/// The parts of a file that is read.
+/// The parts of a file under reading.
 struct Parts<'a> {
     source: &'a Source,
     job: &'a Job,
@@ -104,7 +104,7 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// How long what is cut is in the unit of the file.
+    /// Lengths of the cuts in the unit of the file.
     fn lengths(&self) -> Lengths {
         let mut unsaid = Diagnostics::default();
         let mut reader = self.reader(1.0, &mut unsaid);
@@ -136,7 +136,7 @@ fn extent_of(shapes: &Shapes) -> Extent {
     Extent::of(&outlines.flat_map(|line| &line.vertices).map(|vertex| vertex.at).collect::<Vec<Point>>())
 }
 
-/// Reads a file. With an error among the diagnostics what is read is worth nothing.
+/// Reads a file. If the diagnostics hold an error, the result is unusable.
 pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let groups = groups(source, out);
     let sections = sections(source, &groups, out);
@@ -155,7 +155,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     borrow(&mut drawn, &mut said, &sizes_of(&own, &asked));
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();
     let own: Vec<Facts> = own.into_iter().enumerate().map(|(k, own)| placing.facts(k, own)).collect();
-    // What frames and legends say of sizes is of no piece.
+    // Sizes in frames and legends belong to no piece.
     let is_cut = |k: usize| held[k].is_cut && placing.is_piece(k);
     let facts: Vec<Facts> = (0..own.len()).map(|k| if is_cut(k) { own[k] } else { Facts::default() }).collect();
     let boxes: Vec<Extent> = drawn.iter().map(extent_of).collect();
@@ -199,8 +199,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     set
 }
 
-/// Names of the blocks that ask for no cut, though their texts say a name or a quantity of a piece and lines of one are drawn in
-/// them.
+/// Names of the blocks without cuts whose texts give a name or a quantity of a piece, and that contain its lines.
 fn uncut(blocks: &[Block], own: &[Facts], held: &[Held], placing: &Placing, chosen: &Chosen) -> Vec<Span> {
     let is_uncut = |k: &usize| !held[*k].is_cut && held[*k].has_lines && placing.is_piece(*k) && chosen.has(&own[*k]);
     let name = |k: usize| {
@@ -210,7 +209,7 @@ fn uncut(blocks: &[Block], own: &[Facts], held: &[Held], placing: &Placing, chos
     (0..blocks.len()).filter(is_uncut).filter_map(name).collect()
 }
 
-/// The base points of blocks; what is at fault in one is said of its block.
+/// Base points of blocks; a fault in one is reported for its block.
 fn bases(reader: &Reader, blocks: &[Block], said: &mut [Diagnostics]) -> Vec<Point> {
     let base = |(block, said): (&Block, &mut Diagnostics)| {
         reader.base(&block.head).unwrap_or_else(|fault| {
@@ -221,8 +220,7 @@ fn bases(reader: &Reader, blocks: &[Block], said: &mut [Diagnostics]) -> Vec<Poi
     blocks.iter().zip(said).map(base).collect()
 }
 
-/// Lends turn and curve points to blocks without any. Points that are damaged where they are drawn are so where they are
-/// borrowed.
+/// Lends turn and curve points to blocks without any. Damaged points are damaged for the borrower, too.
 fn borrow(drawn: &mut [Shapes], said: &mut [Diagnostics], sizes: &[Size]) {
     let lenders = lend(drawn, sizes);
     let error = |said: &Diagnostics| said.iter().find(|finding| finding.code.severity == Severity::Error).cloned();
@@ -232,7 +230,7 @@ fn borrow(drawn: &mut [Shapes], said: &mut [Diagnostics], sizes: &[Size]) {
     }
 }
 
-/// Which blocks are of one piece, and which are of the sample size.
+/// Piece of each block, and whether it is of the sample size.
 fn sizes_of<'a>(own: &[Facts], Asked { source, file, .. }: &Asked<'a>) -> Vec<Size<'a>> {
     let name = |span: Option<Span>| span.map(|span| source.slice(span).to_ascii_uppercase());
     let sample = name(file.sample_size.first);
@@ -244,7 +242,7 @@ fn sizes_of<'a>(own: &[Facts], Asked { source, file, .. }: &Asked<'a>) -> Vec<Si
 }
 
 impl<'o> Making<'o> {
-    /// Nothing made yet of a file.
+    /// Start for a file.
     fn of(asked: &Asked, out: &'o mut Diagnostics) -> Self {
         let dxf = &asked.job.profile.dxf;
         let sagitta = asked.job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
@@ -262,14 +260,14 @@ impl<'o> Making<'o> {
 }
 
 impl Making<'_> {
-    /// Reports the curves of the pieces, what is left out of their outlines, and what is not done as the file says.
+    /// Reports the curves of the pieces, omissions in their outlines, and requests of the file that are not met.
     fn report(&mut self) {
         say_curves(&self.curved, &self.drafting, self.out);
         say_retraced(&self.retraced, self.out);
         self.tally.report(self.out);
     }
 
-    /// The pieces of a block, of which something was said when it was read. With an error it is a piece that cannot be cut.
+    /// The pieces of a block, with the findings of its reading. An error makes it a piece that cannot be cut.
     fn pieces_of_block(&mut self, shapes: Shapes, span: Span, read: Diagnostics) -> Vec<Piece> {
         let labels = shapes.texts.clone();
         if read.has_errors() {
@@ -293,13 +291,13 @@ impl Set {
         self.drawn.push(Drawn { pieces: first..self.pieces.len(), quantity });
     }
 
-    /// Puts the pieces where insertions have them, those of what stands in no block where they are drawn.
+    /// Puts the pieces at the places of insertions, and loose items where they are drawn.
     fn lay(&mut self, placing: &Placing, mut loose: Shapes, making: &mut Making) {
         self.placed = placing.placed(&self.drawn, making);
         self.texts.clone_from(&loose.texts);
         self.unread.append(&mut loose.unread);
         if !loose.lines.is_empty() || !loose.dots.is_empty() {
-            // By the convention turn and curve points are points.
+            // By convention turn and curve points are points.
             let is_other = loose.lines.iter().any(|line| matches!(line.layer.does, Does::Turn | Does::Curve));
             let (pieces, said) = making.pieces_apart(loose, Span::default());
             if self.is_plain && (is_other || said.has_errors()) {
@@ -310,7 +308,7 @@ impl Set {
             }
             self.loose = pieces.len();
             self.add(pieces, None);
-            // Beside blocks that the file places they lie where they are drawn.
+            // Beside blocks that the file places, they lie where they are drawn.
             let pieces = self.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
             self.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
         }
@@ -338,14 +336,14 @@ impl Set {
         placing.count(&self.drawn, &mut making.tally);
     }
 
-    /// Wants pieces that lie in a row as often as they are inserted, where their blocks say no quantity.
+    /// Sets the count of pieces in a row to that of their insertions, if their blocks give no quantity.
     fn count_inserts(&mut self, placing: &Placing) {
         if self.quantity == Quantity::File {
             placing.as_often(&mut self.drawn);
         }
     }
 
-    /// Reports cut blocks that may be half a piece; where no INSERT places them, also possible sizes and quantities under unknown
+    /// Reports cut blocks that may be half a piece and, if no INSERT places them, possible sizes and quantities under unknown
     /// keys.
     fn say_texts(&self, pieces: &[(&Block, &Facts)], asked: &Asked, making: &mut Making) {
         fold::see_missing_lines(pieces, &asked.letters, &mut making.tally);
@@ -360,7 +358,7 @@ impl Set {
         }
     }
 
-    /// How many pieces lie on the cloth.
+    /// Number of pieces on the cloth.
     fn count(&self) -> usize {
         match &self.placed {
             Some(placed) => placed.len(),
@@ -368,7 +366,7 @@ impl Set {
         }
     }
 
-    /// Says so when there is nothing to cut.
+    /// Reports that there is nothing to cut, if so.
     pub(super) fn see_cuts(&self, out: &mut Diagnostics) {
         if self.count() > 0 || out.has_errors() {
             return;
@@ -382,7 +380,7 @@ impl Set {
         out.push(Diagnostic::new(&code::DXF_NOTHING_TO_CUT, message).hint(hint));
     }
 
-    /// What is to be said of the set as a whole.
+    /// Reports findings about the set as a whole.
     fn say(&self, is_spent: bool, asked: &Asked, out: &mut Diagnostics) {
         let count = self.count();
         if is_spent || count > MOST_PIECES || self.drawn.iter().any(|drawn| drawn.times() > MOST_COPIES) {
@@ -417,7 +415,7 @@ impl Set {
         doubt(sizes.map(|piece| Extent::of(&piece.plain.points()).size()), self.pieces.len() == 1, asked, out);
     }
 
-    /// Says which piece lies far from the others.
+    /// Reports a piece that lies far from the others.
     fn say_far_off(&self, out: &mut Diagnostics) {
         let Some((span, off)) = over::far_off(&self.laid()) else { return };
         let message = format!("a piece lies {:.0} m from the others", off / MM_PER_M);
@@ -425,7 +423,7 @@ impl Set {
         out.push(finding.hint("a digit of its INSERT may be doubled; put it beside the others in the CAD system"));
     }
 
-    /// Says which notches are left out or cut in another way, with the numbers of their pieces.
+    /// Reports notches that are left out or cut in another way, with the numbers of their pieces.
     fn say_doubts(&self, asked: &Asked, out: &mut Diagnostics) {
         let mut pieces: BTreeMap<u32, (&Piece, Vec<u32>)> = BTreeMap::new();
         for (laid, number) in self.laid().into_iter().zip(1..) {
@@ -437,7 +435,7 @@ impl Set {
         doubts::say(each.flat_map(|(piece, of)| piece.doubts.iter().map(move |doubt| (doubt, &of[..]))), out);
     }
 
-    /// Says why pieces cannot be cut, with their numbers, unless they are left out.
+    /// Reports pieces that cannot be cut, with their numbers, unless they are left out.
     fn say_faults(&self, asked: &Asked, out: &mut Diagnostics) {
         let mut numbers: BTreeMap<u32, (&Piece, Vec<u32>)> = BTreeMap::new();
         for (laid, number) in self.laid().into_iter().zip(1..) {

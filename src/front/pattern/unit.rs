@@ -1,4 +1,4 @@
-//! The unit of a set of patterns: as the profile, the texts or the header of the file have it.
+//! Unit of a set of patterns: by the profile, the texts or the header of the file.
 
 use super::choice::Asked;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -15,9 +15,9 @@ const NAMES: [(f64, &[&str]); 3] = [
     (10.0, &["CM", "CENTIMETERS", "CENTIMETRES", "ZENTIMETER", "CENTIMÈTRES", "CENTIMETRI", "CENTÍMETROS", "CENTIMETROS", "厘米"]),
     (MM_PER_INCH, &["ENGLISH", "IMPERIAL", "INCH", "INCHES", "IN", "ENGLISCH", "ZOLL", "ANGLAIS", "IMPÉRIAL", "POUCE", "POUCES", "INGLESE", "IMPERIALE", "POLLICE", "POLLICI", "INGLÉS", "INGLES", "PULGADA", "PULGADAS", "INGLÊS", "POLEGADA", "POLEGADAS", "英制", "英寸"]),
 ];
-/// Letters of a text that a message shows.
+/// Number of letters of a text that a message shows.
 const SHOWN: usize = 24;
-/// Hint where nobody knows the unit.
+/// Hint if the unit is unknown.
 const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
 /// Greatest length of a line in the unit of the header, mm: no part has a longer outline.
@@ -29,15 +29,15 @@ const LARGEST: f64 = 10_000.0;
 /// Greatest width of cloth, mm, that of wide decoration fabric: no piece is wider both ways.
 const WIDEST_CLOTH: f64 = 3300.0;
 
-/// Lengths of what is cut in a file, in its own unit: of all, and of the longest line.
+/// Lengths of the cuts of a file, in its own unit: of all, and of the longest line.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Lengths {
     pub(super) all: f64,
     pub(super) longest: f64,
 }
 
-/// Length of the unit that the texts name, else the header, mm. A unit of the header in which the cuts, which `lengths` finds,
-/// would be longer than any is that of a library that writes one whatever the drawing has: that is in mm.
+/// Length of the unit that the texts name, else the header, mm. If the cuts, which `lengths` finds, would be too long in the
+/// unit of the header, a library has written the header without regard to the drawing: then the unit is mm.
 pub(super) fn unit(
     Asked { source, job, letters, file }: &Asked,
     of_header: Option<Span>,
@@ -81,7 +81,7 @@ pub(super) fn unit(
     }
 }
 
-/// Length of the unit that a number of the header stands for, mm, where the cuts allow it.
+/// Length of the unit for a number of the header, mm, if the cuts allow it.
 fn of_number(
     number: Option<i64>,
     span: Span,
@@ -144,7 +144,7 @@ fn shown(text: &str) -> String {
     }
 }
 
-/// Length of a unit that a text names, mm.
+/// Length of a unit by its name, mm.
 fn unit_of(text: &str) -> Option<f64> {
     let text = text.trim().to_uppercase();
     NAMES.iter().find(|(_, names)| names.contains(&text.as_str())).map(|(mm, _)| *mm)

@@ -1,6 +1,7 @@
-//! Styles: what sheets, attributes and `style` say of an element, as far as it decides what is drawn.
+//! Styles: properties of an element by sheets, attributes and `style`, as far as they decide about its lines.
 //!
-//! Selectors are names of elements, `*`, classes, ids, and what joins these without a blank (`path.cut`). Others are told.
+//! Selectors are names of elements, `*`, classes, ids, and combinations of these without a blank (`path.cut`). Others are
+//! reported.
 
 use std::collections::HashMap;
 
@@ -33,7 +34,7 @@ pub(super) const PROPERTIES: [&str; 24] = [
     "offset",
     "offset-path",
 ];
-/// Places of some of them in a [`Style`].
+/// Indices of some of them in a [`Style`].
 pub(super) const DISPLAY: usize = 0;
 pub(super) const VISIBILITY: usize = 1;
 pub(super) const STROKE: usize = 2;
@@ -41,7 +42,8 @@ pub(super) const FILL: usize = 3;
 pub(super) const CLIP_PATH: usize = 4;
 pub(super) const MASK: usize = 5;
 pub(super) const MARKERS: std::ops::Range<usize> = 6..10;
-/// Properties that move or shape what is drawn: as attributes they are read elsewhere, as styles nobody writes them.
+/// Properties that move or shape lines: attributes of these names are read elsewhere, styles of these names are not written in
+/// practice.
 const MOVING: std::ops::Range<usize> = 10..24;
 
 /// Values of an element's own properties.
@@ -73,7 +75,7 @@ struct Selector<'a> {
 #[derive(Default)]
 pub(super) struct Sheets<'a> {
     rules: Vec<Rule<'a>>,
-    /// Rules by the id, the class or the element that they need; those of `*` by the empty name.
+    /// Rules by the id, the class or the element that they need; rules for `*` have an empty name.
     by_key: HashMap<(u8, &'a str), Vec<usize>>,
     /// Selectors and at-rules that are not read.
     pub(super) strange: Vec<&'a str>,
@@ -126,7 +128,7 @@ impl<'a> Sheets<'a> {
         self.rules.push(rule);
     }
 
-    /// Style of an element: by its attributes, by sheets, by its `style`, the later the stronger.
+    /// Style of an element: by its attributes, by sheets, by its `style`, in ascending priority.
     pub(super) fn of(&self, node: Node<'a, '_>) -> Style<'a> {
         let mut style = Style::default();
         for (value, property) in style.iter_mut().zip(&PROPERTIES[..MOVING.start]) {
@@ -160,7 +162,7 @@ impl<'a> Sheets<'a> {
     }
 }
 
-/// The property of a style that moves or shapes what it is of, unless that changes nothing.
+/// Property of a style that moves or shapes an element; `None` if there is none or it has no effect.
 pub(super) fn moving(style: &Style) -> Option<&'static str> {
     MOVING.into_iter().find(|&at| style[at].is_some_and(|value| value != "none")).map(|at| PROPERTIES[at])
 }

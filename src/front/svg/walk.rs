@@ -71,13 +71,13 @@ pub(super) struct Walk<'a, 'input, 'o> {
     pub(super) tally: Tally,
     pub(super) out: &'o mut Diagnostics,
     layers: HashMap<String, u16>,
-    /// Things that are drawn and not read: kind, layer and place.
+    /// Items that are drawn and not read: kind, layer and place.
     pub(super) unread: Vec<(String, String, Span)>,
-    /// The copies that are being made.
+    /// Copies under construction.
     uses: Vec<NodeId>,
     copies: usize,
     elements: usize,
-    /// Whether there is too much to go on.
+    /// True if the drawing is too large to go on.
     is_stopped: bool,
 }
 
@@ -119,7 +119,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         }
     }
 
-    /// All that the document draws.
+    /// Drawing of the document.
     pub(super) fn run(mut self, root: Node<'a, 'input>) -> Drawing {
         let style = self.sheets.of(root);
         let scene = Scene::of_page(self.page.map, self.page.whole).styled(&style);
@@ -205,7 +205,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         Ok(())
     }
 
-    /// Tells of styles that change what is seen, and are not obeyed.
+    /// Reports styles that change what is visible and are not obeyed.
     fn tell_style(&mut self, style: &Style, span: Span) {
         if let Some(property) = style::moving(style) {
             let message = format!("a style gives the property `{property}`, which moves or shapes what it is of");
@@ -223,7 +223,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         }
     }
 
-    /// The inside of an element with a viewport: as large as it says, or as the copy says.
+    /// The inside of an element with a viewport, in the size of the element or of its copy.
     fn viewport(&mut self, node: Node<'a, 'input>, scene: Scene<'a>, copied: [Option<f64>; 2]) -> Result<(), BadValue> {
         let by = self.measure(scene);
         let is_symbol = node.tag_name().name() == "symbol";
@@ -304,7 +304,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         Measure { pixel: self.page.pixel, whole: scene.whole }
     }
 
-    /// Gives the strokes behind the first so many to the layer that a scene is in.
+    /// Assigns the strokes after the first `strokes` to the layer of a scene.
     pub(super) fn lay(&mut self, strokes: usize, scene: &Scene) {
         let drawing = &mut self.pencil.drawing;
         if drawing.strokes.len() == strokes {
@@ -317,7 +317,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         drawing.strokes[strokes..].iter_mut().for_each(|stroke| stroke.pen = pen);
     }
 
-    /// Keeps account of what is drawn and not read, where its layer draws lines as well.
+    /// Records drawn items that are not read, if their layer also draws lines.
     fn account(&mut self) {
         for (kind, layer, span) in std::mem::take(&mut self.unread) {
             if let Some(&pen) = self.layers.get(&layer) {
@@ -326,7 +326,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         }
     }
 
-    /// The opening of an element, as the place of all that it draws.
+    /// Span of the start tag of an element, the place of everything that it draws.
     pub(super) fn span(&self, node: Node) -> Span {
         let start = node.range().start;
         let name = self.letters.text[start..].find(|c: char| c.is_whitespace() || c == '>' || c == '/').unwrap_or(1);
@@ -338,7 +338,7 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         self.numbers.get(node.id().get_usize()).copied().unwrap_or(1)
     }
 
-    /// Reports a fault of an attribute; what has it is not drawn.
+    /// Reports a fault of an attribute; its element is not drawn.
     fn blame(&mut self, node: Node, (name, what): BadValue) {
         let local = name.rsplit(':').next().unwrap_or(name);
         let attribute = node.attributes().find(|attribute| attribute.name() == local);
@@ -352,32 +352,32 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
         }));
     }
 
-    /// Refuses more than a drawing can need.
+    /// Refuses a drawing that is too large.
     fn stop(&mut self, message: String, span: Span) {
         self.is_stopped = true;
         let finding = Diagnostic::new(&code::SVG_TOO_MUCH, message).at(span);
         self.out.push(finding.hint("turn copies into shapes of their own, ungroup, and save the drawing again"));
     }
 
-    /// Refuses what a shape draws.
+    /// Refuses the lines of a shape.
     pub(super) fn refuse(&mut self, fault: Diagnostic) {
         self.is_stopped |= fault.code == &code::SVG_TOO_MUCH;
         self.out.push(fault);
     }
 
-    /// The place where a scene puts one of its places, mm.
+    /// Place on the page of a place in a scene, mm.
     pub(super) fn placed(scene: &Scene, at: Pair) -> Pair {
         placed(&scene.map, at)
     }
 }
 
-/// Whether a child of `switch` is one for this reader: it asks for no extension, and for no language but English.
+/// True if a child of `switch` suits this reader: it requires no extension, and no language but English.
 fn is_fitting(node: Node) -> bool {
     let is_english = |languages: &str| languages.split(',').any(|language| language.trim().starts_with("en"));
     !node.has_attribute("requiredExtensions") && node.attribute("systemLanguage").is_none_or(is_english)
 }
 
-/// Whether the centre of a transform is the corner of the page, as it is where nothing is said.
+/// True if the centre of a transform is the corner of the page, which is the default.
 fn is_corner(origin: &str) -> bool {
     let mut values = origin.split([' ', ',']).filter(|value| !value.is_empty());
     values.all(|value| value.trim_end_matches("px").parse() == Ok(0.0))
