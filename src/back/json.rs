@@ -198,7 +198,7 @@ fn program(last: &Motion, runs: u64, context: &Context) -> String {
         serde_json::Value::from(context.job.origin.name()),
         exact(knife.width_mm),
         fixed(knife.radius(), DECIMALS),
-        context.marker.pieces.len(),
+        context.marker.piece_count(),
         exact(time),
         exact(period),
         fixed(ticks as f64 * period, DECIMALS),

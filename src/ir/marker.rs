@@ -364,6 +364,11 @@ impl Marker {
         (0..self.pieces.len()).map(owner).collect()
     }
 
+    /// Number of pieces; one that windows of a conveyor split counts once.
+    pub fn piece_count(&self) -> usize {
+        self.pieces.iter().filter(|piece| !piece.is_early_section()).count()
+    }
+
     /// The pieces, each with the holes and slits of its early sections.
     pub fn wholes(&self) -> Cow<'_, [Piece]> {
         if !self.pieces.iter().any(Piece::is_early_section) {

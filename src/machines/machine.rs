@@ -129,7 +129,7 @@ pub(super) fn dialect(asked: &Asked) -> Option<&'static Dialect> {
 impl Checked {
     /// Contents of an input that becomes a marker.
     pub(super) fn of(input: &Input) -> Self {
-        let (pieces, cut_m) = (input.marker.pieces.len(), input.marker.cut_length() / MM_PER_M);
+        let (pieces, cut_m) = (input.marker.piece_count(), input.marker.cut_length() / MM_PER_M);
         Self { format: input.dialect.name, pieces: Some(pieces), cut_m: Some(cut_m) }
     }
 }

@@ -406,7 +406,7 @@ impl Report {
             dialect,
             unit_mm: marker.unit,
             extent_mm: [width, height],
-            pieces: marker.wholes().len(),
+            pieces: marker.piece_count(),
             contours: marker.contours().count(),
             closed_contours: marker.contours().filter(|(_, c)| c.closed).count(),
             notches: Notches::of(marker),

@@ -229,7 +229,7 @@ pub(super) fn caption(context: &Context) -> String {
     let marker = context.marker;
     let (w, h) = marker.extent().size();
     let knife = &context.job.profile.knife;
-    let pieces = match marker.pieces.len() {
+    let pieces = match marker.piece_count() {
         1 => "1 piece".to_owned(),
         n => format!("{n} pieces"),
     };

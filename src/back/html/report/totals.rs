@@ -18,7 +18,7 @@ pub(super) fn summary(about: &About) -> String {
     let (width, height) = marker.extent().size();
     let said = format!(
         "{}, {} x {} mm, {} m to cut",
-        counted(marker.pieces.len(), "piece"),
+        counted(marker.piece_count(), "piece"),
         fixed(width, 0),
         fixed(height, 0),
         fixed(marker.cut_length() / MM_PER_M, 2)
@@ -33,7 +33,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     let sums = &about.record.all;
     let (width, height) = marker.extent().size();
     let mut rows = vec![
-        ("Pieces", marker.pieces.len().to_string()),
+        ("Pieces", marker.piece_count().to_string()),
         ("Cloth", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
         ("Lines to cut", format!("{} m", fixed(marker.cut_length() / MM_PER_M, 3))),
     ];
