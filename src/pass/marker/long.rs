@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 use super::split::{Lap, Lines, Ring};
 use crate::analysis::nesting::Nesting;
-use crate::geom::ring;
-use crate::ir::marker::{Marker, Piece};
+use crate::geom::{Point, ring};
+use crate::ir::marker::{Marker, Notch, Piece};
 use crate::machine::{Bite, Job, NotchStyle};
 
 /// Distance of the borders that are tried, mm.
@@ -81,8 +81,9 @@ impl Long {
         let reach = lap.length() + job.profile.knife.reach();
         let grid = ((ends[0] / GRID).ceil() as i64)..((ends[1] / GRID).ceil() as i64);
         let borders = grid.map(|step| step as f64 * GRID);
+        let notches = &marker.pieces[piece].notches;
         let place = |x: f64| {
-            let cost = lines.cost(&ring, piece, x, lap)?;
+            let cost = lines.cost(&ring, piece, x, lap).filter(|_| holds_slits(x, notches, lap.length()))?;
             Some(Place { x, from: x - reach, cost, rest: None })
         };
         let start = Place { x: ends[0], from, cost: 0, rest: None };
@@ -132,6 +133,16 @@ impl Place {
     fn with_rest(&self) -> Option<(u32, u32)> {
         self.rest.map(|(sections, cost)| (sections + 1, cost + self.cost))
     }
+}
+
+/// True if each slit stays with the section of its root: no end lies farther beyond the border than the halves reach, mm.
+fn holds_slits(border: f64, notches: &[Notch], reach: f64) -> bool {
+    let holds = |notch: &Notch| {
+        let is_early = notch.root.x < border;
+        let beyond = |at: Point| if is_early { at.x - border } else { border - at.x };
+        notch.strokes().flat_map(|stroke| [stroke.from, stroke.to]).all(|at| beyond(at) <= reach)
+    };
+    notches.iter().all(holds)
 }
 
 /// True if a piece has only a closed outline, slits and holes, all of which a section can have in its window.
