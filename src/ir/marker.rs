@@ -209,6 +209,8 @@ impl Notch {
     pub const LONGEST_STROKE: f64 = 4.0 * Self::LONGEST;
     /// Widest mouth, mm.
     pub const WIDEST: f64 = 12.0;
+    /// Greatest number of notches that touch each other in one stroke.
+    pub const MOST_TOUCHING: usize = 3;
     /// Greatest distance from its edge at which a stroke of a notch may begin, mm, beside rounding: CAD programs miss the edge
     /// by some units.
     pub const MISS: f64 = 0.5;

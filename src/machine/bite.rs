@@ -14,10 +14,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "bite.veer_mm", takes: Takes::Number(from(0.0, 50.0)), about: "How far both halves of a split cut leave the line at their ends, into the waste: at least as far\nas they must to cross (bite.match_mm)." },
 ];
 
-/// Least deviation of each half of a split cut from its line, in tolerances of the conveyor: more than the diagonal of both
-/// axes for [`Bite::MOST_ADVANCES`].
-const MATCHES: f64 = 3.0;
-/// Least deviation in addition, in tolerances of the tip: both halves may be off their lines.
+/// Least deviation of a half of a split cut in addition, in tolerances of the tip: both halves may be off their lines.
 const TOLERANCES: f64 = 4.0;
 
 /// The conveyor under the table.
@@ -39,9 +36,13 @@ impl Bite {
     /// Greatest number of advances between the halves of a split cut: each of them may be off.
     pub const MOST_ADVANCES: u32 = 2;
 
+    /// Greatest distance by which [`Bite::MOST_ADVANCES`] move the halves of a split cut apart, in tolerances of the conveyor:
+    /// more than the diagonal of both axes.
+    pub const MATCHES: f64 = 3.0;
+
     /// Distance by which both halves of a split cut leave their line, mm, for the given tolerance of the tip.
     pub fn veer(&self, tolerance: f64) -> f64 {
-        self.veer_mm.max(MATCHES * self.match_mm + TOLERANCES * tolerance)
+        self.veer_mm.max(Self::MATCHES * self.match_mm + TOLERANCES * tolerance)
     }
 }
 

@@ -41,9 +41,6 @@ fn rises(mut depths: impl Iterator<Item = f64>) -> bool {
     })
 }
 
-/// Greatest number of notches that touch each other in one stroke.
-const MOST_TOUCHING: usize = 3;
-
 /// The tip of a stroke with the shape of a notch, or of some that touch each other: the deepest place of the first one.
 fn tip(places: &[Point]) -> Option<Point> {
     let [first, .., last] = places[..] else { return None };
@@ -71,7 +68,7 @@ fn tip(places: &[Point]) -> Option<Point> {
         tips.push(is_notch.then_some(*deepest)?);
         from = to;
     }
-    tips.first().copied().filter(|_| tips.len() <= MOST_TOUCHING)
+    tips.first().copied().filter(|_| tips.len() <= Notch::MOST_TOUCHING)
 }
 
 /// Notches among the open lines without a class.
@@ -79,7 +76,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     let Search { lines, vertices, unit, .. } = search;
     let may_be = |&i: &usize| {
         let line = &lines[i];
-        let longest = MOST_TOUCHING as f64 * Notch::LONGEST_STROKE;
+        let longest = Notch::MOST_TOUCHING as f64 * Notch::LONGEST_STROKE;
         !line.is_closed && line.is_open_question() && line.length <= longest
     };
     let mut tips = Vec::new();
@@ -87,7 +84,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Stroke> {
     for line in (0..lines.len()).filter(may_be) {
         let places = lines[line].points(vertices);
         let [first, .., last] = places[..] else { continue };
-        let is_wide = (last - first).norm() > MOST_TOUCHING as f64 * Notch::WIDEST;
+        let is_wide = (last - first).norm() > Notch::MOST_TOUCHING as f64 * Notch::WIDEST;
         if is_wide || first == last || is_straight(lines[line].vertices(vertices)) {
             continue;
         }

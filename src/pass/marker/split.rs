@@ -9,7 +9,7 @@ use crate::geom::{Extent, Point, Rotation, Vector, polyline};
 use crate::ir::Marker;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::Notch;
-use crate::machine::Job;
+use crate::machine::{Bite, Job};
 
 /// Length of the deviation, as a multiple of its offset: ten degrees, for which no blade needs to be lifted.
 const LEAD_SHARE: f64 = 6.0;
@@ -29,9 +29,6 @@ const COST: u32 = 1;
 const CURVE_COST: u32 = 3;
 /// Least sine of the angle between the line and the border (10 degrees).
 const LEAST_SINE: f64 = 0.174;
-/// Greatest amount by which a line that is cut in another window may be nearer, in tolerances of the conveyor: the diagonal of
-/// two advances.
-const MATCHES: f64 = 3.0;
 /// Length of the line itself next to such a stretch that is ignored, mm, in addition to that distance.
 const ROOM: f64 = 1.0;
 /// Rounding of lengths, mm.
@@ -60,7 +57,7 @@ impl Lap {
         // The overlaps of the blade continue in the direction of the deviation, and a cut in another window may be nearer by
         // the tolerance.
         let aside = veer * (1.0 + heel.max(front) / lead);
-        let clear = aside + MATCHES * bite.match_mm + knife.clearance_mm + job.profile.band(unit);
+        let clear = aside + Bite::MATCHES * bite.match_mm + knife.clearance_mm + job.profile.band(unit);
         Self { overlap: bite.overlap_mm, veer, lead, clear }
     }
 

@@ -20,8 +20,6 @@ pub(super) const PASS: MarkerPass =
 /// Distance by which rounding moves a place: in units of the file, or in mm without a grid.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 const NO_GRID: f64 = 0.01;
-/// Greatest number of notches that touch each other in one stroke.
-const MOST_TOUCHING: usize = 3;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, drawing, .. } = marker;
@@ -89,7 +87,7 @@ impl Joining<'_> {
 
     fn may_be(&self, contour: &Contour) -> bool {
         let points = || self.list.points(contour.range);
-        let longest = MOST_TOUCHING as f64 * Notch::LONGEST_STROKE;
+        let longest = Notch::MOST_TOUCHING as f64 * Notch::LONGEST_STROKE;
         !contour.closed && points().len() > 2 && polyline::length(&points()) <= longest
     }
 
@@ -205,7 +203,7 @@ impl Joining<'_> {
             notches.push(notch.to_vec());
             rest = others;
         }
-        (notches.len() <= MOST_TOUCHING).then_some(notches)
+        (notches.len() <= Notch::MOST_TOUCHING).then_some(notches)
     }
 
     /// The place of an outline nearest to a point, if that lies on it.

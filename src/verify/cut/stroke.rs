@@ -388,8 +388,8 @@ impl<'a> Judge<'a> {
             return;
         }
         let tolerance = self.reference.tolerance;
-        // Both cuts may be off their lines, and two advances in X and in Y: less than three times one of them.
-        let allowed = bite.veer_mm.max(3.0 * bite.match_mm + 4.0 * tolerance) + 2.0 * tolerance + BOW;
+        // The cut and its line may each be off by the tolerance.
+        let allowed = bite.veer(tolerance) + 2.0 * tolerance + BOW;
         for i in trial.held.clone() {
             let station = trial.feet[i].station;
             if line.aside.iter().any(|&[from, to]| (from..=to).contains(&station)) {
