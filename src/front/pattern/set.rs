@@ -32,6 +32,7 @@ use crate::machine::letters::Letters;
 use crate::machine::patterns::{Dxf, Quantity};
 use crate::source::{Source, Span};
 use crate::units::MM_PER_M;
+use crate::units::number::fixed;
 
 /// The pieces of a file.
 #[derive(Debug, Default)]
@@ -418,7 +419,7 @@ impl Set {
     /// Reports a piece that lies far from the others.
     fn say_far_off(&self, out: &mut Diagnostics) {
         let Some((span, off)) = over::far_off(&self.laid()) else { return };
-        let message = format!("a piece lies {:.0} m from the others", off / MM_PER_M);
+        let message = format!("a piece lies {} m from the others", fixed(off / MM_PER_M, 0));
         let finding = Diagnostic::new(&code::DXF_FAR_PIECE, message).at(span);
         out.push(finding.hint("a digit of its INSERT may be doubled; put it beside the others in the CAD system"));
     }
