@@ -95,7 +95,7 @@ fn cut(source: &Source, from: Option<&'static Dialect>, job: &Job, out: &mut Dia
 /// Cuts, the heads that make them, and findings on the marker against the bytes that it was read from.
 #[derive(Debug)]
 pub struct Planned {
-    /// What is cut.
+    /// Pieces with their cuts.
     pub marker: Marker,
     /// The heads.
     pub program: Program,

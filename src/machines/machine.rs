@@ -110,14 +110,14 @@ pub struct Part {
     pub blake3: Option<String>,
 }
 
-/// What a source holds for a machine.
+/// Contents of a source for a machine.
 #[derive(Debug)]
 pub struct Checked {
     /// Dialect, or format of the machine.
     pub format: &'static str,
-    /// Pieces, of a marker.
+    /// Number of pieces of a marker.
     pub pieces: Option<usize>,
-    /// Length of its cuts, m, likewise.
+    /// Length of the cuts of a marker, m.
     pub cut_m: Option<f64>,
 }
 

@@ -51,7 +51,7 @@ impl Threads {
     }
 }
 
-/// What is said of a file that no file should do.
+/// Finding about a file over which the program itself broke down.
 const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
 
 /// What became of one file.

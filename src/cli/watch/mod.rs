@@ -101,7 +101,7 @@ struct Watch<'a> {
     files: Settling,
     /// What was said last of files that nothing could be done with: it is said once.
     told: BTreeMap<PathBuf, String>,
-    /// What became of the files, each with the places of its programs, for the overview of their pages.
+    /// Rows of the overview of pages: the outcome of each file, with the places of its programs.
     rows: BTreeMap<PathBuf, (Row, Vec<PathBuf>)>,
 }
 

@@ -47,6 +47,7 @@ struct Place {
     x: f64,
     /// Start of the stretch that the blade may need, mm.
     from: f64,
+    /// Cost of a split here, of [`Lines::cost`].
     cost: u32,
     /// Fewest sections from here to the end, and the cost of the splits between them; `None` where the end cannot be reached.
     rest: Option<(u32, u32)>,
