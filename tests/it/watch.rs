@@ -199,6 +199,19 @@ fn two_files_for_one_program_do_not_take_turns() {
 }
 
 #[test]
+fn the_overview_takes_up_other_targets_while_a_file_still_waits() {
+    let hot = HotFolder::new();
+    hot.put("m.cut", &square(500));
+    hot.put("m.plt", "IN;SP1;PU0,0;PD4000,0,4000,4000,0,4000,0,0;PU;SP0;");
+    hot.put("cutc.toml", "target = \"csv\"\n");
+    let watch = hot.watch("");
+    hot.wait_for("both are dealt with", |hot| hot.has("m.csv") && hot.has("m.plt.report.txt"));
+    hot.put("cutc.toml", "target = [\"csv\", \"html\"]\n");
+    hot.wait_for("two rows", |hot| hot.text("out/index.html").contains("<h1>2 files</h1>"));
+    end(watch);
+}
+
+#[test]
 fn the_folder_may_have_any_name_and_links_to_nothing_in_it() {
     for name in ["./in", "in/", "../ROOM/in"] {
         let hot = HotFolder::new();

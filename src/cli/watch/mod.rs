@@ -169,6 +169,8 @@ impl Watch<'_> {
                 self.changed = None;
                 self.told.remove(&file);
                 self.files.renew(Instant::now());
+                // Their places are those of the targets before.
+                self.rows.clear();
                 let _ = writeln!(console.err, "the options were changed: they hold for all files");
                 return;
             }
@@ -214,7 +216,8 @@ impl Watch<'_> {
         if self.rows.len() < before {
             self.write_overview(console);
         }
-        self.told.retain(|path, _| there.contains(path) || path.ends_with(settings::NAME));
+        let out = self.folders.out;
+        self.told.retain(|path, _| there.contains(path) || path.ends_with(settings::NAME) || path == out);
     }
 
     /// Reports on files that went while nobody watched go, too.
@@ -307,9 +310,10 @@ impl Watch<'_> {
         };
         let rows: Vec<_> = self.rows.values().map(|(row, places)| (row, places[page].as_path())).collect();
         let may = if arguments.making.force { Ok(()) } else { overview.may_be_written() };
-        if let Err(error) = may.and_then(|()| overview.write(&rows)) {
-            let about = self.folders.out.to_owned();
-            self.say_once(&about, &format!("error: {error:#}\n"), console);
+        let out = self.folders.out;
+        match may.and_then(|()| overview.write(&rows)) {
+            Ok(_) => _ = self.told.remove(out),
+            Err(error) => self.say_once(out, &format!("error: {error:#}\n"), console),
         }
     }
 }
