@@ -69,7 +69,7 @@ fn cost(about: &About) -> Option<String> {
     let marker = about.time(ticks) * per_s;
     let ply = marker / f64::from(plies);
     let of = if plies == 1 { "1 ply".to_owned() } else { format!("{plies} plies") };
-    let part = match about.pieces.len() {
+    let part = match about.context.marker.piece_count() {
         0 => String::new(),
         pieces => format!(", {} a part", fixed(ply / pieces as f64, 4)),
     };
