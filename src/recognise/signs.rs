@@ -43,8 +43,7 @@ pub(super) fn among(marks: &[Mark], search: Search, touch: f64, work: &mut Budge
             let mark = marks[k].cut;
             let ends = arm.iter().filter(|end| (*end - mark[1]).norm() <= touch).count();
             meeting[k] += ends;
-            let is_half = halves(mark, arm).is_some_and(|at| at.iter().all(|at| (HALF[0]..=HALF[1]).contains(at)));
-            if is_half && is_straight(places) && are_alike([mark, arm].map(length), LONGER) {
+            if is_straight(places) && are_cross(mark, arm) {
                 signs.insert(marks[k].line);
             }
         }
@@ -75,13 +74,17 @@ pub(super) fn crosses(search: Search, work: &mut Budget) -> Vec<(usize, Point)> 
             break;
         }
         let own = ends(k);
-        let crossing = boxes.near(boxes.all()[k]).filter(|&other| other > k).map(ends).find(|&other| {
-            let is_half = |at: [f64; 2]| at.iter().all(|at| (HALF[0]..=HALF[1]).contains(at));
-            are_alike([own, other].map(length), LONGER) && halves(own, other).is_some_and(is_half)
-        });
-        found.extend(crossing.map(|_| (strokes[k], own[0] + (own[1] - own[0]) / 2.0)));
+        if boxes.near(boxes.all()[k]).filter(|&other| other > k).any(|other| are_cross(own, ends(other))) {
+            found.push((strokes[k], own[0] + (own[1] - own[0]) / 2.0));
+        }
     }
     found
+}
+
+/// Whether two strokes halve each other and are about as long.
+fn are_cross(one: [Point; 2], other: [Point; 2]) -> bool {
+    let is_half = |at: [f64; 2]| at.iter().all(|at| (HALF[0]..=HALF[1]).contains(at));
+    are_alike([one, other].map(length), LONGER) && halves(one, other).is_some_and(is_half)
 }
 
 /// Finds the marks that are barbs of arrows, or their stem.
