@@ -184,6 +184,27 @@ fn no_cut_is_split_near_a_slit() {
     }
 }
 
+#[test]
+fn a_slit_lies_in_the_window_of_its_section() {
+    let room = Room::new();
+    for (root, tip) in [(3640, 4240), (4200, 3600)] {
+        let slit = format!("X{root}Y500*M14*M19*X{tip}Y500*M15*");
+        let file = format!("H1*G71*N1*{slit}X0Y0*M14*X6000Y0*X6000Y1000*X0Y1000*X0Y0*M15*M0*");
+        room.write("slit.cut", file.as_bytes());
+        room.says(&format!("compile slit.cut --force -o slit.csv {BITES} --set table.x_mm=[-8,393]"), DONE);
+    }
+}
+
+#[test]
+fn a_piece_that_is_split_is_counted_once() {
+    let room = Room::with("long.cut", LONG);
+    room.write("again.cut", LONG.as_bytes());
+    let said = room.says(&format!("check long.cut again.cut {BITES}"), DONE);
+    assert!(said.lines().any(|line| line.split_whitespace().take(2).eq(["all", "6"])), "{said}");
+    room.says(&format!("compile long.cut -o out/ -t json,svg {BITES}"), DONE);
+    assert!(room.text("out/long.json").contains("\"pieces\": 3,") && room.text("out/long.svg").contains("3 pieces, "));
+}
+
 /// Damages of the rows of three windows.
 type Damage = fn(&mut Vec<Vec<f64>>);
 
