@@ -1,4 +1,4 @@
-//! `cutc check`: everything that is wrong with some cutter files.
+//! `cutc check`: finds all faults of cutter files.
 
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-/// What is said about one file, as JSON.
+/// Findings about one file, as JSON.
 #[derive(Serialize)]
 struct Listing {
     file: String,
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     }
 }
 
-/// One file, with a line on how much is wrong with it.
+/// Checks one file, with a line about the number of findings.
 fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
     let (mut said, mut verdicts, mut code) = (String::new(), Vec::new(), DONE);
     match arguments.checked(file, job) {
@@ -121,7 +121,7 @@ impl Arguments {
     fn checked(&self, file: &Path, job: &Job) -> anyhow::Result<Found> {
         let source = files::read(file)?;
         let mut diagnostics = Diagnostics::default();
-        // Whatever the order, the same is wrong with a file.
+        // The findings do not depend on the order of cutting.
         let mut job = job.clone();
         job.profile.order.policy = OrderPolicy::File;
         let machine = self.machine.unwrap_or_else(|| machines::of(&job));
@@ -135,12 +135,12 @@ impl Arguments {
         Ok(Found { source, diagnostics, dialect, contents })
     }
 
-    /// What is said of a file.
+    /// Messages about a file.
     fn said(&self, Found { source, diagnostics, .. }: &Found) -> String {
         render_with(diagnostics, source, self.messages.detail(self.format))
     }
 
-    /// What becomes of one of many files.
+    /// Outcome of one of many files.
     fn outcome(&self, input: &Input, job: &Job) -> Outcome {
         match self.checked(&input.path, job) {
             Ok(checked) => {

@@ -1,4 +1,4 @@
-//! Flag values from the tables of the stages: clap lists them, explains them and names the nearest to a mistyped one.
+//! Values of options from the tables of the stages: clap lists and explains them, and names the nearest to a mistyped one.
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -13,7 +13,7 @@ use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
 use crate::sew;
 
-/// How figures are given.
+/// Format of figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     /// For people
@@ -22,7 +22,7 @@ pub(super) enum Format {
     Json,
 }
 
-/// How the figures of files are given.
+/// Format of the figures of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Sheet {
     /// For people
@@ -33,7 +33,7 @@ pub(super) enum Sheet {
     Csv,
 }
 
-/// Which closed lines inside the parts of a plot are cut.
+/// Closed lines inside the parts of a plot that are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Inner {
     /// None
@@ -54,7 +54,7 @@ impl From<Inner> for plot::Inner {
     }
 }
 
-/// How often the pieces of a pattern DXF are cut.
+/// Number of times that the pieces of a pattern DXF are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Quantity {
     /// As the file says, right and left
@@ -95,7 +95,7 @@ pub(super) fn dialects() -> impl TypedValueParser<Value = &'static Dialect> {
     })
 }
 
-/// Reads the name of what can be sewn: a format of sewing machines, or a dialect.
+/// Reads the name of a format that can be sewn: a format of sewing machines, or a dialect.
 pub(super) fn sewing_formats() -> impl TypedValueParser<Value = String> {
     let formats = sew::FORMATS.iter().map(|format| (format.name, format.about));
     names(formats.chain(DIALECTS.iter().map(|dialect| (dialect.name, dialect.about))))

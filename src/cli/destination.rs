@@ -1,4 +1,4 @@
-//! Where a program goes: never over an input, nor over a program that was made from another one.
+//! Destinations of programs: never over an input, nor over a program that was made from another one.
 
 use std::ffi::OsString;
 use std::fs;
@@ -10,23 +10,23 @@ use super::finished::{FAULTY, Finished, failure};
 use super::provenance;
 use crate::ir::Target;
 
-/// The current directory, a directory on every system.
+/// The current directory, on every system.
 const DIRECTORY: &str = ".";
 
-/// Arguments that decide where the programs of an input go.
+/// Arguments that decide about the destination of the programs of an input.
 #[derive(Debug)]
 pub(super) struct Asked<'a, E: 'static, P: 'static> {
     /// Every target of the machine; the first is the default.
     pub(super) all: &'static [Target<E, P>],
-    /// The place as typed.
+    /// Destination as typed.
     pub(super) out: Option<&'a Path>,
-    /// The targets as typed; none = what the place says.
+    /// Targets as typed; empty = by the destination.
     pub(super) targets: &'a [&'static Target<E, P>],
-    /// The file that is read.
+    /// The input file.
     pub(super) input: &'a Path,
-    /// The machine profile, and the centre line.
+    /// Paths of profile, centre line and marks.
     pub(super) beside: [Option<&'a Path>; 3],
-    /// Whether a program that was made from another input may be overwritten.
+    /// True if a program that was made from another input may be overwritten.
     pub(super) force: bool,
 }
 
@@ -35,11 +35,11 @@ pub(super) struct Asked<'a, E: 'static, P: 'static> {
 pub(super) struct Destination<E: 'static, P: 'static> {
     /// Targets that are written.
     pub(super) targets: Vec<&'static Target<E, P>>,
-    /// Where.
+    /// Place of the programs.
     pub(super) place: Place,
 }
 
-/// Where programs go.
+/// Place of programs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Place {
     /// Standard output.
@@ -68,7 +68,7 @@ impl Place {
         Ok(())
     }
 
-    /// End of a command whose job was refused: older programs are moved aside. A slip in an argument is no verdict on them.
+    /// End of a command whose job was refused: older programs are moved aside. A mistake in an argument leaves them.
     pub(super) fn refused(&self, mut refused: Finished) -> Finished {
         if refused.code == FAULTY {
             refused.stderr.extend(self.files().iter().map(|path| move_aside(path)));
@@ -78,8 +78,8 @@ impl Place {
 }
 
 impl<E, P> Asked<'_, E, P> {
-    /// Finds what is written and where: `out` as typed, a directory for `<stem>.<extension>`, or without it the current
-    /// directory. Never over the input itself, nor the profile. Without a target the extension of `out` chooses it.
+    /// Finds targets and place: `out` as typed, a directory for `<stem>.<extension>`, or the current directory without it.
+    /// Never over the input itself, nor the profile. Without a target the extension of `out` chooses it.
     pub(super) fn destination(&self) -> anyhow::Result<Destination<E, P>> {
         let targets = self.targets()?;
         let is_stdout = self.out.is_some_and(is_dash);
@@ -96,7 +96,7 @@ impl<E, P> Asked<'_, E, P> {
         Ok(Destination { targets, place: Place::Files(paths?) })
     }
 
-    /// What is written: what was typed, else what the extension of the place says, else the default.
+    /// The targets: those typed, else by the extension of the place, else the default.
     fn targets(&self) -> anyhow::Result<Vec<&'static Target<E, P>>> {
         let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension).collect();
         if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
@@ -110,7 +110,7 @@ impl<E, P> Asked<'_, E, P> {
         let ends = |target: &&Target<E, P>| {
             name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension)))
         };
-        // The longest ending: `.timing.svg` ends with `.svg`, too.
+        // The longest matching extension: `.timing.svg` also ends with `.svg`.
         let told = self.all.iter().filter(ends).max_by_key(|target| target.extension.len());
         let is_ambiguous = |file: &Path| names_program(file) && self.all.iter().any(|target| target.name == "gcode");
         match (self.targets, told, file) {
@@ -160,7 +160,7 @@ impl<E, P> Asked<'_, E, P> {
             }
             None => PathBuf::from(&name),
             Some(out) if names_directory(out) => out.join(&name),
-            // A file of that name would surprise whoever meant a directory, and the other way round.
+            // A file of that name would surprise a user who meant a directory, and vice versa.
             Some(out) if out.extension().is_none() && !out.exists() => {
                 let shown = out.display();
                 return Err(failure(
@@ -171,7 +171,7 @@ impl<E, P> Asked<'_, E, P> {
             Some(out) => out.to_owned(),
         };
         let (shown, folder) = (path.display(), directory(&path));
-        // A directory that is not there yet is made where another holds it.
+        // A missing directory is created if its parent exists.
         let is_made = || out.is_some_and(names_directory) && !folder.exists() && directory(folder).is_dir();
         if !folder.is_dir() && !is_made() {
             let message = format!("cannot write `{shown}`: there is no directory `{}`", folder.display());
@@ -202,17 +202,17 @@ fn program_name(input: &Path, extension: &str) -> OsString {
     name
 }
 
-/// Whether a place is one for one program: standard output, or what is a file or named like one.
+/// True if a place is for one program: standard output, or a path that is a file or is named like one.
 pub(super) fn is_one_file(out: &Path) -> bool {
     is_dash(out) || (!out.is_dir() && (out.is_file() || (!names_directory(out) && out.extension().is_some())))
 }
 
-/// The error of many programs that have one such place.
+/// Error about many programs with one such place.
 pub(super) fn of_many(out: &Path) -> anyhow::Error {
     failure(format!("`-o {}` is one place for many programs", out.display()), "name a directory, as in `-o out/`")
 }
 
-/// The targets of many files, which go below a folder.
+/// The targets of many files, with places below a folder.
 pub(super) fn targets_of_many<E, P>(
     out: &Path,
     all: &'static [Target<E, P>],
@@ -225,15 +225,15 @@ pub(super) fn targets_of_many<E, P>(
     Asked { all, out: Some(folder), targets: typed, input: folder, beside: [None; 3], force: false }.targets()
 }
 
-/// Where the programs of one of many files go, by the extensions of their targets: below a folder, in the structure that
-/// the file was found in.
+/// Places of the programs of one of many files, by the extensions of their targets: below a folder, in the folder structure of
+/// the inputs.
 pub(super) fn below(out: &Path, name: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let folder = out.join(name.parent().unwrap_or(Path::new("")));
     extensions.iter().map(|extension| folder.join(program_name(name, extension))).collect()
 }
 
-/// Whether a program can stand at a path: no directory or device is there, and neither it nor what stands beside it is
-/// one of some inputs.
+/// Checks that a program can be written to a path: no directory or device is there, and neither the path nor that of its
+/// provenance is one of some inputs.
 pub(super) fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
     if fs::metadata(path).is_ok_and(|target| !target.is_file()) {
         return Err(failure(
@@ -250,8 +250,8 @@ pub(super) fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Check that a file at a path, if there is one, was made by `cutc` from the same input: one of the same name, in the same place
-/// if that is known, or with the same bytes. An empty file holds nothing that could be lost.
+/// Checks that the file at a path, if any, was made by `cutc` from the same input: one of the same name, in the same place if
+/// that is known, or with the same bytes. An empty file holds nothing that could be lost.
 pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
     const HINT: &str = "give the new program another place with -o, or say --force";
     let name = if is_dash(input) { STDIN.into() } else { input.file_name().unwrap_or_default().to_string_lossy() };
@@ -285,19 +285,19 @@ pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
     }
 }
 
-/// Whether a path is a directory, or written as one.
+/// True if a path is a directory, or is written as one.
 pub(super) fn names_directory(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR)
 }
 
-/// Whether a path has an extension that others give to programs of machines: setpoints must not come by such a name unseen.
+/// True if a path has an extension that is common for programs of machines: setpoints must not get such a name unnoticed.
 fn names_program(path: &Path) -> bool {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     matches!(extension.as_deref(), Some("nc" | "gcode" | "gco" | "tap" | "cnc" | "cut" | "gbr" | "ggt"))
 }
 
-/// Whether a path has an extension of some other format: whoever asks for a picture or a document must not get setpoints under
-/// its name. Plain text may have any name.
+/// True if a path has an extension of some other format: a user who asks for a picture or a document must not get setpoints
+/// under its name. Plain text may have any name.
 fn names_other_format(path: &Path) -> bool {
     path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("txt"))
 }
@@ -392,7 +392,7 @@ mod tests {
         let written = Ok(Place::Files(vec![program.clone()]));
         assert_eq!(find("in/m05.cut", false), written);
         assert_eq!(find("in/m05.plt", true), written);
-        // A file without provenance is somebody's work, unless it is empty.
+        // A file without provenance is the user's own work, unless it is empty.
         fs::remove_file(meta(&program)).expect("removable");
         assert!(find("in/m05.cut", false).expect_err("refused").contains("no `m05.csv.meta.json` says"));
         assert_eq!(find("in/m05.cut", true), written);

@@ -1,7 +1,7 @@
-//! Files in the making: written beside their place and moved there when they are whole.
+//! Drafts of files: written beside their place and moved there when they are complete.
 //!
-//! A draft is named after its machine and process, and locked by it. Who is stopped takes its own away; what a process
-//! left that could not, the next one that writes there does.
+//! A draft is named after its machine and process, and locked by the process. A process that is stopped removes its drafts;
+//! leftovers of one that could not are removed by the next process that writes there.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -15,29 +15,29 @@ use super::files::{cannot_write, directory};
 use super::finished::failure;
 use crate::machine::sha256_of;
 
-/// How the name of a draft begins and ends: between stand machine, process and some letters of chance.
+/// Prefix and suffix of the name of a draft: machine, process and some random letters are between them.
 const PREFIX: &str = ".cutc-";
 const SUFFIX: &str = ".tmp";
 
-/// What this process has to take away when it is stopped.
+/// Files and folders that this process removes when it is stopped.
 static MAKING: Mutex<Making> =
     Mutex::new(Making { drafts: BTreeSet::new(), folders: BTreeSet::new(), swept: BTreeSet::new() });
 
 struct Making {
     drafts: BTreeSet<PathBuf>,
-    /// Made for programs; they stay with what is in them.
+    /// Folders made for programs; they stay if they have content.
     folders: BTreeSet<PathBuf>,
-    /// Folders in which nothing is left of processes that are gone.
+    /// Folders that are free of leftovers of dead processes.
     swept: BTreeSet<PathBuf>,
 }
 
 fn making() -> MutexGuard<'static, Making> {
-    // Each change is one call: there is nothing half-changed that a panic could leave.
+    // Each change is one call, so a panic leaves no partial change.
     MAKING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Making {
-    /// Removes what is left in a folder, once: what comes later is another process's to remove.
+    /// Removes leftovers in a folder, once: later ones are removed by other processes.
     fn sweep(&mut self, folder: &Path) {
         if self.swept.insert(folder.to_owned()) {
             sweep(folder);
@@ -45,7 +45,7 @@ impl Making {
     }
 }
 
-/// Removes what processes that are gone left in the folders of some files.
+/// Removes the leftovers of dead processes in the folders of some files.
 pub(super) fn sweep_folders<'p>(paths: impl IntoIterator<Item = &'p Path>) {
     let mut making = making();
     for path in paths {
@@ -53,17 +53,17 @@ pub(super) fn sweep_folders<'p>(paths: impl IntoIterator<Item = &'p Path>) {
     }
 }
 
-/// The same of a folder and all below it.
+/// Removes the leftovers of dead processes in a folder and everything below it.
 pub(super) fn sweep_below(folder: &Path) {
     let folders = walkdir::WalkDir::new(folder).into_iter().flatten().filter(|entry| entry.file_type().is_dir());
     let mut making = making();
     folders.for_each(|entry| making.sweep(entry.path()));
 }
 
-/// Takes away what this process has in the making, and keeps it from making more: it is about to end.
+/// Removes all drafts and folders of this process, and keeps it from making more: it is about to end.
 pub(super) fn abandon() {
     let making = making();
-    // What cannot be removed is left to the next process.
+    // Files that cannot be removed are left to the next process.
     for draft in &making.drafts {
         let _ = fs::remove_file(draft);
     }
@@ -73,7 +73,7 @@ pub(super) fn abandon() {
     std::mem::forget(making);
 }
 
-/// A file that is not there yet.
+/// A draft of a file.
 #[derive(Debug)]
 pub(super) struct Draft {
     file: NamedTempFile,
@@ -81,7 +81,7 @@ pub(super) struct Draft {
     known: Known,
 }
 
-/// The name of a draft among those in the making, for as long as it is one.
+/// Entry of a draft in the list of this process, for as long as it exists.
 #[derive(Debug)]
 struct Known(PathBuf);
 
@@ -101,14 +101,14 @@ impl Draft {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt as _;
-            // Readable to whom the umask lets it be, as any new file: a temporary one would be its owner's alone.
+            // Permissions by the umask, as for any new file: a temporary one would be readable by its owner only.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let mut making = making();
         making.sweep(folder);
         loop {
             let file = builder.tempfile_in(folder).map_err(|error| cannot_write(path, &error))?;
-            // Until it is locked another process may take it for one that nobody makes any more.
+            // Until it is locked another process may take it for a leftover.
             if !matches!(file.as_file().try_lock(), Err(TryLockError::WouldBlock)) && file.path().exists() {
                 let known = Known(file.path().to_owned());
                 making.drafts.insert(known.0.clone());
@@ -117,17 +117,17 @@ impl Draft {
         }
     }
 
-    /// The file to write to.
+    /// The file under its temporary name.
     pub(super) fn file(&mut self) -> &mut File {
         self.file.as_file_mut()
     }
 
-    /// Where it will stand.
+    /// Its future path.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Moves the whole file to its place, where nothing may be.
+    /// Moves the complete file to its place, where no file may be.
     pub(super) fn publish_new(self) -> anyhow::Result<()> {
         let Self { file, path, known: _known } = self;
         let _making = making();
@@ -139,7 +139,7 @@ impl Draft {
     }
 }
 
-/// A file that is whole and about to take its place.
+/// A complete file that is about to take its place.
 pub(super) struct Whole {
     pub(super) path: PathBuf,
     pub(super) sha256: String,
@@ -154,13 +154,13 @@ impl Whole {
     }
 }
 
-/// Moves whole files to their places, over what was there, and then does what belongs to that. Who is stopped meanwhile
-/// is stopped before or behind all of it. `then` must not begin a draft.
+/// Moves complete files to their places, replacing older ones, and then runs `then`. A process that is stopped meanwhile stops
+/// before or after all of it. `then` must not begin a draft.
 pub(super) fn publish(drafts: Vec<Draft>, then: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<()> {
     for Draft { file, path, .. } in &drafts {
         file.as_file().sync_all().map_err(|error| cannot_write(path, &error))?;
     }
-    // Names are forgotten behind the lock, which that needs.
+    // Entries are dropped after the lock is released: dropping needs it.
     let (known, files): (Vec<Known>, Vec<_>) =
         drafts.into_iter().map(|Draft { file, path, known }| (known, (file, path))).unzip();
     let published = put(files, then);
@@ -175,22 +175,22 @@ fn put(files: Vec<(NamedTempFile, PathBuf)>, then: impl FnOnce() -> anyhow::Resu
         file.persist(&path).map_err(|error| cannot_write(&path, &error.error))?;
         there.push(path);
     }
-    // What nobody can be told of is not there.
+    // Files without their record are removed.
     then().inspect_err(|_| there.iter().for_each(|path| drop(fs::remove_file(path))))
 }
 
-/// Removes the drafts in a folder that processes of this machine left there and that nobody holds any more.
+/// Removes the drafts in a folder that dead processes of this machine left.
 fn sweep(folder: &Path) {
     let ours = format!("{PREFIX}{}-", machine());
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let Some(rest) = name.strip_prefix(&ours).and_then(|rest| rest.strip_suffix(SUFFIX)) else { continue };
-        // The name of another machine may begin like that of this one.
+        // The name of another machine may begin with that of this one.
         if rest.split_once('-').is_none_or(|(process, _)| process.parse::<u32>().is_err()) {
             continue;
         }
-        // Held until the file is gone, so that its maker, if it has only just begun, begins another. Open for writing:
-        // file systems over a network lock no other files.
+        // Locked until the file is gone, so that its maker, if it has just begun, begins another. Opened for writing: network
+        // file systems lock no other files.
         if let Ok(file) = OpenOptions::new().read(true).write(true).open(entry.path())
             && file.try_lock().is_ok()
         {
@@ -199,7 +199,7 @@ fn sweep(folder: &Path) {
     }
 }
 
-/// The name of this machine, as far as it can be part of a file name.
+/// Name of this machine, with characters that are valid in a file name.
 fn machine() -> String {
     let name = gethostname::gethostname();
     name.to_string_lossy().chars().map(|c| if c.is_ascii_alphanumeric() || c == '.' { c } else { '_' }).collect()
@@ -209,12 +209,12 @@ fn exists(path: &Path) -> anyhow::Error {
     failure(format!("`{}` exists: it is not overwritten", path.display()), "give another name, or move it away first")
 }
 
-/// Folders that were made for programs; those that are still empty in the end go.
+/// Folders that were made for programs; those that are empty in the end are removed.
 #[derive(Debug, Default)]
 pub(super) struct MadeFolders(Vec<PathBuf>);
 
 impl MadeFolders {
-    /// Makes the folders of some files, and those that hold them.
+    /// Makes the folders of some files, with their parents.
     pub(super) fn of<'p>(paths: impl IntoIterator<Item = &'p Path>) -> anyhow::Result<Self> {
         let mut made = Self::default();
         for path in paths {
@@ -235,7 +235,7 @@ impl MadeFolders {
                 self.0.push(folder.to_owned());
                 Ok(())
             }
-            // Another process was quicker.
+            // Another process has made it.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
             Err(error) => Err(error),
         }
@@ -243,7 +243,7 @@ impl MadeFolders {
 }
 
 impl MadeFolders {
-    /// Leaves them there, empty or not.
+    /// Keeps them, empty or not.
     pub(super) fn keep(&mut self) {
         let mut making = making();
         for folder in self.0.drain(..) {
@@ -256,7 +256,7 @@ impl Drop for MadeFolders {
     fn drop(&mut self) {
         let mut making = making();
         for folder in self.0.iter().rev() {
-            // Only an empty one can be removed: that is what is meant.
+            // Only an empty folder can be removed, as intended.
             let _ = fs::remove_dir(folder);
             making.folders.remove(folder);
         }

@@ -1,4 +1,4 @@
-//! `cutc explain`: what a code, a rule, a key or a word means, why it matters and what to do.
+//! `cutc explain`: the meaning of a code, a rule, a key or a word, why it matters and what to do.
 
 use std::fmt::Write as _;
 
@@ -14,9 +14,9 @@ use crate::manual;
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
-/// Likeness from which a name may have been meant, of 1: two swapped letters or a wrong ending are above it.
+/// Least likeness of a name to what was typed, of 1: two swapped letters or a wrong ending are above it.
 const LEAST_LIKENESS: f64 = 0.8;
-/// Fewest letters that are looked for amid texts: shorter ones stand everywhere.
+/// Least number of letters for a search in texts: shorter words occur everywhere.
 const FEWEST_LETTERS: usize = 4;
 
 /// Arguments of `cutc explain`.
@@ -33,9 +33,9 @@ struct Topic {
     name: &'static str,
     /// "error", "warning" or "rule".
     kind: &'static str,
-    /// What it says in a sentence.
+    /// Its meaning in a sentence.
     about: &'static str,
-    /// What stands behind that.
+    /// Background.
     more: &'static str,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         .ok_or_else(|| failure(format!("nothing is said of `{asked}`"), hint(&asked)))
 }
 
-/// What else may have been meant. A family of keys (`codes.<code>`) is like everything, and is no name.
+/// Hint with a similar name. A family of keys (`codes.<code>`) is similar to everything, and is no name.
 fn hint(asked: &str) -> String {
     let likeness = |name: &str| strsim::jaro_winkler(name, asked);
     let keys = KEYS.iter().map(|key| key.name).filter(|name| !name.contains('<'));
@@ -83,7 +83,7 @@ fn hint(asked: &str) -> String {
     format!("{guess}`cutc explain` lists all codes and rules, `cutc manual glossary` the words")
 }
 
-/// A code of cut files by letter and number, as `M014` or `n`; `None` when it is none.
+/// Letter and number of a code of cut files, as `M014` or `n`; `None` for other words.
 fn letter_and_number(word: &str) -> Option<(char, Option<u32>)> {
     let letter = word.chars().next().filter(char::is_ascii_alphabetic)?.to_ascii_uppercase();
     let digits = &word[1..];
@@ -91,7 +91,7 @@ fn letter_and_number(word: &str) -> Option<(char, Option<u32>)> {
     Some((letter, number))
 }
 
-/// Whether the words of a row are a code, or a range of codes that holds it.
+/// True if the words of a row are a code, or a range of codes that holds it.
 fn names(words: &str, asked: &str) -> bool {
     let named: Vec<&str> = words.split('`').skip(1).step_by(2).collect();
     if named.iter().any(|word| word.eq_ignore_ascii_case(asked)) {
@@ -103,7 +103,7 @@ fn names(words: &str, asked: &str) -> bool {
     codes.contains(&asked) || words.contains(" to ") && codes.len() == 2 && within(codes[0], codes[1])
 }
 
-/// What a dialect's table says of one of its codes.
+/// Description of a code in the table of a dialect.
 fn word_of_dialect(asked: &str) -> Option<String> {
     for dialect in DIALECTS {
         let rows = dialect.words.iter().filter(|row| names(row.words, asked));
@@ -128,7 +128,7 @@ fn word_of_dialect(asked: &str) -> Option<String> {
     None
 }
 
-/// What a key of the profile means, what it takes, and what it is when nothing is said.
+/// Meaning, values and default of a key of the profile.
 fn key_text(key: &Key) -> String {
     let table =
         toml::Value::try_from(MachineProfile::default()).expect("a profile holds numbers, words and named tables");
@@ -143,7 +143,7 @@ fn key_text(key: &Key) -> String {
     )
 }
 
-/// What the glossary says of a word, and where else it stands.
+/// Definition of a word in the glossary, and other texts that contain it.
 fn word(asked: &str) -> Option<String> {
     let lower = asked.to_lowercase();
     let mut out = String::new();
@@ -174,7 +174,7 @@ fn list() -> String {
     out
 }
 
-/// What follows from a kind of finding.
+/// Consequence of a kind of finding.
 fn consequence(kind: &str) -> &'static str {
     match kind {
         "error" => "error: no program is written",
@@ -187,20 +187,20 @@ fn explained(Topic { name, kind, about, more }: &Topic) -> String {
     format!("{name}\n{}\n\n{}\n\n{}\n", consequence(kind), wrapped(&sentence(about), COLUMNS), paragraphs(more))
 }
 
-/// Rules are said in lower case without a full stop, codes as sentences.
+/// A description as a sentence: those of rules are in lower case without a full stop.
 fn sentence(about: &str) -> String {
     let mut letters = about.chars();
     let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
     format!("{first}{}{}", letters.as_str(), if about.ends_with('.') { "" } else { "." })
 }
 
-/// Paragraphs stand on a line each; an indented line is an example and stays as it is.
+/// Wraps paragraphs, one per line; an indented line is an example and stays as it is.
 fn paragraphs(text: &str) -> String {
     let paragraph = |line: &str| if line.starts_with(' ') { line.to_owned() } else { wrapped(line, COLUMNS) };
     text.lines().map(paragraph).collect::<Vec<_>>().join("\n")
 }
 
-/// A text in lines of so many columns.
+/// Wraps a text to a number of columns.
 pub(super) fn wrapped(text: &str, columns: usize) -> String {
     let mut out = String::new();
     let mut column = 0;

@@ -1,4 +1,4 @@
-//! Files: reading an input, what stands beside a program, and what goes wrong with either.
+//! Files: reading an input, files beside a program, and faults of both.
 
 use std::fs;
 use std::io::{self, Read as _};
@@ -9,12 +9,12 @@ use crate::machines::flow::PLAN;
 use crate::source::Source;
 use crate::units::number::up;
 
-/// What stands for standard input and output.
+/// Name for standard input and output.
 const DASH: &str = "-";
-/// How messages name what was read from standard input.
+/// Name of standard input in messages.
 pub(super) const STDIN: &str = "stdin";
 
-/// Whether a path means standard input or output.
+/// True if a path means standard input or output.
 pub(super) fn is_dash(path: &Path) -> bool {
     path == Path::new(DASH)
 }
@@ -59,12 +59,12 @@ fn sized(name: &str, bytes: Vec<u8>) -> anyhow::Result<Source> {
         .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "split the marker into several files"))
 }
 
-/// A program of so many bytes is large: its size is told with its name.
+/// Size from which a program is large, bytes: its size is reported with its name.
 const LARGE: u64 = 100_000_000;
-/// One of so many is told where little else is said, too.
+/// Size from which a program is reported even with `--quiet`, bytes.
 const HUGE: u64 = 1_000_000_000;
 
-/// What is said of a program that was written; to who wants to hear little only if it is huge.
+/// Message about a written program; with `--quiet` only if it is huge.
 pub(super) fn wrote(path: &Path, is_quiet: bool) -> Option<String> {
     let bytes = fs::metadata(path).map_or(0, |metadata| metadata.len());
     wrote_so_much(&path.display().to_string(), bytes, is_quiet)
@@ -87,7 +87,7 @@ pub(super) fn open(path: &Path) -> anyhow::Result<fs::File> {
     if is_dash(path) {
         return Err(failure("a program is not judged from standard input", "write it to a file first"));
     }
-    // Asked first: opening a pipe would wait for its writer.
+    // Checked first: opening a pipe would wait for its writer.
     if !fs::metadata(path).map_err(cannot)?.is_file() {
         let message = format!("`{name}` is not a regular file");
         return Err(failure(message, "write the program to a file first"));
@@ -95,7 +95,7 @@ pub(super) fn open(path: &Path) -> anyhow::Result<fs::File> {
     fs::File::open(path).map_err(cannot)
 }
 
-/// What went wrong, in plain words where the usual ones are cryptic.
+/// Reason of an error, in plain words where the system's are cryptic.
 pub(super) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -111,8 +111,8 @@ pub(super) fn directory(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The path of a file from a folder, with `/` between its names; the whole path where nothing is common to both, `None` where
-/// either is not there.
+/// Path of a file from a folder, with `/` between its names; the whole path if they have nothing in common, `None` if either
+/// does not exist.
 pub(super) fn path_from(folder: &Path, file: &Path) -> Option<String> {
     let (folder, file) = (folder.canonicalize().ok()?, file.canonicalize().ok()?);
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
@@ -124,7 +124,7 @@ pub(super) fn path_from(folder: &Path, file: &Path) -> Option<String> {
     Some(up.chain(down).collect::<Vec<_>>().join("/"))
 }
 
-/// What the name of a provenance ends in.
+/// Suffix of the name of a provenance.
 const META: &str = ".meta.json";
 
 fn with_end(path: &Path, end: &str) -> PathBuf {
@@ -133,27 +133,27 @@ fn with_end(path: &Path, end: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Where the provenance of a program stands.
+/// Path of the provenance of a program.
 pub(super) fn meta(program: &Path) -> PathBuf {
     with_end(program, META)
 }
 
-/// Whether a file is a plan by its name.
+/// True if a file is a plan by its name.
 pub(super) fn is_plan(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name == PLAN)
 }
 
-/// Whether a file is a provenance by its name.
+/// True if a file is a provenance by its name.
 pub(super) fn is_meta(path: &Path) -> bool {
     path.to_string_lossy().ends_with(META)
 }
 
-/// Where an outdated program goes.
+/// Path of an outdated program.
 pub(super) fn stale(program: &Path) -> PathBuf {
     with_end(program, ".stale")
 }
 
-/// The error of a file that cannot be written.
+/// Error about a file that cannot be written.
 pub(super) fn cannot_write(path: &Path, error: &io::Error) -> anyhow::Error {
     let hint = match error.kind() {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
@@ -165,8 +165,8 @@ pub(super) fn cannot_write(path: &Path, error: &io::Error) -> anyhow::Error {
     failure(format!("cannot write `{}`: {}", path.display(), reason(error)), hint)
 }
 
-/// Moves an older program and its provenance aside, because the compile that should replace it failed. Says so. A file
-/// that has no provenance beside it is not one of ours and stays.
+/// Moves an older program and its provenance aside, because the compile that should replace it failed, and returns a message. A
+/// file without a provenance beside it is not from `cutc` and stays.
 pub(super) fn move_aside(program: &Path) -> String {
     let mut said = String::new();
     if !meta(program).is_file() {

@@ -1,4 +1,4 @@
-//! Where a program comes from: the `.meta.json` beside it.
+//! Provenance of a program: the `.meta.json` beside it.
 
 use std::fs;
 use std::io::{Read, Seek, Write as _};
@@ -16,40 +16,39 @@ use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::machines::{self, Part};
 use crate::source::Source;
 
-/// Everything that made a program, for whoever finds it later. No date, and no path but from the program to its input: folders
-/// that are moved together keep their bytes.
+/// All inputs of a program, for later readers. No date, and no path except from the program to its input: folders that are
+/// moved together keep their bytes.
 #[derive(Serialize)]
 struct Provenance<'a> {
     /// Version of this program.
     version: &'static str,
     /// Name of the input, without its directory.
     source: String,
-    /// Path of the input from the folder of the program; not there of standard input.
+    /// Path of the input from the folder of the program; absent for standard input.
     #[serde(skip_serializing_if = "Option::is_none")]
     source_path: Option<String>,
     source_sha256: String,
     /// Name of the machine profile, without its directory, or that of the default machine.
     profile: &'a str,
-    /// Of the values in effect, `--set` included.
+    /// Digest of the values in effect, `--set` included.
     profile_sha256: String,
     target: &'a str,
-    /// What the program of a cutter is timed by and told in; not there of other machines.
+    /// Period and units of the program of a cutter; absent for other machines.
     #[serde(flatten)]
     scale: Option<Scale>,
     verified: Verified,
     /// Digest of the program.
     program_blake3: &'a str,
-    /// What the program does beside the drawing because it cannot do otherwise; not there when the target is not judged by
-    /// how it moves.
+    /// Unavoidable deviations of the program from the drawing; absent when the target is not judged by its motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     declared: Option<&'a [Declaration]>,
-    /// The centre line that the marker follows; not there when there is none.
+    /// The centre line that the marker follows; absent when there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     centre: Option<SideFile>,
-    /// The registration marks that the marker was laid by, likewise.
+    /// The registration marks by which the marker was laid; absent when there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     map: Option<SideFile>,
-    /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
+    /// Options beside the profile, as typed; absent when there are none.
     #[serde(skip_serializing_if = "str::is_empty")]
     options: &'a str,
 }
@@ -64,7 +63,7 @@ struct Scale {
 /// A file beside the source.
 #[derive(Serialize)]
 struct SideFile {
-    /// Without its directory.
+    /// Name without its directory.
     file: String,
     sha256: String,
 }
@@ -83,7 +82,7 @@ struct Units {
     angle: &'static str,
 }
 
-/// Whether the program was read back and proven to cut what the input says.
+/// Verification of the program: read back and proven to agree with the input, or not.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Verified {
@@ -91,33 +90,33 @@ pub(super) enum Verified {
     No,
     /// By this compile.
     Yes,
-    /// It is the picture of a program that was refused.
+    /// The file is a picture of a refused program.
     Refused,
 }
 
-/// What a program was made from.
+/// Ingredients of a program.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Made<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
-    /// Name of the target; of several programs under one plan their names.
+    /// Name of the target, or names of several under one plan.
     pub(super) target: &'a str,
-    /// What it is worth.
+    /// Its verification.
     pub(super) verified: Verified,
-    /// Where it is one of a cutter.
+    /// Data of a cutter's program; `None` for other machines.
     pub(super) cut: Option<Cut<'a>>,
-    /// What was chosen beside the profile, as it is typed.
+    /// Options beside the profile, as typed.
     pub(super) options: &'a str,
 }
 
-/// What is told of a program of a cutter beside that.
+/// Additional data of a cutter's program.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut<'a> {
-    /// What it does beside the drawing; `None` when it is not judged by how it moves.
+    /// Declared deviations from the drawing; `None` when it is not judged by its motion.
     pub(super) declared: Option<&'a [Declaration]>,
 }
 
-/// The provenance of a program, as a draft of the file at `path`, which stands beside it.
+/// Draft of the provenance of a program, at `path` beside it.
 ///
 /// # Errors
 ///
@@ -130,7 +129,7 @@ pub(super) fn draft<P: Read + Seek + ?Sized>(path: &Path, program: &mut P, made:
     Ok(draft)
 }
 
-/// The provenance of a program with this digest, as the JSON that stands at `path`.
+/// Provenance of a program with this digest, as JSON at `path`.
 fn json(path: &Path, blake3: &str, Made { source, job, target, verified, cut, options }: &Made) -> String {
     let scale =
         || Scale { period_ms: job.profile.time.period_ms, units: Units { time: "s", length: "mm", angle: "deg" } };
@@ -152,22 +151,22 @@ fn json(path: &Path, blake3: &str, Made { source, job, target, verified, cut, op
     })
 }
 
-/// Name of the input that a program was made from, if that stands beside it.
+/// Name of the input of a program, by its provenance.
 pub(super) fn source_of(program: &Path) -> Option<String> {
     told(program, "source")
 }
 
-/// Path of the input that a program was made from, from the folder of the program, if that stands beside it.
+/// Path of the input of a program from the folder of the program, by its provenance.
 pub(super) fn source_path_of(program: &Path) -> Option<String> {
     told(program, "source_path")
 }
 
-/// Whether a program was made from these bytes.
+/// True if a program was made from these bytes.
 pub(super) fn is_made_from(program: &Path, bytes: &[u8]) -> bool {
     told(program, "source_sha256").is_some_and(|digest| digest == sha256_hex(bytes))
 }
 
-/// Path of an input from the folder of a file; `None` of standard input.
+/// Path of an input from the folder of a file; `None` for standard input.
 fn path_of(source: &Source, beside: &Path) -> Option<String> {
     if source.name() == files::STDIN {
         None
@@ -176,27 +175,27 @@ fn path_of(source: &Source, beside: &Path) -> Option<String> {
     }
 }
 
-/// Whether a program is one that can be judged, by the target that it was made by; `None` when nothing beside it says so.
+/// True if a program can be judged, by its target; `None` without provenance.
 pub(super) fn is_judged(program: &Path) -> Option<bool> {
     target_of(program).map(|target| machines::is_judged(&target))
 }
 
-/// Name of the target that a program was made by, if that stands beside it.
+/// Name of the target of a program, by its provenance.
 pub(super) fn target_of(program: &Path) -> Option<String> {
     told(program, "target")
 }
 
-/// What the provenance beside a program says under a key.
+/// Value of a key in the provenance of a program.
 fn told(program: &Path, key: &str) -> Option<String> {
     let meta: serde_json::Value = serde_json::from_slice(&fs::read(files::meta(program)).ok()?).ok()?;
     meta[key].as_str().map(str::to_owned)
 }
 
-/// What a program says in its provenance that it does beside the drawing; `None` when that says nothing of it.
+/// Deviations from the drawing that the provenance of a program declares; `None` when it does not mention them.
 ///
 /// # Errors
 ///
-/// The provenance is no JSON, what it declares cannot be read, or a magnitude is no length.
+/// The provenance is no JSON, its declarations cannot be read, or a magnitude is no length.
 pub(super) fn declared(path: &Path) -> anyhow::Result<Option<Vec<Declaration>>> {
     let Ok(bytes) = fs::read(path) else { return Ok(None) };
     let path = path.display();
@@ -216,8 +215,8 @@ pub(super) fn declared(path: &Path) -> anyhow::Result<Option<Vec<Declaration>>> 
     }
 }
 
-/// Warnings where the provenance of a program names another source, another profile or other options than those given; none
-/// where there is no provenance. Options are compared as they are typed.
+/// Warnings if the provenance of a program names another source, another profile or other options than those given; empty
+/// without a provenance. Options are compared as typed.
 pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, options: &str) -> String {
     let mut said = String::new();
     let Ok(bytes) = fs::read(path) else { return said };
@@ -265,7 +264,7 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job, op
     said
 }
 
-/// Warnings on files beside a program whose bytes are others than those that it names.
+/// Warnings about files beside a program whose bytes differ from the digests that it names.
 pub(super) fn doubts_of_parts(program: &Path, parts: fn(&[u8]) -> Vec<Part>) -> String {
     let mut said = String::new();
     for Part { name, blake3 } in parts(&fs::read(program).unwrap_or_default()) {
@@ -314,7 +313,7 @@ impl Beside<'_> {
     }
 }
 
-/// Says that a program was made with other options than it is judged with, if it was.
+/// Reports that a program was made with other options than it is judged with, if it was.
 fn doubt_options(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, asked: &str) {
     let made = meta["options"].as_str().unwrap_or_default();
     if made != asked {

@@ -1,4 +1,4 @@
-//! The figures of a file as JSON: every key always there, null for what is not known.
+//! Figures of a file as JSON: every key is present, null for unknown values.
 
 use std::path::Path;
 
@@ -27,11 +27,11 @@ struct Figures<T: Serialize> {
 pub(super) struct Findings {
     warnings: Vec<Json>,
     errors: Vec<Json>,
-    /// How many of each code were found, the worst first: a flood of one code is counted here to its end.
+    /// Counts of all codes, the worst first: these are complete even if one code is too frequent to list.
     tally: Vec<Tally>,
 }
 
-/// A code, and how often it was found.
+/// A code and its count.
 #[derive(Serialize)]
 struct Tally {
     code: &'static str,
@@ -86,7 +86,7 @@ pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, source
     pretty(&Figures { setup: Setup::of(job), report: figures, findings: Findings::of(diagnostics, source) })
 }
 
-/// The worst that a verifier of another machine has seen under a rule, as JSON.
+/// Worst value that a verifier of another machine has seen under a rule, as JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct WorstOf {
     code: &'static str,
@@ -101,7 +101,7 @@ impl From<&Finding> for WorstOf {
     }
 }
 
-/// Line on a source that has errors, of which no program was written.
+/// Line about a source with errors, of which no program was written.
 pub(super) fn nothing_written(source: &Source, diagnostics: &Diagnostics) -> String {
     let [errors, warnings] = [(Severity::Error, "error"), (Severity::Warning, "warning")]
         .map(|(severity, word)| counted(diagnostics.count(severity), word));

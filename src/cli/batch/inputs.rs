@@ -1,4 +1,4 @@
-//! The files that are meant by files, folders and patterns on a command line.
+//! Input files of a command line with files, folders and patterns.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -13,60 +13,60 @@ use crate::cli::provenance;
 use crate::front::DIALECTS;
 use crate::machines::flow::PLAN;
 
-/// What makes a name a pattern.
+/// Characters that make a name a pattern.
 const PATTERN: [char; 4] = ['*', '?', '[', '{'];
 
-/// A file to work on.
+/// An input file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::cli) struct Input {
-    /// Where it is.
+    /// Its path.
     pub(in crate::cli) path: PathBuf,
-    /// Its path below the folder or pattern that it was found by; else its name.
+    /// Its path below its folder or pattern; otherwise its name.
     pub(in crate::cli) name: PathBuf,
 }
 
 impl Input {
-    /// A file that is named itself.
+    /// An input that is named itself.
     pub(in crate::cli) fn named(path: &Path) -> Self {
         let name =
             if is_dash(path) { STDIN.into() } else { path.file_name().map_or_else(|| path.to_owned(), PathBuf::from) };
         Self { path: path.to_owned(), name }
     }
 
-    /// Its bytes, as far as the file system knows.
+    /// Its size in bytes, as far as the file system knows.
     pub(in crate::cli) fn size(&self) -> u64 {
         self.path.metadata().map_or(0, |known| known.len())
     }
 
-    /// Its name as manifests have it, the same on every system.
+    /// Its name in manifests, equal on every system.
     pub(in crate::cli) fn key(&self) -> String {
         let parts: Vec<_> = self.name.iter().map(|part| part.to_string_lossy()).collect();
         parts.join("/")
     }
 }
 
-/// What a command line names.
+/// Inputs of a command line.
 #[derive(Debug)]
 pub(in crate::cli) enum Inputs {
-    /// One file, as such: what is said of it is said at length.
+    /// One file by name: its messages are detailed.
     One(PathBuf),
     /// Files, folders or patterns.
     Many(Vec<Input>),
 }
 
-/// Which files are meant by folders and patterns.
+/// Filter for files in folders and by patterns.
 #[derive(Clone, Copy)]
 struct Sought<'a> {
-    /// Whether a file in a folder is.
+    /// Test for a file in a folder.
     belongs: &'a dyn Fn(&Path) -> bool,
-    /// Whether a file may be that a pattern names.
+    /// Test for a file that a pattern names.
     may: &'a dyn Fn(&Path) -> bool,
-    /// What to do when there are none.
+    /// Advice when there are no files.
     hint: &'a str,
 }
 
-/// Finds the cutter files that some arguments mean. `belongs` tells which files in folders are meant; a pattern names them
-/// itself; programs of ours are neither. What is neither there nor a pattern is left for whoever opens it.
+/// Finds the cutter files of some arguments. `belongs` is the test for files in folders. A pattern selects by name; programs of
+/// `cutc` are excluded. A path that is neither there nor a pattern is kept, and opening it fails.
 pub(in crate::cli) fn find(
     arguments: &[PathBuf],
     belongs: impl Fn(&Path) -> bool,
@@ -77,8 +77,8 @@ pub(in crate::cli) fn find(
     find_sought(arguments, Sought { belongs: &belongs, may: &is_of_others, hint })
 }
 
-/// Finds the programs that some arguments mean: in folders those whose provenance names a target that is judged, or that have
-/// none and the extension of one; by a pattern all but provenances and what is made by other targets.
+/// Finds the programs of some arguments. In folders these are files whose provenance names a target that is judged, or that
+/// have no provenance and the extension of such a target. A pattern excludes only provenances and the output of other targets.
 pub(in crate::cli) fn find_programs(arguments: &[PathBuf]) -> anyhow::Result<Inputs> {
     let is_judged = |path: &Path| if is_plan(path) { Some(true) } else { provenance::is_judged(path) };
     // The programs of heads are judged with the plan that names them.
@@ -114,19 +114,19 @@ fn find_sought(arguments: &[PathBuf], sought: Sought) -> anyhow::Result<Inputs> 
         }
     }
     for input in &mut inputs {
-        // Written as its user would: `./a.cut` is `a.cut`.
+        // In the spelling of users: `./a.cut` is `a.cut`.
         if let Ok(path) = input.path.strip_prefix(".") {
             input.path = path.to_owned();
         }
     }
-    // Named twice, as by two patterns, a file is meant once.
+    // A file that is named twice, as by two patterns, is worked on once.
     let mut known = BTreeSet::new();
     inputs.retain(|input| known.insert(input.path.canonicalize().unwrap_or_else(|_| input.path.clone())));
     Ok(Inputs::Many(inputs))
 }
 
-/// Whether a file in a folder looks like a program of a machine's motion, by its extension. A rewritten cutter file looks like
-/// any other.
+/// True if a file in a folder is a program of a machine's motion, by its extension. A rewritten cutter file has the extension
+/// of any other.
 fn is_named_as_program(path: &Path) -> bool {
     let Some(extension) = path.extension() else { return false };
     let moves = |proof: Option<Proof>| match proof {
@@ -137,14 +137,14 @@ fn is_named_as_program(path: &Path) -> bool {
     known.any(|known| extension.eq_ignore_ascii_case(known))
 }
 
-/// Whether a file in a folder looks like a cutter file, by its extension.
+/// True if a file in a folder is a cutter file, by its extension.
 pub(in crate::cli) fn is_cutter_file(path: &Path) -> bool {
     let extension = path.extension().map(|extension| extension.to_string_lossy().into_owned()).unwrap_or_default();
     let mut known = DIALECTS.iter().flat_map(|dialect| dialect.extensions);
     known.any(|known| known.eq_ignore_ascii_case(&extension))
 }
 
-/// The extensions by which cutter files in folders are told.
+/// Extensions of cutter files in folders.
 pub(in crate::cli) fn extensions() -> String {
     let mut known: Vec<&str> = Vec::new();
     for extension in DIALECTS.iter().flat_map(|dialect| dialect.extensions) {
@@ -155,26 +155,26 @@ pub(in crate::cli) fn extensions() -> String {
     known.iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(" ")
 }
 
-/// What to do when a folder has no cutter files.
+/// Advice when a folder has no cutter files.
 pub(in crate::cli) fn hint() -> String {
     format!("cutter files are told by {}; name others by a pattern, as in `'in/**/*.001'`", extensions())
 }
 
-/// The files below a folder, as a pattern that all names fit would find them; none is no mistake.
+/// Files below a folder, as found by a pattern that fits all names; there may be none.
 pub(in crate::cli) fn files_in(folder: &Path) -> Vec<Input> {
     let mut inputs = Vec::new();
     walk(folder, |_, _| true, &mut inputs);
     inputs
 }
 
-/// The files below a folder, each folder's in the order of their names, but hidden ones. What cannot be looked into stands
-/// among them: who opens it says why.
+/// Files below a folder without hidden ones, sorted by name within each folder. Unreadable entries are included: opening them
+/// tells the reason.
 fn walk(folder: &Path, is_meant: impl Fn(&Path, &Path) -> bool, inputs: &mut Vec<Input>) {
     let is_seen = |entry: &DirEntry| entry.depth() == 0 || !entry.file_name().to_string_lossy().starts_with('.');
     for entry in WalkDir::new(folder).follow_links(true).sort_by_file_name().into_iter().filter_entry(is_seen) {
         let (path, is_file) = match &entry {
             Ok(entry) => (entry.path(), entry.file_type().is_file()),
-            // A folder that nobody may read, a link to nothing.
+            // An unreadable folder, or a dangling link.
             Err(error) => (error.path().unwrap_or(folder), true),
         };
         let name = path.strip_prefix(folder).unwrap_or(path);
@@ -190,12 +190,12 @@ struct Pattern {
     names: String,
 }
 
-/// What a path means as a pattern; `None` when it is none.
+/// The pattern in a path; `None` when it has none.
 fn pattern(path: &Path) -> Option<Pattern> {
     let mut folder = PathBuf::new();
     for part in path.components() {
         let next = folder.join(part);
-        // A folder may have such letters in its name.
+        // A folder may have such characters in its name.
         if part.as_os_str().to_string_lossy().contains(PATTERN) && !next.is_dir() {
             break;
         }

@@ -1,5 +1,5 @@
-//! What became of each file, a line each: `cutc.jsonl` beside the programs. A run adds a line with every file that it
-//! ends, and leaves the lines sorted, so that the same files give the same manifest in whatever order they were done.
+//! Manifest of a folder of programs: `cutc.jsonl`, a line for the outcome of each file. A run adds a line for every file that
+//! it finishes, and leaves the lines sorted, so that the manifest does not depend on the order of the work.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
@@ -19,34 +19,34 @@ use crate::diagnostic::Diagnostics;
 use crate::machine::{MachineProfile, sha256_hex, sha256_of};
 use crate::source::Source;
 
-/// The name of a manifest, and how those of parts begin and end.
+/// The name of a manifest; prefix and suffix of those of parts.
 const NAME: &str = "cutc.jsonl";
 const PART: [&str; 2] = ["cutc.", ".jsonl"];
 
-/// Whether a file is a manifest by its name, whole or of a part.
+/// True if a file is a manifest by its name, of a folder or of a part.
 pub(in crate::cli) fn is_manifest(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name == NAME || name.starts_with(PART[0]) && name.ends_with(PART[1])
 }
 
-/// What a program is made from: the same gives the same bytes.
+/// Ingredients of the programs of a file; equal ingredients give equal bytes.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(in crate::cli) struct Made {
     /// The input's name below its folder.
     pub(in crate::cli) source: String,
-    /// What was written of it.
+    /// Targets that were written.
     pub(in crate::cli) targets: Vec<String>,
     pub(in crate::cli) source_sha256: String,
-    /// Of the values in effect.
+    /// Digest of the values in effect.
     pub(in crate::cli) profile_sha256: String,
-    /// What else was asked, as it is typed.
+    /// Other options, as typed.
     pub(in crate::cli) options: String,
     /// Version of this program.
     pub(in crate::cli) version: String,
 }
 
 impl Made {
-    /// Ingredients of the programs of an input; `options` as they are typed, of which some may be empty.
+    /// Ingredients of the programs of an input; `options` are as typed and may be empty.
     pub(in crate::cli) fn of(
         (input, source): (&Input, &Source),
         targets: impl Iterator<Item = &'static str>,
@@ -68,36 +68,36 @@ impl Made {
 /// A file that was written.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::cli) struct Output {
-    /// Below the folder of the manifest.
+    /// Path below the folder of the manifest.
     pub(in crate::cli) path: String,
     pub(in crate::cli) sha256: String,
 }
 
-/// Standing of the programs of a file.
+/// Verdict on the programs of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(in crate::cli) enum Standing {
     /// Its programs were read back and proven.
     Verified,
-    /// They were not, as `--no-verify` asked.
+    /// The programs were not read back, because of `--no-verify`.
     Unverified,
-    /// It has errors, or its programs failed: there are none.
+    /// The file has errors, or its programs failed: there are none.
     Refused,
 }
 
-/// What became of one file.
+/// Outcome of one file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::cli) struct Line {
     #[serde(flatten)]
     pub(in crate::cli) made: Made,
     pub(in crate::cli) verdict: Standing,
-    /// Programs, and pictures of what was refused.
+    /// Programs, and pictures of refused ones.
     pub(in crate::cli) outputs: Vec<Output>,
-    /// None of what could not be read.
+    /// Number of pieces; `None` if the file could not be read.
     pub(in crate::cli) pieces: Option<usize>,
-    /// Length of what is cut, m.
+    /// Length of the cuts, m.
     pub(in crate::cli) cut_m: Option<f64>,
-    /// What the program takes, s, where it was planned.
+    /// Time of the program, s, if it was planned.
     pub(in crate::cli) time_s: Option<f64>,
     /// The code of the worst finding, if there is any.
     pub(in crate::cli) worst: Option<String>,
@@ -110,7 +110,7 @@ pub(in crate::cli) struct Manifest {
     lines: Mutex<Lines>,
 }
 
-/// What was made of each input and its targets, the latest last.
+/// Lines of each input and its targets, the latest last.
 type Known = BTreeMap<Key, Vec<Line>>;
 
 /// An input and its targets.
@@ -118,12 +118,12 @@ type Key = (String, Vec<String>);
 
 #[derive(Debug)]
 struct Lines {
-    /// Held against other runs for as long as this one writes.
+    /// The manifest, locked against other runs while this one writes.
     file: File,
     known: Known,
-    /// What earlier runs left that this manifest may keep, the latest last.
+    /// Lines of earlier runs that this manifest may keep, the latest last.
     earlier: Vec<Line>,
-    /// What this run wrote or kept.
+    /// Lines that this run wrote or kept.
     fresh: BTreeMap<Key, Line>,
 }
 
@@ -134,11 +134,11 @@ impl Line {
 }
 
 impl Manifest {
-    /// Opens that of a folder, or of one part of its programs. Waits for another run that writes to it, and says so.
+    /// Opens the manifest of a folder, or of one part of its programs. Waits for another run that writes to it, with a message.
     pub(in crate::cli) fn open(folder: &Path, shard: Option<Shard>, console: &mut Console) -> anyhow::Result<Self> {
         let path = Self::place(folder, shard);
         let waiting = || {
-            // Who closed standard error does not want to read it.
+            // Ignore errors on standard error: the reader has closed it.
             let _ = writeln!(console.err, "waiting for another run that writes to `{}`", folder.display());
         };
         let mut file = held(&path, waiting).map_err(|error| cannot_write(&path, &error))?;
@@ -147,7 +147,7 @@ impl Manifest {
         let others = parts.iter().cloned().chain(shard.map(|_| folder.join(NAME)));
         let others: Vec<Vec<u8>> = others.filter_map(|path| std::fs::read(path).ok()).collect();
         let own = own(&mut file).map_err(|error| cannot_write(&path, &error))?;
-        // The manifest of a part keeps what was its own; that of all takes in what its parts made.
+        // The manifest of a part prefers its own lines; that of a folder takes in the lines of its parts.
         let own_first = if shard.is_some() { others.len() } else { 0 };
         let (mut known, mut earlier) = (Known::new(), Vec::new());
         for (i, text) in others.iter().chain([&own]).enumerate() {
@@ -160,7 +160,7 @@ impl Manifest {
         Ok(Self { path, lines })
     }
 
-    /// Where that of a folder stands, or of one part of its programs.
+    /// Path of the manifest of a folder, or of one part of its programs.
     pub(in crate::cli) fn place(folder: &Path, shard: Option<Shard>) -> PathBuf {
         folder.join(shard.map_or_else(|| NAME.to_owned(), |shard| format!("{}{shard}{}", PART[0], PART[1])))
     }
@@ -169,12 +169,12 @@ impl Manifest {
         self.lines.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Where it stands.
+    /// Path of the manifest.
     pub(in crate::cli) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What was made of the same before, if that still stands where it was written.
+    /// Line of equal ingredients from before, if its outputs still stand as written.
     pub(in crate::cli) fn standing(&self, made: &Made) -> Option<Line> {
         let line = self
             .lines()
@@ -191,14 +191,14 @@ impl Manifest {
         (is_made && line.outputs.iter().all(|output| self.stands(output))).then_some(line)
     }
 
-    /// The last thing that was made of an input and its targets, if it is that the same was refused.
+    /// The latest line of an input and its targets, if it is a refusal of equal ingredients.
     pub(in crate::cli) fn refused(&self, made: &Made) -> Option<Line> {
         let lines = self.lines();
         let last = lines.known.get(&(made.source.clone(), made.targets.clone())).and_then(|lines| lines.last());
         last.filter(|line| line.made == *made && line.verdict == Standing::Refused).cloned()
     }
 
-    /// The inputs of which the last thing that was made is nothing, by their names.
+    /// Names of the inputs whose latest line is a refusal.
     pub(in crate::cli) fn refused_names(&self) -> Vec<String> {
         let lines = self.lines();
         let last = lines.known.values().filter_map(|lines| lines.last());
@@ -215,14 +215,14 @@ impl Manifest {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
-    /// The name of a program as lines have it.
+    /// Name of a program in lines.
     fn name_of(&self, program: &Path) -> String {
         let below = program.strip_prefix(self.folder()).unwrap_or(program);
         let parts: Vec<_> = below.iter().map(|part| part.to_string_lossy()).collect();
         parts.join("/")
     }
 
-    /// Line on files that take their place, without figures of them.
+    /// Line about files that take their place, without figures.
     pub(in crate::cli) fn line(&self, made: Made, verdict: Standing, whole: Vec<Whole>, out: &Diagnostics) -> Line {
         let output = |Whole { path, sha256 }| Output { path: self.name_of(&path), sha256 };
         let outputs = whole.into_iter().map(output).collect();
@@ -230,7 +230,7 @@ impl Manifest {
         Line { made, verdict, outputs, pieces: None, cut_m: None, time_s: None, worst }
     }
 
-    /// Adds a line; what cannot be written whole leaves nothing.
+    /// Adds a line; if it cannot be written whole, removes the rest of it.
     pub(in crate::cli) fn add(&self, line: Line) -> anyhow::Result<()> {
         let mut text = serde_json::to_vec(&line).expect("plain data with text keys");
         text.push(b'\n');
@@ -238,7 +238,7 @@ impl Manifest {
         let end = file.seek(SeekFrom::End(0));
         let added = end.and_then(|end| {
             file.write_all(&text).inspect_err(|_| {
-                // The next line would end up behind half of this one.
+                // Otherwise the next line would be appended to half of this one.
                 let _ = file.set_len(end);
             })
         });
@@ -253,17 +253,17 @@ impl Manifest {
         self.lines().fresh.insert(line.key(), line);
     }
 
-    /// Leaves a sorted line for each input and its targets: of this run, or of earlier ones as long as what it names is
-    /// there and nothing newer has its place. That of a whole folder takes in those of its parts whose runs are over.
+    /// Leaves a sorted line for each input and its targets: of this run, or of earlier ones if their outputs are there and no
+    /// newer line replaces them. The manifest of a folder takes in those of its parts whose runs are over.
     pub(in crate::cli) fn finish(self) -> anyhow::Result<()> {
         let folder = self.folder().to_owned();
         let Lines { file, known, mut earlier, fresh } = self.lines.into_inner().unwrap_or_else(PoisonError::into_inner);
-        // Held until they are gone, so that whoever waits for one begins another.
+        // Locked until they are removed, so that a run that waits for one begins another.
         let is_whole = self.path.file_name().is_some_and(|name| name == NAME);
         let parts = if is_whole { parts(&folder) } else { Vec::new() };
         let mut over: Vec<(PathBuf, File)> =
             parts.into_iter().filter_map(|part| over(&part).map(|file| (part, file))).collect();
-        // What was added to them while this run went on is newer than all that was there.
+        // Lines that were added to them during this run are newer than the rest.
         let mut added = Vec::new();
         over.retain_mut(|(_, file)| {
             let mut text = Vec::new();
@@ -274,7 +274,7 @@ impl Manifest {
         let added = added.into_iter();
         earlier.extend(added.filter(|line| known.get(&line.key()).is_none_or(|known| !known.contains(line))));
         let (mut taken, mut kept) = (BTreeSet::new(), BTreeMap::new());
-        // A refusal that this run does not repeat may be of a file that is gone.
+        // A refusal that this run does not repeat may be of a removed file.
         let stands = |line: &Line| {
             !line.outputs.is_empty() && line.outputs.iter().all(|output| folder.join(&output.path).is_file())
         };
@@ -288,7 +288,7 @@ impl Manifest {
         }
         let text = |line: &Line| serde_json::to_string(line).expect("plain data with text keys") + "\n";
         let mut texts: Vec<String> = kept.values().map(text).collect();
-        // As `sort` does it, so that those of parts may be joined by it, too.
+        // In the order of `sort`, so that it can merge the manifests of parts.
         texts.sort_unstable();
         let mut draft = Draft::new(&self.path)?;
         draft.file().write_all(texts.concat().as_bytes()).map_err(|error| cannot_write(&self.path, &error))?;
@@ -301,55 +301,55 @@ impl Manifest {
     }
 }
 
-/// The lines of a text; what is no line of ours tells nothing.
+/// Lines of a text; other text is skipped.
 fn lines_of(text: &[u8]) -> Vec<Line> {
     text.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok()).collect()
 }
 
-/// Holds the manifest of a part, unless a run still writes to it.
+/// Locks the manifest of a part, unless a run still writes to it.
 fn over(part: &Path) -> Option<File> {
-    // Open for writing, though nothing is written: file systems over a network lock no other files.
+    // Opened for writing, though nothing is written: network file systems lock no other files.
     let file = OpenOptions::new().read(true).write(true).open(part).ok()?;
-    // Without locks there is nothing that says that a run goes on, as when one begins.
+    // Without locks nothing tells that another run is active, as in [`held`].
     (!matches!(file.try_lock(), Err(TryLockError::WouldBlock))).then_some(file)
 }
 
-/// Opens a manifest and holds it against other runs.
+/// Opens a manifest and locks it against other runs.
 fn held(path: &Path, waiting: impl FnOnce()) -> io::Result<File> {
     let mut waiting = Some(waiting);
     loop {
         let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
-        // A file system without locks leaves it to the user that one run at a time writes to a folder.
+        // On a file system without locks the user must run one writer per folder at a time.
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
             waiting.take().into_iter().for_each(|say| say());
             let _ = file.lock();
         }
-        // The run that held it before may have put another in its place.
+        // The previous owner may have replaced it.
         if same(&file, path) {
             return Ok(file);
         }
     }
 }
 
-/// Whether an open file is the one at a path.
+/// True if an open file is the one at a path.
 fn same(file: &File, path: &Path) -> bool {
     #[cfg(unix)]
     {
         use std::os::unix::fs::MetadataExt as _;
         let known = |found: std::fs::Metadata| (found.dev(), found.ino());
-        // Opened anew: what a file system over a network remembers of a name may be seconds old.
+        // Opened anew: a network file system may cache a name for seconds.
         let there = File::open(path).and_then(|file| file.metadata());
         file.metadata().ok().map(known) == there.ok().map(known)
     }
     #[cfg(not(unix))]
     {
-        // An open file cannot be replaced there.
+        // On other systems an open file cannot be replaced.
         let _ = (file, path);
         true
     }
 }
 
-/// The text of a manifest, without what a full disk or a power cut left of a last line.
+/// Text of a manifest, without the rest of a last line that a full disk or a power cut truncated.
 fn own(file: &mut File) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
     file.read_to_end(&mut text)?;
@@ -376,7 +376,7 @@ fn is_part(name: &OsStr) -> bool {
     numbers.is_some_and(|(index, count)| Shard::parse(&format!("{index}/{count}")).is_ok())
 }
 
-/// Micrometres of a metre, microseconds of a second: far below what a machine resolves.
+/// Rounds to a millionth: micrometres of a metre, microseconds of a second, far below the resolution of a machine.
 pub(in crate::cli) fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }

@@ -1,4 +1,4 @@
-//! Many files: which they are, work on them side by side, what is said of each, together and in order, and a table of all.
+//! Work on many files: their selection, parallel work, messages in order, and a table of all.
 
 mod collisions;
 mod figures;
@@ -41,32 +41,32 @@ pub(super) struct Threads {
 }
 
 impl Threads {
-    /// Their number; what is shared out inside a file keeps to it, too.
+    /// Sets and returns the number of threads; parallel work inside a file keeps to it, too.
     pub(super) fn set(self) -> usize {
         if let Some(jobs) = self.jobs {
-            // It fails when there are threads already, as in tests: then these serve.
+            // It fails if there already are threads, as in tests: then these are used.
             let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs.get()).build_global();
         }
         self.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
     }
 }
 
-/// Finding about a file over which the program itself broke down.
+/// Message about a file that caused a panic.
 const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
 
-/// What became of one file.
+/// Outcome of one file.
 #[derive(Debug)]
 pub(super) struct Outcome {
-    /// Its row; `None` when it is left to others.
+    /// Its row; `None` when it belongs to another part.
     pub(super) row: Option<Row>,
-    /// For standard error.
+    /// Text for standard error.
     pub(super) said: String,
-    /// For standard output, where the figures are wanted as JSON: an object.
+    /// JSON object for standard output, if JSON is requested.
     pub(super) json: Option<String>,
 }
 
 impl Outcome {
-    /// A file that cannot be read or written.
+    /// Outcome of a file that cannot be read or written.
     pub(super) fn failed(input: &Input, error: &anyhow::Error) -> Self {
         let message = format!("{error:#}");
         let row = Row {
@@ -76,12 +76,12 @@ impl Outcome {
         Self { row: Some(row), said: format!("error: {message}\n"), json: None }
     }
 
-    /// A file that the program itself broke down over.
+    /// Outcome of a file that caused a panic.
     fn broken(input: &Input, said: String) -> Self {
         Self { row: Some(Row::broken(&input.path)), said, json: None }
     }
 
-    /// A file that is left to others.
+    /// Outcome of a file that belongs to another part.
     pub(super) fn elsewhere() -> Self {
         Self { row: None, said: String::new(), json: None }
     }
@@ -95,25 +95,25 @@ pub(super) fn worst(diagnostics: &Diagnostics) -> Option<&'static str> {
 /// Files to work on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Batch<'b> {
-    /// Which.
+    /// Inputs.
     pub(super) inputs: &'b [Input],
-    /// By how many threads.
+    /// Number of threads.
     pub(super) threads: usize,
-    /// How that is told.
+    /// Form of the output.
     pub(super) telling: Telling,
 }
 
-/// What is left to print of a batch.
+/// Rest of the output of a batch.
 #[derive(Debug)]
 pub(super) struct Ended {
-    /// Of all files, in their order.
+    /// Rows of all files, in order.
     pub(super) rows: Vec<Row>,
-    /// What closes the list of JSON objects.
+    /// End of the list of JSON objects.
     pub(super) closing: &'static str,
 }
 
 impl Ended {
-    /// [`FAULTY`] when any file failed.
+    /// Exit code: [`FAULTY`] when any file failed.
     pub(super) fn code(&self) -> u8 {
         if self.rows.iter().any(|row| row.state == State::Failed) { FAULTY } else { DONE }
     }
@@ -125,12 +125,12 @@ impl Ended {
 }
 
 impl Batch<'_> {
-    /// Works on every input and tells what comes of it, but for the table.
+    /// Works on every input and prints the outcomes, without the table.
     pub(super) fn run(self, console: &mut Console, work: impl Fn(usize, &Input) -> Outcome + Sync) -> Ended {
         self.run_in_stages(console, Stages { work, settle: |_, outcome| outcome })
     }
 
-    /// The same, where a part of the work waits for a disk.
+    /// Works on every input in two stages, of which the second waits for a disk; see [`Batch::run`].
     pub(super) fn run_in_stages<D: Send>(
         self,
         console: &mut Console,
@@ -151,7 +151,7 @@ impl Batch<'_> {
         side_by_side(&sizes, threads, Stages { work, settle }, |_, outcome| {
             let Outcome { row, said, json } = outcome;
             progress.aside(|| {
-                // Who closed a stream does not want to read it.
+                // Ignore errors on a stream: the reader has closed it.
                 let _ = console.err.write_all(said.as_bytes());
                 if let Some(json) = json {
                     let before = if objects == 0 { "[\n" } else { ",\n" };
@@ -171,7 +171,7 @@ impl Batch<'_> {
     }
 }
 
-/// What comes of work on a file; or what is said of a file that the program itself broke down over: the others go on.
+/// Result of work on a file, or the message about a panic in it: the other files go on.
 pub(super) fn unless_broken<T>(input: &Input, work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|_| {
         let file = input.path.display();
@@ -179,7 +179,7 @@ pub(super) fn unless_broken<T>(input: &Input, work: impl FnOnce() -> T) -> Resul
     })
 }
 
-/// An object as one of a list is printed.
+/// An object, indented as an item of a list.
 fn indented(json: &str) -> String {
     let lines: Vec<_> = json.lines().map(|line| format!("  {line}")).collect();
     lines.join("\n")

@@ -1,4 +1,4 @@
-//! Many files, each to programs in its places below one folder, with a line for each in the manifest of that folder.
+//! Programs of many files below one folder, with a line for each in the manifest of that folder.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ pub(in crate::cli) struct Chosen {
 }
 
 impl Chosen {
-    /// Whether a manifest is asked for even of a single file.
+    /// True if a manifest is requested even for a single file.
     pub(in crate::cli) fn is_of_many(self) -> bool {
         self.changed || self.shard.is_some()
     }
@@ -71,22 +71,22 @@ pub(in crate::cli) fn places<E, P>(
 pub(in crate::cli) struct Work<M, D, S> {
     /// Ingredients of its programs.
     pub(in crate::cli) made: M,
-    /// Makes its programs, as far as files side by side may.
+    /// Makes its programs as drafts, in parallel with other files.
     pub(in crate::cli) draft: D,
-    /// Puts them in their places.
+    /// Moves them to their places.
     pub(in crate::cli) settle: S,
 }
 
-/// Stage of one of many files.
+/// State of one of many files between the stages.
 enum Step<T> {
-    /// There is no more to do.
+    /// Nothing more to do.
     Over(Box<Outcome>),
-    /// It was worked on, but is not yet in its places.
+    /// Worked on, but not yet in its places.
     Drafted(Box<T>),
 }
 
 impl Programs<'_> {
-    /// Makes the programs of all files. `seen` is told of their rows, and writes what shows all of them: its place is told.
+    /// Makes the programs of all files. `seen` receives their rows and writes the overview of all, whose path is reported.
     pub(in crate::cli) fn make<T: Send>(
         self,
         console: &mut Console,
@@ -100,12 +100,12 @@ impl Programs<'_> {
         let Self { inputs, out, places, chosen: Chosen { changed, shard }, threads, telling } = self;
         let manifest_at = Manifest::place(out, shard);
         let mut folder = MadeFolders::of([manifest_at.as_path()])?;
-        // Behind another run that may take folders away that it left empty.
+        // After another run, which may have removed folders that it left empty.
         let manifest = Manifest::open(out, shard, console)?;
         draft::sweep_folders(places.iter().flatten().map(PathBuf::as_path));
         let mut folders = MadeFolders::of(places.iter().flatten().map(PathBuf::as_path))?;
         if shard.is_some() {
-            // What this part does not need another may be about to write to.
+            // Another part may be about to write to folders that this one does not need.
             folder.keep();
             folders.keep();
         }
@@ -139,7 +139,7 @@ impl Programs<'_> {
     }
 }
 
-/// A file of which everything still stands.
+/// Outcome of a file whose programs are up to date.
 fn unchanged(manifest: &Manifest, input: &Input, line: Line) -> Outcome {
     Outcome { row: Some(kept(manifest, input, line)), said: String::new(), json: None }
 }
@@ -158,7 +158,7 @@ pub(in crate::cli) fn kept(manifest: &Manifest, input: &Input, line: Line) -> Ro
     row
 }
 
-/// Tells the place of a file about all programs, or why it could not be written.
+/// Reports the path of the overview, or why it could not be written.
 fn tell(written: anyhow::Result<String>, quiet: bool, finished: &mut Finished) {
     match written {
         Ok(path) if !quiet => say(&mut finished.stderr, format_args!("wrote `{path}`")),

@@ -98,17 +98,17 @@ pub(in crate::cli) struct Making {
 }
 
 impl Making {
-    /// The directory that `-o` names; the current one without it.
+    /// The directory of `-o`; the current one without it.
     pub(in crate::cli) fn place(&self) -> &Path {
         self.out.as_deref().unwrap_or(Path::new(""))
     }
 
-    /// The targets as typed.
+    /// Targets as typed.
     pub(in crate::cli) fn targets(&self) -> &[&'static Target] {
         &self.targets
     }
 
-    /// The machine profile as typed.
+    /// Machine profile as typed.
     pub(in crate::cli) fn profile(&self) -> Option<&Path> {
         self.reading.machine.profile.as_deref()
     }
@@ -119,19 +119,19 @@ impl Making {
         [self.profile(), centre, map]
     }
 
-    /// The job, or what is wrong with its profile, its centre line or its marks.
+    /// The job, or the faults of its profile, its centre line or its marks.
     pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         let planner: Vec<String> = self.planner.iter().map(|name| format!("{}={name}", choices::PLANNER)).collect();
         let job = self.choice.job_with(&self.reading, &planner)?;
         Ok(job.map(|job| Job { remarks: self.remarks(), ..job }))
     }
 
-    /// Remarks that a page prints beside the job.
+    /// Remarks for a page.
     fn remarks(&self) -> Remarks {
         Remarks { date: self.date.clone(), price: self.pricing.price().map(Price::from) }
     }
 
-    /// Refuses remarks where no page is written that prints them.
+    /// Refuses remarks if no page prints them.
     pub(in crate::cli) fn check_remarks(&self, targets: &[&Target]) -> anyhow::Result<()> {
         let has_page = targets.iter().any(|target| matches!(target.emit, Emit::Page(_)));
         let option = if self.date.is_some() { "--date" } else { "--rate" };

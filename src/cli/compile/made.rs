@@ -1,4 +1,4 @@
-//! Programs that are written: all of a file whole, with their provenance beside them, or none at all.
+//! Written programs: all programs of a file, with their provenance, or none at all.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -26,51 +26,51 @@ pub(in crate::cli) struct Compile<'a> {
     pub(in crate::cli) advance: &'a Advance,
 }
 
-/// What a compile left.
+/// Result of a compile.
 pub(in crate::cli) struct Emitted {
     /// The programs; `None` when they were refused.
     pub(in crate::cli) compiled: Option<Compiled>,
-    /// Which of the targets are pictures of what was refused: they alone are worth keeping then.
+    /// True for each target that is a picture of a refused program: only these are worth keeping then.
     pub(in crate::cli) pictures: Vec<bool>,
 }
 
-/// How a compile to files ended.
+/// End of a compile to files.
 pub(in crate::cli) struct Ended {
-    /// What was compiled, `None` when it was refused; or why nothing could be written.
+    /// The result, `None` when it was refused; or the error of writing.
     pub(in crate::cli) compiled: anyhow::Result<Option<Compiled>>,
-    /// What was found.
+    /// Diagnostics.
     pub(in crate::cli) diagnostics: Diagnostics,
-    /// Where programs were written, or would have been.
+    /// Paths of the programs, written or not.
     pub(in crate::cli) programs: Vec<PathBuf>,
-    /// Lines on what was done beside that: pictures of what was refused, older programs that were moved aside.
+    /// Messages about other actions: pictures of refused programs, older programs that were moved aside.
     pub(in crate::cli) beside: String,
 }
 
 impl Ended {
-    /// Nothing was compiled.
+    /// End without a compile.
     pub(in crate::cli) fn failed(error: anyhow::Error) -> Self {
         let diagnostics = Diagnostics::default();
         Self { compiled: Err(error), diagnostics, programs: Vec::new(), beside: String::new() }
     }
 }
 
-/// What belongs to the writing of programs: it is done together with it or not at all.
+/// Record of a write, which is made together with it or not at all.
 type Record<'r> = &'r dyn Fn(Option<&Compiled>, &Diagnostics, Vec<Whole>) -> anyhow::Result<()>;
 
-/// Programs that are whole, but not yet where they belong.
+/// Complete programs that are not yet in their places.
 pub(in crate::cli) struct Drafted {
     paths: Vec<PathBuf>,
     diagnostics: Diagnostics,
-    /// What was written, or why nothing could be.
+    /// The drafts, or the error of writing.
     written: anyhow::Result<Written>,
 }
 
-/// What was written of a compile.
+/// Drafts of a compile.
 struct Written {
     emitted: Emitted,
-    /// The programs that are worth keeping.
+    /// Programs that are worth keeping.
     programs: Vec<Draft>,
-    /// The provenance of each.
+    /// Provenance of each.
     metas: Vec<Draft>,
 }
 
@@ -82,7 +82,7 @@ impl Compile<'_> {
         Drafted { paths: paths.to_vec(), diagnostics, written }
     }
 
-    /// Writes the programs and their provenance; of what is refused the pictures alone.
+    /// Writes the programs and their provenance; for a refused program the pictures only.
     fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Written> {
         let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
         let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
@@ -99,8 +99,7 @@ impl Compile<'_> {
         Ok(Written { emitted, programs: kept, metas })
     }
 
-    /// The provenance of a program of a target, as a draft of a file; without what was compiled it is a picture of what was
-    /// refused.
+    /// Draft of the provenance of a target's program; without a compiled program it belongs to a picture of a refused one.
     pub(in crate::cli) fn meta(
         &self,
         path: &Path,
@@ -122,7 +121,7 @@ impl Compile<'_> {
         provenance::draft(path, program, &made)
     }
 
-    /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.
+    /// Compiles into `outs`, one for each target; [`Emitted`] tells which of them are usable.
     pub(in crate::cli) fn emit(
         &self,
         outs: Vec<&mut dyn Medium>,
@@ -139,14 +138,14 @@ impl Compile<'_> {
 }
 
 impl Drafted {
-    /// Puts all in its place, or nothing. `record` is told of what was written or refused.
+    /// Moves everything to its place, or nothing. `record` receives the written or refused programs.
     pub(in crate::cli) fn publish(self, record: Option<Record>) -> Ended {
         let Self { paths, diagnostics, written } = self;
         let published = written.and_then(|Written { emitted, mut programs, metas }| {
-            // Only who records them asks for their digests.
+            // Digests are needed for a record only.
             let recorded = if record.is_some() { &mut programs[..] } else { &mut [] };
             let whole = recorded.iter_mut().map(Whole::of).collect::<anyhow::Result<_>>()?;
-            // Nothing takes its place before all is there.
+            // Nothing takes its place before everything is complete.
             draft::publish(metas.into_iter().chain(programs).collect(), || match record {
                 Some(record) => record(emitted.compiled.as_ref(), &diagnostics, whole),
                 None => Ok(()),
@@ -170,7 +169,7 @@ impl Drafted {
     }
 }
 
-/// Moves older programs aside, and says so.
+/// Moves older programs aside, and returns a message.
 fn move_aside(paths: &[PathBuf]) -> String {
     paths.iter().map(|path| files::move_aside(path)).collect()
 }

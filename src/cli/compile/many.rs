@@ -1,4 +1,4 @@
-//! Many files, each to its place below one folder.
+//! Many files, each with its place below one folder.
 
 use std::path::PathBuf;
 
@@ -36,7 +36,7 @@ pub(super) fn run(
         Err(refused) => return Ok(refused),
     };
     let places = &batch::places(out, targets, inputs)?[..];
-    // A part of the files leaves it to the run over all.
+    // The overview is written by the run over all parts.
     let overview = Overview::of(out, targets, places.iter().map(Vec::as_slice)).filter(|_| chosen.shard.is_none());
     if let Some(overview) = overview.as_ref().filter(|_| !making.force) {
         overview.may_be_written()?;
@@ -76,7 +76,7 @@ pub(in crate::cli) fn made(
     Made::of((input, source), targets.iter().map(|target| target.name), &job.profile, options)
 }
 
-/// What all files of a batch or a hot folder share.
+/// Common data of all files of a batch or a hot folder.
 #[derive(Clone, Copy)]
 pub(in crate::cli) struct Many<'a> {
     pub(in crate::cli) making: &'a Making,
@@ -86,12 +86,12 @@ pub(in crate::cli) struct Many<'a> {
 }
 
 impl<'a> Many<'a> {
-    /// The compile of a file; how far it is nobody watches.
+    /// The compile of a file; its progress is not shown.
     fn of(&self, source: &'a Source, advance: &'a Advance) -> Compile<'a> {
         Compile { making: self.making, targets: self.targets, source, job: self.job, advance }
     }
 
-    /// Compiles a file to drafts of what belongs in its places.
+    /// Compiles a file to drafts.
     pub(in crate::cli) fn draft(&self, input: &Input, source: Source, made: Made, paths: &[PathBuf]) -> One {
         let others = paths.iter().filter(|_| !self.making.force);
         let drafted = match others.map(|path| not_of_another(path, &input.path)).find_map(Result::err) {
@@ -101,7 +101,7 @@ impl<'a> Many<'a> {
         One { source, made, drafted }
     }
 
-    /// Puts what was compiled in its places, and its line in the manifest.
+    /// Moves drafts to their places, and adds the line to the manifest.
     pub(in crate::cli) fn publish(&self, One { source, made, drafted }: One) -> Published {
         let record = |compiled: Option<&Compiled>, diagnostics: &Diagnostics, whole: Vec<Whole>| {
             let report = compiled.map(|compiled| &compiled.report);
@@ -136,22 +136,22 @@ impl<'a> Many<'a> {
 pub(in crate::cli) struct One {
     source: Source,
     made: Made,
-    /// Why nothing was compiled, else what was.
+    /// The drafts, or the reason that there are none.
     drafted: anyhow::Result<Drafted>,
 }
 
-/// What became of one of many files.
+/// Outcome of one of many files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) enum Became {
-    /// Its programs.
+    /// Programs.
     Program,
-    /// Nothing, and another try would not help: it has errors, or its place is that of a program of another file.
+    /// Refused, and another try would not help: it has errors, or its place is that of a program of another file.
     Refused,
-    /// Nothing could be written: a disk is full.
+    /// Not written, as when a disk is full.
     Unwritten,
 }
 
-/// How the compile of one of many files ended.
+/// End of the compile of one of many files.
 pub(in crate::cli) struct Published {
     source: Source,
     became: Became,
@@ -159,12 +159,12 @@ pub(in crate::cli) struct Published {
 }
 
 impl Published {
-    /// What became of the file.
+    /// Outcome of the file.
     pub(in crate::cli) fn became(&self) -> Became {
         self.became
     }
 
-    /// Its row, and what is said about it.
+    /// Its row and its messages.
     pub(in crate::cli) fn outcome(self, input: &Input, job: &Job, messages: Messages, format: Format) -> Outcome {
         let Self { source, ended, .. } = self;
         let Ended { compiled, diagnostics, programs, beside } = ended;

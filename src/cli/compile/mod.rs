@@ -47,7 +47,7 @@ pub(super) fn one_map() -> anyhow::Error {
     failure("`--map` lays one drawing by the marks of its cloth", "name one file: every cloth has marks of its own")
 }
 
-/// What `--dump-after` prints.
+/// Output of `--dump-after`.
 fn dump(arguments: &Arguments, file: &Path, pass: &str) -> anyhow::Result<Finished> {
     arguments.making.check_remarks(&[])?;
     let source = files::read(file)?;

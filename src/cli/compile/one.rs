@@ -1,4 +1,4 @@
-//! One file, and all that there is to say of it.
+//! Compile of one file, with detailed messages.
 
 use std::path::{Path, PathBuf};
 
@@ -19,10 +19,10 @@ use crate::diagnostic::{Diagnostics, Severity, code, render_with};
 use crate::pipeline::Compiled;
 use crate::source::Source;
 
-/// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
+/// Size of a program for standard output up to which it is kept in memory, bytes; a longer one goes to a temporary file.
 const SPOOL_BYTES: usize = 64 << 20;
 
-/// Lines about the data that leave room for all of the summary.
+/// Greatest number of lines about the data for which the whole summary is printed.
 const MOST_LINES: usize = 10;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
@@ -72,7 +72,7 @@ fn to_stdout(compile: &Compile, arguments: &Arguments) -> anyhow::Result<Finishe
     Ok(finished)
 }
 
-/// What is said about the data and the program, which goes to files or to standard output.
+/// Messages about the data and the program, which goes to files or to standard output.
 fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
     let Ended { compiled, diagnostics, programs, beside } = ended;
     let mut said = render_with(&diagnostics, compile.source, arguments.messages.detail(arguments.format));
@@ -87,7 +87,7 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
     match (&compiled, arguments.format) {
         (Some(Compiled { report, verdict, .. }), Format::Text) if !arguments.messages.quiet => {
             let text = summary::text(report, compile.source.name(), &diagnostics);
-            // Where there is much to read about the data, the table of the axes waits to be asked for.
+            // After many lines about the data, the table of the axes is printed on request only.
             let is_long = said.lines().count() > MOST_LINES && !arguments.messages.all;
             said.push_str(if is_long { text.split(summary::AXES).next().unwrap_or(&text) } else { &text });
             said.push_str(&setup::text(compile.job));
@@ -106,7 +106,7 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
     Finished::text(stdout, said, if compiled.is_some() { DONE } else { FAULTY })
 }
 
-/// A line on why there is no program.
+/// A line about the reason that there is no program.
 pub(super) fn refused(source: &Source, programs: &[PathBuf], diagnostics: &Diagnostics) -> String {
     let errors = counted(diagnostics.count(Severity::Error), "error");
     let warnings = counted(diagnostics.count(Severity::Warning), "warning");

@@ -1,4 +1,4 @@
-//! Programs of an earlier plan: a head that the new one does not have must not be run with its old program.
+//! Programs of an earlier plan: a head that is not in the new plan must not be run with its old program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use crate::cli::finished::say;
 use crate::machines::Part;
 use crate::machines::flow::{PLAN, files_of};
 
-/// Moves plan and programs of an earlier plan in a folder aside, but for those of some names, and says so.
+/// Moves plan and programs of an earlier plan in a folder aside, except for `kept` names, and returns a message.
 pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {
     let plan = folder.join(PLAN);
-    // A plan without its provenance beside it is not one of ours.
+    // A plan without its provenance beside it is not from `cutc`.
     if !files::meta(&plan).is_file() {
         return String::new();
     }

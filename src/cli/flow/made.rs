@@ -1,4 +1,4 @@
-//! Plan and programs that are written: whole and judged, with their provenance beside the plan, or none at all.
+//! Written plan and programs: complete and judged, with their provenance beside the plan, or none at all.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Seek as _, Write as _};
@@ -23,31 +23,31 @@ use crate::machine::{Job, blake3_of};
 use crate::machines::flow::PLAN;
 use crate::source::Source;
 
-/// What is to be written.
+/// Input of a write.
 pub(super) struct Made<'a> {
     pub(super) targets: &'a [&'static Target],
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
     pub(super) marker: &'a Marker,
     pub(super) verify: bool,
-    /// What is known of the marker against the bytes that it was read from.
+    /// Findings about the marker against the bytes of its source.
     pub(super) audit: &'a [Finding],
 }
 
-/// What was written.
+/// Result of a write.
 pub(super) struct Written {
-    /// What the programs of each target are worth.
+    /// Verdicts on the programs of each target.
     pub(super) verdicts: Vec<(&'static str, Verdict)>,
-    /// Programs of heads.
+    /// Number of programs of heads.
     pub(super) programs: usize,
-    /// Files beside the plan.
+    /// Number of files beside the plan.
     pub(super) files: usize,
-    /// What is said of earlier ones.
+    /// Messages about earlier programs.
     pub(super) said: String,
 }
 
 impl Made<'_> {
-    /// Writes plan and programs into a folder. Nothing takes its place when one is refused.
+    /// Writes plan and programs into a folder. If one is refused, none takes its place.
     pub(super) fn write(&self, program: &Program, folder: &Path, out: &mut Diagnostics) -> anyhow::Result<Written> {
         let mut plan = flow::describe(program, self.marker, &self.job.profile);
         let (mut drafts, mut judged) = (Vec::new(), Vec::new());
@@ -108,7 +108,7 @@ impl Made<'_> {
         Ok(Written { verdicts, programs, files, said })
     }
 
-    /// What the programs of a target are worth, from their bytes.
+    /// Verdict on the programs of a target, from their bytes.
     fn judged(&self, plan: &str, bytes: Bytes, programs: &mut [Draft]) -> anyhow::Result<Verdict> {
         let ground = Ground { marker: self.marker, profile: &self.job.profile };
         let files: Vec<&File> = programs.iter_mut().map(|program| &*program.file()).collect();
@@ -124,7 +124,7 @@ impl Made<'_> {
     }
 }
 
-/// The failure of programs whose bytes cannot be had.
+/// Error about programs whose bytes cannot be read.
 fn cannot_read_back(error: &io::Error) -> anyhow::Error {
     let hint = "the disk may fail, or something took files away that the plan names";
     failure(format!("the programs cannot be read back: {}", files::reason(error)), hint)

@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let job = match arguments.choice.job(&arguments.reading)? {
         Ok(job) => job,
         Err(mut refused) => {
-            // A slip in an argument is no verdict on the programs that are there.
+            // A mistake in an argument is no verdict on the programs that are there.
             if refused.code == FAULTY {
                 refused.stderr.push_str(&earlier::move_aside(&arguments.out, &[]));
             }
@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     Ok(Finished { stdout: Stdout::Text(stdout), stderr: said, code: DONE })
 }
 
-/// What is written: what was typed, else the default.
+/// The targets: those typed, else the default.
 fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
     let typed = &arguments.targets;
     if let Some(twice) = typed.iter().enumerate().find(|(i, t)| typed[..*i].iter().any(|u| u.name == t.name)) {
@@ -82,7 +82,7 @@ fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
     Ok(if typed.is_empty() { vec![&TARGETS[0]] } else { typed.clone() })
 }
 
-/// What is said when nothing is written. Older programs are moved aside.
+/// Messages when nothing is written. Older programs are moved aside.
 fn refused(arguments: &Arguments, source: &Source, diagnostics: &Diagnostics, job: &Job) -> Finished {
     let mut said = render_with(diagnostics, source, arguments.messages.detail(arguments.format));
     said.push_str(&report::nothing_written(source, diagnostics));

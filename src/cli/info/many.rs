@@ -28,7 +28,7 @@ pub(super) fn run(
     let ended = Batch { inputs, threads, telling }.run(console, work);
     let counts = if quiet { String::new() } else { batch::counts(&ended.rows) };
     let (stdout, stderr) = match arguments.format {
-        // The figures are what is asked for, however little else is said.
+        // The figures are printed even with `--quiet`.
         Sheet::Text => (batch::text(&ended.rows, Telling { quiet: false, ..telling }), String::new()),
         Sheet::Json => (sheet::json(&ended.rows, price), counts),
         Sheet::Csv => (sheet::csv(&ended.rows, price), counts),
@@ -37,7 +37,7 @@ pub(super) fn run(
 }
 
 impl Arguments {
-    /// What becomes of one of many files.
+    /// Outcome of one of many files.
     fn outcome(&self, input: &Input, job: &Job) -> anyhow::Result<Outcome> {
         let source = files::read(&input.path)?;
         let mut diagnostics = Diagnostics::default();
@@ -58,7 +58,7 @@ impl Arguments {
             }
         }
         batch::worst(&diagnostics).unwrap_or_default().clone_into(&mut row.worst);
-        // No list holds the findings, so they are told however the figures are given.
+        // No list holds the findings, so they are printed with every format of the figures.
         let mut said = render_with(&diagnostics, &source, self.messages.detail(Format::Text));
         if !self.messages.quiet {
             said.push_str(&doubts);

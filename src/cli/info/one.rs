@@ -1,4 +1,4 @@
-//! One file, and all that is in it.
+//! Contents of one file.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     Ok(Finished::text(stdout, said, code))
 }
 
-/// What is known of a file.
+/// Figures of a file.
 #[derive(Debug, Serialize)]
 struct Known {
     #[serde(flatten)]
@@ -83,27 +83,27 @@ struct Known {
     facts: Facts,
     #[serde(flatten)]
     used: Used,
-    /// Only when it was asked for.
+    /// Present only on request.
     #[serde(skip_serializing_if = "Option::is_none")]
     labels_by_piece: Option<Vec<Labelled>>,
-    /// Likewise.
+    /// Present only on request.
     #[serde(skip_serializing_if = "Option::is_none")]
     time_by_piece: Option<Vec<Timed>>,
-    /// Likewise.
+    /// Present only on request.
     #[serde(flatten)]
     costs: Option<Costs>,
     #[serde(skip)]
     figures: Figures,
 }
 
-/// How much of the cloth is used.
+/// Use of the cloth.
 #[derive(Debug, Serialize)]
 struct Used {
-    /// Null of a file with errors, or when it is not known.
+    /// Null for a file with errors, or when it is unknown.
     area_m2: Option<f64>,
     cloth_length_mm: f64,
     cloth_width_mm: f64,
-    /// Null of no cloth.
+    /// Null without cloth.
     utilisation_percent: Option<f64>,
 }
 
@@ -119,13 +119,13 @@ impl Used {
 }
 
 impl Known {
-    /// What is known without any more work.
+    /// Figures that need no more work.
     fn of(report: Report, facts: Facts, figures: Figures) -> Self {
         let used = Used::of(&figures);
         Self { report, facts, used, labels_by_piece: None, time_by_piece: None, costs: None, figures }
     }
 
-    /// Adds what it costs, if that is asked for and the time is known.
+    /// Adds the costs, if they are requested and the time is known.
     fn price(&mut self, arguments: &Arguments) {
         let row = Row {
             pieces: Some(self.report.pieces),
@@ -157,7 +157,7 @@ impl Known {
         out
     }
 
-    /// Lines on the cloth and on what cutting it costs.
+    /// Lines about the cloth and the costs.
     fn cloth(&self) -> String {
         let Figures { area_m2, cloth, .. } = &self.figures;
         let mut out = String::new();

@@ -106,12 +106,12 @@ pub(in crate::cli) fn inset(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// What is asked of the file.
+    /// Options of the file.
     pub(super) fn asked(&self) -> Asked {
         Asked { from: self.from.clone(), line: self.line.clone(), inset: self.inset.unwrap_or(0.0) }
     }
 
-    /// The job with what overrides its profile.
+    /// The job with the options that override its profile.
     pub(super) fn of(&self, job: Job) -> Job {
         let mut job = self.patterns.of(job);
         if let Some(on_long) = self.on_long {

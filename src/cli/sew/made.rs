@@ -13,35 +13,35 @@ use crate::ir::verdict::{Sighting, Verdict};
 use crate::sew::verify::Bytes;
 use crate::sew::{Made, TARGETS, Target};
 
-/// What is to be written.
+/// Input of a write.
 #[derive(Clone, Copy)]
 pub(super) struct Writing<'a> {
     pub(super) made: Made<'a>,
     pub(super) targets: &'a [&'static Target],
-    /// What was asked of the file, as it is typed.
+    /// Options of the file, as typed.
     pub(super) options: &'a str,
     pub(super) verify: bool,
-    /// Record of what takes its place.
+    /// Record of the files that take their places.
     pub(super) record: Option<&'a Record<'a>>,
 }
 
-/// What was written.
+/// Result of a write.
 pub(super) struct Written {
-    /// What was judged, and what it is worth.
+    /// Judged targets with their verdicts.
     pub(super) verdicts: Vec<(&'static Target, Verdict)>,
     /// The program for standard output.
     pub(super) stdout: Option<SpooledTempFile>,
 }
 
 impl<'a> Writing<'a> {
-    /// Writes every program to its place. Nothing takes its place when one is refused.
+    /// Writes every program to its place. If one is refused, none takes its place.
     pub(super) fn write(&self, place: &Place, out: &mut Diagnostics) -> anyhow::Result<Written> {
         for target in self.targets {
             (target.emit.refusals)(self.made.program, self.made.job, out);
         }
         let verdicts = RefCell::default();
         if self.verify && self.targets.iter().all(|target| target.proof.is_none()) {
-            // Pictures show what is written otherwise: that is judged.
+            // A picture shows the program of another target: that is judged.
             let pulses = TARGETS.iter().find(|target| target.proof == Some(Bytes::PulseRecords));
             self.product(pulses.expect("pulses are a target"), &verdicts).spool(out)?;
         }
@@ -52,7 +52,7 @@ impl<'a> Writing<'a> {
         Ok(Written { verdicts: verdicts.into_inner(), stdout })
     }
 
-    /// The product of a target; what it is worth is added to the verdicts.
+    /// Product of a target; its verdict is added to `verdicts`.
     fn product<'p>(
         &self,
         target: &'static Target,

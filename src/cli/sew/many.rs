@@ -1,4 +1,4 @@
-//! Many files, each to its place below one folder.
+//! Many files, each with its place below one folder.
 
 use std::path::{Path, PathBuf};
 

@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     }
 }
 
-/// The extensions of what can be sewn, formats of sewing machines first.
+/// Extensions of files that can be sewn, formats of sewing machines first.
 fn extensions() -> Vec<&'static str> {
     let formats = FORMATS.iter().flat_map(|format| format.extensions);
     let mut known: Vec<&str> = formats.chain(DIALECTS.iter().flat_map(|dialect| dialect.extensions)).copied().collect();
@@ -37,7 +37,7 @@ fn extensions() -> Vec<&'static str> {
     known
 }
 
-/// Whether a file in a folder looks like one to sew, by its extension.
+/// True if a file in a folder can be sewn, by its extension.
 fn is_sewn(path: &Path) -> bool {
     let extension = path.extension().map(|extension| extension.to_string_lossy().into_owned()).unwrap_or_default();
     extensions().iter().any(|known| known.eq_ignore_ascii_case(&extension))

@@ -1,4 +1,4 @@
-//! One file: what is said of it is said at length.
+//! One file, with detailed messages.
 
 use std::path::{Path, PathBuf};
 

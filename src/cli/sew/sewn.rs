@@ -1,4 +1,4 @@
-//! A file from its bytes to programs in their places: what `cutc sew` does with each.
+//! One file from its bytes to programs in their places: the work of `cutc sew` on each file.
 
 use super::arguments::Arguments;
 use super::made::{Writing, Written};
@@ -12,27 +12,27 @@ use crate::sew::{self, Asked, Estimate, Fifo, Made, Program, Target};
 use crate::source::Source;
 use crate::units::number::fixed;
 
-/// What is made of files.
+/// Common data of all files.
 pub(super) struct Sewing<'a> {
     pub(super) arguments: &'a Arguments,
     pub(super) targets: &'a [&'static Target],
     pub(super) job: &'a Job,
 }
 
-/// Record of a sewn file in a manifest: its figures, `None` of what was refused, and its programs.
+/// Record of a sewn file in a manifest: its figures, `None` when it was refused, and its programs.
 pub(super) type Record<'r> = dyn Fn(Option<&Estimate>, &Diagnostics, Vec<Whole>) -> anyhow::Result<()> + 'r;
 
-/// What became of a file.
+/// Result for a file.
 pub(super) struct Sewn {
-    /// What was found.
+    /// Diagnostics.
     pub(super) diagnostics: Diagnostics,
-    /// What was written; `None` when it was refused.
+    /// Written programs; `None` when they were refused.
     pub(super) made: Option<Programs>,
-    /// All that is said of it on standard error.
+    /// Text for standard error.
     pub(super) said: String,
 }
 
-/// What was written of a file.
+/// Programs of a file.
 pub(super) struct Programs {
     pub(super) estimate: Estimate,
     pub(super) figures: summary::Figures,
@@ -40,8 +40,8 @@ pub(super) struct Programs {
 }
 
 impl Sewing<'_> {
-    /// Sews a file: programs to their place. What is refused leaves nothing; older
-    /// programs of these names are moved aside.
+    /// Sews a file to programs in their places. A refused program leaves nothing; older programs of these names are moved
+    /// aside.
     pub(super) fn sew(&self, source: &Source, place: &Place, record: Option<&Record>) -> anyhow::Result<Sewn> {
         let Self { arguments, targets, job } = *self;
         let asked = arguments.asked();
@@ -73,7 +73,7 @@ impl Sewing<'_> {
 }
 
 impl Sewn {
-    /// The figures as JSON, all null of what was refused.
+    /// The figures as JSON, all null for a refused program.
     pub(super) fn json(&self, source: &Source, job: &Job) -> String {
         let blank = || report::nothing(&summary::Figures::default());
         let figures =
@@ -82,7 +82,7 @@ impl Sewn {
     }
 }
 
-/// What is sewn, and how the queue fares; `None` when nothing can be sewn.
+/// The program, and the course of its queue; `None` when nothing can be sewn.
 fn planned(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<(Program, Fifo)> {
     let program = sew::plan(source, asked, job, out)?;
     let fifo = sew::simulate(&program, job);
@@ -102,7 +102,7 @@ fn planned(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> 
     Some((program, fifo))
 }
 
-/// Options of a file that is sewn, as they are typed.
+/// Options of a file that is sewn, as typed.
 pub(in crate::cli) fn typed(asked: &Asked) -> String {
     let from = asked.from.as_ref().map(|from| format!("--from {from}"));
     let line = asked.line.as_ref().map(|line| format!("--line {line}"));

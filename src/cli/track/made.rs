@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, code};
 use crate::machine::Job;
 use crate::track::{Target, Tracked};
 
-/// The product of a target. Commands, read back, are held against the readings.
+/// The product of a target. Commands are read back and compared with the readings.
 pub(super) fn product<'a>(target: &'static Target, tracked: &'a Tracked, job: &'a Job) -> Product<'a> {
     let judge = target.proof.map(|read| -> Box<Judge<'a>> {
         Box::new(move |input, out| {

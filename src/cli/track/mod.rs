@@ -70,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     Ok(Finished { stdout, stderr: said, code: DONE })
 }
 
-/// What is said when nothing is written. Older files of these names are moved aside.
+/// Messages when nothing is written. Older files of these names are moved aside.
 fn refused(arguments: &Arguments, source: &Source, paths: &[&Path], diagnostics: &Diagnostics, job: &Job) -> Finished {
     let mut said = render_with(diagnostics, source, arguments.messages.detail(arguments.format));
     said.push_str(&report::nothing_written(source, diagnostics));

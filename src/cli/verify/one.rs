@@ -1,4 +1,4 @@
-//! One program, and all that its verdict says.
+//! Verification of one program, with its whole verdict.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -28,11 +28,11 @@ pub(super) struct Program<'a> {
     target: Option<String>,
 }
 
-/// What was found of a program.
+/// Result for a program.
 pub(super) struct Judged {
-    /// `None` when its source has errors.
+    /// The verdict; `None` when its source has errors.
     pub(super) verdict: Option<Explained>,
-    /// What is said of the source, and of whether the program was made from it.
+    /// Messages about the source, and about doubts whether the program was made from it.
     pub(super) said: String,
 }
 
@@ -66,7 +66,7 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
 }
 
 impl<'a> Program<'a> {
-    /// Opens a file; the inner error is of one that is no program.
+    /// Opens a file; the inner error is that of a file that is no program.
     pub(super) fn open(path: &'a Path) -> anyhow::Result<Result<Self, anyhow::Error>> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         let target = provenance::target_of(path);
@@ -86,7 +86,7 @@ impl<'a> Program<'a> {
         Claim { name: &self.name, target: self.target.as_deref() }
     }
 
-    /// The machine that its name or its provenance tells; else the one that the tool of the profile makes.
+    /// Its machine by its name or its provenance; else the machine of the profile's tool.
     fn machine(&self, job: &Job) -> &'static Machine {
         machines::claimant(self.claim()).unwrap_or_else(|| machines::of(job))
     }
@@ -140,7 +140,7 @@ impl Arguments {
 }
 
 impl Arguments {
-    /// Refuses options that do nothing to the programs of a machine, and jobs that it cannot do.
+    /// Refuses options that have no effect on the programs of a machine, and jobs that it cannot do.
     fn refuse(&self, program: &Path, machine: &Machine, job: &Job) -> anyhow::Result<()> {
         let others = typed(&Job { patterns: Patterns::default(), ..job.clone() });
         if machine.is_sewn && !others.is_empty() {
@@ -162,7 +162,7 @@ impl Arguments {
     }
 }
 
-/// Said of a program that declares nothing.
+/// Message about a program without declarations.
 fn undeclared(meta: &Path) -> String {
     format!(
         "nothing says what the program does beside the drawing (no `{}`): it is held to the bounds for every program\n  \

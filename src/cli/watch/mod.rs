@@ -1,7 +1,7 @@
-//! `cutc watch`: a hot folder. Every cutter file that is finished there is compiled; its program appears whole.
+//! `cutc watch`: a hot folder. Every complete cutter file in it is compiled; its program appears complete.
 //!
-//! What was done stands in the manifest beside the programs, as that of a batch with `--changed`: a run that was killed
-//! is taken up where it ended. A file without a program has a report.
+//! The work is recorded in the manifest beside the programs, like that of a batch with `--changed`: after a kill, the next run
+//! continues there. A file without a program has a report.
 
 mod arguments;
 mod events;
@@ -31,11 +31,11 @@ use super::times::clock;
 use super::{files, stop};
 use crate::units::number::fixed;
 
-/// How long the folder is listened to before the clock and signals are looked at.
+/// Longest wait for events of the folder before the clock and signals are checked.
 const TICK: Duration = Duration::from_millis(200);
-/// How often the folder is looked through, for what nobody tells.
+/// Interval of searches of the folder, for files without events.
 const LOOK: Duration = Duration::from_secs(2);
-/// A folder in which looking takes longer is looked through less often: so many times as long as it takes.
+/// Least interval of searches as a multiple of their duration, for large folders.
 const LOOK_SHARE: u32 = 50;
 
 pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Console) -> anyhow::Result<Finished> {
@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
     MadeFolders::of([out.join(settings::NAME).as_path()])?.keep();
     draft::sweep_below(out);
     let manifest = Manifest::open(out, None, console)?;
-    // Who only waits ends at once.
+    // When idle, a signal ends the program at once.
     stop::finish_first();
     let folders = Folders { from: folder, out, inner: inner(folder, out), threads: threads.set(), manifest: &manifest };
     let mut watch = Watch {
@@ -76,17 +76,17 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
     Ok(Finished::text(String::new(), String::new(), code))
 }
 
-/// Where files come from and programs go to.
+/// Folders of inputs and of programs.
 struct Folders<'a> {
     from: &'a Path,
     out: &'a Path,
-    /// The latter from the root, where it lies in the former.
+    /// Path of the folder of programs from the root, if it is inside the folder of inputs.
     inner: Option<PathBuf>,
     threads: usize,
     manifest: &'a Manifest,
 }
 
-/// The folder of the programs from the root, where it lies in the one that files come into.
+/// Path of the folder of programs from the root, if it is inside the folder of inputs.
 fn inner(from: &Path, out: &Path) -> Option<PathBuf> {
     let [from, out] = [from, out].map(|folder| folder.canonicalize().ok());
     out.filter(|out| from.is_some_and(|from| out.starts_with(from)))
@@ -96,31 +96,31 @@ fn inner(from: &Path, out: &Path) -> Option<PathBuf> {
 struct Watch<'a> {
     folders: Folders<'a>,
     settings: Settings,
-    /// What the files of the options look like, and since when, where that is not what was read: nothing is compiled then.
+    /// Stamps of the option files and the time of their change, if they differ from those read: nothing is compiled then.
     changed: Option<(Stamps, Instant)>,
     files: Settling,
-    /// What was said last of files that nothing could be done with: it is said once.
+    /// Last message about each file that could not be worked on; it is printed once.
     told: BTreeMap<PathBuf, String>,
-    /// Rows of the overview of pages: the outcome of each file, with the places of its programs.
+    /// Outcome of each file, with the places of its programs, for the overview of their pages.
     rows: BTreeMap<PathBuf, (Row, Vec<PathBuf>)>,
 }
 
-/// How a file was dealt with.
+/// Outcome of the work on a file.
 enum Dealt {
-    /// There is nothing to do: it is gone.
+    /// The file is gone.
     Gone,
-    /// Nothing was to do: it has its program, or its report.
+    /// It already had its program, or its report.
     Before(Row),
-    /// It has its program, or its report: a line on that.
+    /// It has its program, or its report: a line about that.
     With(String, Row),
-    /// Nothing could be read or written: that is tried again. What went wrong.
+    /// It could not be read or written, and is tried again: the error.
     Not(String),
-    /// It is not what it was when it was found to be finished, or the end was asked for.
+    /// It has changed since it was found complete, or the end was requested.
     Later,
 }
 
 impl Watch<'_> {
-    /// Works until a signal asks for the end; gives the exit code.
+    /// Works until a signal requests the end, and returns the exit code.
     fn go(&mut self, typed: &[OsString], console: &mut Console) -> u8 {
         let events = Events::of(self.folders.from);
         let mut next_look = Instant::now();
@@ -144,7 +144,7 @@ impl Watch<'_> {
         }
     }
 
-    /// Looks whether the options were changed, and reads them when they stay as they are then.
+    /// Checks whether the options have changed, and reads them once they are steady.
     fn mind_options(&mut self, typed: &[OsString], console: &mut Console) {
         let (now, stamps) = (Instant::now(), self.settings.look());
         match &self.changed {
@@ -158,11 +158,11 @@ impl Watch<'_> {
         }
     }
 
-    /// Reads the options that look like that; those that were changed hold for all files.
+    /// Reads the options with these stamps; changed ones hold for all files.
     fn read_options(&mut self, stamps: &Stamps, typed: &[OsString], console: &mut Console) {
         let file = self.folders.from.join(settings::NAME);
         let wrong = match Settings::read(self.folders.from, typed) {
-            // Changed just now, they may be half written: they are read again.
+            // They may be half written if they have just changed: they are read again.
             Ok(Ok(settings)) if settings.stamps()[0] != stamps[0] || settings.look() != *settings.stamps() => return,
             Ok(Ok(settings)) => {
                 self.settings = settings;
@@ -182,13 +182,13 @@ impl Watch<'_> {
 
     fn say_once(&mut self, about: &Path, said: &str, console: &mut Console) {
         if self.told.get(about).is_none_or(|before| before != said) {
-            // Who closed standard error does not want to read it.
+            // Ignore errors on standard error: the reader has closed it.
             let _ = console.err.write_all(said.as_bytes());
             self.told.insert(about.to_owned(), said.to_owned());
         }
     }
 
-    /// Looks through the folder: for what nobody told, and for what is gone.
+    /// Searches the folder for files without events, and for removed ones.
     fn look(&mut self, console: &mut Console) {
         let now = Instant::now();
         let mut there = BTreeSet::new();
@@ -220,7 +220,7 @@ impl Watch<'_> {
         self.told.retain(|path, _| there.contains(path) || path.ends_with(settings::NAME) || path == out);
     }
 
-    /// Reports on files that went while nobody watched go, too.
+    /// Removes the reports on files that were removed while no run watched.
     fn forget_reports(&self) {
         for name in self.folders.manifest.refused_names() {
             if !self.folders.from.join(&name).exists() {
@@ -252,13 +252,13 @@ impl Watch<'_> {
         }
     }
 
-    /// Deals with every file that is finished, side by side.
+    /// Works on every complete file, in parallel.
     fn work(&mut self, console: &mut Console) {
         let (mut finished, mut taken) = (Vec::new(), BTreeSet::new());
         for (path, stamp) in self.files.ready(Instant::now()) {
             let extensions: Vec<&str> = self.settings.targets.iter().map(|target| target.extension).collect();
             let places = below(self.folders.out, self.folders.name(&path), &extensions);
-            // Of two files for one place the second waits, to find whose it is.
+            // The second of two files with one place waits, and then finds the program of the other.
             if places.iter().all(|place| !taken.contains(place)) {
                 taken.extend(places.iter().cloned());
                 let name = self.folders.name(&path).to_owned();
@@ -318,7 +318,7 @@ impl Watch<'_> {
     }
 }
 
-/// A file that is finished, as it looked then, and where its programs go.
+/// A complete file with its stamp at that time, and the places of its programs.
 struct Finish {
     input: Input,
     stamp: Stamp,
@@ -331,13 +331,13 @@ impl Folders<'_> {
         path.strip_prefix(self.from).expect("files are found below the folder")
     }
 
-    /// A path that was told from the root, as the user would write it.
+    /// A path in an event, which starts at the root, as the user would write it.
     fn as_typed(&self, path: &Path) -> Option<PathBuf> {
         let root = std::path::absolute(self.from).ok()?;
         Some(self.from.join(path.strip_prefix(root).ok()?))
     }
 
-    /// Compiles a file, unless that was done, or leaves a report.
+    /// Compiles a file, unless that is done already, or leaves a report.
     fn deal(&self, Finish { input, stamp, places }: &Finish, settings: &Settings) -> Dealt {
         if stop::asked().is_some() {
             return Dealt::Later;
@@ -362,7 +362,7 @@ impl Folders<'_> {
         if let Some(line) = self.manifest.refused(&made).filter(|_| report.exists()) {
             return Dealt::Before(batch::kept(self.manifest, input, line));
         }
-        // It is of what the file was before.
+        // The report is about the previous content of the file.
         report::remove(&report);
         match MadeFolders::of(places.iter().map(PathBuf::as_path)) {
             Ok(mut folders) => folders.keep(),
@@ -389,14 +389,14 @@ impl Folders<'_> {
         }
     }
 
-    /// Leaves a report, if that can be written, on a file that is tried again.
+    /// Leaves a report, if possible, on a file that is tried again.
     fn not_now(&self, input: &Input, said: &str) -> Dealt {
         let _ = report::write(&report::path(self.out, &input.name), said);
         Dealt::Not(said.to_owned())
     }
 }
 
-/// A line on a file that has its programs.
+/// A line about a file that has its programs.
 fn written(row: &Row, file: &Path, places: &[PathBuf]) -> String {
     let pieces = row.pieces.map(|pieces| counted(pieces, "piece"));
     let cut = row.cut_m.map(|cut| format!("{} m", fixed(cut, 1)));

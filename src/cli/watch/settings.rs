@@ -16,23 +16,23 @@ use crate::machine::Job;
 
 /// The file with the options of a folder.
 pub(super) const NAME: &str = "cutc.toml";
-/// The options that name a file: in a folder it is meant from there.
+/// Options with a file name, which is relative to the folder of the options.
 const FILES: [&str; 2] = ["profile", "centre"];
 
-/// What some files look like; `None` = not there.
+/// Stamps of some files; `None` if a file does not exist.
 pub(super) type Stamps = Vec<Option<Stamp>>;
 
-/// Options that hold for as long as the folder is watched.
+/// Options that cannot change while the folder is watched.
 const OF_THE_RUN: [&str; 2] = ["out", "jobs"];
 
-/// What a hot folder is compiled with.
+/// Options of a hot folder.
 pub(super) struct Settings {
     pub(super) arguments: Arguments,
     pub(super) targets: Vec<&'static Target>,
     pub(super) job: Job,
-    /// The files that say so.
+    /// Files that contain them.
     read: Vec<PathBuf>,
-    /// What these looked like before they were read.
+    /// Stamps of these files before they were read.
     stamps: Stamps,
 }
 
@@ -45,7 +45,7 @@ struct Words {
 }
 
 impl Settings {
-    /// Reads them. `typed` are the words of the command line behind `watch`.
+    /// Reads the options. `typed` are the words of the command line after `watch`.
     pub(super) fn read(folder: &Path, typed: &[OsString]) -> anyhow::Result<Result<Self, Finished>> {
         let file = folder.join(NAME);
         let stamp = Stamp::at(&file);
@@ -70,23 +70,23 @@ impl Settings {
         Ok(arguments.making.job()?.map(|job| Self { arguments, targets, job, read, stamps }))
     }
 
-    /// Whether a file is one of those that say so.
+    /// True if a file is one of those that contain the options.
     pub(super) fn says(&self, path: &Path) -> bool {
         self.read.iter().any(|read| read == path)
     }
 
-    /// What the files that say so looked like before they were read.
+    /// Stamps of the files before they were read.
     pub(super) fn stamps(&self) -> &Stamps {
         &self.stamps
     }
 
-    /// What they look like now.
+    /// Present stamps of the files.
     pub(super) fn look(&self) -> Stamps {
         self.read.iter().map(|path| Stamp::at(path)).collect()
     }
 }
 
-/// What a file of options says, as words of a command line.
+/// Options in a file, as words of a command line.
 fn words(file: &Path, folder: &Path) -> anyhow::Result<Vec<OsString>> {
     let source = files::read(file)?;
     let wrong = |what: String| {
