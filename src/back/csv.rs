@@ -1,11 +1,11 @@
 //! Target `csv`: timed setpoints, a row a period.
 //!
-//! `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`: x, y the C axis, c unwrapped, block the number of the source block
-//! being cut. Six decimals: with four, a jerk limit could not be judged (a jerk of 2e5 mm/s3 moves 2e-4 mm in a
-//! millisecond).
+//! `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`: x and y are those of the C axis, c is unwrapped, block is the number of the
+//! source block that is being cut. Six decimals: with four, a jerk limit could not be judged (a jerk of 2e5 mm/s3 moves 2e-4 mm
+//! in a millisecond).
 //!
-//! On a conveyor (`bite.length_mm`) a last field, `advance_mm`, has the way of the cloth so far, whole mm: x is a place of the
-//! table, x and the way that of the cloth. The row that tells the event has the new way.
+//! On a conveyor (`bite.length_mm`) a last field, `advance_mm`, is the advance of the cloth so far, whole mm: x is a place of
+//! the table, x plus the advance that of the cloth. The row with the event has the new advance.
 
 use std::io;
 

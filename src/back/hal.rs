@@ -1,9 +1,9 @@
 //! Target `hal`: timed setpoints as the text that `LinuxCNC`'s `halstreamer` takes, a row a servo period.
 //!
-//! `x_mm y_mm c_deg knife drill event block`, for `loadrt streamer cfg=fffbuuu`. C is that of the controller
-//! (`c.offset_deg`, `c.reverse`). Nine decimals: with three, an axis that keeps its limits lags by micrometres.
-//! On a conveyor an eighth field, `advance_mm`, has the way of the cloth so far, for `cfg=fffbuuuu`.
-//! halstreamer skips a bad row in silence and loses a last one without its line feed; a comment stands in column 0.
+//! `x_mm y_mm c_deg knife drill event block`, for `loadrt streamer cfg=fffbuuu`. C is that of the controller (`c.offset_deg`,
+//! `c.reverse`). Nine decimals: with three, an axis that keeps its limits lags by micrometres. On a conveyor an eighth field,
+//! `advance_mm`, is the advance of the cloth so far, for `cfg=fffbuuuu`. halstreamer skips a bad row silently and loses a last
+//! one without its line feed; a comment starts in column 0.
 //!
 //! Target [`halrun`](super::halrun) is the `.hal` file that plays it.
 

@@ -1,8 +1,7 @@
 //! Target `halrun`: the `.hal` file that plays the rows of the target `hal` on `LinuxCNC`'s real-time layer.
 //!
-//! It expects the rows beside it under the name that they have by default. The signals `x-pos`, `y-pos`, `c-pos`,
-//! `knife`, `drill`, `event` and `block`, and `advance-mm` on a conveyor, are what the file of the machine connects to
-//! its drives and outputs.
+//! It expects the rows beside it under their default name. The `.hal` file of the machine connects the signals `x-pos`,
+//! `y-pos`, `c-pos`, `knife`, `drill`, `event` and `block`, and `advance-mm` on a conveyor, to its drives and outputs.
 
 use std::io;
 use std::path::Path;
@@ -20,9 +19,9 @@ pub(super) const TARGET: Target = Target {
     proof: None,
 };
 
-/// Rows that the streamer holds at the most: a longer program is topped up while it plays.
+/// Greatest number of rows that the streamer holds: a longer program is topped up while it plays.
 const DEPTH_MAX: u64 = 1_000_000;
-/// Rows beside those of the program, so that it fits whole.
+/// Spare rows, so that a whole program fits.
 const DEPTH_SPARE: u64 = 2;
 
 #[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]

@@ -355,12 +355,12 @@ impl<'a> File<'a> {
     }
 }
 
-/// Whether anything of a piece is cut or drilled.
+/// True if anything of a piece is cut or drilled.
 fn is_cut(piece: &Piece) -> bool {
     !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty())
 }
 
-/// Whether an open line is a slit of several legs: one that M19 begins, without overlap anywhere.
+/// True if an open line is a slit of several legs: one that begins with M19 and has no overlaps.
 fn is_slit(segments: &[Segment]) -> bool {
     let bare = |i: usize| Joint { lift: false, full_advance: i == 0, no_overcut: true };
     segments.len() > 1 && segments.iter().enumerate().all(|(i, segment)| segment.joint == bare(i))

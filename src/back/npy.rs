@@ -1,9 +1,9 @@
 //! Target `npy`: timed setpoints as a `NumPy` array of records, a record a period.
 //!
-//! The fields are those of the target `csv` in its order, little-endian and packed: four `f8` (time and pose, as they
-//! were planned, not rounded to decimals), three `u1` (outputs), one `u4` (block). The header has a fixed length, so that
-//! the number of records can be filled in when it is known; `numpy.load(file, mmap_mode="r")` opens a program of any
-//! length at once. On a conveyor a last `u4` has the way of the cloth so far, mm.
+//! The fields are those of the target `csv` in its order, little-endian and packed: four `f8` (time and pose, as planned, not
+//! rounded to decimals), three `u1` (outputs), one `u4` (block). The header has a fixed length, so that the number of records
+//! can be filled in when it is known; `numpy.load(file, mmap_mode="r")` opens a program of any length at once. On a conveyor a
+//! last `u4` is the advance of the cloth so far, mm.
 
 use std::io::{self, SeekFrom};
 
@@ -20,7 +20,7 @@ pub(super) const TARGET: Target = Target {
     proof: Some(Proof::Setpoints),
 };
 
-/// Bytes of a record, and of the way of the cloth.
+/// Bytes of a record, and of the advance of the cloth.
 const RECORD_BYTES: usize = 4 * 8 + 3 + 4;
 const ADVANCE_BYTES: usize = 4;
 
@@ -28,7 +28,7 @@ const ADVANCE_BYTES: usize = 4;
 const FIELDS: &str = "('t_s', '<f8'), ('x_mm', '<f8'), ('y_mm', '<f8'), ('c_deg', '<f8'), \
                       ('knife', '|u1'), ('drill', '|u1'), ('event', '|u1'), ('block', '<u4')";
 
-/// Field of the way of the cloth.
+/// Field of the advance of the cloth.
 const ADVANCE_FIELD: &str = ", ('advance_mm', '<u4')";
 
 /// Names and types of the fields of a program, and the bytes of its records.

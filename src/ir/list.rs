@@ -94,7 +94,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// The same segments in reverse.
+    /// The range in the reverse direction.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self { backward: !self.backward, ..self }

@@ -1,4 +1,4 @@
-//! Every rule that programs are judged by.
+//! Rules by which programs are judged.
 
 use crate::ir::verdict::rules;
 

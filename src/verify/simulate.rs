@@ -1,4 +1,4 @@
-//! A program followed from its first row to its last: the axes are watched, strokes are followed and judged.
+//! Simulation of a program from its first row to its last: the axes are watched, strokes are traced and judged.
 
 use rayon::prelude::*;
 
@@ -22,9 +22,9 @@ use crate::machine::Job;
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
 const ROWS_AT_A_TIME: usize = 4096;
-/// Room for them: the last stroke is taken whole.
+/// Capacity for them: the last stroke is taken whole.
 const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
-/// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
+/// Rows of strokes that are judged in sequence: the worst values of one stroke save work on the next ones.
 const ROWS_IN_A_ROW: usize = 512;
 
 /// Checks of rows that do not depend on the cuts.
@@ -41,8 +41,8 @@ struct Watch<'a> {
 }
 
 impl Watch<'_> {
-    /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
-    /// how the axes go there.
+    /// Sees rows until enough of them belong to strokes, or there are none left, and gathers the strokes. Each row may come
+    /// with the velocity of the axes.
     fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Going>)>) -> Strokes {
         let mut strokes = Strokes::with_room(ROOM);
         while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
@@ -52,7 +52,7 @@ impl Watch<'_> {
                 self.limits.see_timed(&row);
             }
             self.rest.see(&row);
-            // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
+            // The axis is off the blade by the yaw: cuts are judged by the blade.
             let blade = Row { c_deg: row.c_deg - self.yaw_deg, ..row };
             self.table.see(&blade);
             self.block.see(Naming::in_air(&row), || row.sighting());
@@ -83,14 +83,14 @@ impl Watch<'_> {
 }
 
 impl Done<'_> {
-    /// Judges strokes, in their order: on all cores, but for what depends on the strokes before.
+    /// Judges strokes, in order: on all cores, except for checks that depend on earlier strokes.
     fn see(&mut self, mut traced: Vec<Traced>, judge: &Judge) {
         for stroke in &mut traced {
             judge.settle(stroke, self);
         }
         let so_far = self.worsts.without_lists();
         let check = |strokes: &[Traced]| {
-            // The worst so far is where each chunk starts: smaller values are not recorded again.
+            // Each chunk starts with the worst values so far: smaller ones are not recorded again.
             let mut worsts = so_far.clone();
             for stroke in strokes {
                 judge.check(stroke, &mut worsts);
@@ -104,7 +104,7 @@ impl Done<'_> {
     }
 }
 
-/// Parts strokes, in their order, into those that are judged one after the other, whatever the number of cores.
+/// Splits strokes, in order, into groups that are judged in sequence, independently of the number of cores.
 fn in_a_row(mut traced: &[Traced]) -> Vec<&[Traced]> {
     let mut parts = Vec::new();
     while !traced.is_empty() {
@@ -121,8 +121,8 @@ fn in_a_row(mut traced: &[Traced]) -> Vec<&[Traced]> {
     parts
 }
 
-/// Follows the rows of a program, each with how the axes go there where that is told: the findings, and the pieces of which it
-/// cuts nothing.
+/// Simulates the rows of a program, each with the velocity of the axes if that is known. Returns the findings, and the pieces
+/// of which nothing is cut.
 pub(super) fn simulate(
     mut next: impl FnMut() -> Option<(Row, Option<Going>)>,
     judge: &Judge,

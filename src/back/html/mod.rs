@@ -1,6 +1,6 @@
 //! Target `html`: a page that plays the cutting of a marker and reports on it, for a browser without a network.
 //!
-//! The page holds the way of the axes as cubic pieces that keep within 0.01 mm of the setpoints of `csv`, the lines of the
+//! The page holds the path of the axes as cubic pieces that keep within 0.01 mm of the setpoints of `csv`, the lines of the
 //! cloth, and least and greatest speed, acceleration and jerk in short stretches of time. Its script draws them; the report
 //! below is plain markup that is read and printed without it.
 
@@ -30,7 +30,7 @@ pub(super) const TARGET: Target = Target {
     proof: None,
 };
 
-/// A page while it is made.
+/// A page under construction.
 struct Writer<'a> {
     context: Context<'a>,
     record: Record,

@@ -1,14 +1,14 @@
-//! Target `svg`: the marker and what the knife does to it, drawn to scale.
+//! Target `svg`: the marker and the work of the knife on it, drawn to scale.
 //!
-//! One user unit is a millimetre. The drawing itself stands in table coordinates (a transform turns Y up), so every number
-//! in it is one of the program; text and legend stand outside that transform. Strokes keep their width on the screen at
-//! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
+//! One user unit is a millimetre. The drawing itself stands in table coordinates (a transform turns Y up), so every number in
+//! it is one of the program; text and legend stand outside that transform. Strokes keep their width on the screen at any zoom,
+//! and symbols scale with the blade: the whole picture shows pieces, a corner shows its overlaps.
 //!
-//! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the
-//! knife's way (a group for each contour, notch and drill), the word `refused` where no program is written, edges that are
-//! cut once for two parts, near lines, pieces that are in doubt, the worst places that the verifier saw, those of what the program declares, the
-//! legend. In a browser the picture fills the window; a piece's number is a link to a view of that piece, and the legend
-//! links to the whole and to the actual size.
+//! Layers from the bottom: lines of a plot that are not cut, pieces with their notches and numbers, labels, the path of the
+//! knife (a group for each contour, notch and drill), the word `refused` where no program is written, edges that are cut once
+//! for two parts, near lines, doubtful pieces, the worst places by the verifier, the places of declared deviations, the legend.
+//! In a browser the picture fills the window; a piece's number is a link to a view of that piece, and the legend links to the
+//! whole and to the actual size.
 
 mod aside;
 mod common;

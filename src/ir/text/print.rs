@@ -244,7 +244,7 @@ impl Display for Placed {
     }
 }
 
-/// A span with the blank before it; nothing for the span of no block.
+/// A span after a blank; empty for the span of no block.
 struct At(Span);
 
 impl Display for At {
@@ -254,7 +254,7 @@ impl Display for At {
     }
 }
 
-/// A copy with the blank before it; nothing where there is but one.
+/// A copy after a blank; empty if there is only one.
 struct OfCopy(u32);
 
 impl Display for OfCopy {
@@ -263,7 +263,7 @@ impl Display for OfCopy {
     }
 }
 
-/// A speed with the blank before it; nothing for full speed.
+/// A speed after a blank; empty for full speed.
 struct Percent(u8);
 
 impl Display for Percent {
@@ -272,7 +272,7 @@ impl Display for Percent {
     }
 }
 
-/// The words of a joint, each with the blank before it.
+/// The words of a joint, each after a blank.
 struct Asked(Joint);
 
 impl Display for Asked {

@@ -20,13 +20,13 @@ use crate::source::Span;
 pub struct ReadError {
     /// Number of the line, from 1.
     pub line: usize,
-    /// What would have been right.
+    /// Expected text.
     pub expected: String,
 }
 
 type Read<T> = Result<T, ReadError>;
 
-/// What a line of a marker starts with.
+/// First words of the lines of a marker.
 const LINES: &str = "piece, event, feed-mm-s, section, drill, slit, contour, notch, label, field, closing, cut, common, \
     junction or near";
 
@@ -83,7 +83,7 @@ pub fn read_marker(text: &str) -> Read<Marker> {
     Ok(marker)
 }
 
-/// Adds what a line says of the last piece.
+/// Adds the content of a line to the last piece.
 fn of_piece(word: &str, line: &mut Line<'_>, marker: &mut Marker) -> Read<()> {
     let Some(piece) = marker.pieces.last_mut() else { return Err(line.error("piece")) };
     match word {
@@ -122,14 +122,14 @@ fn of_piece(word: &str, line: &mut Line<'_>, marker: &mut Marker) -> Read<()> {
     Ok(())
 }
 
-/// The place of a piece, from 1.
+/// The number of a piece in the marker, from 1.
 fn place(line: &mut Line<'_>, marker: &Marker) -> Read<u32> {
     let place: usize = line.whole("the place of a piece")?;
     let piece = place.checked_sub(1).filter(|&piece| piece < marker.pieces.len());
     piece.map(|piece| piece as u32).ok_or_else(|| line.error("the place of a piece"))
 }
 
-/// An edge of the segments that follow that two parts have in common.
+/// A common edge of two parts, with the segments that follow.
 fn common(line: &mut Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<CommonEdge> {
     line.expect("cut")?;
     let cut = place(line, marker)?;
@@ -365,10 +365,10 @@ fn pose_line(lines: &mut Lines<'_>, name: &str) -> Read<Pose> {
     Ok(pose)
 }
 
-/// The lines that hold something.
+/// The lines that are not blank.
 struct Lines<'a> {
     rest: std::iter::Peekable<std::vec::IntoIter<Line<'a>>>,
-    /// One past the last line of the text: where something is missing at its end.
+    /// Number of the line after the text, for errors at its end.
     end: usize,
 }
 
@@ -402,7 +402,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What is left of a line.
+/// Rest of a line.
 struct Line<'a> {
     number: usize,
     words: SplitWhitespace<'a>,
@@ -463,12 +463,12 @@ impl<'a> Line<'a> {
         Ok(Pose::new(at.x, at.y, self.number()?))
     }
 
-    /// A speed, or full speed where none stands.
+    /// A speed; full speed if there is none.
     fn percent(&mut self) -> Read<u8> {
         if self.has("percent") { self.whole("a number of percents up to 255") } else { Ok(FULL_SPEED) }
     }
 
-    /// A side of a cut: the place of a part, or waste.
+    /// A side of a cut: the number of a part, or waste.
     fn side(&mut self) -> Read<Option<u32>> {
         if self.has("-") {
             return Ok(None);
@@ -477,7 +477,7 @@ impl<'a> Line<'a> {
         part.checked_sub(1).map(Some).ok_or_else(|| self.error("the place of a part, or -"))
     }
 
-    /// The words of a joint, in their order; none of them where none stands.
+    /// A joint from its words, in order; any of them may be absent.
     fn joint(&mut self) -> Joint {
         let mut joint = Joint::default();
         for (word, flag) in JOINTS {
@@ -486,7 +486,7 @@ impl<'a> Line<'a> {
         joint
     }
 
-    /// A span, or that of no block where none stands.
+    /// A span; the span of no block if there is none.
     fn span(&mut self) -> Read<Span> {
         let Some(text) = self.peek().and_then(|word| word.strip_prefix('@')) else { return Ok(Span::default()) };
         self.words.next();

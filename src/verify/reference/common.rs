@@ -457,7 +457,7 @@ fn beside(chord: &Drawn, beds: Beds) -> Vec<Beside> {
     found
 }
 
-/// The same for a part of one, from a place along a unit vector.
+/// Pieces of cuts beside a part of an edge, from a place along a unit vector.
 fn beside_part(from: Point, along: Vector, length: f64, beds: Beds) -> Vec<Beside> {
     let Beds { reference, grid, distance, .. } = beds;
     let middle = from + along * (length / 2.0);
