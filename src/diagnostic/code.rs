@@ -18,7 +18,7 @@ codes! {
     SOURCE_UNKNOWN = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso");
     /// Options for plots, and no plot.
     SOURCE_NO_PLOT = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12");
-    /// Options of patterns for what is none.
+    /// Options of patterns for another file.
     SOURCE_NO_PATTERNS = warning(Spares, Shape, "source/no-patterns", "`--size` or `--quantity` is given for a file that is no pattern DXF; they change nothing.", "Cut files, plots and drawings have no sizes and no quantities: all of their pieces are cut, each as often as it is drawn. To cut some of them name them.\n  cutc compile marker.cut --pieces 3,7-12");
 
     // ISO cut files.
@@ -56,7 +56,7 @@ codes! {
     ISO_UNIT_DOUBTFUL = warning(Spoils, Shape, "iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.", "A marker that is 2.54 or 10 times too large or small spoils the whole lay. Compare the extent that `cutc info` prints with the width of the cloth, then set the unit.\n  cutc compile m.cut --set units=mm/10");
     /// Decimals where whole numbers stand, and a drawing smaller than parts.
     ISO_DECIMALS = error(Shape, "iso/decimals", "Coordinates have decimal points, and read as a hundredth or a thousandth of an inch they make a drawing smaller than 10 mm: they are inches.", "Numbers of cut files are whole, and G70 says that 1000 of them are an inch. A file with inches in decimals was written for another machine: each piece would be a dot. Let the CAD system write a cut file of whole numbers.\n  X5000Y1000*   is 5 inches along with G70; X5.000Y1.000* is not.");
-    /// An arc that is none.
+    /// An arc with inconsistent centre or ends.
     ISO_ARC_RADIUS = error(Text, "iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.", "An arc whose ends disagree goes somewhere else than its author meant, perhaps into the part. Let the CAD system write the arc again, or as short straight lines.\n  G03X0Y100I-50J0*   the centre stands beside the start.");
     /// Labels of nothing.
     ISO_TRAILER_PIECE = warning(Spares, Shape, "iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.", "Labels that belong to no piece may come from another marker: then the list was copied to the wrong file. Nothing of it is cut.");
@@ -92,7 +92,7 @@ codes! {
     HPGL_DECIMAL_COMMA = error(Text, "hpgl/decimal-comma", "The numbers of a plot have commas for decimal points, so that each reads as two.", "A plotter takes a comma for the end of a number, and would draw something else. Let the program write points, and export again.");
     /// A mnemonic that is not in the table.
     HPGL_UNKNOWN = warning(Spares, Text, "hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.", "Private instructions of a plotter do not draw as a rule. If lines are missing from the picture (-t svg), this is where to look.");
-    /// What draws and is not cut.
+    /// Instructions that draw and are not obeyed.
     HPGL_LEFT_OUT = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows, copies.", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper.");
     /// A size that depends on the plotter.
     HPGL_SCALE = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.", "The size of the drawing depends on the plotter that it was made for, or a number of its scale was lost, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP.");
@@ -118,7 +118,7 @@ codes! {
     SVG_NOT_XML = error(Text, "svg/not-xml", "The file is no whole XML, or XML of another kind than SVG.", "A drawing that was cut short on its way, or edited by hand, lacks the ends of its elements, and nobody knows what is lost. Save it again from the program that drew it, and compare the sizes of the copies.");
     /// Entities that blow up.
     SVG_ENTITIES = error(Text, "svg/entities", "Entities of an SVG file stand for each other so often that it would fill the memory.", "Illustrator writes a few entities for names, which are read. No program for drawings nests them: the file was made to stop whoever reads it.");
-    /// Letters that are none.
+    /// Bytes that are no text in the encoding of the file.
     SVG_ENCODING = error(Text, "svg/encoding", "The letters of an SVG file cannot be told: its encoding is not read, or its bytes are not in it.", "UTF-8, UTF-16 and encodings with one byte a letter are read, such as ISO-8859-1. Names of layers and parts hang on their letters. Save the drawing in UTF-8.");
     /// Path data with a fault.
     SVG_PATH = error(Text, "svg/path-data", "The data of a path or the places of a polyline have a fault.", "Browsers draw such a path up to its fault and leave out the rest: a part would lack its edge. Save the drawing again, or mend the number at the byte that the message names.");
@@ -140,14 +140,14 @@ codes! {
     SVG_SIZE = warning(Spoils, Shape, "svg/size-doubtful", "An SVG drawing is smaller than any part, or wider than any table both ways.", "Its unit was most likely taken for another one. Set the size of the page in mm in the program that drew it, and save it again.");
     /// Hidden layers.
     SVG_HIDDEN = warning(Spares, Text, "svg/hidden", "Elements of an SVG file are not displayed, and not cut; the message gives their count and first place.", "A hidden layer is not seen in the drawing, so it is not cut either. Show the layer if it must be cut.");
-    /// Shapes that nobody sees.
+    /// Invisible shapes.
     SVG_NO_LINE = warning(Spares, Text, "svg/no-line", "Shapes of an SVG file have neither stroke nor fill, and are not cut; the message gives their count and first place.", "Nobody sees them: guides and boxes around texts are often so. Give them a stroke if they must be cut.");
     /// Kinds that are left out.
     SVG_LEFT_OUT = warning(Spares, Text, "svg/left-out", "An SVG file draws something that is not read: pictures, flowing texts, markers, clips; the message gives the count and first place of a kind.", "What it draws is not cut, and lines that a clip or a mask would hide are. If outlines are missing from the picture (-t svg), turn them into paths in the program that drew them.");
     /// Rules that are not obeyed.
     SVG_STYLE = warning(Spares, Text, "svg/style-not-read", "A style sheet of an SVG file has rules whose selectors are not read.", "Selectors of elements, classes, ids and `*` are obeyed. Another one may hide lines, which are cut then: look at the picture (-t svg).");
 
-    // What drawings want cut.
+    // Recognition of drawings.
     /// The file is not whole.
     DRAWING_CUT_SHORT = error(Text, "drawing/cut-short", "A drawing ends amid a number or a pair of coordinates, or amid a line outside all parts that does not close: it is most likely cut short.", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes. If only the last PU or a semicolon is missing, write it at the end.\n  PD4000,4000;PU;");
     /// A search without an end.
@@ -156,7 +156,7 @@ codes! {
     DRAWING_NOTHING_TO_CUT = error(Shape, "drawing/nothing-to-cut", "A drawing was read to its end and no line of it is taken for something to cut.", "Its outlines may not close, be smaller than 25 mm, or belong to a pen that is no knife. `cutc info` says what the lines were taken for; options decide otherwise.\n  cutc compile marker.plt --cut-all");
     /// A part with several others in it.
     DRAWING_MAY_BE_FRAME = warning(Spoils, Shape, "drawing/may-be-frame", "A part holds closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.", "Frames are known by their shape: rectangles around two parts or more, which fill half of them. One of another shape, nearly empty, or around a single part looks like a part with cut-outs, and only its edge would be cut. Say which it is.\n  cutc compile marker.plt --set hpgl.frame=outermost\n  cutc compile marker.plt --inner cut");
-    /// Lines that nobody closed.
+    /// Outlines with a gap that was closed.
     DRAWING_OPEN_OUTLINES = warning(Spares, Shape, "drawing/open-outlines", "Long lines of a drawing do not close and lie in no part, or stand on the edge of one from outside: they may be outlines, and are not cut.", "Only closed lines are taken for parts, and ends up to four units and 0.2 mm from each other are joined. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut-all");
     /// Outlines with a gap.
     DRAWING_CLOSED = warning(Spares, Shape, "drawing/closed", "Outlines of a drawing stop a little before their start, or at the edge of the frame; they are closed by straight lines, and cut.", "Ends of an outline up to drawing.close_mm apart are joined by a straight line, and so are two ends on the edge of the frame, which draws the rest. Look at the places in the picture (-t svg), or close the outlines in the CAD system.\n  cutc compile marker.plt --set drawing.close_mm=0");
@@ -194,7 +194,7 @@ codes! {
     DRAWING_AGAIN = warning(Spares, Shape, "drawing/drawn-again", "Lines of a drawing are drawn again, in the same places or nearly so; each is taken once.", "Some programs draw a notch or an outline twice, or a whole plot once more with another pen. A second cut in the same place frays the cloth: copies are left out, and an edge that two parts share is none. If the file holds a marker twice, export it again.");
     /// The searches for notches, letters and seam lines.
     DRAWING_SEARCH_ENDED = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.", "A mark that is not recognised as a notch is not cut, and a seam line may count as a cut-out. Leave texts and clutter out of the export, or split the plot.");
-    /// Layers whose names say what they are.
+    /// Layers with a use by their names.
     DRAWING_LAYERS = warning(Spares, Shape, "drawing/layers", "Names of layers say which lines of a drawing are cut, as CUT, FOLD and TEXT do; where one is cut by its name, layers of which nothing is said are not.", "Layers are tools: one is the knife, others are folded, drawn or only noted. Words of six languages are known. Say it for the file, or once for all files in the profile, where a name may be a pattern.\n  cutc compile drawing.dxf --layers CUT,FOLD=pen,TEXT=ignore\n  cutc info drawing.dxf");
     /// Options for layers that are not there.
     DRAWING_NO_LAYER = error(Shape, "drawing/no-layer", "`--layers` names a layer that the drawing does not have, or is given for a plot, which has pens; or `--cut-pens` is given for a drawing with layers.", "An option that does nothing hides a slip: the layer that was meant would be cut or left out all the same. The hint names the layers that there are.\n  cutc info drawing.dxf");
@@ -204,7 +204,7 @@ codes! {
     DXF_GROUP = error(Text, "dxf/group", "A line of a DXF file should hold the code of a group, and does not.", "DXF is pairs of lines, a code and its value. Where a line is lost or added, every value behind it would be taken for another: a coordinate for a layer. Export the file again, or transfer it as it is.");
     /// No end.
     DXF_CUT_SHORT = error(Text, "dxf/cut-short", "A DXF file does not end with EOF: it was cut short.", "The end of the file is missing, and with it perhaps the rest of an outline or whole pieces. Transfer it again and compare the sizes of both files.");
-    /// A number that is none.
+    /// A damaged number.
     DXF_NUMBER = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number, or a flag or count no whole one.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
     /// A place without X or Y.
     DXF_NO_COORDINATE = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate.", "A place that is taken for 0 would pull the outline across the cloth. Lines were lost on the way: export or transfer the file again.");
@@ -236,13 +236,13 @@ codes! {
     DXF_OPEN_POLYLINE = error(Text, "dxf/open-polyline", "A polyline of a DXF file has no SEQEND: vertices of it may be missing.", "An outline that lacks vertices would be cut straight across the gap, through the piece. Export the file again, or transfer it as it is.");
     /// Something to cut that is not read.
     DXF_UNREAD_CUT = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
-    /// A unit that nobody knows.
+    /// An unknown unit.
     DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC, CM nor ENGLISH, or its header names a unit in which no patterns are drawn.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
     /// A text that is not read.
     DXF_TEXT = error(Text, "dxf/text", "A text of a DXF file that says a size, a quantity or the unit is in parts of more than 250 bytes, or has codes of its letters amid the value.", "A size that is lost is cut with every other one, and a unit that is lost makes all pieces too small. Let the CAD system write such texts as TEXT, one for each.");
     /// Texts that contradict each other.
     DXF_SAID_TWICE = error(Text, "dxf/said-twice", "Texts of a DXF file say two things where one can be right: two units, or of a piece two sizes or quantities.", "Which of them is meant nobody can tell, and the wrong one is another garment. See in the CAD system which is right; the unit and the quantity can be said beside the file.\n  cutc compile pattern.dxf --set dxf.unit=mm\n  cutc compile pattern.dxf --quantity one");
-    /// Several sizes, and nobody says which.
+    /// Several sizes without a choice.
     DXF_WHICH_SIZE = error(Shape, "dxf/which-size", "A set of patterns has several sizes, and neither its sample size nor `--size` says which is cut.", "Sizes lie over each other in the file. Cutting a size that nobody asked for wastes the cloth: name one, several, or all.\n  cutc compile pattern.dxf --size M\n  cutc compile pattern.dxf --size S,M,L");
     /// A size that is not there.
     DXF_NO_SIZE = error(Shape, "dxf/no-size", "A size that `--size` asks for is not in the file.", "The sizes of a set stand in its texts, as in SIZE: M. The message lists them.\n  cutc compile pattern.dxf --size all");
@@ -270,7 +270,7 @@ codes! {
     DXF_NO_SIZES = warning(Spoils, Shape, "dxf/no-sizes", "No piece of a DXF file gives its size, although the file names a sample size or several pieces share a name: all are cut.", "If the pieces are of several sizes, all of them would be cut. Their sizes may stand under a key that cutc does not know, or in letters that it does not read: see in the picture (-t svg) whether pieces come again in other sizes.");
     /// A key that may be the quantity.
     DXF_KEY = warning(Spares, Text, "dxf/unknown-key", "Every piece of a DXF file has a small number under a key that cutc does not know, and no quantity; each is cut once.", "The number may say how often the piece is cut: then pieces would be missing. Compare the count of `cutc info` with the garment, and let the CAD system write QUANTITY.\n  QUANTITY: 2");
-    /// Texts in an encoding that nobody gives.
+    /// Texts in an unknown encoding.
     DXF_LETTERS = warning(Spares, Text, "dxf/letters", "Texts of a DXF file are in an encoding that neither its header nor the profile gives; they are read in the one in which the most keys are found.", "Sizes and quantities stand behind keys in the language of the CAD system. The header ($DWGCODEPAGE) should name their encoding; where it does not, or names another one, the profile can.\n  cutc compile pattern.dxf --set labels.encoding=windows-1251");
     /// Texts that cannot be read.
     DXF_LETTERS_LOST = warning(Spoils, Text, "dxf/unread-key", "Texts of a DXF file have bytes before their colon or number that are no letters in the encoding in which the file is read.", "A size, a sample size or a quantity may stand there: then all sizes would be cut, or too few pieces. Compare the count of `cutc info` with the garment, and say the encoding.\n  cutc compile pattern.dxf --set labels.encoding=big5");
@@ -292,7 +292,7 @@ codes! {
     DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, or the name or quantity of a piece, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
     /// A line on a layer of points.
     DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83), of drill holes (13) or of turn and curve points (2, 3), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
-    /// A quantity that is none.
+    /// A quantity that cannot be read.
     DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or cannot be read, and the piece is cut once; or it counts pairs; or it has words behind its number, which holds.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// Two counts of a piece.
     DXF_PLACED_QUANTITY = warning(Spares, Shape, "dxf/placed-quantity", "A piece of a DXF file is placed by INSERTs, and not as often as its quantity says.", "A file that puts its pieces somewhere is a marker, and each INSERT in it is one piece. The quantity of a pattern is then another count of the same: compare both before the cloth is spread.");
@@ -314,7 +314,7 @@ codes! {
     DXF_NOT_PLACED = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
     /// The sheet around the drawing.
     DXF_ON_PAPER = warning(Spares, Text, "dxf/paper-space", "Entities of a DXF file stand in paper space (group 67 is 1) and are not cut.", "Paper space is the sheet on which a drawing is shown, with its frame and titles. If a piece is missing, it was drawn there: move it to model space.");
-    /// What is cut and not shown.
+    /// Entities that are cut and not shown.
     DXF_HIDDEN = warning(Spoils, Shape, "dxf/hidden", "Entities of a DXF file on layers that are cut are not shown in the CAD system (group 60 is 1, or their layer is off or frozen); they are cut all the same.", "Somebody who looks at the drawing does not see these cuts. Show all layers, delete what is not meant, and export the file again; or look at the picture (-t svg).");
     /// Kinds that are not read.
     DXF_UNREAD = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
@@ -356,7 +356,7 @@ codes! {
     MARKER_OVERRUN = warning(Spares, Shape, "marker/overrun", "Outlines run past their own start, as overcuts of other software do; they are closed where they start, and cut once.", "Other software draws the overcut of its own knife into the file. The knife lays its own overlap at the start of every outline, so the drawn one is left out, and the area of the part counts once. Leave the overcut out of the export and the line goes.");
     /// An outline with several rounds.
     MARKER_ROUND_AGAIN = warning(Spares, Shape, "marker/round-again", "Outlines go round two times or more in one stroke, there and back, or stand twice in a drawing, and so do lines; they are cut once.", "Some plots draw an outline twice to make the line bold, some go back along it, and some cutters go twice through thick cloth. A second cut frays the edge and may shift the part, which is free by then. Draw each outline once in the CAD system.");
-    /// The same contour twice.
+    /// A contour that is repeated.
     MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "A contour stands twice in the file, or runs within `nest.band_mm` of another one all the way, and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.
     MARKER_EQUAL_POINTS = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped, in files without a grid those within 0.01 mm of it, too; the message gives their count.", "Harmless: a direction cannot be taken from two points at one place, so one of them goes. Many of them hint at an export in too coarse a unit.");
@@ -385,7 +385,7 @@ codes! {
     /// Numbers that start again.
     MARKER_NUMBER_TWICE = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.", "Two markers that were joined into one file are both cut, and --pieces takes both pieces of a number. If only one of them is meant, split the file.");
 
-    // How the marker lies on the table, and which of its pieces are cut.
+    // Layout of the marker on the table, and selection of its pieces.
     /// A sheet that takes places away from advances.
     SHEET_ADVANCE = error(Shape, "sheet/advance", "The file moves the cloth on (M69), and the sheet of the profile would take the marker away from where it expects that.", "What is cut before an advance lies in the first window of the conveyor, and the advance is as long as the file means it: turned, mirrored end to end, scaled along X or copied, parts would be cut where no cloth is yet. Move or flip the marker only, or ignore the advance where the table is long enough.\n  cutc compile m.cut --set sheet.copies=2 --set codes.M69=ignore");
     /// More than a program holds.
@@ -408,7 +408,7 @@ codes! {
     PATH_TIGHT_CURVE_REFUSED = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".", "The profile wants no curve cut that the blade cannot follow. Use a narrower knife, draw the curve wider, or set knife.tight_curves to \"follow\" or \"nibble\".");
     /// A blade longer than its cut, with nowhere to go.
     PATH_OVERCUT = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that lies least deep in any part.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
-    /// The same, deeper than the profile allows.
+    /// A blade longer than its cut that cuts into parts deeper than the profile allows.
     PATH_OVERCUT_REFUSED = error(Shape, "path/overcut-refused", "A short cut cannot be made without cutting deeper into a part than `verify.max_overcut_part_mm` or `verify.max_overcut_neighbour_mm` allows.", "The blade is longer than the cut, there is no waste at its ends, and wherever it is put it lies deeper in the cloth than the profile allows. Take a narrower knife, draw the notch longer or of another shape, or allow more if the seam hides it.\n  verify.max_overcut_part_mm = 6");
     /// A slit that the profile makes deeper than its part is wide.
     PATH_NOTCH_THROUGH = error(Shape, "path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.", "The profile asks for slits of one depth, and this part is too narrow for it: the slit would come out on the other side, or reach the next part. Take a smaller notch.depth_mm, or cut such pieces with a profile of their own.");
@@ -446,7 +446,7 @@ codes! {
     SEW_ROW = error(Text, "sew/row", "A row of a pattern or of a queue cannot be read; the message says why.", "Sewing on without it would leave a gap or displace all that follows. Mend the row: decimal points, commas between the fields.\n  0,0,zigzag open");
     /// A file that ends too soon.
     SEW_TRUNCATED = error(Text, "sew/truncated", "A stitch file or queue ends before its end.", "What is missing would not be sewn, and a thread would be left uncut. Transfer the file again as binary data and compare the sizes of both.");
-    /// A record that is none.
+    /// A record that cannot be read.
     SEW_RECORD = error(Text, "sew/record", "A record of a stitch file is none that its format knows; the message has its number.", "All that follows would be sewn in another place. The file is damaged, or is of another format: name that with `--from`.\n  cutc sew odd.bin --from exp");
     /// A header that tells something else.
     SEW_HEADER = warning(Spares, Text, "sew/header", "The header of a DST file does not fit its stitches; the message says what it tells and what there is.", "The stitches are sewn as they are. If the header is right, some are missing: compare with the original. Headers of files that were edited are often wrong.");
@@ -524,13 +524,13 @@ codes! {
     TRACK_OVERSHOOT = warning(Spares, Shape, "track/overshoot", "The profile breaks a condition under which the carriage is sure not to overshoot; the message says which and by how much.", "The conditions are sufficient, not necessary: it may do well all the same. Simulate it with the delays of your machine before you believe it.\n  cutc track --simulate step.toml -p machine.toml");
     /// A carriage whose place is not known.
     TRACK_CARRIAGE = warning(Spoils, Shape, "track/carriage-assumed", "A log does not tell where the carriage was; it is taken to have followed the commands.", "The rulers tell where the cloth is from the carriage, so the centre line is only as true as its place. Log its encoder as the column `carriage_mm`, in mm to the right of the middle.");
-    /// Upstream rulers that nobody logged.
+    /// Upstream rulers without columns in the log.
     TRACK_NO_UPSTREAM = warning(Spares, Shape, "track/no-upstream", "The profile has rulers upstream, but the log does not have their readings; nothing is fed forward.", "The carriage then only follows what it sees, and is farther off centre than it could be. Log the readings as columns `up_i` and `up_j`.");
     /// The commands break the law.
     TRACK_BROKEN = error(Shape, "track/broken", "The commands for the carriage, read back, are not those that the readings and the profile ask for; the message names the row.", "Nothing is written: the carriage would be driven away from the cloth. Please report the log: what is written should keep the law.");
     /// No line to write.
     TRACK_NO_CENTRE = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
-    /// Cloth that nobody saw.
+    /// Cloth without readings.
     TRACK_UNSEEN = warning(Spoils, Shape, "track/unseen", "A centre line goes over cloth whose edges were not both seen, or for which samples are missing; it is taken to go straight there.", "The cloth may have wandered meanwhile, and what is cut there is displaced by as much. Record that stretch again, or leave it out of the marker.");
     /// A scenario that cannot be read.
     TRACK_SCENARIO = error(Text, "track/scenario", "A scenario has a key that is none, or a value that is out of its range.", "A mistyped key would leave the cloth lying still without a word. `cutc manual tracking` lists the keys.\n  offset_mm = 20");
@@ -555,7 +555,7 @@ codes! {
     // Flow cutting.
     /// No cut.
     FLOW_NOTHING = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");
-    /// What heads do not do.
+    /// Requests that heads do not carry out.
     FLOW_LEFT_OUT = warning(Spoils, Shape, "flow/left-out", "Something in the file is not made on the conveyor: holes, stops, advances; the message says what and how many.", "The parts come off the conveyor without it. Drill them elsewhere, or cut this marker on a table.\n  cutc compile marker.cut");
     /// More than the machine has.
     FLOW_INFEASIBLE = error(Shape, "flow/infeasible", "The machine cannot cut the marker at this speed of the conveyor; the message says what it takes, the hints what would help, each with its figure.", "A head that comes too late would leave a stretch uncut that is gone for good. Slow the conveyor down, give heads more travel along the feed (`flow.travel_mm`), or take more heads and rows.\n  cutc flow marker.cut -p flow.toml --speed max -o out");

@@ -6,10 +6,10 @@
 //! Marker -> chains -> stroke (pace) -> heads -> rows -> Program -> write -> bytes -> verify
 //! ```
 //!
-//! A *chain* is a stretch of a cut that one head makes, with x falling on the whole; a *stroke* is a chain with its motion
-//! over the cloth, which `plan` gives under the limits that are left in the moving frame; a *Program* has for each head
-//! its row and its strokes in time. Closed forms that no acceleration enters (`bound`) say what would be the best.
-//! `verify` knows nothing of who plans: it maps the bytes of all heads back to the cloth.
+//! A *chain* is a stretch of a cut that one head makes, with x falling on the whole; a *stroke* is a chain with its motion over
+//! the cloth, which `plan` computes under the limits that remain in the moving frame; a *Program* has for each head its row and
+//! its strokes in time. Closed forms without accelerations (`bound`) give the best possible values. `verify` knows nothing of
+//! the planner: it maps the bytes of all heads back to the cloth.
 
 mod asked;
 mod attempt;
@@ -43,26 +43,26 @@ pub use write::{Emit, File, Plan, TARGETS, Target, describe};
 
 use serde::Serialize;
 
-/// What is known of a program beside what its heads do.
+/// Figures of a program beyond the motion of its heads.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Figures {
     /// Stretches of cuts that one head makes.
     pub chains: usize,
     /// Heads in use.
     pub heads: usize,
-    /// No fewer heads can make these chains, whoever has which: so many are there none of which can be made behind another.
+    /// Lower bound on the number of heads: the largest set of chains no two of which one head can cut in sequence.
     pub heads_bound: usize,
-    /// The most chains that one place along the feed is on: without travel along the feed no fewer heads would do.
+    /// Greatest number of chains at one place along the feed: the number of heads needed without travel along the feed.
     pub chains_abreast: usize,
     /// Rows in use.
     pub rows: usize,
-    /// Whether there are provably no fewer rows for these heads.
+    /// True if fewer rows are provably impossible for these heads.
     pub rows_exact: bool,
     /// Greatest travel along the feed that a chain takes, its ramps included, mm.
     pub travel_mm: f64,
-    /// The least travel that the ways of the chains take, without accelerations and ramps, mm.
+    /// Least travel that the paths of the chains take, without accelerations and ramps, mm.
     pub travel_bound_mm: f64,
-    /// Greatest speed of the conveyor at which they would take no more than there is, mm/s.
+    /// Greatest speed of the conveyor at which that travel fits, mm/s.
     pub speed_bound_mm_s: f64,
     /// Length of all cuts, without overlaps, m.
     pub cut_m: f64,

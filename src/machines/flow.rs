@@ -69,7 +69,7 @@ pub fn refusal(job: &Job) -> Option<[&'static str; 2]> {
 /// The job with its centre line by places of the cloth: the front of the marker comes under the rulers first.
 pub fn on_cloth(job: Job, from: Option<&'static Dialect>, source: &Source) -> Job {
     let Some(centre) = &job.centre else { return job };
-    // What is found about the file is said where it is read for good; no place moves along the feed until then.
+    // Findings are dropped here: the later reading reports them. No place moves along the feed until then.
     let plain = Job { centre: None, ..job.clone() };
     let input = pipeline::read(source, from, &plain, &mut Diagnostics::default());
     let extent = input.map(|input| input.marker.extent()).filter(|extent| !extent.is_empty());
@@ -95,7 +95,7 @@ fn cut(source: &Source, from: Option<&'static Dialect>, job: &Job, out: &mut Dia
 /// Cuts, the heads that make them, and findings on the marker against the bytes that it was read from.
 #[derive(Debug)]
 pub struct Planned {
-    /// Pieces with their cuts.
+    /// The marker with its cuts.
     pub marker: Marker,
     /// The heads.
     pub program: Program,
@@ -103,7 +103,7 @@ pub struct Planned {
     pub audit: Vec<Finding>,
 }
 
-/// Plans how heads cut a source at a speed of the conveyor; `None` when they cannot: then the diagnostics say why.
+/// Plans the heads that cut a source at a speed of the conveyor; `None` when it is impossible: the diagnostics tell why.
 pub fn plan(
     source: &Source,
     from: Option<&'static Dialect>,
@@ -117,7 +117,7 @@ pub fn plan(
     Some(Planned { marker: input.marker, program, audit })
 }
 
-/// Judges the programs that a plan names by the marker that they must cut, those of all targets.
+/// Judges the programs of all targets that a plan names by the marker that they must cut.
 fn judge(
     plan: &mut Written,
     source: &Source,
@@ -147,7 +147,7 @@ fn judge(
     Ok(Some(Explained { verdict, told }))
 }
 
-/// A plan as it was read; null of one that is no JSON.
+/// A plan as JSON; null if it is none.
 fn told(plan: &[u8]) -> Value {
     serde_json::from_slice(plan).unwrap_or_default()
 }
@@ -192,7 +192,7 @@ pub fn files_of(plan: &[u8]) -> Vec<Part> {
     heads(plan).into_iter().chain(files(&told(plan)["pictures"])).collect()
 }
 
-/// Files of a list in a plan, in the folder of the plan; names that lead out of it are passed over.
+/// Files of a list in a plan, in the folder of the plan; names that lead out of it are skipped.
 fn files(list: &Value) -> impl Iterator<Item = Part> {
     let file = |file: &Value| {
         let name = file["file"].as_str().filter(|name| Path::new(name).file_name().is_some_and(|own| own == *name))?;

@@ -115,9 +115,9 @@ pub struct Part {
 pub struct Checked {
     /// Dialect, or format of the machine.
     pub format: &'static str,
-    /// Number of pieces of a marker.
+    /// Number of pieces; `None` if the source is no marker.
     pub pieces: Option<usize>,
-    /// Length of the cuts of a marker, m.
+    /// Length of its cuts, m; `None` if the source is no marker.
     pub cut_m: Option<f64>,
 }
 

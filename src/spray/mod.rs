@@ -6,10 +6,10 @@
 //! Marker -> edge -> curve -> offset -> legs -> course -> quintic | the cutter's planner -> Program -> write -> bytes -> verify
 //! ```
 //!
-//! *Rings* are the edges of parts, the material on their left; their offset is the way of the head. A *course* is that way in
-//! legs, each with the speed at which the jet goes along the edge as it should; a *pass* is what is driven from rest to
-//! rest. The planner `quintic` fits polynomials to the course in time; the default one is the cutter's, with the speed of the
-//! head as its feed. `verify` knows the rings as drawn and the bytes, and nothing of who makes them.
+//! *Rings* are the edges of parts, with the material on their left; their offset is the path of the head. A *course* is that
+//! path in legs, each with the speed at which the jet moves along the edge as required; a *pass* is a motion from rest to rest.
+//! The planner `quintic` fits polynomials to the course in time; the default one is the cutter's, with the speed of the head as
+//! its feed. `verify` knows the rings as drawn and the bytes, and nothing of the planner.
 
 mod bend;
 mod clock;
@@ -54,12 +54,12 @@ use crate::units::number::fixed;
 /// Share of the tolerance that the planner of a head uses; the rest is for rows in decimals and curves in legs.
 const SHARE: f64 = 0.9;
 
-/// Says what of the edges of a marker a head cannot follow, and why; plans nothing.
+/// Reports edges of a marker that a head cannot follow, with the reason; plans nothing.
 pub fn check(marker: &Marker, job: &Job, out: &mut Diagnostics) {
     course(marker, job, out);
 }
 
-/// Plans how a head follows the edges of a marker. `None` when it cannot; why is a diagnostic.
+/// Plans the motion of a head along the edges of a marker. `None` when it is impossible; a diagnostic tells why.
 pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Program, Peaks)> {
     let (rings, course) = course(marker, job, out)?;
     match moved(rings, course, job) {
@@ -147,7 +147,7 @@ fn moved(rings: Vec<Ring>, course: Course, job: &Job) -> Result<(Program, Peaks)
     Ok((program, planner.peaks()))
 }
 
-/// What of the axes is nearest to its limit, or farthest beyond.
+/// Axis and order whose peak is nearest to its limit, or farthest beyond.
 fn busiest(peaks: &Peaks) -> String {
     let all = ["X", "Y", "C"].iter().zip(peaks).flat_map(|(axis, orders)| {
         ["speed", "acceleration", "jerk"].iter().zip(orders).map(move |(order, peak)| (axis, order, peak))

@@ -7,8 +7,9 @@
 //! bytes -> scenario ->         simulate -> the same, with others beside, measured
 //! ```
 //!
-//! `verify` reads the commands back that were written. `controller` is what a firmware runs; `law` makes of the profile what it goes by. `drive`, `rulers` and `rivals` are the
-//! plant of the simulation. `centre` reads and writes centre lines, which `compile --centre` takes, too.
+//! `verify` reads the written commands back. `controller` is the part that runs as firmware; `law` derives its constants from
+//! the profile. `drive`, `rulers` and `rivals` are the plant of the simulation. `centre` reads and writes centre lines, which
+//! `compile --centre` takes, too.
 
 pub mod centre;
 mod chart;

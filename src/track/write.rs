@@ -1,4 +1,4 @@
-//! Writing: what a log came to, as the bytes of a target, a row of [`TARGETS`] each.
+//! Writing: the result of a log, as the bytes of a target, a row of [`TARGETS`] each.
 
 use std::io::{self, BufRead, Write};
 
@@ -67,7 +67,7 @@ const SPEED_DECIMALS: u32 = 3;
 const BLOCK_BYTES: usize = 1 << 16;
 
 impl Status {
-    /// As rows have it.
+    /// Name in rows.
     pub fn name(self) -> &'static str {
         match self {
             Self::Centred => "centred",
@@ -80,7 +80,7 @@ impl Status {
     }
 }
 
-/// Rows of time, and what is pushed behind it of each sample.
+/// Writes rows of time with the columns that `push` adds for each sample.
 fn rows(tracked: &Tracked, header: &str, out: &mut dyn Write, push: impl Fn(&mut Vec<u8>, usize)) -> io::Result<()> {
     let mut block = header.as_bytes().to_vec();
     for (i, row) in tracked.replay.rows.iter().enumerate() {

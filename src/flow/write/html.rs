@@ -1,4 +1,4 @@
-//! A page that plays a program: the cloth under the rows, heads in them, what is cut so far. It needs nothing but a browser.
+//! A page that plays a program: the cloth under the rows, the heads in them, the cuts so far. It needs nothing but a browser.
 
 use std::io::{self, Write};
 
@@ -60,7 +60,7 @@ fn cuts(marker: &Marker, columns: &mut Columns) {
     columns.add("cut_y", UNIT, of(1));
 }
 
-/// Adds the columns of all heads, one behind the other, and tells how many places each has.
+/// Adds the columns of all heads in order, and returns the number of places of each.
 fn heads(program: &Program, every: u64, columns: &mut Columns) -> usize {
     let is_told = |setpoint: &Setpoint| setpoint.tick.is_multiple_of(every);
     let places: Vec<Vec<Setpoint>> =

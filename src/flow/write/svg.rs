@@ -30,7 +30,7 @@ const TEXT_PX: f64 = 14.0;
 const NUMBER_PX: f64 = 11.0;
 const DISC_PX: f64 = 8.0;
 
-/// Where everything stands on the picture: mm, Y down.
+/// Layout of the picture: mm, Y down.
 struct Sheet {
     /// A nominal pixel, mm.
     px: f64,
@@ -56,7 +56,7 @@ impl Sheet {
         Self { px, left: extent.min.x - margin, top: -extent.max.y - margin - legend, width, height, columns }
     }
 
-    /// Where an entry of the legend stands; the first line tells of the feed.
+    /// Place of an entry of the legend; the first line tells the feed.
     fn entry(&self, i: usize) -> [f64; 2] {
         let (column, line) = (i % self.columns, i / self.columns);
         let x = self.left + (MARGIN_PX + column as f64 * ENTRY_PX) * self.px;
@@ -126,7 +126,7 @@ fn chains(program: &Program, i: usize, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Which way the cloth moves, and how fast.
+/// Direction and speed of the cloth.
 fn feed(program: &Program, sheet: &Sheet, out: &mut dyn Write) -> io::Result<()> {
     /// Length of the arrow, and of its head, pixels.
     const ARROW_PX: [f64; 2] = [60.0, 8.0];

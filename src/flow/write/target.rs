@@ -16,7 +16,7 @@ pub enum Emit {
     Heads(fn(&Program, &Head, &mut dyn Write) -> io::Result<()>),
     /// One file, a picture.
     Whole {
-        /// What it is called, without its extension.
+        /// Name without its extension.
         stem: &'static str,
         /// Writes it.
         write: fn(&Program, &Marker, &mut dyn Write) -> io::Result<()>,

@@ -81,7 +81,7 @@ fn step(range: f64, most: f64) -> f64 {
 }
 
 impl Chart<'_> {
-    /// Where the panels of a row begin, px.
+    /// Top of the panels of a row, px.
     fn top(row: usize) -> f64 {
         TOP + row as f64 * (ACROSS + ALONG + GAP)
     }

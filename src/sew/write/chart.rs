@@ -1,7 +1,7 @@
 //! A picture of three stitches in time, at two speeds: angle of the spindle, window, rates of the pulses of X and Y.
 //!
-//! The stitches are those of the program that move farthest together: what happens there decides how fast it is sewn. Above
-//! they stand at the speed of their run, below at two thirds of it.
+//! The stitches are those of the program with the longest total motion: these decide about its speed. Above they are drawn at
+//! the speed of their run, below at two thirds of it.
 
 use std::io::{self, Write};
 
@@ -90,7 +90,7 @@ fn peak(entries: &[Move], sewing: &Sewing) -> f64 {
     rates.map(|(.., rate)| rate).fold(0.0, f64::max)
 }
 
-/// Where three stitches are drawn, and to which scales.
+/// Place and scales of a drawing of three stitches.
 #[derive(Clone, Copy)]
 struct Panel<'a> {
     sewing: &'a Sewing,

@@ -39,11 +39,11 @@ const WEIGHTS: [(i64, usize, [u8; 4]); 5] = [
     (1, 0, [0x01, 0x02, 0x80, 0x40]),
 ];
 
-/// A record of a move, with what its last byte says.
+/// A record of a move, with the flags of its last byte.
 fn record([mut x, mut y]: [i64; 2], kind: u8) -> [u8; 3] {
     let mut bytes = [0, 0, kind];
     for (weight, byte, [x_up, x_down, y_up, y_down]) in WEIGHTS {
-        // What smaller weights cannot make needs this one.
+        // A remainder beyond the smaller weights needs this one.
         for (left, up, down) in [(&mut x, x_up, x_down), (&mut y, y_up, y_down)] {
             if *left > weight / 2 {
                 bytes[byte] |= up;
@@ -57,20 +57,20 @@ fn record([mut x, mut y]: [i64; 2], kind: u8) -> [u8; 3] {
     bytes
 }
 
-/// What the records of a program amount to.
+/// Totals of the records of a program.
 #[derive(Debug, Default)]
 struct Sums {
     records: i64,
     stops: i64,
-    /// Where the last one ends, tenths of a millimetre.
+    /// End of the last record, tenths of a millimetre.
     at: [i64; 2],
-    /// How far all of them reach from the start: right, left, up, down.
+    /// Extent of all records from the start: right, left, up, down.
     reach: [i64; 4],
-    /// Moves without a trim that are as many jumps as one.
+    /// Number of moves without a trim that have as many jumps as one with a trim.
     cuts: usize,
 }
 
-/// Gives each record, and what they amount to.
+/// Writes each record, and returns their totals.
 fn encode(program: &Program, mut put: impl FnMut([u8; 3])) -> Sums {
     let mut sums = Sums::default();
     // Jumps in a row, while the thread runs on.
@@ -141,7 +141,7 @@ fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(&body)
 }
 
-/// The header: how many records and stops, and how far the pattern reaches from its start, tenths of a millimetre.
+/// The header: number of records and stops, and extent of the pattern from its start, tenths of a millimetre.
 fn header(sums: &Sums) -> Vec<u8> {
     let Sums { records, stops, at, reach: [right, left, up, down], .. } = sums;
     let signed = |value: i64| format!("{}{:5}", if value < 0 { '-' } else { '+' }, value.abs());

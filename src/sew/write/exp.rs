@@ -21,7 +21,7 @@ const LONGEST: i64 = 127;
 /// Commands, before their move.
 const JUMP: [u8; 2] = [0x80, 0x04];
 const STOP: [u8; 2] = [0x80, 0x01];
-/// The thread is cut; what is filled in behind is what machines expect there.
+/// Thread cut, with the filler that machines expect.
 const TRIM: [u8; 4] = [0x80, 0x80, 0x07, 0x00];
 
 fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {

@@ -58,7 +58,7 @@ fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
     Page { title, body: script.markup().to_owned(), facts, columns, script }.write(out)
 }
 
-/// Number of what an entry does, as the page has it.
+/// Number of an operation in the data of the page.
 fn number(op: Op) -> i64 {
     match op {
         Op::Stitch => 0,

@@ -1,7 +1,7 @@
 //! Entries of the queue from which the motion part takes its stitches: rows of text, or JSON a line each.
 //!
-//! Increments are multiples of the step to four decimals: whoever divides them by it and rounds has the pulses, and no sum
-//! of these drifts away.
+//! Increments are multiples of the step to four decimals: divided by the step and rounded they are the pulses, and their sums
+//! do not drift.
 
 use std::io::{self, Write};
 
@@ -61,7 +61,7 @@ impl Entry {
     }
 }
 
-/// How a queue is written.
+/// Format of a queue.
 struct Form {
     head: &'static [u8],
     push: fn(&mut Vec<u8>, Entry),

@@ -125,7 +125,7 @@ fn legend_width() -> f64 {
     2.0 * LEGEND_MARGIN + LEGEND.iter().map(|(_, text)| row_width(text)).sum::<f64>()
 }
 
-/// What the marks mean, and the colours of least and greatest speed.
+/// Legend of the marks, and of the colours of least and greatest speed.
 fn legend(corner: Point, top: f64, range: [f64; 2], out: &mut dyn Write) -> io::Result<()> {
     let (mut x, y) = (corner.x - MARGIN + LEGEND_MARGIN, top - MARGIN + 4.0);
     for (class, text) in LEGEND {

@@ -14,7 +14,7 @@ pub type Target = ir::Target<Writer, Bytes>;
 /// Writer of programs.
 #[derive(Debug)]
 pub struct Writer {
-    /// Refusals of what the format cannot express, before the first byte.
+    /// Refusals of content that the format cannot express, before the first byte.
     pub refusals: fn(&Program, &Job, &mut Diagnostics),
     /// Writes a program.
     pub write: fn(&Program, &Job, &mut dyn Write) -> io::Result<()>,

@@ -1,6 +1,6 @@
 //! Writing: a program to the bytes of a target, a row of [`TARGETS`] each.
 //!
-//! Receives what is planned, promises bytes that depend on nothing else, and decides nothing.
+//! Receives a program, promises bytes that depend on nothing else, and decides nothing.
 
 mod csv;
 mod svg;

@@ -36,16 +36,15 @@ const LETTER: f64 = 6.3;
 const ROOM: f64 = 0.04;
 /// Rows that are drawn at the most; of speeds between two the greatest.
 const MOST_ROWS: usize = 1800;
-/// How far apart on its way the head's direction is shown, as a share of the picture.
+/// Distance along the path between marks of the head's direction, as a fraction of the picture.
 const AIM_EVERY: f64 = 0.06;
-/// How large the greatest deviation from the course is drawn, as a share of the picture, and how many times as large as it is at
-/// the most.
+/// Drawn size of the greatest deviation from the course, as a fraction of the picture, and greatest magnification.
 const VISIBLE: f64 = 0.012;
 const MOST_TIMES: f64 = 10_000.0;
 /// Parts of an axis of speeds or times, at the most.
 const TICKS: f64 = 6.0;
 
-/// How places become px.
+/// Map from places to px.
 struct Plan {
     extent: Extent,
     scale: f64,
@@ -98,24 +97,24 @@ struct Way<'a> {
     program: &'a Program,
     /// Classes of its head and of its jet.
     class: [&'static str; 2],
-    /// Where its head is drawn at each row.
+    /// Drawn place of its head at each row.
     places: Vec<Point>,
 }
 
-/// The programs that are drawn: that of the job, and the other planner's beside it.
+/// Programs that are drawn: that of the job, and that of the other planner.
 struct Ways<'a> {
     all: Vec<Way<'a>>,
-    /// How many times as large as they are deviations are drawn.
+    /// Magnification of deviations.
     times: f64,
 }
 
 impl<'a> Ways<'a> {
-    /// Those of a program, on a picture of that width, mm.
+    /// Paths of a program, on a picture of the given width, mm.
     fn of(program: &'a Program, width: f64) -> Self {
         let programs = [Some(program), program.beside.as_deref()];
         let offs = programs.map(|program| program.map(offs).unwrap_or_default());
         let worst = offs.iter().flatten().map(crate::geom::Vector::norm).fold(0.0, f64::max);
-        // What can be seen is drawn as it is.
+        // Visible deviations are not magnified.
         let times = if worst > 0.0 { round(0.5 * VISIBLE * width / worst).clamp(1.0, MOST_TIMES) } else { 1.0 };
         let classes = [["way", "jet"], ["other", "other-jet"]];
         let way = |((program, offs), class): ((Option<&'a Program>, &Vec<Vector>), [&'static str; 2])| {
@@ -126,7 +125,7 @@ impl<'a> Ways<'a> {
         Self { all: programs.into_iter().zip(&offs).zip(classes).filter_map(way).collect(), times }
     }
 
-    /// What lines stand for: class and words.
+    /// Legend of the lines: class and words.
     fn legend(&self) -> Vec<(&'static str, String)> {
         let times = if self.times > 1.0 { format!(", off x {}", short(self.times)) } else { String::new() };
         let mut all = vec![("course", "edge at its distance".to_owned()), ("aim", "direction of the head".to_owned())];
@@ -144,7 +143,7 @@ impl<'a> Ways<'a> {
     }
 }
 
-/// How far the head is from its course at each row, mm; nothing between passes.
+/// Deviation of the head from its course at each row, mm; zero between passes.
 fn offs(program: &Program) -> Vec<Vector> {
     let legs: Vec<Leg> = program.passes.iter().flatten().copied().collect();
     let on: Vec<Row> = program.rows.iter().filter(|row| row.leg.is_some()).copied().collect();
@@ -213,7 +212,7 @@ fn way(way: &Way, plan: &Plan, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Which way the head looks, from place to place.
+/// Direction of the head, at intervals.
 fn aims(program: &Program, plan: &Plan, out: &mut dyn Write) -> io::Result<()> {
     let apart = AIM_EVERY * plan.extent.size().0;
     let mut way = apart;
@@ -248,7 +247,7 @@ impl Chart {
         Self { top, whole: [(most / steps[0]).ceil().max(1.0) * steps[0], duration], steps }
     }
 
-    /// Where a time, s, and a speed, m/s, stand, px.
+    /// Position of a time, s, and a speed, m/s, px.
     fn at(&self, time: f64, speed: f64) -> [f64; 2] {
         let x = LEFT + (WIDTH - LEFT - RIGHT) * time / self.whole[1];
         [x, self.top + PANEL * (1.0 - speed.min(self.whole[0]) / self.whole[0])]

@@ -14,7 +14,7 @@ pub type Target = ir::Target<Writer, Reader>;
 /// Writer of programs.
 #[derive(Debug)]
 pub struct Writer {
-    /// Whether it shows the program of another planner beside.
+    /// True if it shows the program of another planner in addition.
     pub compares: bool,
     /// Writes a program.
     pub write: fn(&Program, &mut dyn Write) -> io::Result<()>,
