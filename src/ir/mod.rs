@@ -10,7 +10,7 @@
 //! - links of the list agree in both directions; no segment belongs to two contours
 //! - steps of a toolpath come in an order that a machine can run: the knife is down only in runs and plunge cuts
 //! - every run has one span per chord, overlaps of at least zero and a positive speed cap
-//! - every run and plunge cut has one path of arcs; each piece of it has its length, and a positive speed cap
+//! - every run and plunge cut has one path of arcs; each piece has the length of its path, and a positive speed cap
 //! - every phase of a motion has ticks, and a pose for each
 
 pub mod arcs;

@@ -158,8 +158,8 @@ struct Programs {
     names: Vec<String>,
 }
 
-/// The programs of each target that a plan names. A head without a program has the name that its target gives it; a plan without
-/// any program has those of the first target.
+/// The programs of each target that a plan names. A head without a program has the name that its target gives it; a plan
+/// without any program has those of the first target.
 fn programs(plan: &Value) -> Vec<Programs> {
     let heads = plan["heads"].as_array().map_or(&[][..], Vec::as_slice);
     let of_target = |target: &Target| {

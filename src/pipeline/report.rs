@@ -69,7 +69,7 @@ pub struct Report {
     /// Estimate for a controller that plans for itself; absent without such a target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<Controller>,
-    /// Distances of a head that follows edges, by edge; absent with another tool.
+    /// Figures of a head that follows edges at a distance, by edge; absent with another tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edges: Option<Vec<spray::Edge>>,
 }
@@ -320,7 +320,7 @@ pub struct Program {
 /// Measures by which the blade avoids harm beyond the ends of its cuts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Sides {
-    /// Ends in front of which the part itself lies.
+    /// Ends beyond which the part itself lies.
     pub inside: usize,
     /// Overlaps that a narrow gap shortens.
     pub shortened: usize,

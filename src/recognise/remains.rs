@@ -13,7 +13,7 @@ use crate::ir::drawing::Vertex;
 const BESIDE: f64 = 0.45;
 /// Share of a closed line beside open ones at which it is doubtful that it is a part.
 const DOUBTFUL: f64 = 0.15;
-/// That share for a closed line that lacks a seam line where most have one.
+/// Such a share for a closed line that lacks a seam line where most have one.
 const DOUBTFUL_BARE: f64 = 0.08;
 /// Least share of a closed line beside open lines if some of these go far beyond it, as two outlines drawn without a lift do.
 const SURELY: f64 = 0.75;

@@ -385,7 +385,7 @@ fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
             if i == way.first || i == 0 {
                 asked = merged(asked, segment.joint);
             }
-            // The segment before two spurs may be their common neighbour: between their mouths the outline goes straight on.
+            // Adjacent spurs may have different mouths: between these the outline goes straight on.
             if let Some(other) = before.filter(|other| other.first != way.first && other.root != way.root) {
                 left.push(Segment { from: other.root, to: way.root, joint: Joint::default(), ..*segment });
             }

@@ -493,7 +493,7 @@ impl<'a> Judge<'a> {
         let [from, to] = trial.reach;
         let reach = [from.min(to), from.max(to)];
         for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
-            // The excess length of a plunge cut belongs to the block of the plunge cut.
+            // The excess length of a plunge cut has the block name of the nearest place on its line.
             let station = trial.feet[i.clamp(*trial.held.start(), *trial.held.end())].station;
             for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
                 // A plunge cut may cut several chords while its tip is on none of them.

@@ -105,8 +105,8 @@ impl<'a> Inside<'a> {
         near.map(|part| self.parts[part].distance(point, reach)).fold(f64::INFINITY, f64::min)
     }
 
-    /// True if a straight segment leads through a part, however narrow, or along an edge of one; rounding decides on which side
-    /// of that edge it lies.
+    /// True if a straight segment leads through a part, however narrow, or along an edge of one, whichever side of the edge
+    /// rounding puts it on.
     pub(in crate::verify) fn is_crossed(&self, [from, to]: [Point; 2]) -> bool {
         let mut shares: Vec<f64> = vec![0.0, 1.0];
         for part in self.boxes.near(Extent::between(from, to)) {
