@@ -140,8 +140,8 @@ impl Nesting {
         nesting
     }
 
-    /// Removes lines of other groups from those around a line that holds a line of theirs: around their cut-out it lies over
-    /// their part, not in it.
+    /// Removes lines of other groups from those around a line that lies in their part and holds a line of theirs: around their
+    /// cut-out it lies over their part, not in it.
     fn part_overlaid(&mut self) {
         let group = |line: usize| self.lines[line].group;
         let pairs =
@@ -150,8 +150,13 @@ impl Nesting {
         let lines = &self.lines;
         for (line, outer) in &mut self.around {
             let own = lines[*line].group;
-            let lies_over = |of: u32| of != own && held.contains(&(*line, of));
-            outer.retain(|&outer| !lies_over(lines[outer as usize].group));
+            let of = |outer: u32| lines[outer as usize].group;
+            // Inside an outline and one of its cut-outs is not in the part.
+            let is_in_part = |group: u32| outer.iter().filter(|&&outer| of(outer) == group).count() % 2 == 1;
+            let groups = outer.iter().map(|&outer| of(outer)).filter(|&group| group != own);
+            let over: BTreeSet<u32> =
+                groups.filter(|&group| held.contains(&(*line, group)) && is_in_part(group)).collect();
+            outer.retain(|&outer| !over.contains(&of(outer)));
         }
         self.around.retain(|_, outer| !outer.is_empty());
     }

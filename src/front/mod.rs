@@ -33,12 +33,12 @@ pub fn by_name(name: &str) -> Option<&'static Dialect> {
 
 /// The dialect to read a file as: `from` if it is given and the content is not plainly another one, otherwise the one that
 /// the content matches best.
-pub fn choose(
+pub fn choose<'d>(
     source: &Source,
-    from: Option<&'static Dialect>,
+    from: Option<&'d Dialect>,
     name_extension: Option<&str>,
     diagnostics: &mut Diagnostics,
-) -> Option<&'static Dialect> {
+) -> Option<&'d Dialect> {
     match from {
         Some(dialect) => (!foreign::refuse(source, dialect.name, diagnostics)).then_some(dialect),
         None => detect(source, name_extension, diagnostics),

@@ -1,10 +1,9 @@
 //! The doubly linked segment list: data in vectors, order as neighbour ids beside them.
 //!
 //! Consecutive segments of a range share a point, so only the end of each is stored. Links are stored only where something was
-//! moved, and requests of the file only where there are any. A segment takes twenty-eight bytes, plus about five for the
-//! monotone chains that passes need; the size matters because reading time of large markers grows with their memory. Ids are
-//! never reused. Links are private to this file: other modules walk a [`Range`] or edit through a [`Cursor`], whose operations
-//! all take constant time.
+//! moved, and requests of the file only where there are any: the reading time of large markers grows with their memory. A
+//! segment takes twenty-eight bytes, and about five more for the monotone chains that passes need. Ids are never reused. Links
+//! are private to this file: others walk a [`Range`] or edit through a [`Cursor`], whose operations take constant time.
 
 use std::borrow::Cow;
 

@@ -34,13 +34,19 @@ pub struct Machine {
     /// Reason why it cannot do a job, and what to do about it.
     pub refusal: fn(&Job) -> Option<[&'static str; 2]>,
     /// Files that the bytes of a program name, with their digests; `None` if each program is one file.
-    pub parts: Option<fn(&[u8]) -> Vec<Part>>,
+    pub parts: Option<Parts>,
     /// Reads a source and finds its faults for this machine; `None` when nothing can be read.
     pub check: fn(&Source, &Asked, &Job, &mut Diagnostics) -> Option<Checked>,
     /// Judges a program by a source; returns `None` when the source has errors, which the diagnostics tell. `None` for a
     /// machine whose programs are judged only while they are written.
     pub judge: Option<Judge>,
 }
+
+/// Names, in the bytes of a program, of the files that belong to it.
+pub type Parts = fn(&[u8]) -> Vec<Part>;
+
+/// Compiler of a source to programs; `None` when there are errors, which the diagnostics tell.
+pub type Compile = fn(&Source, &Job, Choices, &mut [Product], &mut Diagnostics) -> io::Result<Option<Compiled>>;
 
 /// Judge of programs that were written before.
 pub type Judge = fn(&mut Written, &Source, &Asked, &Job, &mut Diagnostics) -> io::Result<Option<Explained>>;
@@ -51,7 +57,7 @@ pub struct Tool {
     /// Tools of a profile that make it this machine.
     pub kinds: &'static [ToolKind],
     /// Compiles a source to programs, as [`compile_all`](crate::pipeline::compile_all) does.
-    pub compile: fn(&Source, &Job, Choices, &mut [Product], &mut Diagnostics) -> io::Result<Option<Compiled>>,
+    pub compile: Compile,
     /// Makes the cuts of an input before planning.
     pub cuts: fn(&mut Input, &Source, &Job, &mut Diagnostics),
     /// Figures of the program of an input with its cuts.

@@ -12,7 +12,7 @@ mod sew;
 mod spray;
 mod track;
 
-pub use machine::{Checked, Claim, Judge, Listed, Machine, Part, Tool, Written};
+pub use machine::{Checked, Claim, Compile, Judge, Listed, Machine, Part, Parts, Tool, Written};
 
 use crate::machine::Job;
 

@@ -83,6 +83,7 @@ fn check(source: &Source, asked: &Asked, job: &Job, diagnostics: &mut Diagnostic
 }
 
 /// The figures of the program that an input would become.
+#[allow(clippy::unnecessary_wraps, reason = "a row of the table of machines: the knife's may fail to write")]
 fn estimate(input: &mut Input, _: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<pipeline::Program> {
     if diagnostics.has_errors() {
         return Ok(pipeline::Program::default());

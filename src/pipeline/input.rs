@@ -111,7 +111,7 @@ pub(super) fn read_alone(
 ) -> Option<Input> {
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = front::choose(source, from, extension, diagnostics)?;
-    let marker = marker_of(dialect, source, job, diagnostics);
+    let marker = cuts_of(dialect, source, job, diagnostics);
     // Only a drawing leaves open which of its lines are cut.
     let is_plot = matches!(dialect.read, Reader::Drawing(_));
     if !is_plot && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
@@ -130,8 +130,14 @@ pub(super) fn read_alone(
     Some(Input { dialect, marker, is_whole: !diagnostics.has_errors() })
 }
 
-/// Cuts of a source, as a dialect reads them, or as they are recognised in the drawing of the dialect.
+/// Cuts of a source that is to be read as a dialect; none where it is plainly something else, which is an error.
 pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
+    let chosen = front::choose(source, Some(dialect), None, diagnostics);
+    chosen.map_or_else(Marker::default, |dialect| cuts_of(dialect, source, job, diagnostics))
+}
+
+/// Cuts of a source, as its dialect reads them, or as they are recognised in the drawing of the dialect.
+fn cuts_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
     match dialect.read {
         Reader::Marker(read) | Reader::Patterns { cut: read, .. } => read(source, job, diagnostics),
         Reader::Drawing(read) => {

@@ -69,13 +69,13 @@ pub(super) fn crosses(search: Search, work: &mut Budget) -> Vec<(usize, Point)> 
         [places[0].at, places[places.len() - 1].at]
     };
     let mut found = Vec::new();
-    for k in 0..strokes.len() {
+    for (k, &stroke) in strokes.iter().enumerate() {
         if !work.spend(boxes.cost_near(&boxes.all()[k])) {
             break;
         }
         let own = ends(k);
         if boxes.near(boxes.all()[k]).filter(|&other| other > k).any(|other| are_cross(own, ends(other))) {
-            found.push((strokes[k], own[0] + (own[1] - own[0]) / 2.0));
+            found.push((stroke, own[0] + (own[1] - own[0]) / 2.0));
         }
     }
     found

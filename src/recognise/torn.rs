@@ -33,12 +33,12 @@ pub(super) fn first(sheet: &Sheet) -> Option<Diagnostic> {
     let may_be_outline = |line: &&Line| {
         line.size() > SMALL_OUTLINE && !matches!(line.usage, Use::Drawn | Use::Ignore) && line.class != Class::Again
     };
-    let outlines = sheet.lines.iter().filter(may_be_outline).filter(is_open);
+    let mut outlines = sheet.lines.iter().filter(may_be_outline).filter(is_open);
     let told = |line: &Line| {
         let drawn = line.as_drawn(&sheet.vertices);
         told(drawn, drawn_by(drawn, &sheet.encoded)?)
     };
-    outlines.filter_map(told).next()
+    outlines.find_map(told)
 }
 
 /// The encoded polyline that draws all of a line.

@@ -536,28 +536,6 @@ fn ready_tables_of_controllers_give_programs_that_pass() {
 }
 
 #[test]
-fn f_of_inverse_time_asks_for_no_more_than_c_can_turn_and_the_controller_can_plan() {
-    let word = |line: &str, letter: char| -> Option<f64> {
-        line.split(' ').find_map(|word| word.strip_prefix(letter)?.parse().ok())
-    };
-    let job = machine("fluidnc");
-    let [_, _, c] = job.profile.axes.limits();
-    let most = job.profile.gcode.max_blocks_s.expect("it plans few moves a second") * S_PER_MIN;
-    let letter = char::from(job.profile.gcode.letter.byte());
-    let (program, _) = compile(&fixture("markers/tight-curves-and-short-runs.cut"), &job);
-    let (mut capped, mut stood) = (0, 0.0);
-    for line in program.lines() {
-        let Some(to) = word(line, letter) else { continue };
-        let turned = (to - stood).abs();
-        stood = to;
-        let Some(f) = word(line, 'F') else { continue };
-        assert!(turned * f / S_PER_MIN <= c.speed.to_degrees() * 1.001 && f <= most + 1e-3, "{line}");
-        capped += usize::from(f > most - 1e-3);
-    }
-    assert!(capped > 20, "{capped} moves are as short as they may be");
-}
-
-#[test]
 fn a_wavy_contour_is_at_most_a_quarter_as_many_moves_as_chords() {
     let (program, compiled) = compile(&fixture("motion/wavy751.csv"), &machine("wavy"));
     let moves =

@@ -43,6 +43,7 @@ mod passes;
 mod pattern;
 mod picture;
 mod places;
+mod planner;
 mod player;
 mod plunges;
 mod profile;

@@ -234,7 +234,9 @@ fn damage_to_split_cuts_is_found() {
                     way
                 }
             };
-            rows.iter_mut().for_each(|row| row[ADVANCE] = other(row[ADVANCE]));
+            for row in &mut *rows {
+                row[ADVANCE] = other(row[ADVANCE]);
+            }
         }),
         ("the ways aside left out", "verify/joint", |rows| {
             for stroke in rows.chunk_by_mut(|one, next| one[4] == next[4]) {
@@ -243,7 +245,9 @@ fn damage_to_split_cuts_is_found() {
                 // The strip lies between 100 and 200 mm: a short stroke outside of that leads into the waste.
                 let is_beside = |row: &Vec<f64>| (98.0..99.8).contains(&row[2]) || (200.2..202.0).contains(&row[2]);
                 if stroke[0][4] == 1.0 && way < 14.0 && stroke.iter().any(is_beside) {
-                    stroke.iter_mut().for_each(|row| (row[4], row[7]) = (0.0, 0.0));
+                    for row in stroke.iter_mut() {
+                        (row[4], row[7]) = (0.0, 0.0);
+                    }
                 }
             }
         }),

@@ -27,6 +27,7 @@ pub(super) use side_by_side::{Stages, run as side_by_side};
 pub(super) use table::{Columns, Row, State, Telling, counts, failed_last, sum, text};
 
 use self::progress::Progress;
+use self::table::BROKEN;
 use super::finished::{Console, DONE, FAULTY, Finished};
 use crate::diagnostic::Diagnostics;
 
@@ -50,9 +51,6 @@ impl Threads {
         self.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
     }
 }
-
-/// Message about a file that caused a panic.
-const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
 
 /// Outcome of one file.
 #[derive(Debug)]

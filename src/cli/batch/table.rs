@@ -11,6 +11,8 @@ use crate::units::number::fixed;
 
 /// Maximum columns of a file name. Longer names are cut at the start.
 const NAME_COLUMNS: usize = 40;
+/// Message about a file that caused a panic.
+pub(super) const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
 
 /// Outcome of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +53,7 @@ impl Row {
 
     /// The row of a file on which the program panicked.
     pub(in crate::cli) fn broken(file: &Path) -> Self {
-        Self { worst: super::BROKEN.to_owned(), ..Self::new(file, State::Failed) }
+        Self { worst: BROKEN.to_owned(), ..Self::new(file, State::Failed) }
     }
 
     /// A row without figures.

@@ -33,8 +33,8 @@ impl Conic {
         self.sweep.abs() >= TAU
     }
 
-    /// Number of chords within `sagitta` mm of the conic. On a circle of radius `r` a chord over an angle `a` deviates by `r (1
-    /// - cos(a/2))`; on an ellipse the deviation is at most that of the circumscribed circle.
+    /// Number of chords within `sagitta` mm of the conic. On a circle of radius `r` a chord over an angle `a` deviates by
+    /// `r (1 - cos(a/2))`; on an ellipse the deviation is at most that of the circumscribed circle.
     pub(super) fn chords(&self, sagitta: f64) -> usize {
         let radius = self.reach();
         // The formula uses a quarter of the angle, which keeps its precision at large radii: 1 - cos(a/2) = 2 sin^2(a/4).

@@ -22,7 +22,8 @@ const SAY_WHICH: &str = "say which it is: `--set dxf.unit=mm`, `cm` or `inch`";
 
 /// Greatest length of a line in the unit of the header, mm: no part has a longer outline.
 const LONGEST_LINE: f64 = 3e4;
-/// Largest side of the largest of several pieces, mm, below which the unit is doubted: no garment is so small.
+/// Largest side of the largest of several pieces, mm, below which the unit is doubted: no garment is so small, and trousers of
+/// 1.2 m that are drawn in cm would be.
 const SMALLEST: f64 = 120.0;
 /// Largest side of a piece, mm, beyond which the unit is doubted: garments, covers and sails in one piece are smaller.
 const LARGEST: f64 = 10_000.0;

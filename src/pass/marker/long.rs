@@ -92,7 +92,7 @@ impl Long {
         for i in (0..places.len()).rev() {
             let begin = places[i];
             let next = places[i + 1..].iter().take_while(|next| next.x + reach - begin.from <= length);
-            let ways = next.filter(|next| next.x - begin.x >= SHORTEST).filter_map(|next| next.with_rest());
+            let ways = next.filter(|next| next.x - begin.x >= SHORTEST).filter_map(Place::with_rest);
             places[i].rest = if to - begin.from <= length { Some((1, 0)) } else { ways.min() };
         }
         Self { ends, places, next: 0, window: None, reach }

@@ -27,8 +27,8 @@ class Cloth {
     /** Points of the trail that are drawn; -1 when all must be drawn anew. */
     this.drawn = -1;
     this.stale = true;
-    /** How the view stood when it was drawn: origin and scale, width and height, pixels. */
-    this.stood = [NaN];
+    /** How the view stood when it was drawn: origin and scale, width and height, pixels. @type {number[]} */
+    this.stood = [];
     this.lines = this.readLines();
   }
 

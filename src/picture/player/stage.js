@@ -24,7 +24,7 @@ class Stage {
     this.frame = element("cloth", HTMLElement);
     this.view = new View(this.frame, () => this.wake());
     /** Scale at which all is seen, while the window is left so. */
-    this.fitted = NaN;
+    this.fitted = -1;
     this.scrub = element("scrub", HTMLInputElement);
     this.rateChoice = element("rate", HTMLSelectElement);
     this.rateChoice.append(...rates.map(value => new Option(`${value}×`, String(value))));

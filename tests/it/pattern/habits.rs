@@ -210,7 +210,8 @@ fn notches_of_an_outline_that_lean_touch_or_stand_at_a_corner_are_counted() {
             let mut found = cutc::diagnostic::Diagnostics::default();
             let read = cutc::pipeline::read(&source, cutc::front::by_name("pattern"), &Job::default(), &mut found);
             let marker = read.expect("a pattern").marker;
-            let mut words: Vec<&str> = marker.pieces[0].outline_notches.iter().map(|notch| notch.word()).collect();
+            let mut words: Vec<&str> =
+                marker.pieces[0].outline_notches.iter().map(cutc::ir::marker::OutlineNotch::word).collect();
             words.sort_unstable();
             assert_eq!(words, ["castle", "v", "v", "v"], "case {case}, lean {lean}, {drawn:?}");
         }

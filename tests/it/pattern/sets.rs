@@ -37,7 +37,7 @@ fn of(sizes: &str) -> Patterns {
 #[test]
 fn the_sample_size_is_cut_unless_others_are_asked_for() {
     let sample = set(&["SAMPLE SIZE: m"]);
-    assert_eq!(widths(&sample, Patterns::default()), (vec![110.0; 3], vec!["dxf/cutting-sample"]));
+    assert_eq!(widths(&sample, Patterns::default()), (vec![110.0; 3], vec!["dxf/cutting-sample", "dxf/unit-doubted"]));
     assert_eq!(widths(&sample, of("s")).0, [100.0; 3]);
     assert_eq!(widths(&sample, of("L,S")).0, [[100.0; 3], [120.0; 3]].concat());
     assert_eq!(widths(&sample, of("all")).0.len(), 9);
@@ -57,7 +57,7 @@ fn a_size_is_said_with_a_colon_an_equals_sign_or_a_blank() {
             }
         }
         let found = widths(&text, Patterns::default());
-        assert_eq!(found, (vec![110.0; 3], vec!["dxf/cutting-sample"]), "`{sign}`");
+        assert_eq!(found, (vec![110.0; 3], vec!["dxf/cutting-sample", "dxf/unit-doubted"]), "`{sign}`");
     }
 }
 

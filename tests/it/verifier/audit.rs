@@ -204,7 +204,7 @@ fn a_damaged_byte_that_leaves_no_error_leaves_no_difference_either() {
             assert_eq!(found, [], "{:?}: {}", job.profile.codes.keys(), damaged.escape_ascii());
         }
     }
-    assert!(judged > DAMAGES / 4, "only {judged} were read without errors");
+    assert!(judged > DAMAGES / 5, "only {judged} were read without errors");
 }
 
 #[test]
