@@ -425,17 +425,29 @@ fn as_notch(places: &[Point]) -> Lie {
     }
 }
 
-/// Small closed lines that touch an outline, nearly do or lie across it: closed notches, or signs.
+/// Small closed lines with a place on an outline, or nearly so: closed notches, or signs.
 fn standing(search: Search, work: &mut Budget) -> Vec<EdgeLine> {
     let Search { lines, vertices, unit, .. } = search;
+    let mut candidates = Vec::new();
     let may_be = |line: &Line| match line.class {
         Class::Sign => true,
         Class::Inner | Class::SmallOutline => line.size() <= Notch::LONGEST + TOUCH,
         _ => false,
     };
-    let small = (0..lines.len()).filter(|&i| may_be(&lines[i]));
-    let edges =
-        |line: usize| lines[line].vertices(vertices).windows(2).map(move |ends| (line, [ends[0].at, ends[1].at]));
-    let edges: Vec<(usize, [Point; 2])> = small.flat_map(edges).collect();
-    edge_lines(&edges, Lie::Stands, Notch::MISS + ROUNDING * unit, search, work)
+    for line in (0..lines.len()).filter(|&i| may_be(&lines[i])) {
+        let edges = lines[line].vertices(vertices).windows(2);
+        let edges = edges.filter(|ends| (ends[1].at - ends[0].at).norm() >= SHORTEST_NOTCH);
+        candidates.extend(edges.map(|ends| Candidate::whole(line, [ends[0].at, ends[1].at])));
+    }
+    if candidates.is_empty() {
+        return Vec::new();
+    }
+    meet(&mut candidates, search, Notch::MISS + ROUNDING * unit, work);
+    let stands = |Candidate { line, on, .. }: &Candidate| {
+        let &(_, outline) = on.iter().flatten().next()?;
+        Some(EdgeLine { line: *line, outline, other: None, lie: Lie::Stands })
+    };
+    let mut found: Vec<EdgeLine> = candidates.iter().filter_map(stands).collect();
+    found.dedup_by_key(|edge| edge.line);
+    found
 }

@@ -122,7 +122,6 @@ impl Mouth {
 /// vertices at a time take half as many steps.
 #[inline(never)] // every outline comes by here: apart, all that it works with stays in registers
 fn each_turn(points: &[Point], mut see: impl FnMut(usize)) {
-    let may_turn = |before: Vector, after: Vector| cross(before, after).abs() >= SURELY_STRAIGHT * before.dot(&after);
     let [first, second, rest @ ..] = points else { return };
     let (mut at, mut before) = (*second, second - first);
     let (twos, last) = rest.as_chunks();
@@ -137,6 +136,11 @@ fn each_turn(points: &[Point], mut see: impl FnMut(usize)) {
     if last.first().is_some_and(|end| may_turn(before, end - at)) {
         see(points.len() - 2);
     }
+}
+
+/// True unless the turn between two segments is surely less than that at the end of a mouth.
+fn may_turn(before: Vector, after: Vector) -> bool {
+    cross(before, after).abs() >= SURELY_STRAIGHT * before.dot(&after)
 }
 
 /// True if a notch may begin between two segments.
@@ -178,10 +182,12 @@ impl Ring<'_> {
     fn begun(&self, i: usize, is_left: bool) -> Option<Mouth> {
         let long = self.edge(i, EDGE.max(4.0 * self.slack));
         let by_long = long.and_then(|edge| self.mouth(i, edge, is_left));
-        // Beside a tooth the edge is short, and on a grid it has the direction of the grid there.
-        let short = self.edge(i, 2.0 * self.slack);
-        let by_short = || short.filter(|_| long != short).and_then(|edge| self.mouth(i, edge, is_left));
-        by_long.or_else(by_short).or_else(|| short.and_then(|edge| self.at_corner(i, edge, is_left)))
+        by_long.or_else(|| {
+            // Beside a tooth the edge is short, and on a grid it has the direction of the grid there.
+            let short = self.edge(i, 2.0 * self.slack)?;
+            let by_short = if long == Some(short) { None } else { self.mouth(i, short, is_left) };
+            by_short.or_else(|| self.at_corner(i, short, is_left))
+        })
     }
 
     /// The notch that begins at a corner, on the given side. The edge before the corner does not give the direction of its
@@ -192,10 +198,15 @@ impl Ring<'_> {
         let far = |steps: usize, least: f64| (self.at(i + steps) - from).norm() >= least;
         let most = self.points.len().min(MOST_STEPS);
         let wall = self.at(i + (1..most).find(|&steps| far(steps, 2.0 * self.slack))?) - from;
-        if side * angle::turn(edge, wall) < CORNER_INTO {
+        // The first test needs no angle: most corners turn by a right angle at most.
+        if edge.dot(&wall) > 0.0 || side * angle::turn(edge, wall) < CORNER_INTO {
             return None;
         }
-        let within = (2..most).take_while(|&steps| !far(steps, FAR));
+        let turns = |steps: usize| {
+            let [before, at, after] = [steps - 1, steps, steps + 1].map(|k| self.at(i + k));
+            may_turn(at - before, after - at)
+        };
+        let within = (2..most).take_while(|&steps| !far(steps, FAR)).filter(|&steps| turns(steps));
         let mut ends = within.filter(|&steps| far(steps, V_MOUTH[0]) && !far(steps, MOUTH[1] + self.slack));
         ends.find_map(|steps| self.between(i, steps, side))
     }
