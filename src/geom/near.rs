@@ -1,7 +1,7 @@
 //! Point-on-segment queries between many points and many segments, without testing every pair.
 
 use super::budget::Budget;
-use super::{Point, polyline};
+use super::{Extent, Point, polyline};
 
 /// Cost of a distance, in units of the comparison of two boxes.
 const DISTANCE: usize = 20;
@@ -41,6 +41,14 @@ impl Near {
     /// True if the budget was spent before the search was complete.
     pub fn is_cut_short(&self) -> bool {
         self.budget.is_spent()
+    }
+
+    /// True if one of the [`sorted`] points may lie on a line with this bounding box.
+    pub fn may_be_in(&mut self, points: &[(Point, usize)], extent: Extent) -> bool {
+        let around = extent.grown(self.slack);
+        let first = points.partition_point(|point| point.0.x < around.min.x);
+        let mut beside = points[first..].iter().take_while(|point| point.0.x <= around.max.x);
+        beside.any(|point| self.budget.spend(1) && around.holds(point.0))
     }
 
     /// Calls `found` with the original index of each of the [`sorted`] points that lies on a segment.

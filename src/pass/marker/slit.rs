@@ -12,7 +12,6 @@
 //! A slit that starts up to [`Notch::MISS`] inside its edge is extended to it along its own line. Leaves true: notches in the
 //! order of the file; none without length, and no slit twice in either direction.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::pass::MarkerPass;
@@ -89,17 +88,24 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
 
-/// Points of each outline of a piece.
-fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item = Cow<'a, [Point]>> {
-    let outlines = piece.contours.iter().filter(|contour| contour.closed && short(list, contour, 0).is_none());
-    outlines.map(|contour| list.points(contour.range))
-}
-
-/// Calls `edge` for each segment of the outlines of a piece, in plain loops, since every segment of a marker passes here.
-fn each_edge(list: &SegmentList, piece: &Piece, mut edge: impl FnMut([Point; 2])) {
-    for points in outlines(list, piece) {
-        for ends in points.windows(2) {
-            edge([ends[0], ends[1]]);
+/// The segments of the outlines of a piece that one of the sorted points may be on.
+fn each_edge(
+    list: &SegmentList,
+    piece: &Piece,
+    near: &mut Near,
+    points: &[(Point, usize)],
+    mut edge: impl FnMut(usize, [Point; 2]),
+) {
+    for contour in piece.contours.iter().filter(|contour| contour.closed && short(list, contour, 0).is_none()) {
+        let line = list.points(contour.range);
+        for (chain, extent) in list.chains(contour.range).each() {
+            if !near.may_be_in(points, *extent) {
+                continue; // the usual case: few chains have a notch
+            }
+            for ends in line[chain.first as usize..=chain.last as usize].windows(2) {
+                let ends = [ends[0], ends[1]];
+                near.each(points, ends, |place| edge(place, ends));
+            }
         }
     }
 }
@@ -152,11 +158,9 @@ impl Search<'_> {
                 *is_divided |= (tip(k) - from).norm().min((tip(k) - to).norm()) > slack;
             });
         }
-        each_edge(self.list, piece, |ends| {
-            self.near.each(&starts, ends, |i| shorts[i].taken = true);
-            self.around.each(&starts, ends, |i| {
-                shorts[i].taken |= !is_divided[i] && back_to(&shorts[i].stroke, ends).is_some();
-            });
+        each_edge(self.list, piece, &mut self.near, &starts, |i, _| shorts[i].taken = true);
+        each_edge(self.list, piece, &mut self.around, &starts, |i, ends| {
+            shorts[i].taken |= !is_divided[i] && back_to(&shorts[i].stroke, ends).is_some();
         });
         for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
             let NotchStroke { from: root, to: tip, span } = *stroke;
@@ -170,18 +174,16 @@ impl Search<'_> {
         let slit = |notch: &Notch| NotchStroke { from: notch.root, to: notch.tip, span: notch.span };
         let starts = sorted(piece.notches.iter().map(|notch| notch.root));
         let mut missed: Vec<Option<f64>> = vec![Some(f64::INFINITY); piece.notches.len()];
-        each_edge(self.list, piece, |ends| {
-            self.around.each(&starts, ends, |i| {
-                let stroke = slit(&piece.notches[i]);
-                // At a vertex rounding may hide both edges.
-                if polyline::distance_to_segment(stroke.from, ends[0], ends[1]) <= self.least_miss {
-                    missed[i] = None;
-                }
-                if let Some(back) = back_to(&stroke, ends) {
-                    // A slit that crosses an edge has reached it.
-                    missed[i] = missed[i].filter(|_| back >= self.least_miss).map(|least| least.min(back));
-                }
-            });
+        each_edge(self.list, piece, &mut self.around, &starts, |i, ends| {
+            let stroke = slit(&piece.notches[i]);
+            // At a vertex rounding may hide both edges.
+            if polyline::distance_to_segment(stroke.from, ends[0], ends[1]) <= self.least_miss {
+                missed[i] = None;
+            }
+            if let Some(back) = back_to(&stroke, ends) {
+                // A slit that crosses an edge has reached it.
+                missed[i] = missed[i].filter(|_| back >= self.least_miss).map(|least| least.min(back));
+            }
         });
         for (notch, missed) in piece.notches.iter_mut().zip(missed) {
             let back = missed.filter(|&back| back <= Notch::MISS + self.near.slack() && notch.depth() > 0.0);
@@ -198,7 +200,7 @@ impl Search<'_> {
         // A single slit has no other that could be its crossbar, or the reverse.
         if slits.len() > 1 {
             let ends = sorted(slits.iter().flat_map(|(_, notch)| [notch.root, notch.tip]));
-            each_edge(self.list, piece, |edge| self.near.each(&ends, edge, |i| touches[i / 2] = true));
+            each_edge(self.list, piece, &mut self.near, &ends, |i, _| touches[i / 2] = true);
         }
         let free = slits.iter().zip(touches).filter(|(_, touches)| slits.len() > 1 && !touches);
         let notches = free.map(|((i, notch), _)| {

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::pass::MarkerPass;
 use super::retrace::Found;
 use crate::diagnostic::Diagnostics;
-use crate::geom::monotone::Chain;
+use crate::geom::monotone::{self, Chain};
 use crate::geom::{Point, Vector, bits, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker, Notch, NotchKind};
@@ -48,19 +48,20 @@ const LEAST_LEFT: usize = 3;
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let Marker { pieces, list, unit, .. } = marker;
     let measure = Measure::new(*unit, job);
-    let outlines: Vec<[usize; 2]> = pieces
+    let outlines: Vec<([usize; 2], Vec<usize>)> = pieces
         .par_iter()
         .enumerate()
         .flat_map_iter(|(i, piece)| {
             let closed = piece.contours.iter().enumerate().filter(|(_, contour)| contour.closed);
-            let may_be = closed
-                .filter(|(_, contour)| measure.has_tip(&list.points(contour.range), &list.chains(contour.range).all));
-            may_be.map(|(k, _)| [i, k]).collect::<Vec<_>>()
+            let tips = closed.map(|(k, contour)| {
+                ([i, k], measure.tips(&list.points(contour.range), &list.chains(contour.range).all))
+            });
+            tips.filter(|(_, tips)| !tips.is_empty()).collect::<Vec<_>>()
         })
         .collect();
     let mut long = Found::default();
-    for [i, k] in outlines {
-        let Pruned { slits, lines } = prune(list, &mut pieces[i].contours[k].range, measure);
+    for ([i, k], tips) in outlines {
+        let Pruned { slits, lines } = prune(list, &mut pieces[i].contours[k].range, tips, measure);
         let piece = &mut pieces[i];
         for line in lines {
             long.add(piece.number, line.iter().map(|segment| (segment.to - segment.from).norm()).sum(), line[0].span);
@@ -80,19 +81,22 @@ struct Pruned {
     lines: Vec<Vec<Segment>>,
 }
 
-/// Removes the spurs of an outline, repeatedly until there are none.
-fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Pruned {
+/// Removes the spurs of an outline, repeatedly until there are none; the first search is at `tips`.
+fn prune(list: &mut SegmentList, range: &mut Range, mut tips: Vec<usize>, measure: Measure) -> Pruned {
     let mut segments: Vec<Segment> = list.walk(*range).map(|(_, segment)| segment).collect();
     let (mut slits, mut lines) = (Vec::new(), Vec::new());
     let mut is_changed = false;
     for _ in 0..MOST_ROUNDS {
-        let ways = ways(&segments, measure);
+        let ways = ways(&segments, &tips, measure);
         if ways.is_empty() {
             break;
         }
         slits.extend(ways.iter().flat_map(|way| way.slits.iter().copied()));
         lines.extend(ways.iter().map(|way| way.line.clone()).filter(|line| !line.is_empty()));
         segments = without(&segments, &ways);
+        let points: Vec<Point> =
+            segments.iter().map(|segment| segment.from).chain(segments.last().map(|last| last.to)).collect();
+        tips = measure.tips(&points, &monotone::chains(&points).collect::<Vec<_>>());
         is_changed = true;
     }
     if is_changed && let Some(rest) = list.append(segments) {
@@ -135,12 +139,13 @@ impl Measure {
         off(one, other).min(off(other, one)) <= self.width
     }
 
-    /// True if a closed line has a tip; its last point is the first again. A line does not turn back within a chain, so the
-    /// bottom of a tip is the first or the last segment of a chain.
-    fn has_tip(self, points: &[Point], chains: &[Chain]) -> bool {
-        let count = points.len() - 1;
+    /// Segments of a closed line that a spur may turn back at the start of or over, in order; the last point of the line is the
+    /// first again. A line does not turn back within a chain, so the bottom of a tip is the first or the last segment of a
+    /// chain.
+    fn tips(self, points: &[Point], chains: &[Chain]) -> Vec<usize> {
+        let count = points.len().saturating_sub(1);
         if count <= LEAST_LEFT {
-            return false;
+            return Vec::new();
         }
         let most = self.width * self.width;
         let way = |i: usize| points[i + 1] - points[i];
@@ -149,10 +154,11 @@ impl Measure {
             let next = if i + 1 < count { i + 1 } else { 0 };
             is_tip([before, i, next].map(way), most) && self.is_narrow(points, i)
         };
-        chains.iter().any(|chain| {
+        let ends = chains.iter().flat_map(|chain| {
             let [first, last] = [chain.first, chain.last - 1].map(|i| i as usize);
-            is_at(first) || last > first && is_at(last)
-        })
+            [Some(first), Some(last).filter(|&last| last > first)]
+        });
+        ends.flatten().filter(|&i| is_at(i)).collect()
     }
 
     /// True if the sides beside a segment of a closed line stay side by side at first, or the previous segment and the segment
@@ -171,8 +177,8 @@ fn is_tip([before, bottom, next]: [Vector; 3], most: f64) -> bool {
     before.dot(&bottom) < 0.0 || before.dot(&next) < 0.0 && bottom.norm_squared() <= most
 }
 
-/// Spurs of an outline; no two share a segment.
-fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
+/// Spurs of an outline with these tips; no two share a segment.
+fn ways(segments: &[Segment], tips: &[usize], measure: Measure) -> Vec<Way> {
     let count = segments.len();
     let mut found: Vec<Way> = Vec::new();
     if count <= LEAST_LEFT {
@@ -181,15 +187,11 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     let way = |i: usize| segments[i % count].to - segments[i % count].from;
     let most = measure.width * measure.width;
     let (mut is_taken, mut left) = (vec![false; count], count);
-    let triples = (0..count).scan([way(count - 1), way(0)], |[before, bottom], i| {
-        let triple = [*before, *bottom, way(i + 1)];
-        [*before, *bottom] = [triple[1], triple[2]];
-        Some((i, triple))
-    });
-    for (i, [before, bottom, next]) in triples {
-        if is_taken[i] || !is_tip([before, bottom, next], most) {
+    for &i in tips {
+        if is_taken[i] {
             continue;
         }
+        let [before, bottom, next] = [i + count - 1, i, i + 1].map(way);
         // The bottom of a box is tried first: a way back that starts at an angle may look like a tip of its own.
         let bottoms = [bottom.norm_squared() <= most && before.dot(&next) < 0.0, before.dot(&bottom) < 0.0];
         let tips = [[i, i + 1], [i, i]].into_iter().zip(bottoms).filter(|(_, may_be)| *may_be);
