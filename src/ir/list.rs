@@ -88,8 +88,8 @@ pub struct Range {
     backward: bool,
     /// True if its segments are adjacent in their original order.
     in_order: bool,
-    /// Id of the line under which the range was appended; `None` for a range that is not such a line.
-    line: Option<LineId>,
+    /// Id of the line under which the range was appended; edits may have left it with other ends.
+    line: LineId,
 }
 
 impl Range {
@@ -110,7 +110,7 @@ pub struct SegmentList {
     spans: Vec<Span>,
     asked: Scattered<Asked>,
     links: Links,
-    /// Lines appended by [`SegmentList::append_line`], with their chains.
+    /// Ranges as they were appended, with their chains.
     lines: Lines,
 }
 
@@ -141,8 +141,7 @@ impl SegmentList {
                 *self.asked_mut(id(place)) = Asked { joint, percent };
             }
         }
-        let [first, last] = [front + 1, self.ends.len() - 1].map(id);
-        Some(Range { first, last, backward: false, in_order: true, line: None })
+        Some(self.appended(front))
     }
 
     /// Appends the polyline through some points as a new range; `None` for fewer than two points. `spans` has the source block
@@ -154,9 +153,14 @@ impl SegmentList {
         self.ends.extend_from_slice(points);
         self.spans.push(Span::default());
         self.spans.extend_from_slice(&spans[1..points.len()]);
+        Some(self.appended(front))
+    }
+
+    /// The range behind the sentinel at an index, which goes on to the end of the list.
+    fn appended(&mut self, front: usize) -> Range {
         let [first, last] = [front + 1, self.ends.len() - 1].map(id);
-        let line = self.lines.add([first.0, last.0], points);
-        Some(Range { first, last, backward: false, in_order: true, line: Some(line) })
+        let line = self.lines.add([first.0, last.0], &self.ends[front..]);
+        Range { first, last, backward: false, in_order: true, line }
     }
 
     /// Bounding box of a range, mm; precomputed for most ranges.
@@ -172,7 +176,7 @@ impl SegmentList {
     /// The line of a range that is still in its original order; otherwise `None`.
     fn known(&self, range: Range) -> Option<&Line> {
         let Range { first, last, backward, in_order, line } = range;
-        line.filter(|_| in_order && !backward).and_then(|line| self.lines.get(line, [first.0, last.0]))
+        if in_order && !backward { self.lines.get(line, [first.0, last.0]) } else { None }
     }
 
     /// Applies a map to every point.
@@ -287,7 +291,13 @@ impl SegmentList {
         }
         let (ahead, behind) = if first.backward { (second, first) } else { (first, second) };
         self.links.join(ahead.last.0, behind.first.0);
-        Some(Range { first: ahead.first, last: behind.last, backward: first.backward, in_order: false, line: None })
+        Some(Range {
+            first: ahead.first,
+            last: behind.last,
+            backward: first.backward,
+            in_order: false,
+            line: first.line,
+        })
     }
 
     /// A cursor on the first segment of a range, in list order.

@@ -184,11 +184,11 @@ pub fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut D
             (_, Some(keys)) if OF_PARTS.contains(&finding.rule) => {
                 format!("{keys} parts this cut into pieces that the blade is too wide for: give it more")
             }
-            (Some(key), _) => {
+            (Some(key), _) if crossing.is_none() => {
                 format!("the limit is the profile's `{key}`; where that is its default this is a fault of `cutc`")
             }
-            (None, _) if finding.rule == &rules::TABLE => off_table::advice(marker, job),
-            (None, _) => fault(crossing, job.lines.all),
+            _ if finding.rule == &rules::TABLE => off_table::advice(marker, job),
+            _ => fault(crossing, job.lines.all),
         };
         let at = finding.place.map(|place| Box::new(place.point.into()));
         let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
@@ -197,7 +197,7 @@ pub fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut D
     over_the_edge(verdict, job, diagnostics);
 }
 
-/// Advice on a broken rule that no key of the profile limits. Outlines may be known to cross, as they do if every line of a
+/// Advice on a broken rule that the profile does not answer for. Outlines may be known to cross, as they do if every line of a
 /// plot is cut.
 fn fault(crossing: Option<&Code>, is_all_cut: bool) -> String {
     match crossing {

@@ -234,3 +234,15 @@ fn the_cuts_of_two_edges_meet_at_their_corner() {
     }
     assert!(met >= 4 * count, "only {met} corners of {count} contours");
 }
+
+/// A slit leads out of the part from a vertex that the blade spans when it is plunged at the corner before.
+#[test]
+fn a_slit_meets_an_edge_that_bows_away_from_the_plunged_blade() {
+    let slit = "X424Y463*M14*X383Y384*M15*";
+    let outline = "X482Y368*M14*X441Y401*X459Y431*X455Y438*X424Y463*X417Y473*X389Y444*X482Y368*M15*";
+    let source = Source::new("slit.cut", format!("H1*G71*N1*M15*{slit}{outline}M0*").into_bytes()).expect("small");
+    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+    let order = Order { from: None, target: &TARGETS[0], verify: true };
+    let compiled = pipeline::compile(&source, &Job::default(), order, &mut out, &mut found);
+    assert!(compiled.expect("memory takes everything").is_some(), "{}", render(&found, &source));
+}

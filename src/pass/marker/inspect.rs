@@ -43,6 +43,8 @@ const GAP_SHARE: f64 = 0.05;
 const AROUND_SHARE: f64 = 0.25;
 /// Least area that it encloses, as a share of the squared length: that of a rectangle ten times as long as wide.
 const AROUND_AREA: f64 = 0.02;
+/// Gap of a contour, as a share of its length, from which on it is a straight line, which nobody means to close.
+const STRAIGHT_SHARE: f64 = 0.999;
 /// Gap below which the ends of a contour of any length are near, mm.
 const NEAR_ENDS: f64 = 5.0;
 /// Least distance of a far point from both of its neighbours, mm: a part of a garment has no spike so long.
@@ -209,7 +211,7 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         let message = format!("a contour of piece {number} passes its start at {off} mm and goes on for {past} mm");
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
-    } else if marker.unit > 0.0
+    } else if marker.unit > 0.0 && gap < STRAIGHT_SHARE * length()
         || gap < GAP_SHARE * length()
         || gap < AROUND_SHARE * length() && goes_around(&points, length())
     {

@@ -11,12 +11,14 @@
 //! on belong to a strap, or to a corner. A bent spur is cut in straight stretches. Leaves true: each outline has at least three
 //! segments and runs straight over the mouths, and each slit starts on the edge at the middle of its mouth.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 
 use super::pass::MarkerPass;
 use super::retrace::Found;
 use crate::diagnostic::Diagnostics;
-use crate::geom::monotone::{self, Chain};
+use crate::geom::monotone::Chain;
 use crate::geom::{Point, Vector, bits, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker, Notch, NotchKind};
@@ -93,10 +95,7 @@ fn prune(list: &mut SegmentList, range: &mut Range, mut tips: Vec<usize>, measur
         }
         slits.extend(ways.iter().flat_map(|way| way.slits.iter().copied()));
         lines.extend(ways.iter().map(|way| way.line.clone()).filter(|line| !line.is_empty()));
-        segments = without(&segments, &ways);
-        let points: Vec<Point> =
-            segments.iter().map(|segment| segment.from).chain(segments.last().map(|last| last.to)).collect();
-        tips = measure.tips(&points, &monotone::chains(&points).collect::<Vec<_>>());
+        (segments, tips) = without(&segments, &ways, &tips);
         is_changed = true;
     }
     if is_changed && let Some(rest) = list.append(segments) {
@@ -369,8 +368,9 @@ fn stretches(line: &[Point], slack: f64) -> Vec<[usize; 2]> {
     stretches
 }
 
-/// An outline that runs straight over the mouths of its spurs.
-fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
+/// An outline that runs straight over the mouths of its spurs, with the segments that may be tips: those of before that are
+/// left, and those about a mouth.
+fn without(segments: &[Segment], ways: &[Way], tips: &[usize]) -> (Vec<Segment>, Vec<usize>) {
     let count = segments.len();
     // The entry after the last segment is the first segment again, and the one before the first is the last.
     let mut way_of: Vec<Option<&Way>> = vec![None; count + 2];
@@ -378,34 +378,82 @@ fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
         (way.first..way.first + way.count).for_each(|k| way_of[k % count + 1] = Some(way));
     }
     (way_of[0], way_of[count + 1]) = (way_of[count], way_of[1]);
-    let mut left: Vec<Segment> = Vec::with_capacity(count);
-    // Requests at the mouth move to the next segment of the outline; at the start of the contour they hold for all of it.
-    let mut asked = Joint::default();
-    for ((i, segment), ways) in segments.iter().enumerate().zip(way_of.windows(3)) {
-        let [before, own, after] = *ways else { unreachable!("windows of three have three") };
+    // Segments of spurs and beside them; all others stay as they are.
+    let about: BTreeSet<usize> = ways
+        .iter()
+        .flat_map(|way| (way.first + count - 1..=way.first + count + way.count).map(|k| k % count))
+        .collect();
+    let mut rest =
+        Rest { left: Vec::with_capacity(count), asked: Joint::default(), tips: BTreeSet::new(), moved: Vec::new() };
+    let mut passed = 0;
+    for i in about {
+        rest.keep(&segments[passed..i], passed, tips);
+        rest.take(&segments[i], i, [way_of[i], way_of[i + 1], way_of[i + 2]]);
+        passed = i + 1;
+    }
+    rest.keep(&segments[passed..], passed, tips);
+    let Rest { mut left, asked, mut tips, moved } = rest;
+    if let Some(first) = left.first_mut() {
+        first.joint = merged(first.joint, Joint { lift: asked.lift, ..Joint::default() });
+    }
+    let rest = left.len();
+    if rest > 0 {
+        tips.extend(moved.into_iter().flat_map(|at| [at + rest - 1, at, at + 1]).map(|at| at % rest));
+    }
+    (left, tips.into_iter().collect())
+}
+
+/// The part of an outline that is left without its spurs, so far.
+struct Rest {
+    left: Vec<Segment>,
+    /// Requests at a mouth, which move to the next segment; at the start of the contour they hold for all of it.
+    asked: Joint,
+    /// Tips of before that are left.
+    tips: BTreeSet<usize>,
+    /// Segments with another end or another neighbour than before; they and those beside them may be tips.
+    moved: Vec<usize>,
+}
+
+impl Rest {
+    /// Keeps adjacent segments as they are; the first has index `from` in the outline with its `tips`.
+    fn keep(&mut self, segments: &[Segment], from: usize, tips: &[usize]) {
+        let first = self.left.len();
+        self.left.extend_from_slice(segments);
+        if let Some(next) = self.left.get_mut(first) {
+            next.joint = merged(std::mem::take(&mut self.asked), next.joint);
+        }
+        let [start, end] = [from, from + segments.len()].map(|at| tips.partition_point(|&tip| tip < at));
+        self.tips.extend(tips[start..end].iter().map(|tip| tip - from + first));
+    }
+
+    /// Takes segment `i` of the outline, which is in a spur or beside one; `ways` are the spurs of the segment before it, of
+    /// itself and of the one behind.
+    fn take(&mut self, segment: &Segment, i: usize, [before, own, after]: [Option<&Way>; 3]) {
         if let Some(way) = own {
             if i == way.first || i == 0 {
-                asked = merged(asked, segment.joint);
+                self.asked = merged(self.asked, segment.joint);
             }
             // Adjacent spurs may have different mouths: between these the outline goes straight on.
             if let Some(other) = before.filter(|other| other.first != way.first && other.root != way.root) {
-                left.push(Segment { from: other.root, to: way.root, joint: Joint::default(), ..*segment });
+                self.push(Segment { from: other.root, to: way.root, joint: Joint::default(), ..*segment });
             }
-            continue;
+            return;
         }
         let from = before.map_or(segment.from, |way| way.root);
         let to = after.map_or(segment.to, |way| way.root);
         if from == to {
-            asked = merged(asked, segment.joint);
-            continue;
+            self.asked = merged(self.asked, segment.joint);
+            self.moved.push(self.left.len());
+            return;
         }
-        let joint = merged(std::mem::take(&mut asked), segment.joint);
-        left.push(Segment { from, to, joint, ..*segment });
+        let joint = merged(std::mem::take(&mut self.asked), segment.joint);
+        self.push(Segment { from, to, joint, ..*segment });
     }
-    if let Some(first) = left.first_mut() {
-        first.joint = merged(first.joint, Joint { lift: asked.lift, ..Joint::default() });
+
+    fn push(&mut self, segment: Segment) {
+        self.moved.push(self.left.len());
+        self.left.push(segment);
     }
-    left
 }
 
 fn merged(one: Joint, other: Joint) -> Joint {
@@ -445,7 +493,7 @@ mod tests {
                     line: Vec::new(),
                 }
             };
-            let left = without(&segments, &[way(1), way(3)]);
+            let (left, _) = without(&segments, &[way(1), way(3)], &[]);
             assert_eq!(left.len(), 6, "from {start}");
             let next = left.iter().cycle().skip(1);
             assert!(left.iter().zip(next).all(|(one, next)| one.to == next.from), "from {start}: {left:?}");
