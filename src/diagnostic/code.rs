@@ -111,7 +111,7 @@ codes! {
     /// Another size than the texts say, or than any table has.
     HPGL_UNIT_DOUBTFUL = warning(Spoils, Shape, "hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254");
     /// A polygon that does not end.
-    HPGL_ENDS_IN_POLYGON = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.", "What PM gathers is drawn by EP, and the file ends before. Transfer it again and compare the sizes.");
+    HPGL_ENDS_IN_POLYGON = error(Text, "hpgl/ends-in-polygon", "A polygon (PM) of a plot has no end, and is not drawn: the file is most likely cut short.", "What PM gathers is drawn by EP once PM2 has ended it; the file ends before, or another polygon begins. Transfer it again and compare the sizes.");
 
     // SVG drawings.
     /// No XML, or another kind of it.
@@ -462,6 +462,10 @@ codes! {
     SEW_JUMPS = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
     /// An element on a line that cannot bear it.
     SEW_ELEMENT = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
+    /// A needle point where the machine cannot be.
+    SEW_FIELD = error(Shape, "sew/field", "A needle point lies outside the field of the machine (`table.*`), or the pattern is larger than its clamp (`sewing.field_mm`).", "The needle would strike the clamp, or X and Y their stops. Move the pattern, as with sheet.origin, or turn it, or give the field of the machine.\n  cutc sew pocket.csv --set sheet.origin=corner");
+    /// A placement that a file of stitches cannot have.
+    SEW_SHEET = error(Shape, "sew/sheet", "A file of stitches is placed once: it cannot be copied by `sheet.copies`.", "Between two copies the thread is cut and its colour set back, which is for the program that made the file to say. Repeat the design there, or sew the file again; patterns and drawings can be copied.");
     /// An inset that leaves nothing.
     SEW_INSET = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for, or the file has no contours.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
     /// No such line.

@@ -7,10 +7,13 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::AffineMap;
 use super::key::{Key, Takes, from};
 use super::word::{Corner, OrWord, Word as _, words};
 use crate::units::number::exact;
 
+/// Quarter turn, degrees.
+const QUARTER: f64 = 90.0;
 /// Greatest number of copies of a marker: no table is longer.
 pub const COPIES_MAX: u32 = 1000;
 
@@ -104,6 +107,27 @@ impl Sheet {
     /// True if it shows the other side of the parts.
     pub fn is_mirrored(&self) -> bool {
         (self.mirror == Mirror::Ends) != (self.flip == Flip::Sides)
+    }
+
+    /// Placement about the origin of the file: turned, then mirrored and scaled along X and Y of the table.
+    pub fn turned(&self) -> AffineMap {
+        // Quarter turns are exact, so that edges along an axis stay so.
+        let (sin, cos) = match (self.rotate_deg / QUARTER).rem_euclid(4.0) {
+            0.0 => (0.0, 1.0),
+            1.0 => (1.0, 0.0),
+            2.0 => (0.0, -1.0),
+            3.0 => (-1.0, 0.0),
+            _ => self.rotate_deg.to_radians().sin_cos(),
+        };
+        let along = match self.mirror {
+            Mirror::Off => self.scale_x,
+            Mirror::Ends => -self.scale_x,
+        };
+        let across = match self.flip {
+            Flip::Off => self.scale_y,
+            Flip::Sides => -self.scale_y,
+        };
+        AffineMap { axes: [[along * cos, across * sin], [-along * sin, across * cos]], by: [0.0; 2] }
     }
 
     /// Greatest scale factor: the rounding of the file grows with the marker.

@@ -3,7 +3,7 @@
 //! A small pipeline, similar to that of the cutter; the modules are listed in its order:
 //!
 //! ```text
-//! bytes -> read -> Pattern -> lay -> Stitches -> fit -> speed -> Program -> write -> bytes -> verify
+//! bytes -> read -> Pattern -> sheet -> lay -> Stitches -> fit -> speed -> Program -> write -> bytes -> verify
 //! ```
 //!
 //! A *Pattern* is a list of lines with an element along each. *Stitches* are needle points and the events between them. A
@@ -19,6 +19,7 @@ mod lay;
 mod pattern;
 mod program;
 mod read;
+mod sheet;
 mod speed;
 mod stitches;
 mod tell;
@@ -52,7 +53,9 @@ use crate::units::number::fixed;
 /// Reads a source and plans its sewing. `None` if nothing can be sewn; faults of the data are diagnostics.
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
     let sewing = &job.profile.sewing;
-    let Reading { format, record_word, input } = read::read(source, asked, job, out)?;
+    let Reading { format, record_word, mut input } = read::read(source, asked, job, out)?;
+    let drawn = if let Input::Pattern(pattern) = &input { Some(pattern.clone()) } else { None };
+    sheet::place(&mut input, job, out);
     let (pattern, stitches, speeds) = match input {
         Input::Pattern(pattern) => {
             let stitches = laid(&pattern, sewing, out);
@@ -69,8 +72,9 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
         return None;
     }
     let stitches = Fit::new(sewing, record_word).fit(&stitches, out);
+    sheet::hold_against_field(&stitches, &job.profile, out);
     let runs = speed::runs(&stitches, sewing);
-    let program = Program { format, record_word, pattern, stitches, runs };
+    let program = Program { format, record_word, pattern, drawn, stitches, runs };
     if !out.has_errors() {
         tell::tell(&program, &speeds, sewing, out);
     }
@@ -128,6 +132,8 @@ impl Made<'_> {
         let ground = Ground {
             stitches: &program.stitches,
             pattern: program.pattern.as_ref(),
+            drawn: program.drawn.as_ref(),
+            profile: &job.profile,
             sewing: &job.profile.sewing,
             original,
         };

@@ -17,6 +17,8 @@ pub struct Program {
     pub record_word: &'static str,
     /// The pattern; `None` if the file contained stitches.
     pub pattern: Option<Pattern>,
+    /// The pattern as the file draws it, before it is placed in the field; `None` if the file contained stitches.
+    pub drawn: Option<Pattern>,
     /// The stitches.
     pub stitches: Stitches,
     /// The runs with their speeds.

@@ -121,7 +121,7 @@ impl Lowering<'_> {
     /// End of the file: a line that the pen is still drawing there may be cut short.
     fn end(&mut self) {
         if let Some(last) = self.plotter.unfinished() {
-            let message = "the file ends amid a polygon (PM), which is not drawn";
+            let message = "a polygon (PM) has no end, and is not drawn";
             let finding = Diagnostic::new(&code::HPGL_ENDS_IN_POLYGON, message).at(last);
             self.out.push(finding.hint("the file is most likely cut short; export it again"));
         }
@@ -378,6 +378,7 @@ impl Lowering<'_> {
         let message = match doubt {
             Unknown::Corners => "SC scales the drawing to corners that the file does not give (IP)",
             Unknown::Page => "IR gives corners in percent of a page whose size the file does not give (PS)",
+            Unknown::Uneven => "SC scales X and Y by factors that are more than a tenth apart",
             Unknown::Range => "SC scales from or to a range without width and is ignored",
             Unknown::Incomplete => "numbers are missing here: SC needs four of them, IP and IR two or four",
             Unknown::Angle => "RO turns by quarters only; another angle is ignored",

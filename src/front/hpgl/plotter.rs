@@ -44,6 +44,8 @@ pub(super) struct Plotter {
     at: Pair,
     /// Index of the start of the current part of the polygon that PM gathers; `None` outside PM.
     gathering: Option<usize>,
+    /// Place of the last corner of a polygon that another one replaced before its end.
+    abandoned: Option<Span>,
     /// True if the next place starts another part of it.
     awaits_part: bool,
     polygon: Vec<Corner>,
@@ -109,6 +111,7 @@ impl Plotter {
             is_relative: false,
             at: [0.0, 0.0],
             gathering: None,
+            abandoned: None,
             awaits_part: false,
             polygon: Vec::new(),
         }
@@ -309,6 +312,7 @@ impl Plotter {
 
     /// PM 0: the following moves are gathered.
     pub(super) fn begin_polygon(&mut self, span: Span) {
+        self.abandoned = self.unfinished();
         self.drawing.lift();
         self.polygon.clear();
         self.polygon.push(Corner { at: self.at, span, is_edge: false });
@@ -337,8 +341,11 @@ impl Plotter {
         Ok(())
     }
 
-    /// Place of the last corner of a polygon that PM is still gathering; `None` without edges.
+    /// Place of the last corner of a polygon that PM is still gathering, or that another one replaced; `None` without edges.
     pub(super) fn unfinished(&self) -> Option<Span> {
+        if self.abandoned.is_some() {
+            return self.abandoned;
+        }
         self.gathering?;
         let last = self.polygon.iter().rfind(|corner| corner.is_edge)?;
         Some(last.span)

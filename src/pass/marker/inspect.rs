@@ -53,6 +53,9 @@ const FAR: f64 = 300.0;
 const FAR_SHARE: f64 = 0.1;
 /// Least area of a contour without its far point, as a multiple of that of the spike.
 const REST: f64 = 4.0;
+/// Length of a spike, as a multiple of the extent of the rest of its contour, from which on that is compared with the square of
+/// its foot alone.
+const LONGER: f64 = 3.0;
 /// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded by itself.
 const MISSES: f64 = 2.5;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
@@ -102,9 +105,6 @@ fn say_once(piece: u32, span: Span, diagnostics: &mut Diagnostics) {
 
 /// Reports the number of contours that have a point far off between two neighbours that are close together, and the farthest.
 fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
-    if marker.drawing.is_some() {
-        return; // its outlines are copied to be looked at, which is dear
-    }
     let is_far = |[before, at, after]: [Point; 3]| {
         let [back, on] = [before - at, after - at];
         let least = back.norm_squared().min(on.norm_squared());
@@ -139,11 +139,14 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
 }
 
 /// True if a point and its neighbours are a spike out of the rest of the contour: the tip of a strip or of a godet is most of
-/// its part, and a dart or a slash leads into its part.
+/// its part, unless it is several times as long as all the rest, and a dart or a slash leads into its part.
 fn stands_out(points: &[Point], [before, at, after]: [usize; 3]) -> bool {
     let rest: Vec<Point> = points.iter().copied().filter(|point| *point != points[at]).collect();
-    let spike = ring::area(&[points[before], points[at], points[after]]).abs();
-    ring::area(&rest).abs() >= REST * spike && !ring::contains(&rest, points[at])
+    let spike = [before, at, after].map(|k| points[k]);
+    let (width, height) = Extent::of(&rest).size();
+    let is_longer = (spike[1] - spike[0]).norm() >= LONGER * width.max(height);
+    let base = if is_longer { (spike[2] - spike[0]).norm_squared() } else { ring::area(&spike).abs() };
+    ring::area(&rest).abs() >= REST * base && !ring::contains(&rest, points[at])
 }
 
 /// Reports contours that together are smaller than a part. Readers of files with a grid check their unit themselves.

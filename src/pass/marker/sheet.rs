@@ -12,14 +12,12 @@ use crate::geom::{Extent, Heading, Point, Vector};
 use crate::ir::drawing::{Account, Aside};
 use crate::ir::marker::{Contour, Event, Label, Marker, Piece};
 use crate::ir::toolpath;
-use crate::machine::{AffineMap, Flip, Job, MachineProfile, Marks, Mirror, Sheet};
+use crate::machine::{AffineMap, Job, MachineProfile, Marks, Sheet};
 use crate::units::number::fixed;
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sheet", about: "turns, mirrors, scales, moves and copies the marker, if that is asked", run };
 
-/// Quarter turn, degrees.
-const QUARTER: f64 = 90.0;
 /// Stretch of cloth beyond which a map is doubted, as a share.
 const ODD_STRETCH: f64 = 0.05;
 /// Turn or skew of a lay beyond which a map is doubted, deg.
@@ -154,30 +152,9 @@ impl Way {
     const STAYS: Self =
         Self { axes: [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)], by: Vector::new(0.0, 0.0), is_mirrored: false };
 
-    /// Placement about the origin of the file: turned, then mirrored and scaled along X and Y of the table.
+    /// Placement about the origin of the file.
     fn of(sheet: &Sheet) -> Self {
-        // Quarter turns are exact, so that edges along an axis stay so.
-        let (sin, cos) = match (sheet.rotate_deg / QUARTER).rem_euclid(4.0) {
-            0.0 => (0.0, 1.0),
-            1.0 => (1.0, 0.0),
-            2.0 => (0.0, -1.0),
-            3.0 => (-1.0, 0.0),
-            _ => sheet.rotate_deg.to_radians().sin_cos(),
-        };
-        let along = match sheet.mirror {
-            Mirror::Off => sheet.scale_x,
-            Mirror::Ends => -sheet.scale_x,
-        };
-        let across = match sheet.flip {
-            Flip::Off => sheet.scale_y,
-            Flip::Sides => -sheet.scale_y,
-        };
-        let axis = |step: Vector| Vector::new(along * step.x, across * step.y);
-        Self {
-            axes: [axis(Vector::new(cos, sin)), axis(Vector::new(-sin, cos))],
-            is_mirrored: sheet.is_mirrored(),
-            ..Self::STAYS
-        }
+        Self { is_mirrored: sheet.is_mirrored(), ..Self::by(&sheet.turned()) }
     }
 
     /// Placement by a map without mirroring.

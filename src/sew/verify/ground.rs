@@ -2,7 +2,7 @@
 
 use crate::geom::Point;
 use crate::ir::verdict::Sighting;
-use crate::machine::Sewing;
+use crate::machine::{MachineProfile, Sewing};
 use crate::sew::pattern::Pattern;
 use crate::sew::stitches::Stitches;
 
@@ -13,6 +13,10 @@ pub struct Ground<'a> {
     pub stitches: &'a Stitches,
     /// The pattern from which they were laid; `None` if the file contained stitches.
     pub pattern: Option<&'a Pattern>,
+    /// The pattern as the file draws it; `None` if the file contained stitches.
+    pub drawn: Option<&'a Pattern>,
+    /// The profile, which places the pattern in the field.
+    pub profile: &'a MachineProfile,
     /// The machine.
     pub sewing: &'a Sewing,
     /// The source file, if it contains stitches.

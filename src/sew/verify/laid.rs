@@ -38,7 +38,7 @@ fn pitches(ground: &Ground, worst: &mut WorstByRule) {
 }
 
 /// Half the width of a seam, mm.
-fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
+pub(super) fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
     match seam.element {
         Element::Straight | Element::BoxX => 0.0,
         Element::Zigzag => sewing.zigzag_width_mm / 2.0,

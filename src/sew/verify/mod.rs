@@ -8,6 +8,7 @@ mod events;
 mod ground;
 mod laid;
 mod original;
+mod placed;
 mod pulse_records;
 mod pulse_rows;
 mod pulses;
@@ -48,6 +49,7 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
     let mut worst = WorstByRule::default();
     laid::judge(ground, &mut worst);
     original::judge(ground, &mut worst);
+    placed::judge(ground, &mut worst);
     let read = match bytes {
         Bytes::PulseRows => {
             pulses::judge(|each| pulse_rows::read(input, each), pulse_rows::TICK_US, ground, &mut worst)

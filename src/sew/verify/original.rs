@@ -5,6 +5,7 @@
 
 use super::events::{self, Event};
 use super::ground::{Ground, Original, sighting};
+use super::placed;
 use super::records;
 use super::rules;
 use crate::geom::Point;
@@ -22,7 +23,10 @@ pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     };
     worst.count(&rules::SOURCE, 0, None);
     match decoded {
-        Some(asked) => Audit { least: ground.sewing.min_pitch_mm, worst }.judge(&asked, &events::sewn(ground.stitches)),
+        Some(asked) => {
+            let asked = placed::events(asked, ground.profile);
+            Audit { least: ground.sewing.min_pitch_mm, worst }.judge(&asked, &events::sewn(ground.stitches));
+        }
         None => worst.see(&rules::SOURCE, f64::INFINITY, None),
     }
 }

@@ -24,6 +24,8 @@ rules! {
     NEEDLE_POINT { name: "sew-verify/needle-point", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." }
     COMMANDS { name: "sew-verify/commands", unit: "", about: "trims of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in a DST file." }
     HEADER { name: "sew-verify/header", unit: "", about: "the header of a DST file says what its records do", more: "Machines place the pattern within their field by the header: a wrong one drives the needle into the clamp. The value is how many entries are wrong." }
+    PLACED { name: "sew-verify/placed", unit: "mm", about: "seams and needle points of the file lie where the profile places them (`sheet.*`), once in each copy", more: "A left pocket that is sewn as a right one is waste. The places are computed again from the keys of the profile. The value is how far the worst lies off." }
+    FIELD { name: "sew-verify/field", unit: "mm", about: "no needle point is outside the field of the machine, and the pattern is no larger than its clamp", more: "A needle that strikes the clamp breaks, and its pieces fly. The value is by how much the worst passes `table.*` or `sewing.field_mm`." }
     SOURCE { name: "sew-verify/source", unit: "", about: "stitches, jumps, trims, stops and threads of a stitch file or queue that is read are sewn, in their order, and nothing else but parts of a stitch that is split", more: "The reader and a second decoder of the same bytes must find the same; only stitches that are too short may be merged with their neighbours. The value is how many differ. Please report the file." }
 }
 
@@ -33,7 +35,7 @@ pub(super) fn limit(rule: &Rule, sewing: &Sewing) -> f64 {
         (&[&END_POINT], sewing.step_mm / 2.0 + PLACE_EPSILON),
         (&[&WINDOW, &TIME, &FIRST_INTERVAL, &LEAST_INTERVAL, &RAMP], TIME_US),
         (&[&ACCELERATION], sewing.feed_acceleration_mm_s2 * (1.0 + ACCELERATION_EPSILON)),
-        (&[&SHORT_PITCH, &LONG_PITCH], PLACE_EPSILON),
+        (&[&SHORT_PITCH, &LONG_PITCH, &PLACED, &FIELD], PLACE_EPSILON),
         (&[&CORNER, &ON_SEAM], sewing.min_pitch_mm + PLACE_EPSILON),
         (&[&NEEDLE_POINT], FILE_UNIT / 2.0 + PLACE_EPSILON),
     ];

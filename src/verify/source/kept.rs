@@ -5,6 +5,8 @@
 //! cuts goes. So a stroke whose place is gone is no loss if another stroke of its piece cuts between the same two places, or if
 //! the file draws it again along a line that is still cut.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 
 use crate::geom::{Point, bits, polyline};
@@ -25,6 +27,8 @@ const SHORTEST_STEP: f64 = 1.0;
 const AGAIN: f64 = 0.15;
 /// Widest mouth of a notch that replaces such a line, mm.
 const MOUTH: f64 = 12.5;
+/// Greatest length of the edge over a mouth, in widths of the mouth: a half circle.
+const CURVED: f64 = std::f64::consts::FRAC_PI_2;
 /// Longest overcut that goes straight on from the start of an outline, mm, and the cosine of its greatest turn there.
 const OVERCUT: f64 = 10.2;
 const STRAIGHT_ON: f64 = 0.998;
@@ -107,6 +111,10 @@ impl KnifeStroke {
         (0..=steps as usize).map(is_away).collect()
     }
 
+    fn passes(&self, point: Point) -> bool {
+        polyline::distance_to_segment(point, self.from, self.to) <= AGAIN
+    }
+
     fn is_hole(&self) -> bool {
         self.from == self.to
     }
@@ -182,12 +190,15 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
         let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
         let open = lines.filter(|line| line.len() > 2 && line[1..].iter().all(is_kept));
         let open: Vec<[Point; 2]> = open.map(|line| [line[0].at, line[line.len() - 1].at]).collect();
-        lost = lost
-            .chunk_by(|a, b| a.to == b.from)
-            .filter(|line| !stands_in_for(line, &there, &still, &open, reach) && !is_mouth(line, &open))
-            .flatten()
-            .copied()
-            .collect();
+        let lines = lost.chunk_by(|a, b| a.to == b.from);
+        let lines =
+            lines.filter(|line| !stands_in_for(line, &there, &still, &open, reach)).map(<[_]>::to_vec).collect();
+        let lines = joined(lines);
+        let ends = lines.iter().flat_map(|line| [line[0].from, line[line.len() - 1].to]).map(bits);
+        let ends: BTreeSet<[u64; 2]> = ends.collect();
+        let beside = |stroke: &&KnifeStroke| ends.contains(&bits(stroke.from)) || ends.contains(&bits(stroke.to));
+        let beside: Vec<KnifeStroke> = there.iter().filter(beside).copied().collect();
+        lost = lines.into_iter().filter(|line| !is_mouth(line, &beside, &open)).flatten().collect();
     }
     lost.dedup_by_key(|stroke| stroke.cause.byte); // the chords of an arc are one place of the file
     lost
@@ -242,13 +253,42 @@ fn stands_in_for(
         && line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
 }
 
-/// True for the edge over the mouth of a notch: a straight stroke between the ends of an open line that is still cut.
-fn is_mouth(line: &[KnifeStroke], open: &[[Point; 2]]) -> bool {
-    let [only] = line else { return false };
-    let near = |a: Point, b: Point| (a - b).norm() <= AGAIN;
-    let is_over =
-        |[a, b]: &[Point; 2]| near(*a, only.from) && near(*b, only.to) || near(*a, only.to) && near(*b, only.from);
-    only.length() <= MOUTH && open.iter().any(is_over)
+/// Lines, with each that begins at the end of another behind that: an outline may start in the mouth of a notch.
+fn joined(mut lines: Vec<Vec<KnifeStroke>>) -> Vec<Vec<KnifeStroke>> {
+    let mut i = 0;
+    while i < lines.len() {
+        let end = lines[i][lines[i].len() - 1].to;
+        match lines.iter().position(|other| other[0].from == end).filter(|&next| next != i) {
+            Some(next) => {
+                let mut behind = std::mem::take(&mut lines[next]);
+                lines[i].append(&mut behind);
+                lines.remove(next);
+                i -= usize::from(next < i);
+            }
+            None => i += 1,
+        }
+    }
+    lines
+}
+
+/// True for the edge over the mouth of a notch: a line whose strokes beside it, or its ends, lead to the ends of an open line
+/// that is still cut.
+fn is_mouth(line: &[KnifeStroke], beside: &[KnifeStroke], open: &[[Point; 2]]) -> bool {
+    let (from, to) = (line[0].from, line[line.len() - 1].to);
+    let ahead = |end: Point| {
+        let mut before = beside.iter().filter(|stroke| stroke.to == from);
+        (end - from).norm() <= AGAIN || before.any(|stroke| stroke.passes(end))
+    };
+    let behind = |end: Point| {
+        let mut next = beside.iter().filter(|stroke| stroke.from == to);
+        (end - to).norm() <= AGAIN || next.any(|stroke| stroke.passes(end))
+    };
+    let length: f64 = line.iter().map(KnifeStroke::length).sum();
+    let is_over = |[a, b]: [Point; 2]| {
+        let (mouth, edge) = ((b - a).norm(), (a - from).norm() + length + (b - to).norm());
+        mouth <= MOUTH && edge <= CURVED * mouth + 2.0 * AGAIN && ahead(a) && behind(b)
+    };
+    open.iter().any(|&[a, b]| is_over([a, b]) || is_over([b, a]))
 }
 
 impl Works {

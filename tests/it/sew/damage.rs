@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use cutc::machine::Job;
 use cutc::machine::sewing::OnLong;
+use cutc::machine::{Job, Mirror};
 use cutc::sew::verify::RULES;
 use cutc::sew::{Op, Program, Step};
 
@@ -202,11 +202,37 @@ fn every_fault_of_a_reader_of_stitch_files_is_seen() {
     assert_eq!(broken(&program, &fixture("sew/three-seams.exp"), &job, ("exp", &bytes)), [""; 0]);
 }
 
+/// A way to place a pattern wrongly: its name, the rule, and what it does to the program.
+type PlaceDamage = (&'static str, &'static str, fn(&mut Program));
+
+#[rustfmt::skip] // a table: a damage a row
+const PLACE_DAMAGES: &[PlaceDamage] = &[
+    ("a pattern that is not mirrored", "sew-verify/placed", |program| program.pattern = program.drawn.clone()),
+    ("a seam that is left out", "sew-verify/placed", |program| _ = program.pattern.as_mut().and_then(|pattern| pattern.seams.pop())),
+    ("a needle point outside the field", "sew-verify/field", |program| program.stitches.steps[15].to.x += 500.0),
+];
+
+#[test]
+fn a_pattern_in_another_place_is_refused() {
+    let mut job = Job::default();
+    job.profile.sheet.mirror = Mirror::Ends;
+    job.profile.table.x_mm = Some([-10.0, 400.0]);
+    for (name, rule, run) in PLACE_DAMAGES {
+        let mut program: Program = planned("sew/pocket.csv", &job);
+        assert_eq!(broken(&program, &[], &job, ("dst", &written(&program, &job, "dst"))), [""; 0]);
+        run(&mut program);
+        let bytes = written(&program, &job, "dst");
+        let broken = broken(&program, &[], &job, ("dst", &bytes));
+        assert!(broken.contains(rule), "{name}: {rule} holds, but {broken:?} do not");
+    }
+}
+
 #[test]
 fn every_rule_is_broken_by_a_damage() {
     let rows = DAMAGES.iter().map(|Damage(_, _, rule, _)| *rule);
     let bytes = BYTE_DAMAGES.iter().map(|row| row.2);
     let laid = LAID_DAMAGES.iter().map(|row| row.1);
-    let aimed: BTreeSet<&str> = rows.chain(bytes).chain(laid).chain([SOURCE]).collect();
+    let aimed: BTreeSet<&str> =
+        rows.chain(bytes).chain(laid).chain(PLACE_DAMAGES.iter().map(|row| row.1)).chain([SOURCE]).collect();
     assert_eq!(aimed, RULES.iter().map(|row| row.name).collect());
 }

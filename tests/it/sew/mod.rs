@@ -6,6 +6,7 @@ mod contours;
 mod damage;
 mod files;
 mod laws;
+mod placed;
 mod stitch_files;
 
 use cutc::diagnostic::{Diagnostics, render};
