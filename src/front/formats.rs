@@ -30,6 +30,9 @@ const PICTURE: &str = "pictures hold no lines: let the CAD export an ISO cut fil
 const RASTER: &str = "it holds no lines: let the driver send vectors (HP-GL/2), or the CAD write an HPGL plot";
 const OTHER_PLOTTER: &str = "let the driver of the plotter write HPGL instead";
 
+/// Least number of bytes that tell a parity.
+const LEAST_OF_PARITY: usize = 32;
+
 const fn known(what: &'static str, hint: &'static str, is: fn(&[u8]) -> bool) -> Format {
     Format { what, hint, is_vague: false, is }
 }
@@ -50,6 +53,14 @@ const FORMATS: &[Format] = &[
     vague("a zip archive", UNPACK, |b| b.starts_with(b"PK")),
     known("a 7z archive", UNPACK, |b| b.starts_with(b"7z\xbc\xaf\x27\x1c")),
     known("a RAR archive", UNPACK, |b| b.starts_with(b"Rar!")),
+    known("a bzip2 archive", UNPACK, |b| b.starts_with(b"BZh") && b.get(4..10) == Some(b"1AY&SY")),
+    known("an xz archive", UNPACK, |b| b.starts_with(b"\xfd7zXZ\0")),
+    known("a Zstandard archive", UNPACK, |b| b.starts_with(b"\x28\xb5\x2f\xfd")),
+    known("an LHA archive", UNPACK, |b| b.get(2..5) == Some(b"-lh") && b.get(6) == Some(&b'-')),
+    known("a program for Windows (EXE)", UNPACK, |b| b.starts_with(b"MZ") && is_binary(b)),
+    known("a drawing of CorelDRAW", EXPORT_PLOT, |b| b.starts_with(b"RIFF") && b.get(8..11) == Some(b"CDR")),
+    known("a message of a mail program", "save the attachment, and give cutc that", is_mail),
+    known("bytes with a parity bit", "the serial line was read with 8 bits of data: set it to 7 bits and the parity of the sender", has_parity),
     vague("a gzip archive", UNPACK, |b| b.starts_with(b"\x1f\x8b")),
     known("a drawing of Adobe Illustrator (AI)", EXPORT_PLOT, is_illustrator),
     known("a PDF document", EXPORT_CUT, is_pdf),
@@ -239,6 +250,23 @@ fn is_gp_gl(bytes: &[u8]) -> bool {
     leads.count() >= 2
 }
 
+/// Header lines of a message, or of one of its parts.
+fn is_mail(bytes: &[u8]) -> bool {
+    let begins =
+        [&b"content-type:"[..], b"content-transfer-encoding:", b"mime-version:", b"received:", b"return-path:"];
+    begins.iter().any(|begin| bytes.get(..begin.len()).is_some_and(|head| head.eq_ignore_ascii_case(begin)))
+        || has(bytes, b"\ncontent-transfer-encoding:")
+}
+
+/// True if the eighth bit of each byte makes the number of its bits even, or of each odd, in what is otherwise text.
+fn has_parity(bytes: &[u8]) -> bool {
+    let head = head(bytes);
+    let is_high = head.iter().any(|byte| byte & 0x80 != 0) && head.iter().any(|byte| byte & 0x80 == 0);
+    let is_text = |&byte: &u8| matches!(byte & 0x7f, b'\t' | b'\n' | b'\r' | 0x1b | b' '..=b'~');
+    let odd = head.first().map_or(0, |byte| byte.count_ones() % 2);
+    head.len() >= LEAST_OF_PARITY && is_high && head.iter().all(|byte| byte.count_ones() % 2 == odd && is_text(byte))
+}
+
 /// The signature, and then either four reserved bytes that are 0 or a known header size.
 fn is_bmp(bytes: &[u8]) -> bool {
     let sizes = [12, 40, 52, 56, 64, 108, 124];
@@ -386,6 +414,14 @@ mod tests {
         check(b"PK\x03\x04\x14\0", Some("a zip archive"));
         check(b"PK\x03\x04\x14\0\x06\0[Content_Types].xml", Some("a document of an office program (XLSX, DOCX)"));
         check(b"\x1b%-12345X@PJL JOB\r\n%PDF-1.7\n", Some("a PDF document"));
+        check(b"BZh91AY&SY\0\x01", Some("a bzip2 archive"));
+        check(b"\x21\x4a-lh5-\0\0", Some("an LHA archive"));
+        check(b"RIFF\0\x10\0\0CDR9vrsn", Some("a drawing of CorelDRAW"));
+        check(b"MIME-Version: 1.0\nContent-Transfer-Encoding: base64\n\nSDEqRzcx", Some("a message of a mail program"));
+        let even = |byte: u8| byte | u8::from(byte.count_ones() % 2 == 1) << 7;
+        let cut = b"H1*G71*N1*M15*X100Y100*M14*X200Y100*X200Y200*M15*M0*";
+        check(&cut.map(even), Some("bytes with a parity bit"));
+        check(&cut.map(|byte| even(byte) ^ 0x80), Some("bytes with a parity bit"));
         check(b"8BPS\0\x01", Some("a Photoshop picture (PSD)"));
         check(b"\0\0\x01\0\x01\0\x20\x20", Some("an icon (ICO)"));
         check(b"\0\0\0\x18ftypheic", Some("a HEIC or AVIF picture"));

@@ -6,7 +6,7 @@ use cutc::machine::Job;
 use cutc::pipeline;
 
 use super::closing::areas;
-use super::{as_read, outlines, source};
+use super::{as_read, outlines, read, rectangle, source};
 
 /// The same outlines in the spellings of several drivers.
 const PLOTS: [&str; 5] = [
@@ -173,4 +173,40 @@ fn a_byte_that_an_encoded_outline_loses_is_an_error_or_changes_nothing() {
         }
     }
     assert!(refused > 1000, "{refused} refused, {same} the same");
+}
+
+#[test]
+fn a_polygon_that_another_one_replaces_has_no_end() {
+    let polygon = "PU20000,0;PM0;PD28000,0,28000,9000,20000,9000,20000,0;";
+    let told =
+        |end: &str| read(&source(format!("IN;SP1;{}{polygon}{end}", rectangle(0, 0, 8000, 8000))), &Job::default()).1;
+    assert!(!told("PM2;EP;PU;SP0;").contains(&"hpgl/ends-in-polygon"));
+    for end in ["", "PM;", "PM", "PM0;PD100,100;PM2;EP;PU;SP0;"] {
+        assert!(told(end).contains(&"hpgl/ends-in-polygon"), "{end}");
+    }
+}
+
+#[test]
+fn a_scale_that_stretches_one_axis_is_doubted() {
+    let told = |scale: &str| {
+        read(
+            &source(format!("IN;IP0,0,24000,24000;{scale};SP1;{}PU;SP0;", rectangle(100, 100, 300, 300))),
+            &Job::default(),
+        )
+        .1
+    };
+    assert!(!told("SC0,6000,0,6000").contains(&"hpgl/scale-of-device"));
+    assert!(!told("SC0,6000,0,5900").contains(&"hpgl/scale-of-device"));
+    assert!(told("SC0,6000,0,600").contains(&"hpgl/scale-of-device"));
+}
+
+#[test]
+fn a_point_far_off_is_told_however_far_it_is() {
+    for far in [20_000, 40_000, 400_000] {
+        let outline = format!("PU0,0;PD4000,0,4800,400,5200,1000,5400,2000,5200,{far},5000,3200,4000,3600,0,3600,0,0;");
+        let (_, told) = read(&source(format!("IN;SP1;{outline}PU;SP0;")), &Job::default());
+        assert!(told.contains(&"marker/far-point"), "{far}: {told:?}");
+    }
+    let near = "PU0,0;PD4000,0,4800,400,5200,1000,5400,2000,5200,2600,5000,3200,4000,3600,0,3600,0,0;";
+    assert_eq!(read(&source(format!("IN;SP1;{near}PU;SP0;")), &Job::default()).1, [""; 0]);
 }

@@ -1,9 +1,15 @@
 //! Notches that a plot draws as strokes of their own: from the edge of a part inwards, of any pen that is not ignored.
 
+use std::io::Cursor;
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::front::by_name;
 use cutc::ir::Marker;
 use cutc::ir::marker::{NotchKind, OutlineNotch};
 use cutc::machine::plot::Inner;
 use cutc::machine::{Job, OrderPolicy};
+use cutc::pipeline::{self, Order};
 use cutc::verify::{DrawingCuts, drawing_audit};
 
 use super::audit::audit;
@@ -356,4 +362,30 @@ fn a_stroke_of_touching_notches_that_is_not_cut_is_caught() {
     assert_eq!(judged(&marker), [""; 0]);
     marker.pieces[0].contours.retain(|contour| contour.closed);
     assert_eq!(judged(&marker), ["source/strokes"]);
+}
+
+/// Circles of many chords, of which the mouth of each notch takes up several, also at the start of the outline.
+#[test]
+fn a_notch_that_is_drawn_over_several_chords_of_a_curve_is_cut() {
+    let at = |k: usize, count: usize, reach: f64| {
+        let (sine, cosine) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+        format!("{:.0},{:.0}", 8000.0 + reach * cosine, 8000.0 + reach * sine)
+    };
+    for count in [72, 144, 360] {
+        let circle: Vec<String> = (0..=count).map(|k| at(k, count, 2400.0)).collect();
+        let mut text = format!("PU{};PD{};", circle[0], circle[1..].join(","));
+        // Mouths of 5.2 mm: from one vertex to another, the last over the start of the outline.
+        let wide = count / 72;
+        for first in [count / 5, count / 2, count - wide / 2 - 1] {
+            let middle = at(2 * first + wide, 2 * count, 2200.0);
+            text += &format!("PU{};PD{middle},{};", at(first, count, 2400.0), at(first + wide, count, 2400.0));
+        }
+        let source = source(format!("IN;SP1;{text}PU;SP0;"));
+        let (mut out, mut told) = (Cursor::new(Vec::new()), Diagnostics::default());
+        let order = Order { from: by_name("hpgl"), target: &TARGETS[0], verify: true };
+        let compiled = pipeline::compile(&source, &Job::default(), order, &mut out, &mut told);
+        assert!(compiled.expect("memory takes everything").is_some(), "{count}: {}", render(&told, &source));
+        let marker = read(&source, &Job::default()).0;
+        assert_eq!(marker.pieces[0].outline_notches.len(), 3, "{count}");
+    }
 }
