@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::cli::options::counted;
 use crate::cli::report::WorstOf;
 use crate::ir::verdict::Verdict;
+use crate::machine::Sheet;
 use crate::sew::{self, Estimate, Fifo, Limit, Made, Target};
 use crate::source::Source;
 use crate::units::number::{exact, fixed};
@@ -18,6 +19,9 @@ pub(super) struct Figures {
     /// Word for the records of the format.
     #[serde(skip)]
     record_word: &'static str,
+    /// Placement in the field; `None` if it is that of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sheet: Option<Sheet>,
     estimate: Estimate,
     runs: Vec<Run>,
     queue: Fifo,
@@ -85,6 +89,7 @@ impl Figures {
         Self {
             format: program.format,
             record_word: program.record_word,
+            sheet: Some(&job.profile.sheet).filter(|sheet| !sheet.is_plain()).cloned(),
             estimate: sew::estimate(program, job),
             runs: program.runs.iter().map(run).collect(),
             queue,
@@ -104,6 +109,9 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
         // Writing into a `String` cannot fail.
         let _ = writeln!(out, "  {label:10} {text}");
     };
+    if let Some(sheet) = &figures.sheet {
+        line("sheet", sheet.to_string());
+    }
     line("stitches", format!("{} in {}, {} m", sum.stitches, counted(sum.runs, "run"), fixed(sum.thread_m, 2)));
     let speed = if sum.rpm[0] == sum.rpm[1] {
         format!("{} stitches/min", exact(sum.rpm[0]))
