@@ -191,8 +191,17 @@ def report(browser):
     check(browser.evaluate("scrollY < innerHeight"), "and to the player")
 
 
-def main(program, page, setpoints, many):
-    """Everything, on one page, and another with many pieces and findings."""
+def warnings(browser):
+    """The number of warnings is on the first screen and leads to their list."""
+    browser.evaluate("scrollTo(0, 0)")
+    check(browser.evaluate("document.querySelector('.tally a').getBoundingClientRect().bottom < 60"), "it is at the top")
+    browser.click(".tally a")
+    top = browser.evaluate("document.getElementById('messages').getBoundingClientRect().top")
+    check(0 <= top < 400, f"the messages begin at {top} of the window")
+
+
+def main(program, page, setpoints, many, gap):
+    """Everything, on one page, another with many pieces and findings, and one with places that the blade passes."""
     with open(setpoints, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
     with Browser(program) as browser:
@@ -214,6 +223,8 @@ def main(program, page, setpoints, many):
         tally = browser.evaluate("[cutc.motion.facts.pieces.length, document.body.textContent.includes('2000 warnings')]")
         check(tally == [200, True], f"200 pieces and twice 2,000 findings: {tally}")
         search(browser)
+        browser.open(gap)
+        warnings(browser)
         check(not browser.said, f"the console says {browser.said}")
 
 

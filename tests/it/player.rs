@@ -13,6 +13,13 @@ use crate::support::room::{DONE, FAULTY, Room, USAGE};
 /// A square with a slit and a label that is markup, a short line and a drill.
 const HOSTILE: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*X100Y100*M31*</script><img src=x onerror=alert(1)>*\
                        N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M0*";
+/// Three squares, the last one longer than a window of 400 mm.
+const LONG: &str = "H1*G71*N1*X0Y0*M14*X3000Y0*X3000Y3000*X0Y3000*X0Y0*M15*\
+                    N2*X3500Y0*M14*X3500Y50*M15*X3100Y0*M14*X6100Y0*X6100Y3000*X3100Y3000*X3100Y0*M15*\
+                    N3*X6200Y0*M14*X12200Y0*X12200Y3000*X6200Y3000*X6200Y0*M15*M0*";
+/// A V notch over a gap that is narrower than the surplus of the blade.
+const GAP: &str = "H1*G71*N1*X0Y0*M14*X290Y0*X300Y50*X310Y0*X600Y0*X600Y400*X0Y400*X0Y0*M15*\
+                   N2*X0Y-200*M14*X600Y-200*X600Y-5*X0Y-5*X0Y-200*M15*M0*";
 /// Greatest distance of a place of the page from the setpoint, mm and degrees.
 const PROMISED: f64 = 0.01;
 
@@ -110,6 +117,7 @@ fn the_page_runs_its_own_script_and_nothing_else() {
     let head = page.split_once("<style>").expect("a style").0.to_owned();
     let head = digests.iter().fold(head, |head, digest| head.replace(digest, "DIGEST"));
     insta::assert_snapshot!(head);
+    let page = page.replace("href=\"#", "");
     for word in ["http://", "https://", "src=", "href=", "style=", "onclick", "import "] {
         assert!(!page.contains(word), "`{word}` in the page");
     }
@@ -258,4 +266,19 @@ fn a_date_and_a_price_are_printed_by_a_page_and_refused_without_one() {
     room.says("compile circle.cut -o out/ -t html --changed --date monday", DONE);
     let again = |date: &str| room.says(&format!("compile circle.cut -o out/ -t html --changed --date {date}"), DONE);
     assert!(again("monday").contains("unchanged") && !again("tuesday").contains("unchanged"));
+}
+
+#[test]
+fn the_top_of_a_page_counts_its_messages() {
+    let room = Room::with("gap.cut", GAP);
+    room.write("long.cut", LONG.as_bytes());
+    room.says("compile long.cut -t html", DONE);
+    let page = room.text("long.html");
+    assert!(page.contains("<p class=\"tally\">no warnings</p>"));
+    room.says("compile gap.cut -t html", DONE);
+    let page = room.text("gap.html");
+    assert!(page.contains("<a href=\"#messages\">4 warnings</a>"));
+    room.says("compile gap.cut -t html --force --set verify.max_overcut_neighbour_mm=0.1", FAULTY);
+    let page = room.text("gap.html");
+    assert!(page.contains("<a href=\"#messages\">2 errors, 2 warnings</a>"), "{}", between(&page, "tally", "</p>"));
 }
