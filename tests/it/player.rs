@@ -282,3 +282,31 @@ fn the_top_of_a_page_counts_its_messages() {
     let page = room.text("gap.html");
     assert!(page.contains("<a href=\"#messages\">2 errors, 2 warnings</a>"), "{}", between(&page, "tally", "</p>"));
 }
+
+/// Cells of the rows of a section: the value to sort by, and the text.
+fn table(page: &str, section: &str) -> Vec<Vec<(Option<f64>, String)>> {
+    let section = between(page, &format!("<section id=\"{section}\">"), "</section>");
+    let cell = |cell: &str| {
+        let (attributes, text) = cell.split_once('>').expect("an end");
+        let value = attributes.split_once("data-value=\"").and_then(|(_, rest)| rest.split('"').next());
+        (value.map(|value| value.parse().expect("a number")), between(text, "", "</td>").to_owned())
+    };
+    let rows = section.split("<tr").skip(2);
+    rows.map(|row| row.split("<td").skip(1).map(cell).collect()).collect()
+}
+
+#[test]
+fn a_piece_that_windows_split_is_one_row() {
+    let room = Room::with("long.cut", LONG);
+    room.says("compile long.cut -t html --set bite.length_mm=400", DONE);
+    let page = Page::of(&room, "long.html");
+    let wholes: Vec<u64> =
+        page.facts["pieces"].as_array().expect("a list").iter().filter_map(|p| p["whole"].as_u64()).collect();
+    assert_eq!(wholes, [0, 1, 3, 3]);
+    let pieces = table(&page.text, "pieces");
+    let named: Vec<[&str; 2]> = pieces[..3].iter().map(|row| [row[1].1.as_str(), row[4].1.as_str()]).collect();
+    assert_eq!((pieces.len(), named), (4, vec![["1", "1"], ["2", "2"], ["3", "3, 4"]]));
+    assert_eq!([5, 6].map(|cell| pieces[1][cell].1.as_str()), ["1 slit", "1.205"]);
+    let windows: Vec<String> = table(&page.text, "windows").into_iter().map(|row| row[1].1.clone()).collect();
+    assert_eq!(windows, ["1 piece", "1 piece", "a section of 3", "a section of 3"]);
+}

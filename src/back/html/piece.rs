@@ -14,6 +14,9 @@ const SIZES: [&str; 1] = ["size"];
 /// A piece on the page.
 #[derive(Debug)]
 pub(super) struct Piece {
+    /// Index of the piece to which it belongs: its own, except for an early section of a piece that windows of a conveyor
+    /// split.
+    pub(super) whole: usize,
     /// Number in the file, with its copy if there are several.
     pub(super) number: String,
     /// Name from its labels; empty when it has none.
@@ -22,7 +25,7 @@ pub(super) struct Piece {
     pub(super) size: String,
     /// All texts of the piece, joined.
     pub(super) texts: String,
-    /// Counts of notches by kind, and of holes.
+    /// Counts of notches by kind, and of holes; of a split piece with its last section.
     pub(super) marks: String,
     /// Length of its cuts, mm.
     pub(super) cut: f64,
@@ -36,27 +39,31 @@ pub(super) struct Piece {
     pub(super) extent: Extent,
 }
 
-/// All pieces, in cut order.
+/// All pieces and sections, in cut order.
 pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Vec<Piece> {
     let stations = context.marker.stations();
     let mut windows = stations.clone();
     windows.dedup();
     let is_moved = stations.iter().any(|&station| station > 0);
+    let (wholes, owners) = (context.marker.wholes(), context.marker.owners());
+    let mut wholes = wholes.iter();
     let pieces = (0..).zip(&context.marker.pieces).zip(&stations);
     let piece = |((part, piece), station): ((u32, &marker::Piece), &u32)| {
         let texts = texts(context, piece);
         let is_about = |message: &&&Diagnostic| is_about(message, piece);
+        let whole = if piece.is_early_section() { None } else { wholes.next() };
         Piece {
+            whole: owners[part as usize],
             number: piece.name(),
             name: told(&texts, &NAMES).or_else(|| plain(&texts)).unwrap_or_default(),
             size: told(&texts, &SIZES).or_else(|| texts.iter().find(|text| is_size(text)).cloned()).unwrap_or_default(),
             texts: texts.join(" · "),
-            marks: marks(piece),
+            marks: whole.map(marks).unwrap_or_default(),
             cut: context.marker.cut_length_of(part),
             sums: record.pieces[part as usize],
             messages: outcome.messages.iter().filter(is_about).count(),
             window: windows.iter().position(|window| window == station).filter(|_| is_moved),
-            extent: extent(context, piece),
+            extent: whole.map_or(Extent::EMPTY, |whole| extent(context, whole)),
         }
     };
     pieces.map(piece).collect()

@@ -71,9 +71,10 @@ class Player extends Stage {
     this.cloth.marked = part;
     this.cloth.renew();
     markRow(part);
-    const first = this.motion.pieces.find(phase => this.motion.columns.phase_part[phase] === part);
+    const { phase_part } = this.motion.columns, { pieces } = this.motion.facts;
+    const first = this.motion.pieces.find(phase => pieces[phase_part[phase]]?.whole === part);
     if (first !== undefined && show) this.seek(this.motion.start(first));
-    const box = this.motion.facts.pieces[part]?.extent;
+    const box = pieces[part]?.extent;
     if (box && show && !this.view.sees(box)) this.view.fit(box);
     this.wake();
   }

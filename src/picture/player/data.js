@@ -1,7 +1,15 @@
 // Facts and columns of the page, as they were written.
 
 /** @typedef {[number, number, number, number]} Box Left, lower, right and upper edge, mm. */
-/** @typedef {{number: string, name: string, size: string, window: number | null, extent: Box | null}} Piece */
+/**
+ * @typedef {object} Piece A piece, or an early section of one that windows of a conveyor split.
+ * @property {number} whole Its place in the marker, of a section that of its piece.
+ * @property {string} number
+ * @property {string} name
+ * @property {string} size
+ * @property {number | null} window
+ * @property {Box | null} extent
+ */
 /** @typedef {{name: string, holds: boolean, time_s: number | null, at: [number, number] | null}} Finding */
 /** @typedef {[string, number, number, number]} Deviation Kind, size, X and Y, mm. */
 /**

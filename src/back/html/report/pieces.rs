@@ -2,33 +2,64 @@
 
 use super::table;
 use crate::back::html::about::{About, clock};
+use crate::back::html::piece::Piece;
+use crate::back::html::record::Sums;
 use crate::picture::Markup;
 use crate::units::MM_PER_M;
 use crate::units::number::{counted, fixed};
 
+/// Row of a piece, with its sections in cut order.
+struct Row<'a> {
+    piece: &'a Piece,
+    sections: Vec<&'a Piece>,
+    /// Length of its cuts, mm.
+    cut: f64,
+    sums: Sums,
+}
+
+/// The pieces in the order in which they are begun; the sections of one that is split are one row.
+fn rows<'a>(about: &About<'a>) -> Vec<Row<'a>> {
+    let mut rows: Vec<Row> = Vec::new();
+    let mut known = vec![None; about.pieces.len()];
+    for section in about.pieces {
+        let place = *known[section.whole].get_or_insert_with(|| {
+            let piece = &about.pieces[section.whole];
+            rows.push(Row { piece, sections: Vec::new(), cut: 0.0, sums: Sums::default() });
+            rows.len() - 1
+        });
+        rows[place].sections.push(section);
+        rows[place].cut += section.cut;
+        rows[place].sums.join(&section.sums);
+    }
+    rows
+}
+
 /// The table of pieces, in cut order.
 pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "pieces")]).element("h2", &[], "Pieces");
-    let has_time = about.record.ticks() > 0;
+    let (has_time, has_windows) = (about.record.ticks() > 0, about.pieces.iter().any(|piece| piece.window.is_some()));
     let mut columns = vec!["#Order", "Piece", "Name", "Size", "Notches and holes", "#Cut, m"];
+    if has_windows {
+        columns.insert(4, "#Window");
+    }
     if has_time {
         columns.extend(["#Time", "#Plunges"]);
     }
     columns.push("#Messages");
     table::open(out, "sortable", &columns);
-    for (place, piece) in about.pieces.iter().enumerate() {
-        let part = place.to_string();
-        out.open("tr", &[("data-part", &part)]);
+    for (place, Row { piece, sections, cut, sums }) in rows(about).iter().enumerate() {
+        out.open("tr", &[("data-part", &piece.whole.to_string())]);
         table::number(out, &(place + 1).to_string(), place as f64);
         out.element("td", &[], &piece.number);
         out.element("td", &[("title", &piece.texts)], &piece.name);
-        out.element("td", &[], &piece.size).element("td", &[], &piece.marks);
-        table::number(out, &fixed(piece.cut / MM_PER_M, 3), piece.cut);
-        if has_time {
-            let time = about.time(piece.sums.total());
-            table::number(out, &clock(time), time);
-            table::number(out, &piece.sums.plunges.to_string(), piece.sums.plunges as f64);
+        out.element("td", &[], &piece.size);
+        if has_windows {
+            let windows = sections.iter().filter_map(|section| section.window);
+            let names: Vec<String> = windows.clone().map(|window| (window + 1).to_string()).collect();
+            table::number(out, &names.join(", "), windows.min().unwrap_or(0) as f64);
         }
+        out.element("td", &[], &piece.marks);
+        work(about, *cut, sums, out);
         table::number(out, &piece.messages.to_string(), piece.messages as f64);
         out.close("tr");
     }
@@ -36,18 +67,37 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     out.close("section");
 }
 
+/// Cells of the work on a piece: metres, time and plunges.
+fn work(about: &About, cut: f64, sums: &Sums, out: &mut Markup) {
+    table::number(out, &fixed(cut / MM_PER_M, 3), cut);
+    if about.record.ticks() > 0 {
+        let time = about.time(sums.total());
+        table::number(out, &clock(time), time);
+        table::number(out, &sums.plunges.to_string(), sums.plunges as f64);
+    }
+}
+
 /// The table of windows; empty where the cloth does not advance.
 pub(super) fn windows(about: &About, out: &mut Markup) {
     let Some(last) = about.pieces.iter().filter_map(|piece| piece.window).max() else { return };
     out.open("section", &[("id", "windows")]).element("h2", &[], "Windows of the conveyor");
     table::open(out, "sortable", &["#Window", "Pieces", "#Cut, m", "#Time"]);
+    let mut sections = vec![0; about.pieces.len()];
+    for piece in about.pieces {
+        sections[piece.whole] += 1;
+    }
+    let is_split = |piece: &Piece| sections[piece.whole] > 1;
     for window in 0..=last {
         let pieces = || about.pieces.iter().filter(move |piece| piece.window == Some(window));
         let cut: f64 = pieces().map(|piece| piece.cut).sum();
         let time = about.time(pieces().map(|piece| piece.sums.total()).sum());
         out.open("tr", &[]);
         table::number(out, &(window + 1).to_string(), window as f64);
-        out.element("td", &[], &counted(pieces().count(), "piece"));
+        let (whole, split): (Vec<_>, Vec<_>) = pieces().partition(|piece| !is_split(piece));
+        let sections: Vec<&str> = split.iter().map(|piece| piece.number.as_str()).collect();
+        let sections = (!sections.is_empty()).then(|| format!("a section of {}", sections.join(", ")));
+        let wholes = (!whole.is_empty() || sections.is_none()).then(|| counted(whole.len(), "piece"));
+        out.element("td", &[], &wholes.into_iter().chain(sections).collect::<Vec<_>>().join(", "));
         table::number(out, &fixed(cut / MM_PER_M, 3), cut);
         table::number(out, &clock(time), time);
         out.close("tr");
