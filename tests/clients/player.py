@@ -176,10 +176,10 @@ def report(browser):
     order = browser.evaluate(numbers)
     browser.click("#pieces thead th:nth-child(6) button")
     cuts = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.cells[5].dataset.value))"
-    sorted_up = browser.evaluate(cuts)
-    check(sorted_up == sorted(sorted_up) and browser.evaluate(numbers) != order, "the table is sorted")
+    sorted_down = browser.evaluate(cuts)
+    check(sorted_down == sorted(sorted_down)[::-1] and browser.evaluate(numbers) != order, "numbers begin with the greatest")
     browser.click("#pieces thead th:nth-child(6) button")
-    check(browser.evaluate(cuts) == sorted_up[::-1], "and the other way round")
+    check(browser.evaluate(cuts) == sorted_down[::-1], "and the other way round")
     part = browser.evaluate(numbers)[0]
     browser.click("#pieces tbody tr:first-child td:nth-child(2)")
     check(browser.evaluate("cutc.player.cloth.marked") == part, "a row marks its piece")
@@ -189,6 +189,16 @@ def report(browser):
     found = browser.evaluate("cutc.player.tick * cutc.motion.period")
     check(abs(found - time) < 1e-6, f"a place leads to its time: {found} instead of {time}")
     check(browser.evaluate("scrollY < innerHeight"), "and to the player")
+
+
+def columns(browser):
+    """Notches are sorted by their number, texts from A on."""
+    cells = ("(column => [...document.querySelectorAll('#pieces tr')].slice(1)"
+             ".map(row => row.cells[column]?.dataset.value ?? row.cells[column]?.textContent))")
+    browser.click("#pieces thead th:nth-child(5) button")
+    check(browser.evaluate(f"{cells}(4).slice(0, 3)") == ["3", "2", "0"], "most notches come first")
+    browser.click("#pieces thead th:nth-child(2) button")
+    check(browser.evaluate(f"{cells}(1).slice(0, 3)") == ["1", "2", "3"], "texts begin with the first")
 
 
 def warnings(browser):
@@ -224,6 +234,7 @@ def main(program, page, setpoints, many, gap):
         check(tally == [200, True], f"200 pieces and twice 2,000 findings: {tally}")
         search(browser)
         browser.open(gap)
+        columns(browser)
         warnings(browser)
         check(not browser.said, f"the console says {browser.said}")
 

@@ -24,8 +24,7 @@ function byColumn(a, b, column) {
 
 /** Has every head of a sortable table sort by its column, up and down in turn. */
 function makeSortable() {
-  for (const table of document.querySelectorAll("table.sortable")) {
-    if (!(table instanceof HTMLTableElement)) continue;
+  for (const table of /** @type {NodeListOf<HTMLTableElement>} */ (document.querySelectorAll("table.sortable"))) {
     const body = table.tBodies[0];
     const heads = [...table.querySelectorAll("thead th")];
     heads.forEach((head, column) => {
@@ -34,7 +33,9 @@ function makeSortable() {
       button.textContent = head.textContent;
       head.replaceChildren(button);
       button.addEventListener("click", () => {
-        const down = head.getAttribute("aria-sort") === "ascending";
+        // Numbers begin with the greatest, texts with A.
+        const before = head.getAttribute("aria-sort"), isNumber = head.classList.contains("number");
+        const down = before ? before === "ascending" : isNumber;
         heads.forEach(other => other.removeAttribute("aria-sort"));
         head.setAttribute("aria-sort", down ? "descending" : "ascending");
         const rows = [...body.rows].sort((a, b) => byColumn(a, b, column) * (down ? -1 : 1));

@@ -38,7 +38,7 @@ fn rows<'a>(about: &About<'a>) -> Vec<Row<'a>> {
 pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "pieces")]).element("h2", &[], "Pieces");
     let (has_time, has_windows) = (about.record.ticks() > 0, about.pieces.iter().any(|piece| piece.window.is_some()));
-    let mut columns = vec!["#Order", "Piece", "Name", "Size", "Notches and holes", "#Cut, m"];
+    let mut columns = vec!["#Order", "Piece", "Name", "Size", "#Notches and holes", "#Cut, m"];
     if has_windows {
         columns.insert(4, "#Window");
     }
@@ -58,7 +58,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
             let names: Vec<String> = windows.clone().map(|window| (window + 1).to_string()).collect();
             table::number(out, &names.join(", "), windows.min().unwrap_or(0) as f64);
         }
-        out.element("td", &[], &piece.marks);
+        table::number(out, &piece.marks.to_string(), piece.marks.total() as f64);
         work(about, *cut, sums, out);
         table::number(out, &piece.messages.to_string(), piece.messages as f64);
         out.close("tr");
