@@ -160,7 +160,7 @@ def paper(browser):
 
 def search(browser):
     """The rows that hold the words are shown."""
-    shown = "[...document.querySelectorAll('#pieces tbody tr')].filter(row => !row.hidden).length"
+    shown = "[...document.querySelectorAll('#pieces tr[data-part]')].filter(row => !row.hidden).length"
     every = browser.evaluate(shown)
     found = []
     for words in ["12", "no such piece", ""]:
@@ -170,15 +170,22 @@ def search(browser):
     check(0 < found[0] < every and found[1:] == [0, every], f"{found} of {every} rows are found")
 
 
+def heads(browser):
+    """Names of the columns of pieces."""
+    return browser.evaluate("[...document.querySelectorAll('#pieces thead th')].map(head => head.textContent)")
+
+
 def report(browser):
     """Tables are sorted, rows and places lead to the player."""
-    numbers = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.dataset.part))"
+    numbers = "[...document.querySelectorAll('#pieces tr[data-part]')].map(row => Number(row.dataset.part))"
     order = browser.evaluate(numbers)
-    browser.click("#pieces thead th:nth-child(6) button")
-    cuts = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.cells[5].dataset.value))"
+    at = heads(browser).index("Cut, m")
+    browser.click(f"#pieces thead th:nth-child({at + 1}) button")
+    cuts = ("[...document.querySelectorAll('#pieces tr[data-part]')]"
+            f".map(row => Number(row.cells[{at}].dataset.value))")
     sorted_down = browser.evaluate(cuts)
     check(sorted_down == sorted(sorted_down)[::-1] and browser.evaluate(numbers) != order, "numbers begin with the greatest")
-    browser.click("#pieces thead th:nth-child(6) button")
+    browser.click(f"#pieces thead th:nth-child({at + 1}) button")
     check(browser.evaluate(cuts) == sorted_down[::-1], "and the other way round")
     part = browser.evaluate(numbers)[0]
     browser.click("#pieces tbody tr:first-child td:nth-child(2)")
@@ -192,11 +199,14 @@ def report(browser):
 
 
 def columns(browser):
-    """Notches are sorted by their number, texts from A on."""
+    """Notches are sorted by their number, texts from A on; totals stay below."""
     cells = ("(column => [...document.querySelectorAll('#pieces tr')].slice(1)"
              ".map(row => row.cells[column]?.dataset.value ?? row.cells[column]?.textContent))")
-    browser.click("#pieces thead th:nth-child(5) button")
-    check(browser.evaluate(f"{cells}(4).slice(0, 3)") == ["3", "2", "0"], "most notches come first")
+    check(heads(browser)[:3] == ["Order", "Piece", "Notches and holes"], "there are no columns without texts")
+    browser.click("#pieces thead th:nth-child(3) button")
+    check(browser.evaluate(f"{cells}(2).slice(0, 3)") == ["3", "2", "0"], "most notches come first")
+    last = "[...document.querySelectorAll('#pieces tr')].at(-1).cells[0].textContent"
+    check(browser.evaluate(last) == "All", "totals stay last")
     browser.click("#pieces thead th:nth-child(2) button")
     check(browser.evaluate(f"{cells}(1).slice(0, 3)") == ["1", "2", "3"], "texts begin with the first")
 

@@ -295,6 +295,11 @@ fn table(page: &str, section: &str) -> Vec<Vec<(Option<f64>, String)>> {
     rows.map(|row| row.split("<td").skip(1).map(cell).collect()).collect()
 }
 
+/// Values of a column.
+fn column(rows: &[Vec<(Option<f64>, String)>], column: usize) -> Vec<f64> {
+    rows.iter().map(|row| row[column].0.expect("a number")).collect()
+}
+
 #[test]
 fn a_piece_that_windows_split_is_one_row() {
     let room = Room::with("long.cut", LONG);
@@ -304,9 +309,37 @@ fn a_piece_that_windows_split_is_one_row() {
         page.facts["pieces"].as_array().expect("a list").iter().filter_map(|p| p["whole"].as_u64()).collect();
     assert_eq!(wholes, [0, 1, 3, 3]);
     let pieces = table(&page.text, "pieces");
-    let named: Vec<[&str; 2]> = pieces[..3].iter().map(|row| [row[1].1.as_str(), row[4].1.as_str()]).collect();
+    let named: Vec<[&str; 2]> = pieces[..3].iter().map(|row| [row[1].1.as_str(), row[2].1.as_str()]).collect();
     assert_eq!((pieces.len(), named), (4, vec![["1", "1"], ["2", "2"], ["3", "3, 4"]]));
-    assert_eq!([5, 6].map(|cell| pieces[1][cell].1.as_str()), ["1 slit", "1.205"]);
+    assert_eq!([3, 4].map(|cell| pieces[1][cell].1.as_str()), ["1 slit", "1.205"]);
     let windows: Vec<String> = table(&page.text, "windows").into_iter().map(|row| row[1].1.clone()).collect();
     assert_eq!(windows, ["1 piece", "1 piece", "a section of 3", "a section of 3"]);
+}
+
+#[test]
+fn times_and_ways_of_a_page_add_up() {
+    let room = Room::with("long.cut", LONG);
+    for options in ["", " --set bite.length_mm=400"] {
+        room.says(&format!("compile long.cut -t csv,html --force{options}"), DONE);
+        let (page, rows) = (room.text("long.html"), rows(&room.text("long.csv")));
+        let (pieces, spent) = (table(&page, "pieces"), table(&page, "spent"));
+        // Totals have a head in the place of their first cell.
+        let (spent, totals) = (&spent[..spent.len() - 1], &spent[spent.len() - 1]);
+        let (spent_s, all) = (column(spent, 1), totals[0].0.expect("a time"));
+        let times = [spent_s[0], spent_s[1], all - spent_s[0] - spent_s[1], all];
+        assert!((spent_s.iter().sum::<f64>() - all).abs() < 1e-6 && times.iter().all(|&time| time > 0.5), "{times:?}");
+        // The row of totals has one cell for the columns before the metres.
+        let last = pieces.last().expect("totals");
+        let first = pieces[0].len() - last.len();
+        for (i, time) in times.into_iter().enumerate() {
+            let sum: f64 = column(&pieces[..pieces.len() - 1], first + 1 + i).iter().sum();
+            let told = last[1 + i].0.expect("a time");
+            assert!((sum - time).abs() < 1e-6 && (told - time).abs() < 1e-6, "{options}, {i}: {sum} {told} {time}");
+        }
+        let up = rows.windows(2).filter(|pair| pair.iter().all(|row| row[4] == 0.0));
+        let way: f64 = up.map(|pair| (pair[1][1] - pair[0][1]).hypot(pair[1][2] - pair[0][2])).sum();
+        let [cut_mm, travel_mm] = [0, 1].map(|row| spent[row][3].0.expect("mm"));
+        assert!((travel_mm - way).abs() < 0.01 * way && way > 500.0, "{options}: {way} {travel_mm}");
+        assert_eq!(totals[2].0, Some(cut_mm + travel_mm));
+    }
 }

@@ -48,6 +48,12 @@ impl Sums {
         self.overlaps += other.overlaps;
     }
 
+    /// Ticks of cutting, of travelling, and of everything else.
+    pub(super) fn shares(&self) -> [u64; 3] {
+        let [cutting, travelling, ..] = self.ticks;
+        [cutting, travelling, self.total() - cutting - travelling]
+    }
+
     /// Total number of ticks.
     pub(super) fn total(&self) -> u64 {
         self.ticks.iter().sum()

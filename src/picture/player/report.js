@@ -62,24 +62,23 @@ function searchField(body) {
   return field;
 }
 
+/** Rows of the table of pieces. @returns {NodeListOf<HTMLTableRowElement>} */
+function pieceRows() { return document.querySelectorAll("#pieces tr[data-part]"); }
+
 /** Has a row of the table of pieces lead to its piece. @param {(part: number) => void} go */
 function linkPieces(go) {
-  for (const row of document.querySelectorAll("#pieces tbody tr")) {
-    if (!(row instanceof HTMLTableRowElement)) continue;
-    const part = Number(row.dataset.part);
+  for (const row of pieceRows()) {
     row.tabIndex = 0;
-    row.addEventListener("click", () => go(part));
+    row.addEventListener("click", () => go(Number(row.dataset.part)));
     row.addEventListener("keydown", event => {
-      if (event.key === "Enter") go(part);
+      if (event.key === "Enter") row.click();
     });
   }
 }
 
 /** Marks the row of a piece. @param {number} part */
 function markRow(part) {
-  for (const row of document.querySelectorAll("#pieces tbody tr")) {
-    if (row instanceof HTMLTableRowElement) row.classList.toggle("marked", Number(row.dataset.part) === part);
-  }
+  for (const row of pieceRows()) row.classList.toggle("marked", Number(row.dataset.part) === part);
 }
 
 /**

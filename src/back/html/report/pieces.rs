@@ -38,21 +38,34 @@ fn rows<'a>(about: &About<'a>) -> Vec<Row<'a>> {
 pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "pieces")]).element("h2", &[], "Pieces");
     let (has_time, has_windows) = (about.record.ticks() > 0, about.pieces.iter().any(|piece| piece.window.is_some()));
-    let mut columns = vec!["#Order", "Piece", "Name", "Size", "#Notches and holes", "#Cut, m"];
-    if has_windows {
-        columns.insert(4, "#Window");
-    }
+    // Columns without any text are left out.
+    let has_name = about.pieces.iter().any(|piece| !piece.name.is_empty());
+    let has_size = about.pieces.iter().any(|piece| !piece.size.is_empty());
+    let mut columns = vec!["#Order", "Piece"];
+    let some = [(has_name, "Name"), (has_size, "Size"), (has_windows, "#Window")];
+    columns.extend(some.into_iter().filter(|(has, _)| *has).map(|(_, name)| name));
+    columns.push("#Notches and holes");
+    let span = columns.len().to_string();
+    columns.push("#Cut, m");
     if has_time {
-        columns.extend(["#Time", "#Plunges"]);
+        columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges"]);
+        let words =
+            "Other: turning, plunging, lifting, drilling and waiting. The totals are those of the table of time.";
+        out.element("p", &[("class", "hint")], words);
     }
     columns.push("#Messages");
     table::open(out, "sortable", &columns);
-    for (place, Row { piece, sections, cut, sums }) in rows(about).iter().enumerate() {
+    let rows = rows(about);
+    for (place, Row { piece, sections, cut, sums }) in rows.iter().enumerate() {
         out.open("tr", &[("data-part", &piece.whole.to_string())]);
         table::number(out, &(place + 1).to_string(), place as f64);
         out.element("td", &[], &piece.number);
-        out.element("td", &[("title", &piece.texts)], &piece.name);
-        out.element("td", &[], &piece.size);
+        if has_name {
+            out.element("td", &[("title", &piece.texts)], &piece.name);
+        }
+        if has_size {
+            out.element("td", &[], &piece.size);
+        }
         if has_windows {
             let windows = sections.iter().filter_map(|section| section.window);
             let names: Vec<String> = windows.clone().map(|window| (window + 1).to_string()).collect();
@@ -63,17 +76,42 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         table::number(out, &piece.messages.to_string(), piece.messages as f64);
         out.close("tr");
     }
+    if has_time {
+        table::totals(out);
+        totals(about, &rows, &span, out);
+    }
     table::close(out);
     out.close("section");
 }
 
-/// Cells of the work on a piece: metres, time and plunges.
+/// Cells of the work on a piece: metres, and what its time is spent on.
 fn work(about: &About, cut: f64, sums: &Sums, out: &mut Markup) {
     table::number(out, &fixed(cut / MM_PER_M, 3), cut);
     if about.record.ticks() > 0 {
-        let time = about.time(sums.total());
-        table::number(out, &clock(time), time);
+        let [cutting, travelling, other] = sums.shares();
+        for ticks in [cutting, travelling, other, sums.total()] {
+            let time = about.time(ticks);
+            table::number(out, &clock(time), time);
+        }
         table::number(out, &sums.plunges.to_string(), sums.plunges as f64);
+    }
+}
+
+/// Totals under the pieces: work outside of them, if there is any, and all.
+fn totals(about: &About, rows: &[Row], columns: &str, out: &mut Markup) {
+    let mut inside = Sums::default();
+    for row in rows {
+        inside.join(&row.sums);
+    }
+    let cut = rows.iter().map(|row| row.cut).sum();
+    let all = &about.record.all;
+    let mut outside = Sums { plunges: all.plunges - inside.plunges, ..Sums::default() };
+    outside.ticks.iter_mut().zip(all.ticks.iter().zip(inside.ticks)).for_each(|(out, (all, of))| *out = all - of);
+    let lines = [("Outside of pieces", 0.0, &outside), ("All", cut, all)];
+    for (name, cut, sums) in lines.into_iter().filter(|(_, _, sums)| sums.total() > 0) {
+        out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", columns)], name);
+        work(about, cut, sums, out);
+        out.element("td", &[], "").close("tr");
     }
 }
 
