@@ -211,6 +211,49 @@ def columns(browser):
     check(browser.evaluate(f"{cells}(1).slice(0, 3)") == ["1", "2", "3"], "texts begin with the first")
 
 
+def passed(browser):
+    """Places without a time set the clock to the moment at which the blade passes them, and the key N goes through all."""
+    found = browser.evaluate("""(() => {
+      const { motion, player } = cutc, { pieces, knife } = motion.facts;
+      const { phase_kind, phase_part, phase_tick } = motion.columns;
+      const away = (tick, x, y) => {
+        let least = Infinity;
+        const from = phase_kind[motion.phase(tick)] === 4 ? -knife.heel_mm : knife.tip_mm;
+        for (let reach = from; reach < knife.tip_mm + 0.05; reach += 0.05) {
+          const [bladeX, bladeY] = motion.blade(tick, reach);
+          least = Math.min(least, Math.hypot(bladeX - x, bladeY - y));
+        }
+        return least;
+      };
+      return [...document.querySelectorAll('button.jump:not([data-time])')].map(button => {
+        const x = Number(button.dataset.x), y = Number(button.dataset.y), part = Number(button.dataset.part);
+        let least = Infinity;
+        phase_kind.forEach((kind, phase) => {
+          if (kind < 4 || kind > 5 || pieces[phase_part[phase]].whole !== part) return;
+          for (let t = phase_tick[phase]; t < phase_tick[phase + 1]; t++) least = Math.min(least, away(t, x, y));
+        });
+        player.seek(0);
+        button.click();
+        return [least, away(player.tick, x, y), player.tick];
+      });
+    })()""")
+    check(len(found) > 4, f"{len(found)} places without a time")
+    for least, there, tick in found:
+        check(least < 1 and there <= least + 0.1 and tick > 0, f"{there} mm off at tick {tick}, {least} mm at the least")
+    told = "document.getElementById('part').textContent"
+    browser.evaluate("cutc.player.seek(1000); cutc.player.goToPlace({ x: '-90', y: '-90' })")
+    browser.settle()
+    check(browser.evaluate("cutc.player.tick") == 1000, "the clock stays where the blade does not come")
+    check("does not pass" in browser.evaluate(told), f"the line says so: {browser.evaluate(told)}")
+    browser.press(".")
+    check("piece 1" in browser.evaluate(told), "and says the piece again when the clock goes on")
+    browser.evaluate("cutc.player.seek(0); document.activeElement.blur()")
+    browser.press("n")
+    first = browser.evaluate("(({ x, y }) => [Number(x), Number(y)])(document.querySelector('button.jump').dataset)")
+    check(browser.evaluate("cutc.player.cloth.spot") == first, "the key goes to the first place")
+    check(browser.evaluate("cutc.player.tick") > 0, "and to its moment")
+
+
 def warnings(browser):
     """The number of warnings is on the first screen and leads to their list."""
     browser.evaluate("scrollTo(0, 0)")
@@ -245,6 +288,7 @@ def main(program, page, setpoints, many, gap):
         search(browser)
         browser.open(gap)
         columns(browser)
+        passed(browser)
         warnings(browser)
         check(not browser.said, f"the console says {browser.said}")
 

@@ -19,6 +19,8 @@ pub(super) struct Piece {
     /// Index of the piece to which it belongs: its own, except for an early section of a piece that windows of a conveyor
     /// split.
     pub(super) whole: usize,
+    /// Its number in the file and its copy.
+    key: [u32; 2],
     /// Number in the file, with its copy if there are several.
     pub(super) number: String,
     /// Name from its labels; empty when it has none.
@@ -60,6 +62,7 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
         let whole = if piece.is_early_section() { None } else { wholes.next() };
         Piece {
             whole: owners[part as usize],
+            key: [piece.number, piece.copy],
             number: piece.name(),
             name: told(&texts, &NAMES).or_else(|| plain(&texts)).unwrap_or_default(),
             size: told(&texts, &SIZES).or_else(|| texts.iter().find(|text| is_size(text)).cloned()).unwrap_or_default(),
@@ -73,6 +76,13 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
         }
     };
     pieces.map(piece).collect()
+}
+
+impl Piece {
+    /// True if a message that names a piece means this one.
+    pub(super) fn is_called(&self, name: &PieceName) -> bool {
+        self.key == [name.number, name.copy]
+    }
 }
 
 /// True if a message names a piece.

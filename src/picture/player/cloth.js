@@ -38,15 +38,7 @@ class Cloth {
     let first = 0;
     return Array.from(line_kind, (kind, i) => {
       const end = first + line_points[i];
-      /** @type {Box} */
-      const box = [Infinity, Infinity, -Infinity, -Infinity];
-      for (let k = first; k < end; k++) {
-        box[0] = Math.min(box[0], line_x[k]);
-        box[1] = Math.min(box[1], line_y[k]);
-        box[2] = Math.max(box[2], line_x[k]);
-        box[3] = Math.max(box[3], line_y[k]);
-      }
-      const line = { kind, part: line_part[i], first, end, box };
+      const line = { kind, part: line_part[i], first, end, box: boxOf(line_x, line_y, first, end) };
       first = end;
       return line;
     });

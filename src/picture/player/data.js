@@ -82,6 +82,22 @@ function lastUpTo(column, value) {
   return low;
 }
 
+/**
+ * Box of some points.
+ * @param {Float64Array} x @param {Float64Array} y @param {number} [first] @param {number} [end] One past the last.
+ */
+function boxOf(x, y, first = 0, end = x.length) {
+  /** @type {Box} */
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let i = first; i < end; i++) {
+    box[0] = Math.min(box[0], x[i]);
+    box[1] = Math.min(box[1], y[i]);
+    box[2] = Math.max(box[2], x[i]);
+    box[3] = Math.max(box[3], y[i]);
+  }
+  return box;
+}
+
 /** Starts a page, and says in it what kept it from starting. @param {() => Promise<void>} start */
 function begin(start) {
   start().catch(error => {

@@ -65,6 +65,9 @@ function searchField(body) {
 /** Rows of the table of pieces. @returns {NodeListOf<HTMLTableRowElement>} */
 function pieceRows() { return document.querySelectorAll("#pieces tr[data-part]"); }
 
+/** Places of the report, in its order. @returns {NodeListOf<HTMLButtonElement>} */
+function jumps() { return document.querySelectorAll("button.jump"); }
+
 /** Has a row of the table of pieces lead to its piece. @param {(part: number) => void} go */
 function linkPieces(go) {
   for (const row of pieceRows()) {
@@ -79,16 +82,4 @@ function linkPieces(go) {
 /** Marks the row of a piece. @param {number} part */
 function markRow(part) {
   for (const row of pieceRows()) row.classList.toggle("marked", Number(row.dataset.part) === part);
-}
-
-/**
- * Has every place of the report lead to the player.
- * @param {(x: number, y: number, time: number | null) => void} go
- */
-function linkPlaces(go) {
-  for (const button of document.querySelectorAll("button.jump")) {
-    if (!(button instanceof HTMLButtonElement)) continue;
-    const { x, y, time } = button.dataset;
-    button.addEventListener("click", () => go(Number(x), Number(y), time === undefined ? null : Number(time)));
-  }
 }

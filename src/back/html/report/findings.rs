@@ -2,6 +2,7 @@
 
 use super::table;
 use crate::back::html::about::{About, is_finite};
+use crate::back::html::piece::Piece;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::geom::Point;
 use crate::ir::Finding;
@@ -15,12 +16,26 @@ const NOISE_EPSILON: f64 = 1e-8;
 /// Percent of a whole limit.
 const PERCENT: f64 = 100.0;
 
-/// A button that moves the player to a place, and to a time if there is one.
-fn jump(out: &mut Markup, at: Point, time: Option<f64>) {
+/// Moment at which the blade is at a place: its time, s, or the piece with which it comes there, by index.
+#[derive(Debug, Clone, Copy)]
+enum Moment {
+    At(f64),
+    During(usize),
+    /// With any piece.
+    Any,
+}
+
+/// Button that moves the player to a place, and to the moment at which the blade is there.
+fn jump(out: &mut Markup, at: Point, moment: Moment) {
     let (x, y) = (fixed(at.x, 3), fixed(at.y, 3));
-    let time = time.map(|time| fixed(time, 6));
+    let (time, part) = match moment {
+        Moment::At(time) => (Some(fixed(time, 6)), None),
+        Moment::During(part) => (None, Some(part.to_string())),
+        Moment::Any => (None, None),
+    };
     let mut attributes = vec![("type", "button"), ("class", "jump"), ("data-x", x.as_str()), ("data-y", y.as_str())];
     attributes.extend(time.as_deref().map(|time| ("data-time", time)));
+    attributes.extend(part.as_deref().map(|part| ("data-part", part)));
     let words = match &time {
         Some(time) => format!("X {} Y {}, {} s", fixed(at.x, 1), fixed(at.y, 1), &time[..time.len() - 3]),
         None => format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1)),
@@ -75,7 +90,7 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         }
         out.open("ol", &[("class", "messages")]);
         for message in messages.into_iter().take(MOST_MESSAGES) {
-            entry(message, &shared, out);
+            entry(about, message, &shared, out);
         }
         out.close("ol");
     }
@@ -83,19 +98,30 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
 }
 
 /// One message, with the hints that are not common to its group.
-fn entry(message: &Diagnostic, shared: &[&String], out: &mut Markup) {
+fn entry(about: &About, message: &Diagnostic, shared: &[&String], out: &mut Markup) {
     out.open("li", &[]).element("span", &[], &message.message);
     if let Some(piece) = &message.piece {
         out.text(" ").element("span", &[("class", "quiet")], &piece.to_string());
     }
-    if let Some(&[x, y]) = message.at.as_deref().filter(|at| at.iter().all(|value| value.is_finite())) {
+    if let Some(at) = place(message) {
         out.text(" ");
-        jump(out, Point::new(x, y), None);
+        jump(out, at, moment(about, message));
     }
     for hint in message.hints.iter().filter(|hint| !shared.contains(hint)) {
         out.element("p", &[("class", "hint")], hint);
     }
     out.close("li");
+}
+
+/// Place of a message on the cloth.
+fn place(message: &Diagnostic) -> Option<Point> {
+    message.at.as_deref().map(|&at| Point::from(at)).filter(|&at| is_finite(at))
+}
+
+/// Moment of a message: while its piece is cut, if it names one.
+fn moment(about: &About, message: &Diagnostic) -> Moment {
+    let is_of = |piece: &&Piece| message.piece.as_deref().is_some_and(|name| piece.is_called(name));
+    about.pieces.iter().find(is_of).map_or(Moment::Any, |piece| Moment::During(piece.whole))
 }
 
 /// The section of the verifier's findings.
@@ -139,7 +165,7 @@ fn row(finding: &Finding, out: &mut Markup) {
     }
     out.open("td", &[]);
     if let Some(place) = place.filter(|place| is_finite(place.point)) {
-        jump(out, place.point, place.time);
+        jump(out, place.point, place.time.map_or(Moment::Any, Moment::At));
     }
     out.close("td").open("td", &[]).text(rule.about);
     if !finding.holds() {
@@ -164,12 +190,12 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
     }
     table::open(out, "sortable", &["Deviation", "Piece", "#Size, mm", "Where"]);
     for (entry, at) in entries {
-        let part = about.context.marker.cuts[entry.cut as usize].piece as usize;
+        let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
         let [one, _] = entry.kind.words();
-        out.open("tr", &[]).element("td", &[], one).element("td", &[], &about.pieces[part].number);
+        out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.number);
         table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
         out.open("td", &[]);
-        jump(out, at, None);
+        jump(out, at, Moment::During(piece.whole));
         out.close("td").close("tr");
     }
     table::close(out);
@@ -183,10 +209,11 @@ mod tests {
     #[test]
     fn a_place_without_a_time_is_jumped_to_by_its_place() {
         let mut out = Markup::default();
-        jump(&mut out, Point::new(1.0, -2.0), None);
+        jump(&mut out, Point::new(1.0, -2.0), Moment::During(3));
         assert_eq!(
             out.into_text(),
-            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\">X 1.0 Y -2.0</button>\n"
+            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\" data-part=\"3\">\
+             X 1.0 Y -2.0</button>\n"
         );
     }
 }
