@@ -8,6 +8,7 @@ use std::process::Output;
 use cutc::machine::sha256_hex;
 use serde_json::Value;
 
+use crate::support::nests::Recipe;
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
 
 /// A square with a slit and a label that is markup, a short line and a drill.
@@ -342,4 +343,43 @@ fn times_and_ways_of_a_page_add_up() {
         assert!((travel_mm - way).abs() < 0.01 * way && way > 500.0, "{options}: {way} {travel_mm}");
         assert_eq!(totals[2].0, Some(cut_mm + travel_mm));
     }
+}
+
+#[test]
+fn messages_and_rules_name_one_deepest_place() {
+    let room = Room::with("gap.cut", GAP);
+    room.write("nest.cut", Recipe::of(2, 14, 6).nest().text.as_bytes());
+    let mut pairs = 0;
+    for name in ["gap", "nest"] {
+        room.says(&format!("compile {name}.cut -t html"), DONE);
+        let page = room.text(&format!("{name}.html"));
+        for (code, rule) in
+            [("path/overcut", "verify/overcut-part"), ("path/overcut-neighbour", "verify/overcut-neighbour")]
+        {
+            let Some((_, group)) = page.split_once(&format!("<code>{code}</code>")) else { continue };
+            let items = between(group, "<ol", "</ol>").split("<li>").skip(1);
+            let depths: Vec<f64> =
+                items.clone().map(|item| between(item, "it cuts ", " mm into ").parse().expect("mm")).collect();
+            assert!(depths.is_sorted_by(|a, b| a >= b), "{name} {code}: {depths:?}");
+            let first = items.clone().next().expect("a message");
+            let row = page.split(&format!("<td>{rule}</td>")).nth(1).expect("a row").split("</tr>").next().expect("it");
+            let other = first.split_once(" mm into piece ").map(|(_, rest)| rest.split(' ').next().expect("a number"));
+            assert_eq!(other.is_some(), code == "path/overcut-neighbour", "{first}");
+            let into = other.map_or_else(String::new, |other| format!(" into piece {other}"));
+            assert!(row.contains("deepest") && row.contains(&into), "{first} {row}");
+            let told = between(row, "<p class=\"hint\">", "<");
+            let told = told.split_once(": ").map(|(_, depth)| between(depth, "", " mm").parse().expect("mm"));
+            let worst = between(row, "data-value=\"", "\"").parse::<f64>().expect("mm");
+            assert!((told.unwrap_or(worst) - depths[0]).abs() < 0.011, "{name} {code}: {told:?} {worst} {depths:?}");
+            pairs += 1;
+        }
+    }
+    assert!(pairs > 2, "{pairs} rules with messages");
+    let page = room.text("gap.html");
+    assert!(
+        page.contains("it cuts 0.45 mm into piece 2 before its start") && page.contains("the deepest into piece 2")
+    );
+    assert!(page.contains("<td>1</td>\n<td>piece 2</td>") && page.contains("<td>1</td>\n<td>its own part</td>"));
+    let places = page.split("class=\"jump\"").skip(1).filter(|place| !between(place, "", ">").contains("data-time"));
+    assert_eq!(places.filter(|place| between(place, "", ">").contains("data-part=\"0\"")).count(), 8);
 }

@@ -3,7 +3,8 @@
 use super::table;
 use crate::back::html::about::{About, is_finite};
 use crate::back::html::piece::Piece;
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::diagnostic::pieces::listed;
+use crate::diagnostic::{Code, Diagnostic, Severity, code};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::picture::Markup;
@@ -13,6 +14,11 @@ use crate::units::number::{counted, fixed, short};
 const MOST_MESSAGES: usize = 40;
 /// Values below this, in any unit, are rounding of the computation.
 const NOISE_EPSILON: f64 = 1e-8;
+/// Rules of overcuts into parts, each with the warning of a compile that tells its places.
+const OVERCUTS: [(&str, &Code); 2] =
+    [("verify/overcut-part", &code::PATH_OVERCUT), ("verify/overcut-neighbour", &code::PATH_OVERCUT_NEIGHBOUR)];
+/// Distance within which a message and a finding are about one place, mm: the deepest place of a cut and the end of its blade.
+const SAME_PLACE: f64 = 0.5;
 /// Percent of a whole limit.
 const PERCENT: f64 = 100.0;
 
@@ -133,13 +139,13 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "findings")]).element("h2", &[], "Rules of the verifier");
     table::open(out, "sortable", &["Rule", "Verdict", "#Worst", "#Limit", "#Of limit", "Where", "Promise"]);
     for finding in findings {
-        row(finding, out);
+        row(about, finding, out);
     }
     table::close(out);
     out.close("section");
 }
 
-fn row(finding: &Finding, out: &mut Markup) {
+fn row(about: &About, finding: &Finding, out: &mut Markup) {
     let Finding { rule, worst, limit, unit, place } = finding;
     let verdict = match (limit, finding.holds()) {
         (None, _) => "reported",
@@ -167,6 +173,7 @@ fn row(finding: &Finding, out: &mut Markup) {
     if let Some(place) = place.filter(|place| is_finite(place.point)) {
         jump(out, place.point, place.time.map_or(Moment::Any, Moment::At));
     }
+    deepest(about, finding, out);
     out.close("td").open("td", &[]).text(rule.about);
     if !finding.holds() {
         for line in rule.more.lines().filter(|line| !line.trim().is_empty()) {
@@ -174,6 +181,32 @@ fn row(finding: &Finding, out: &mut Markup) {
         }
     }
     out.close("td").close("tr");
+}
+
+/// Line on the deepest entry into a part with a warning, for the rule that judges it. The worst value of the rule is the one
+/// nearest to its own limit, often at another place.
+fn deepest(about: &About, finding: &Finding, out: &mut Markup) {
+    let Some((_, code)) = OVERCUTS.iter().find(|(name, _)| *name == finding.rule.name) else { return };
+    let messages = about.outcome.messages.iter().filter(|message| message.code == *code);
+    let Some((message, by)) = deepest_of(messages) else { return };
+    let into = if message.pieces.is_empty() { String::new() } else { format!(" into {}", listed(&message.pieces)) };
+    let at = place(message);
+    let is_here = at.zip(finding.place).is_some_and(|(at, here)| (at - here.point).norm() <= SAME_PLACE);
+    if is_here {
+        out.element("p", &[("class", "hint")], &format!("the deepest{into}"));
+        return;
+    }
+    out.open("p", &[("class", "hint")]).text(&format!("deepest: {} mm{into} ", fixed(by, 2)));
+    if let Some(at) = at {
+        jump(out, at, moment(about, message));
+    }
+    out.close("p");
+}
+
+/// Message with the greatest magnitude, the first of equals: it is the first in its list as well.
+fn deepest_of<'a>(messages: impl Iterator<Item = &'a &'a Diagnostic>) -> Option<(&'a Diagnostic, f64)> {
+    let measured = messages.filter_map(|message| Some((*message, message.by?)));
+    measured.reduce(|deepest, other| if other.1 > deepest.1 { other } else { deepest })
 }
 
 /// The section of declared deviations with their places.
@@ -188,11 +221,16 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         let words = format!("The {} greatest of {count}; the program's .meta.json has all.", entries.len());
         out.element("p", &[], &words);
     }
-    table::open(out, "sortable", &["Deviation", "Piece", "#Size, mm", "Where"]);
+    table::open(out, "sortable", &["Deviation", "Piece", "Into", "#Size, mm", "Where"]);
     for (entry, at) in entries {
         let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
         let [one, _] = entry.kind.words();
         out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.number);
+        let into = entry.part.and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
+            own if own == piece.whole => "its own part".to_owned(),
+            _ => format!("piece {}", part.number),
+        });
+        out.element("td", &[], &into.unwrap_or_default());
         table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
         out.open("td", &[]);
         jump(out, at, Moment::During(piece.whole));
