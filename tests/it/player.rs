@@ -269,21 +269,6 @@ fn a_date_and_a_price_are_printed_by_a_page_and_refused_without_one() {
     assert!(again("monday").contains("unchanged") && !again("tuesday").contains("unchanged"));
 }
 
-#[test]
-fn the_top_of_a_page_counts_its_messages() {
-    let room = Room::with("gap.cut", GAP);
-    room.write("long.cut", LONG.as_bytes());
-    room.says("compile long.cut -t html", DONE);
-    let page = room.text("long.html");
-    assert!(page.contains("<p class=\"tally\">no warnings</p>"));
-    room.says("compile gap.cut -t html", DONE);
-    let page = room.text("gap.html");
-    assert!(page.contains("<a href=\"#messages\">4 warnings</a>"));
-    room.says("compile gap.cut -t html --force --set verify.max_overcut_neighbour_mm=0.1", FAULTY);
-    let page = room.text("gap.html");
-    assert!(page.contains("<a href=\"#messages\">2 errors, 2 warnings</a>"), "{}", between(&page, "tally", "</p>"));
-}
-
 /// Cells of the rows of a section: the value to sort by, and the text.
 fn table(page: &str, section: &str) -> Vec<Vec<(Option<f64>, String)>> {
     let section = between(page, &format!("<section id=\"{section}\">"), "</section>");
@@ -382,4 +367,32 @@ fn messages_and_rules_name_one_deepest_place() {
     assert!(page.contains("<td>1</td>\n<td>piece 2</td>") && page.contains("<td>1</td>\n<td>its own part</td>"));
     let places = page.split("class=\"jump\"").skip(1).filter(|place| !between(place, "", ">").contains("data-time"));
     assert_eq!(places.filter(|place| between(place, "", ">").contains("data-part=\"0\"")).count(), 8);
+}
+
+#[test]
+fn the_top_of_a_page_counts_its_messages() {
+    let room = Room::with("gap.cut", GAP);
+    room.write("long.cut", LONG.as_bytes());
+    room.says("compile long.cut -t html", DONE);
+    let page = room.text("long.html");
+    assert!(
+        page.contains("<p class=\"tally\">no warnings</p>") && page.contains("Nothing must be done before you cut")
+    );
+    room.says("compile gap.cut -t html", DONE);
+    let page = room.text("gap.html");
+    assert!(page.contains("<a href=\"#messages\">4 warnings</a>") && page.contains("look at the warnings of parts"));
+    room.says("compile gap.cut -t html --force --set verify.max_overcut_neighbour_mm=0.1", FAULTY);
+    let page = room.text("gap.html");
+    assert!(page.contains("<a href=\"#messages\">2 errors, 2 warnings</a>"), "{}", between(&page, "tally", "</p>"));
+}
+
+#[test]
+fn the_page_says_how_notches_are_cut() {
+    let room = Room::with("gap.cut", GAP);
+    for (options, expected) in [("", "1 v; cut as drawn"), (" --set notch.style=skip", "1 v; no notch is cut")] {
+        room.says(&format!("compile gap.cut -t html --force{options}"), DONE);
+        let page = room.text("gap.html");
+        assert_eq!(between(&page, "Notches and holes</th>\n<td>", "</td>"), expected);
+        assert_eq!(column(&table(&page, "pieces")[..2], 2), [1.0, 0.0]);
+    }
 }

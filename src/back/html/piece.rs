@@ -135,6 +135,13 @@ impl Marks {
         marks
     }
 
+    /// Counts over several pieces.
+    pub(super) fn all<'a>(pieces: impl Iterator<Item = &'a Self>) -> Self {
+        let mut all = Self::default();
+        pieces.flat_map(|marks| &marks.0).for_each(|&(word, count)| all.add(word, count));
+        all
+    }
+
     fn add(&mut self, word: &'static str, more: usize) {
         match self.0.iter_mut().find(|(known, _)| *known == word) {
             Some((_, count)) => *count += more,

@@ -164,7 +164,7 @@ class Cloth {
       if (wide < 18 || tall < 14) return;
       const x = view.px((left + right) / 2), y = view.py((low + high) / 2);
       const name = piece.name && piece.name !== piece.number && tall > 40 ? piece.name : "";
-      to.font = "600 13px system-ui, sans-serif";
+      to.font = `600 ${wide < 40 ? 10 : 13}px system-ui, sans-serif`;
       to.fillText(piece.number, x, name ? y - 8 : y);
       to.font = "11px system-ui, sans-serif";
       if (name && to.measureText(name).width < wide - 6) to.fillText(name, x, y + 8);

@@ -1,10 +1,10 @@
 //! Points that need attention: messages, findings of the verifier, declared deviations.
 
 use super::table;
-use crate::back::html::about::{About, is_finite};
+use crate::back::html::about::{About, Worth, is_finite};
 use crate::back::html::piece::Piece;
 use crate::diagnostic::pieces::listed;
-use crate::diagnostic::{Code, Diagnostic, Severity, code};
+use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::picture::Markup;
@@ -55,7 +55,7 @@ struct Group<'a> {
     messages: Vec<&'a Diagnostic>,
 }
 
-/// Groups messages by code, errors first; within a code the worst first, where measured.
+/// Groups messages by code, errors first, then warnings of harm to parts; within a code the worst first, where measured.
 fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
     let mut groups: Vec<Group> = Vec::new();
     for &message in messages {
@@ -64,29 +64,44 @@ fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
             None => groups.push(Group { code: message.code, messages: vec![message] }),
         }
     }
-    groups.sort_by_key(|group| group.code.severity);
+    groups.sort_by_key(|group| (group.code.severity, group.code.harm));
     for group in &mut groups {
         group.messages.sort_by(|a, b| b.by.unwrap_or(0.0).total_cmp(&a.by.unwrap_or(0.0)));
     }
     groups
 }
 
+/// True if a warning is about harm to parts.
+fn spoils(code: &Code) -> bool {
+    code.severity == Severity::Warning && code.harm == Harm::Spoils
+}
+
+/// Advice on the program before it is run; `is_harm` tells of warnings that parts may be spoilt.
+fn to_do(worth: Worth, is_harm: bool) -> &'static str {
+    match (worth, is_harm) {
+        (Worth::Refused, _) => "No program was written. Mend the errors and compile again.",
+        (Worth::NotJudged, _) => "The program is not verified. Verify it before you cut.",
+        (Worth::Verified, true) => "Before you cut, look at the warnings of parts that may be spoilt.",
+        (Worth::Verified, false) => "Nothing must be done before you cut: there is no warning of harm to parts.",
+    }
+}
+
 /// The section of errors and warnings, grouped by code.
 pub(super) fn messages(about: &About, out: &mut Markup) {
     let groups = groups(about.outcome.messages);
-    if groups.is_empty() {
-        return;
-    }
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
+    let is_harm = groups.iter().any(|group| spoils(group.code));
+    out.element("p", &[], to_do(about.worth(), is_harm));
     for Group { code, messages } in groups {
         let severity = match code.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
         let count = counted(messages.len(), severity);
-        let few = if messages.len() > MOST_MESSAGES { format!(", the worst {MOST_MESSAGES}") } else { String::new() };
-        out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(" ");
-        out.element("code", &[], code.name).text(&few).close("p");
+        let harm = if spoils(code) { "may spoil parts: " } else { "" };
+        let few = if messages.len() > MOST_MESSAGES { format!(" (the worst {MOST_MESSAGES})") } else { String::new() };
+        out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(harm);
+        out.element("code", &[], code.name).text(&few).close("p").element("p", &[("class", "about")], code.about);
         // A hint common to all of them is shown once.
         let shared =
             messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));

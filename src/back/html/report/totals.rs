@@ -3,9 +3,10 @@
 use super::table;
 use crate::analysis::area;
 use crate::back::html::about::{About, clock};
+use crate::back::html::piece::Marks;
 use crate::back::html::record::Sums;
 use crate::ir::declaration::Total;
-use crate::machine::Price;
+use crate::machine::{NotchStyle, Price};
 use crate::picture::Markup;
 use crate::units::number::{counted, fixed};
 use crate::units::{MM_PER_M, MM2_PER_M2};
@@ -37,6 +38,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         ("Cloth", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
         ("Lines to cut", format!("{} m", fixed(marker.cut_length() / MM_PER_M, 3))),
     ];
+    rows.extend(notches(about).map(|notches| ("Notches and holes", notches)));
     if let Some(area) = area(marker, &about.context.job.profile) {
         let of = width * height;
         let share =
@@ -58,6 +60,17 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     if sums.total() > 0 {
         spent(about, sums, out);
     }
+}
+
+/// Notches and holes of all pieces by kind, and how notches are cut; `None` without any.
+fn notches(about: &About) -> Option<String> {
+    let marks = Marks::all(about.pieces.iter().map(|piece| &piece.marks));
+    let style = match about.context.job.profile.notch.style {
+        NotchStyle::AsDrawn => "cut as drawn",
+        NotchStyle::Slit => "notches are cut as slits",
+        NotchStyle::Skip => "no notch is cut",
+    };
+    (marks.total() > 0).then(|| format!("{marks}; {style}"))
 }
 
 /// Cost of the job; `None` when the price is unknown.
