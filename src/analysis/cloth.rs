@@ -76,7 +76,7 @@ impl<'a> Cloth<'a> {
 
     /// The part in which a segment lies deepest, except for the part of the given piece; `None` when it is in none.
     pub fn deepest_other(&self, piece: usize, [from, to]: [Point; 2]) -> Option<u32> {
-        let own = self.part_of[piece];
+        let own = self.part_of.get(piece).copied().unwrap_or(piece as u32);
         let length = (to - from).norm();
         let steps = (length / STEP).ceil().max(1.0) as usize;
         let places = (0..=steps).map(|i| from + (to - from) * (i as f64 / steps as f64));

@@ -160,7 +160,7 @@ def paper(browser):
 
 def search(browser):
     """The rows that hold the words are shown."""
-    shown = "[...document.querySelectorAll('#pieces tbody tr')].filter(row => !row.hidden).length"
+    shown = "[...document.querySelectorAll('#pieces tr[data-part]')].filter(row => !row.hidden).length"
     every = browser.evaluate(shown)
     found = []
     for words in ["12", "no such piece", ""]:
@@ -170,16 +170,23 @@ def search(browser):
     check(0 < found[0] < every and found[1:] == [0, every], f"{found} of {every} rows are found")
 
 
+def heads(browser):
+    """Names of the columns of pieces."""
+    return browser.evaluate("[...document.querySelectorAll('#pieces thead th')].map(head => head.textContent)")
+
+
 def report(browser):
     """Tables are sorted, rows and places lead to the player."""
-    numbers = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.dataset.part))"
+    numbers = "[...document.querySelectorAll('#pieces tr[data-part]')].map(row => Number(row.dataset.part))"
     order = browser.evaluate(numbers)
-    browser.click("#pieces thead th:nth-child(6) button")
-    cuts = "[...document.querySelectorAll('#pieces tbody tr')].map(row => Number(row.cells[5].dataset.value))"
-    sorted_up = browser.evaluate(cuts)
-    check(sorted_up == sorted(sorted_up) and browser.evaluate(numbers) != order, "the table is sorted")
-    browser.click("#pieces thead th:nth-child(6) button")
-    check(browser.evaluate(cuts) == sorted_up[::-1], "and the other way round")
+    at = heads(browser).index("Cut, m")
+    browser.click(f"#pieces thead th:nth-child({at + 1}) button")
+    cuts = ("[...document.querySelectorAll('#pieces tr[data-part]')]"
+            f".map(row => Number(row.cells[{at}].dataset.value))")
+    sorted_down = browser.evaluate(cuts)
+    check(sorted_down == sorted(sorted_down)[::-1] and browser.evaluate(numbers) != order, "numbers begin with the greatest")
+    browser.click(f"#pieces thead th:nth-child({at + 1}) button")
+    check(browser.evaluate(cuts) == sorted_down[::-1], "and the other way round")
     part = browser.evaluate(numbers)[0]
     browser.click("#pieces tbody tr:first-child td:nth-child(2)")
     check(browser.evaluate("cutc.player.cloth.marked") == part, "a row marks its piece")
@@ -191,8 +198,73 @@ def report(browser):
     check(browser.evaluate("scrollY < innerHeight"), "and to the player")
 
 
-def main(program, page, setpoints, many):
-    """Everything, on one page, and another with many pieces and findings."""
+def columns(browser):
+    """Notches are sorted by their number, texts from A on; totals stay below."""
+    cells = ("(column => [...document.querySelectorAll('#pieces tr')].slice(1)"
+             ".map(row => row.cells[column]?.dataset.value ?? row.cells[column]?.textContent))")
+    check(heads(browser)[:3] == ["Order", "Piece", "Notches and holes"], "there are no columns without texts")
+    browser.click("#pieces thead th:nth-child(3) button")
+    check(browser.evaluate(f"{cells}(2).slice(0, 3)") == ["3", "2", "0"], "most notches come first")
+    last = "[...document.querySelectorAll('#pieces tr')].at(-1).cells[0].textContent"
+    check(browser.evaluate(last) == "All", "totals stay last")
+    browser.click("#pieces thead th:nth-child(2) button")
+    check(browser.evaluate(f"{cells}(1).slice(0, 3)") == ["1", "2", "3"], "texts begin with the first")
+
+
+def passed(browser):
+    """Places without a time set the clock to the moment at which the blade passes them, and the key N goes through all."""
+    found = browser.evaluate("""(() => {
+      const { motion, player } = cutc, { pieces, knife } = motion.facts;
+      const { phase_kind, phase_part, phase_tick } = motion.columns;
+      const away = (tick, x, y) => {
+        let least = Infinity;
+        const from = phase_kind[motion.phase(tick)] === 4 ? -knife.heel_mm : knife.tip_mm;
+        for (let reach = from; reach < knife.tip_mm + 0.05; reach += 0.05) {
+          const [bladeX, bladeY] = motion.blade(tick, reach);
+          least = Math.min(least, Math.hypot(bladeX - x, bladeY - y));
+        }
+        return least;
+      };
+      return [...document.querySelectorAll('button.jump:not([data-time])')].map(button => {
+        const x = Number(button.dataset.x), y = Number(button.dataset.y), part = Number(button.dataset.part);
+        let least = Infinity;
+        phase_kind.forEach((kind, phase) => {
+          if (kind < 4 || kind > 5 || pieces[phase_part[phase]].whole !== part) return;
+          for (let t = phase_tick[phase]; t < phase_tick[phase + 1]; t++) least = Math.min(least, away(t, x, y));
+        });
+        player.seek(0);
+        button.click();
+        return [least, away(player.tick, x, y), player.tick];
+      });
+    })()""")
+    check(len(found) > 4, f"{len(found)} places without a time")
+    for least, there, tick in found:
+        check(least < 1 and there <= least + 0.1 and tick > 0, f"{there} mm off at tick {tick}, {least} mm at the least")
+    told = "document.getElementById('part').textContent"
+    browser.evaluate("cutc.player.seek(1000); cutc.player.goToPlace({ x: '-90', y: '-90' })")
+    browser.settle()
+    check(browser.evaluate("cutc.player.tick") == 1000, "the clock stays where the blade does not come")
+    check("does not pass" in browser.evaluate(told), f"the line says so: {browser.evaluate(told)}")
+    browser.press(".")
+    check("piece 1" in browser.evaluate(told), "and says the piece again when the clock goes on")
+    browser.evaluate("cutc.player.seek(0); document.activeElement.blur()")
+    browser.press("n")
+    first = browser.evaluate("(({ x, y }) => [Number(x), Number(y)])(document.querySelector('button.jump').dataset)")
+    check(browser.evaluate("cutc.player.cloth.spot") == first, "the key goes to the first place")
+    check(browser.evaluate("cutc.player.tick") > 0, "and to its moment")
+
+
+def warnings(browser):
+    """The number of warnings is on the first screen and leads to their list."""
+    browser.evaluate("scrollTo(0, 0)")
+    check(browser.evaluate("document.querySelector('.tally a').getBoundingClientRect().bottom < 60"), "it is at the top")
+    browser.click(".tally a")
+    top = browser.evaluate("document.getElementById('messages').getBoundingClientRect().top")
+    check(0 <= top < 400, f"the messages begin at {top} of the window")
+
+
+def main(program, page, setpoints, many, gap):
+    """Everything, on one page, another with many pieces and findings, and one with places that the blade passes."""
     with open(setpoints, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
     with Browser(program) as browser:
@@ -214,6 +286,10 @@ def main(program, page, setpoints, many):
         tally = browser.evaluate("[cutc.motion.facts.pieces.length, document.body.textContent.includes('2000 warnings')]")
         check(tally == [200, True], f"200 pieces and twice 2,000 findings: {tally}")
         search(browser)
+        browser.open(gap)
+        columns(browser)
+        passed(browser)
+        warnings(browser)
         check(not browser.said, f"the console says {browser.said}")
 
 

@@ -10,6 +10,11 @@ use crate::{compile, is_there};
 /// The names under which Chromium is installed.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
+/// A piece with notches of several kinds, and a V notch over a gap that is narrower than the surplus of the blade.
+const GAP: &str = "H1*G71*N1*X0Y0*M14*X290Y0*X300Y50*X310Y0*X600Y0*X600Y400*X400Y400*X390Y350*X380Y400*X0Y400*X0Y0*M15*\
+                   N2*X0Y-200*M14*X600Y-200*X600Y-5*X0Y-5*X0Y-200*M15*\
+                   N3*X1000Y0*M14*Y60*M15*X1200Y0*M14*Y60*M15*X1300Y0*M14*Y60*M15*X900Y0*M14*X1800Y0*Y400*X900*Y0*M15*M0*";
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -44,9 +49,12 @@ fn chromium_plays_a_page_as_its_setpoints_are() {
     let many = folder.path().join("many.cut");
     std::fs::write(&many, many_findings()).expect("writable");
     compile(many.to_str().expect("a plain name"), "html", folder.path());
+    let gap = folder.path().join("gap.cut");
+    std::fs::write(&gap, GAP).expect("writable");
+    compile(gap.to_str().expect("a plain name"), "html", folder.path());
     let script = root().join("tests/clients/player.py");
     let mut lead = Command::new("python3");
-    let pages = ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html"];
+    let pages = ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html", "gap.html"];
     lead.arg(script).arg(browser).args(pages).current_dir(folder.path());
     let led = lead.output().expect("python3 starts");
     assert!(led.status.success(), "{}{}", String::from_utf8_lossy(&led.stdout), String::from_utf8_lossy(&led.stderr));

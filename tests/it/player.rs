@@ -8,11 +8,19 @@ use std::process::Output;
 use cutc::machine::sha256_hex;
 use serde_json::Value;
 
+use crate::support::nests::Recipe;
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
 
 /// A square with a slit and a label that is markup, a short line and a drill.
 const HOSTILE: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*X100Y100*M31*</script><img src=x onerror=alert(1)>*\
                        N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M0*";
+/// Three squares, the last one longer than a window of 400 mm.
+const LONG: &str = "H1*G71*N1*X0Y0*M14*X3000Y0*X3000Y3000*X0Y3000*X0Y0*M15*\
+                    N2*X3500Y0*M14*X3500Y50*M15*X3100Y0*M14*X6100Y0*X6100Y3000*X3100Y3000*X3100Y0*M15*\
+                    N3*X6200Y0*M14*X12200Y0*X12200Y3000*X6200Y3000*X6200Y0*M15*M0*";
+/// A V notch over a gap that is narrower than the surplus of the blade.
+const GAP: &str = "H1*G71*N1*X0Y0*M14*X290Y0*X300Y50*X310Y0*X600Y0*X600Y400*X0Y400*X0Y0*M15*\
+                   N2*X0Y-200*M14*X600Y-200*X600Y-5*X0Y-5*X0Y-200*M15*M0*";
 /// Greatest distance of a place of the page from the setpoint, mm and degrees.
 const PROMISED: f64 = 0.01;
 
@@ -110,6 +118,7 @@ fn the_page_runs_its_own_script_and_nothing_else() {
     let head = page.split_once("<style>").expect("a style").0.to_owned();
     let head = digests.iter().fold(head, |head, digest| head.replace(digest, "DIGEST"));
     insta::assert_snapshot!(head);
+    let page = page.replace("href=\"#", "");
     for word in ["http://", "https://", "src=", "href=", "style=", "onclick", "import "] {
         assert!(!page.contains(word), "`{word}` in the page");
     }
@@ -258,4 +267,132 @@ fn a_date_and_a_price_are_printed_by_a_page_and_refused_without_one() {
     room.says("compile circle.cut -o out/ -t html --changed --date monday", DONE);
     let again = |date: &str| room.says(&format!("compile circle.cut -o out/ -t html --changed --date {date}"), DONE);
     assert!(again("monday").contains("unchanged") && !again("tuesday").contains("unchanged"));
+}
+
+/// Cells of the rows of a section: the value to sort by, and the text.
+fn table(page: &str, section: &str) -> Vec<Vec<(Option<f64>, String)>> {
+    let section = between(page, &format!("<section id=\"{section}\">"), "</section>");
+    let cell = |cell: &str| {
+        let (attributes, text) = cell.split_once('>').expect("an end");
+        let value = attributes.split_once("data-value=\"").and_then(|(_, rest)| rest.split('"').next());
+        (value.map(|value| value.parse().expect("a number")), between(text, "", "</td>").to_owned())
+    };
+    let rows = section.split("<tr").skip(2);
+    rows.map(|row| row.split("<td").skip(1).map(cell).collect()).collect()
+}
+
+/// Values of a column.
+fn column(rows: &[Vec<(Option<f64>, String)>], column: usize) -> Vec<f64> {
+    rows.iter().map(|row| row[column].0.expect("a number")).collect()
+}
+
+#[test]
+fn a_piece_that_windows_split_is_one_row() {
+    let room = Room::with("long.cut", LONG);
+    room.says("compile long.cut -t html --set bite.length_mm=400", DONE);
+    let page = Page::of(&room, "long.html");
+    let wholes: Vec<u64> =
+        page.facts["pieces"].as_array().expect("a list").iter().filter_map(|p| p["whole"].as_u64()).collect();
+    assert_eq!(wholes, [0, 1, 3, 3]);
+    let pieces = table(&page.text, "pieces");
+    let named: Vec<[&str; 2]> = pieces[..3].iter().map(|row| [row[1].1.as_str(), row[2].1.as_str()]).collect();
+    assert_eq!((pieces.len(), named), (4, vec![["1", "1"], ["2", "2"], ["3", "3, 4"]]));
+    assert_eq!([3, 4].map(|cell| pieces[1][cell].1.as_str()), ["1 slit", "1.205"]);
+    let windows: Vec<String> = table(&page.text, "windows").into_iter().map(|row| row[1].1.clone()).collect();
+    assert_eq!(windows, ["1 piece", "1 piece", "a section of 3", "a section of 3"]);
+}
+
+#[test]
+fn times_and_ways_of_a_page_add_up() {
+    let room = Room::with("long.cut", LONG);
+    for options in ["", " --set bite.length_mm=400"] {
+        room.says(&format!("compile long.cut -t csv,html --force{options}"), DONE);
+        let (page, rows) = (room.text("long.html"), rows(&room.text("long.csv")));
+        let (pieces, spent) = (table(&page, "pieces"), table(&page, "spent"));
+        // Totals have a head in the place of their first cell.
+        let (spent, totals) = (&spent[..spent.len() - 1], &spent[spent.len() - 1]);
+        let (spent_s, all) = (column(spent, 1), totals[0].0.expect("a time"));
+        let times = [spent_s[0], spent_s[1], all - spent_s[0] - spent_s[1], all];
+        assert!((spent_s.iter().sum::<f64>() - all).abs() < 1e-6 && times.iter().all(|&time| time > 0.5), "{times:?}");
+        // The row of totals has one cell for the columns before the metres.
+        let last = pieces.last().expect("totals");
+        let first = pieces[0].len() - last.len();
+        for (i, time) in times.into_iter().enumerate() {
+            let sum: f64 = column(&pieces[..pieces.len() - 1], first + 1 + i).iter().sum();
+            let told = last[1 + i].0.expect("a time");
+            assert!((sum - time).abs() < 1e-6 && (told - time).abs() < 1e-6, "{options}, {i}: {sum} {told} {time}");
+        }
+        let up = rows.windows(2).filter(|pair| pair.iter().all(|row| row[4] == 0.0));
+        let way: f64 = up.map(|pair| (pair[1][1] - pair[0][1]).hypot(pair[1][2] - pair[0][2])).sum();
+        let [cut_mm, travel_mm] = [0, 1].map(|row| spent[row][3].0.expect("mm"));
+        assert!((travel_mm - way).abs() < 0.01 * way && way > 500.0, "{options}: {way} {travel_mm}");
+        assert_eq!(totals[2].0, Some(cut_mm + travel_mm));
+    }
+}
+
+#[test]
+fn messages_and_rules_name_one_deepest_place() {
+    let room = Room::with("gap.cut", GAP);
+    room.write("nest.cut", Recipe::of(2, 14, 6).nest().text.as_bytes());
+    let mut pairs = 0;
+    for name in ["gap", "nest"] {
+        room.says(&format!("compile {name}.cut -t html"), DONE);
+        let page = room.text(&format!("{name}.html"));
+        for (code, rule) in
+            [("path/overcut", "verify/overcut-part"), ("path/overcut-neighbour", "verify/overcut-neighbour")]
+        {
+            let Some((_, group)) = page.split_once(&format!("<code>{code}</code>")) else { continue };
+            let items = between(group, "<ol", "</ol>").split("<li>").skip(1);
+            let depths: Vec<f64> =
+                items.clone().map(|item| between(item, "it cuts ", " mm into ").parse().expect("mm")).collect();
+            assert!(depths.is_sorted_by(|a, b| a >= b), "{name} {code}: {depths:?}");
+            let first = items.clone().next().expect("a message");
+            let row = page.split(&format!("<td>{rule}</td>")).nth(1).expect("a row").split("</tr>").next().expect("it");
+            let other = first.split_once(" mm into piece ").map(|(_, rest)| rest.split(' ').next().expect("a number"));
+            assert_eq!(other.is_some(), code == "path/overcut-neighbour", "{first}");
+            let into = other.map_or_else(String::new, |other| format!(" into piece {other}"));
+            assert!(row.contains("deepest") && row.contains(&into), "{first} {row}");
+            let told = between(row, "<p class=\"hint\">", "<");
+            let told = told.split_once(": ").map(|(_, depth)| between(depth, "", " mm").parse().expect("mm"));
+            let worst = between(row, "data-value=\"", "\"").parse::<f64>().expect("mm");
+            assert!((told.unwrap_or(worst) - depths[0]).abs() < 0.011, "{name} {code}: {told:?} {worst} {depths:?}");
+            pairs += 1;
+        }
+    }
+    assert!(pairs > 2, "{pairs} rules with messages");
+    let page = room.text("gap.html");
+    assert!(
+        page.contains("it cuts 0.45 mm into piece 2 before its start") && page.contains("the deepest into piece 2")
+    );
+    assert!(page.contains("<td>1</td>\n<td>piece 2</td>") && page.contains("<td>1</td>\n<td>its own part</td>"));
+    let places = page.split("class=\"jump\"").skip(1).filter(|place| !between(place, "", ">").contains("data-time"));
+    assert_eq!(places.filter(|place| between(place, "", ">").contains("data-part=\"0\"")).count(), 8);
+}
+
+#[test]
+fn the_top_of_a_page_counts_its_messages() {
+    let room = Room::with("gap.cut", GAP);
+    room.write("long.cut", LONG.as_bytes());
+    room.says("compile long.cut -t html", DONE);
+    let page = room.text("long.html");
+    assert!(
+        page.contains("<p class=\"tally\">no warnings</p>") && page.contains("Nothing must be done before you cut")
+    );
+    room.says("compile gap.cut -t html", DONE);
+    let page = room.text("gap.html");
+    assert!(page.contains("<a href=\"#messages\">4 warnings</a>") && page.contains("look at the warnings of parts"));
+    room.says("compile gap.cut -t html --force --set verify.max_overcut_neighbour_mm=0.1", FAULTY);
+    let page = room.text("gap.html");
+    assert!(page.contains("<a href=\"#messages\">2 errors, 2 warnings</a>"), "{}", between(&page, "tally", "</p>"));
+}
+
+#[test]
+fn the_page_says_how_notches_are_cut() {
+    let room = Room::with("gap.cut", GAP);
+    for (options, expected) in [("", "1 v; cut as drawn"), (" --set notch.style=skip", "1 v; no notch is cut")] {
+        room.says(&format!("compile gap.cut -t html --force{options}"), DONE);
+        let page = room.text("gap.html");
+        assert_eq!(between(&page, "Notches and holes</th>\n<td>", "</td>"), expected);
+        assert_eq!(column(&table(&page, "pieces")[..2], 2), [1.0, 0.0]);
+    }
 }

@@ -34,8 +34,10 @@ pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
 }
 
 fn piece(piece: &Piece) -> Value {
-    let Piece { number, name, size, window, extent, .. } = piece;
-    json!({ "number": number, "name": name, "size": size, "window": window, "extent": corners(extent) })
+    let Piece { whole, number, name, size, window, extent, .. } = piece;
+    json!({
+        "whole": whole, "number": number, "name": name, "size": size, "window": window, "extent": corners(extent),
+    })
 }
 
 fn finding(finding: &Finding) -> Value {

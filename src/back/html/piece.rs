@@ -1,8 +1,10 @@
 //! Pieces with their names and figures for the page.
 
+use std::fmt;
+
 use super::record::{Record, Sums};
 use crate::back::target::{Context, Outcome};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, PieceName};
 use crate::geom::{Extent, Point};
 use crate::ir::marker::{self, NotchKind};
 use crate::source::Span;
@@ -14,6 +16,11 @@ const SIZES: [&str; 1] = ["size"];
 /// A piece on the page.
 #[derive(Debug)]
 pub(super) struct Piece {
+    /// Index of the piece to which it belongs: its own, except for an early section of a piece that windows of a conveyor
+    /// split.
+    pub(super) whole: usize,
+    /// Its number in the file and its copy.
+    key: [u32; 2],
     /// Number in the file, with its copy if there are several.
     pub(super) number: String,
     /// Name from its labels; empty when it has none.
@@ -22,8 +29,8 @@ pub(super) struct Piece {
     pub(super) size: String,
     /// All texts of the piece, joined.
     pub(super) texts: String,
-    /// Counts of notches by kind, and of holes.
-    pub(super) marks: String,
+    /// Counts of notches by kind, and of holes; of a split piece with its last section.
+    pub(super) marks: Marks,
     /// Length of its cuts, mm.
     pub(super) cut: f64,
     /// Its time and path lengths.
@@ -36,35 +43,51 @@ pub(super) struct Piece {
     pub(super) extent: Extent,
 }
 
-/// All pieces, in cut order.
+/// Counts of notches by kind, and of holes.
+#[derive(Debug, Default)]
+pub(super) struct Marks(Vec<(&'static str, usize)>);
+
+/// All pieces and sections, in cut order.
 pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Vec<Piece> {
     let stations = context.marker.stations();
     let mut windows = stations.clone();
     windows.dedup();
     let is_moved = stations.iter().any(|&station| station > 0);
+    let (wholes, owners) = (context.marker.wholes(), context.marker.owners());
+    let mut wholes = wholes.iter();
     let pieces = (0..).zip(&context.marker.pieces).zip(&stations);
     let piece = |((part, piece), station): ((u32, &marker::Piece), &u32)| {
         let texts = texts(context, piece);
         let is_about = |message: &&&Diagnostic| is_about(message, piece);
+        let whole = if piece.is_early_section() { None } else { wholes.next() };
         Piece {
+            whole: owners[part as usize],
+            key: [piece.number, piece.copy],
             number: piece.name(),
             name: told(&texts, &NAMES).or_else(|| plain(&texts)).unwrap_or_default(),
             size: told(&texts, &SIZES).or_else(|| texts.iter().find(|text| is_size(text)).cloned()).unwrap_or_default(),
             texts: texts.join(" · "),
-            marks: marks(piece),
+            marks: whole.map(Marks::of).unwrap_or_default(),
             cut: context.marker.cut_length_of(part),
             sums: record.pieces[part as usize],
             messages: outcome.messages.iter().filter(is_about).count(),
             window: windows.iter().position(|window| window == station).filter(|_| is_moved),
-            extent: extent(context, piece),
+            extent: whole.map_or(Extent::EMPTY, |whole| extent(context, whole)),
         }
     };
     pieces.map(piece).collect()
 }
 
+impl Piece {
+    /// True if a message that names a piece means this one.
+    pub(super) fn is_called(&self, name: &PieceName) -> bool {
+        self.key == [name.number, name.copy]
+    }
+}
+
 /// True if a message names a piece.
 fn is_about(message: &Diagnostic, piece: &marker::Piece) -> bool {
-    let is_named = |name: &crate::diagnostic::PieceName| name.number == piece.number && name.copy == piece.copy;
+    let is_named = |name: &PieceName| name.number == piece.number && name.copy == piece.copy;
     message.piece.as_deref().is_some_and(is_named) || message.pieces.contains(&piece.number)
 }
 
@@ -99,22 +122,48 @@ fn is_size(text: &str) -> bool {
     matches!(stem, "S" | "L") || (stem == "M" && stem.len() == text.len())
 }
 
-/// Counts of notches by kind and of holes, as in `2 slit, 1 v, 3 drill`.
-fn marks(piece: &marker::Piece) -> String {
-    let of_piece = piece.notches.iter().map(|notch| match notch.kind {
-        NotchKind::Slit => "slit",
-        NotchKind::T(_) => "t",
-    });
-    let drills = piece.drills.iter().map(|_| "drill");
-    let mut counts: Vec<(&str, usize)> = Vec::new();
-    for word in of_piece.chain(piece.outline_notches.iter().map(marker::OutlineNotch::word)).chain(drills) {
-        match counts.iter_mut().find(|(known, _)| *known == word) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((word, 1)),
+impl Marks {
+    fn of(piece: &marker::Piece) -> Self {
+        let of_piece = piece.notches.iter().map(|notch| match notch.kind {
+            NotchKind::Slit => "slit",
+            NotchKind::T(_) => "t",
+        });
+        let drills = piece.drills.iter().map(|_| "drill");
+        let outline = piece.outline_notches.iter().map(marker::OutlineNotch::word);
+        let mut marks = Self::default();
+        of_piece.chain(outline).chain(drills).for_each(|word| marks.add(word, 1));
+        marks
+    }
+
+    /// Counts over several pieces.
+    pub(super) fn all<'a>(pieces: impl Iterator<Item = &'a Self>) -> Self {
+        let mut all = Self::default();
+        pieces.flat_map(|marks| &marks.0).for_each(|&(word, count)| all.add(word, count));
+        all
+    }
+
+    fn add(&mut self, word: &'static str, more: usize) {
+        match self.0.iter_mut().find(|(known, _)| *known == word) {
+            Some((_, count)) => *count += more,
+            None => self.0.push((word, more)),
         }
     }
-    let said: Vec<String> = counts.iter().map(|(word, count)| format!("{count} {word}")).collect();
-    said.join(", ")
+
+    /// Number of all of them.
+    pub(super) fn total(&self) -> usize {
+        self.0.iter().map(|(_, count)| count).sum()
+    }
+}
+
+impl fmt::Display for Marks {
+    /// Text as in `6: 2 slit, 1 v, 3 drill`; one kind needs no total.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let said: Vec<String> = self.0.iter().map(|(word, count)| format!("{count} {word}")).collect();
+        if said.len() > 1 {
+            write!(f, "{}: ", self.total())?;
+        }
+        f.write_str(&said.join(", "))
+    }
 }
 
 fn extent(context: &Context, piece: &marker::Piece) -> Extent {
@@ -139,5 +188,13 @@ mod tests {
         {
             assert_eq!(is_size(text), expected, "{text}");
         }
+    }
+
+    #[test]
+    fn marks_of_several_kinds_have_a_total() {
+        let marks = Marks(vec![("slit", 2), ("v", 1)]);
+        assert_eq!((marks.total(), marks.to_string()), (3, "3: 2 slit, 1 v".to_owned()));
+        assert_eq!(Marks(vec![("drill", 4)]).to_string(), "4 drill");
+        assert_eq!((Marks::default().total(), Marks::default().to_string()), (0, String::new()));
     }
 }

@@ -39,6 +39,21 @@ impl Sums {
         }
     }
 
+    /// Adds the sums of another section.
+    pub(super) fn join(&mut self, other: &Self) {
+        self.ticks.iter_mut().zip(other.ticks).for_each(|(ticks, more)| *ticks += more);
+        self.travel += other.travel;
+        self.cut += other.cut;
+        self.plunges += other.plunges;
+        self.overlaps += other.overlaps;
+    }
+
+    /// Ticks of cutting, of travelling, and of everything else.
+    pub(super) fn shares(&self) -> [u64; 3] {
+        let [cutting, travelling, ..] = self.ticks;
+        [cutting, travelling, self.total() - cutting - travelling]
+    }
+
     /// Total number of ticks.
     pub(super) fn total(&self) -> u64 {
         self.ticks.iter().sum()

@@ -3,8 +3,8 @@
 //! Needs runs with their overlaps. Leaves no run that the plunged blade covers: L + F + H <= w on a straight run, no point of
 //! the path at the distance w from its start on a curved one. The surplus length of the blade lies first along its own line
 //! where that goes on straight, then in the waste as far as there is room, then where it reaches least deep into any part.
-//! Plunges of a nibbled curve that cut nothing new are omitted. A surplus in a part gives a warning, or an error where the
-//! profile does not allow it.
+//! Plunges of a nibbled curve that cut nothing new are omitted. A surplus in its own part gives a warning, one in other
+//! parts another; either is an error where the profile does not allow it.
 
 use super::continuation::continuations;
 use super::pass::ToolpathPass;
@@ -12,8 +12,8 @@ use super::scene::Scene;
 use super::spare;
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::BladePlacement;
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::polyline;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, PieceName, code};
+use crate::geom::{Point, polyline};
 use crate::ir::toolpath::{End, Overcut, PlungeCut, Pose, Run, Shape, Side, Step, Toolpath};
 use crate::machine::Knife;
 use crate::units::number::fixed;
@@ -45,11 +45,18 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
         Step::PlungeCut(plunge_cut) => Some(plunge_cut),
         Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     });
-    let exceeds = |depth: f64, cap: Option<f64>| cap.is_some_and(|cap| depth > cap);
-    for plunge_cut in plunge_cuts.filter(|plunge_cut| depth(plunge_cut).deepest() > 0.0) {
-        let Overcut { own, other } = depth(plunge_cut);
-        let is_refused = exceeds(own, verify.max_overcut_part_mm) || exceeds(other, verify.max_overcut_neighbour_mm);
-        diagnostics.push(said(plunge_cut, is_refused, around.knife));
+    for cut in plunge_cuts {
+        let own = entries(cut, |overcut| overcut.own, |_| ("its own part".to_owned(), None));
+        let other = entries(cut, |overcut| overcut.other, |end| neighbour(cut, end, toolpath.part, scene));
+        let sides = [
+            (own, &code::PATH_OVERCUT, verify.max_overcut_part_mm),
+            (other, &code::PATH_OVERCUT_NEIGHBOUR, verify.max_overcut_neighbour_mm),
+        ];
+        for (entries, code, most) in sides {
+            if let Some(found) = said(cut, &entries, (code, most), around.knife) {
+                diagnostics.push(found);
+            }
+        }
     }
 }
 
@@ -73,36 +80,72 @@ fn plunge_cut(run: &Run, cut: &BladePlacement, around: &Surroundings) -> PlungeC
     }
 }
 
-/// Depth of a plunge cut in parts, mm; the greater one of both ends.
-fn depth(plunge_cut: &PlungeCut) -> Overcut {
-    plunge_cut.overcut[0].max(plunge_cut.overcut[1])
+/// Place at which a plunge cut enters a part.
+struct Entry {
+    /// Index of the end of the cut beyond which it lies.
+    end: usize,
+    /// Depth, mm.
+    depth: f64,
+    /// The part in words, and its number if it is another one.
+    part: (String, Option<u32>),
 }
 
-/// Depths of a plunge cut in parts and the ends where they occur, in words.
-fn beyond(plunge_cut: &PlungeCut) -> String {
-    // Ends in the direction of the drawing.
-    let ends =
-        if plunge_cut.turned { ["past its end", "before its start"] } else { ["before its start", "past its end"] };
-    let overcuts = plunge_cut.overcut.into_iter().zip(ends).filter(|(overcut, _)| overcut.deepest() > 0.0);
-    let said = |(Overcut { own, other }, end): (Overcut, &str)| {
-        let said = [(own, "its own part"), (other, "another part")].into_iter().filter(|(depth, _)| *depth > 0.0);
-        let said: Vec<String> = said.map(|(depth, part)| format!("{} mm into {part}", fixed(depth, 2))).collect();
-        format!("{} {end}", said.join(" and "))
+/// Entries of a plunge cut into its own part or into others, the deepest first.
+fn entries(
+    cut: &PlungeCut,
+    depth: impl Fn(Overcut) -> f64,
+    part: impl Fn(usize) -> (String, Option<u32>),
+) -> Vec<Entry> {
+    let depths = cut.overcut.map(depth).into_iter().enumerate().filter(|(_, depth)| *depth > 0.0);
+    let mut entries: Vec<Entry> = depths.map(|(end, depth)| Entry { end, depth, part: part(end) }).collect();
+    entries.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+    entries
+}
+
+/// Ends of a plunge cut and of the blade, by the index of an end.
+fn beyond(cut: &PlungeCut, end: usize) -> [Point; 2] {
+    let [start, last] = [cut.points[0], cut.points[cut.points.len() - 1]];
+    if end == 0 { [start, start - cut.along * cut.heel] } else { [last, last + cut.along * cut.front] }
+}
+
+/// The other part that a plunge cut enters beyond an end, with its number.
+fn neighbour(cut: &PlungeCut, end: usize, piece: u32, scene: &Scene) -> (String, Option<u32>) {
+    let other = scene.cloth.deepest_other(piece as usize, beyond(cut, end));
+    let Some(other) = other.map(|other| &scene.marker.pieces[other as usize]) else {
+        return ("another part".to_owned(), None);
     };
-    overcuts.map(said).collect::<Vec<String>>().join(", ")
+    let name = PieceName { number: other.number, copy: other.copy, label: None };
+    (name.to_string(), Some(other.number))
 }
 
-/// Warning or error of a plunge cut into a part.
-fn said(plunge_cut: &PlungeCut, is_refused: bool, knife: &Knife) -> Diagnostic {
-    let (code, hint) = if is_refused {
+/// Warning or error of a plunge cut that enters a part; `None` without an entry. `most` is the depth that the profile allows,
+/// mm.
+fn said(
+    cut: &PlungeCut,
+    entries: &[Entry],
+    (code, most): (&'static Code, Option<f64>),
+    knife: &Knife,
+) -> Option<Diagnostic> {
+    let deepest = entries.first()?;
+    let (code, hint) = if most.is_some_and(|most| deepest.depth > most) {
         let keys = "`verify.max_overcut_part_mm` and `verify.max_overcut_neighbour_mm` allow more";
         (&code::PATH_OVERCUT_REFUSED, format!("a narrower blade cuts less deep; {keys}"))
     } else {
-        (&code::PATH_OVERCUT, "a narrower blade cuts less deep".to_owned())
+        (code, "a narrower blade cuts less deep".to_owned())
     };
-    let (length, width) = (fixed(polyline::length(&plunge_cut.points), 2), fixed(knife.width_mm, 2));
-    let beyond = beyond(plunge_cut);
-    let message = format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {beyond}");
-    let span = plunge_cut.spans[plunge_cut.spans.len() - 1];
-    Diagnostic::new(code, message).at(span).by(depth(plunge_cut).deepest()).hint(hint)
+    // Ends in the direction of the drawing.
+    let ends = if cut.turned { ["past its end", "before its start"] } else { ["before its start", "past its end"] };
+    let said = entries.iter().enumerate().map(|(i, Entry { end, depth, part })| {
+        let is_known = i > 0 && entries[i - 1].part == *part;
+        let into = if is_known { String::new() } else { format!("into {} ", part.0) };
+        format!("{} mm {into}{}", fixed(*depth, 2), ends[*end])
+    });
+    let said = said.collect::<Vec<String>>().join(", ");
+    let (length, width) = (fixed(polyline::length(&cut.points), 2), fixed(knife.width_mm, 2));
+    let message = format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {said}");
+    let [_, place] = beyond(cut, deepest.end);
+    let found = Diagnostic::new(code, message).at(cut.spans[cut.spans.len() - 1]).on_cloth(place);
+    let mut others: Vec<u32> = entries.iter().filter_map(|entry| entry.part.1).collect();
+    others.dedup();
+    Some(found.by(deepest.depth).about(others).hint(hint))
 }

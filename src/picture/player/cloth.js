@@ -38,15 +38,7 @@ class Cloth {
     let first = 0;
     return Array.from(line_kind, (kind, i) => {
       const end = first + line_points[i];
-      /** @type {Box} */
-      const box = [Infinity, Infinity, -Infinity, -Infinity];
-      for (let k = first; k < end; k++) {
-        box[0] = Math.min(box[0], line_x[k]);
-        box[1] = Math.min(box[1], line_y[k]);
-        box[2] = Math.max(box[2], line_x[k]);
-        box[3] = Math.max(box[3], line_y[k]);
-      }
-      const line = { kind, part: line_part[i], first, end, box };
+      const line = { kind, part: line_part[i], first, end, box: boxOf(line_x, line_y, first, end) };
       first = end;
       return line;
     });
@@ -172,7 +164,7 @@ class Cloth {
       if (wide < 18 || tall < 14) return;
       const x = view.px((left + right) / 2), y = view.py((low + high) / 2);
       const name = piece.name && piece.name !== piece.number && tall > 40 ? piece.name : "";
-      to.font = "600 13px system-ui, sans-serif";
+      to.font = `600 ${wide < 40 ? 10 : 13}px system-ui, sans-serif`;
       to.fillText(piece.number, x, name ? y - 8 : y);
       to.font = "11px system-ui, sans-serif";
       if (name && to.measureText(name).width < wide - 6) to.fillText(name, x, y + 8);

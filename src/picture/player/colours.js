@@ -41,7 +41,7 @@ class Colours {
     const { pieces } = this.motion.facts;
     if (this.mode === "order") return SCALE[step(part / Math.max(1, pieces.length - 1))];
     if (this.mode === "window") return PALETTE[(pieces[part]?.window ?? 0) % PALETTE.length];
-    return PALETTE[part % PALETTE.length];
+    return PALETTE[(pieces[part]?.whole ?? part) % PALETTE.length];
   }
 
   /**

@@ -19,6 +19,8 @@ class Player extends Stage {
     this.colours = colours;
     this.tick = 0;
     this.following = false;
+    /** True while a place is shown that the blade does not pass. */
+    this.isAside = false;
     /** Jumps of the report, for the keys that go through them. */
     this.jump = -1;
     this.cloth = new Cloth(motion, colours, this.view);
@@ -32,6 +34,7 @@ class Player extends Stage {
   /** @param {number} elapsed */
   draw(elapsed) {
     this.tick = Math.min(this.motion.end, this.tick + elapsed / this.motion.period);
+    if (elapsed > 0) this.isAside = false;
     if (this.playing && this.tick >= this.motion.end) this.play(false);
     if (this.following) this.follow();
     this.cloth.draw(this.tick);
@@ -49,6 +52,7 @@ class Player extends Stage {
   /** Goes to a tick. @param {number} tick */
   seek(tick) {
     this.tick = Math.min(this.motion.end, Math.max(0, tick));
+    this.isAside = false;
     this.wake();
   }
 
@@ -71,33 +75,38 @@ class Player extends Stage {
     this.cloth.marked = part;
     this.cloth.renew();
     markRow(part);
-    const first = this.motion.pieces.find(phase => this.motion.columns.phase_part[phase] === part);
+    const { phase_part } = this.motion.columns, { pieces } = this.motion.facts;
+    const first = this.motion.pieces.find(phase => pieces[phase_part[phase]]?.whole === part);
     if (first !== undefined && show) this.seek(this.motion.start(first));
-    const box = this.motion.facts.pieces[part]?.extent;
+    const box = pieces[part]?.extent;
     if (box && show && !this.view.sees(box)) this.view.fit(box);
     this.wake();
   }
 
   /**
-   * Goes to a place of the cloth, and to its time if that is known.
-   * @param {number} x @param {number} y @param {number | null} time
+   * Goes to a place of the cloth, X and Y in mm, and to the moment at which the blade is there: at a time, s, or with a
+   * piece, by its place in the marker, if either is known.
+   * @param {DOMStringMap} place
    */
-  goToPlace(x, y, time) {
+  goToPlace({ time, part = "-1", ...at }) {
     this.play(false);
+    const x = Number(at.x), y = Number(at.y);
     this.cloth.spot = [x, y];
     const near = 40;
     this.view.fit([x - near, y - near, x + near, y + near]);
-    if (time !== null) this.seek(time / this.motion.period);
+    const { motion } = this;
+    const tick = time === undefined ? motion.passing(this.cloth.trail, [x, y], Number(part))
+      : Number(time) / motion.period;
+    if (tick !== null) this.seek(tick);
+    this.isAside = tick === null;
     element("player", HTMLElement).scrollIntoView({ block: "start" });
   }
 
   /** Goes through the places of the report. @param {number} by */
   nextPlace(by) {
-    const buttons = [...document.querySelectorAll("button.jump")];
-    if (buttons.length === 0) return;
+    const buttons = jumps();
     this.jump = (this.jump + by + buttons.length) % buttons.length;
-    const button = buttons[this.jump];
-    if (button instanceof HTMLButtonElement) button.click();
+    buttons[this.jump]?.click();
   }
 
   /** Says what happens at the cursor. */
@@ -113,7 +122,8 @@ class Player extends Stage {
     this.say("does", words + (block ? `, block ${block}` : ""));
     this.say("axes", `X ${x.toFixed(2)}  Y ${y.toFixed(2)}  C ${c.toFixed(2)}°`);
     this.say("speed", `${speed.toFixed(0)} mm/s, C ${rates.c.toFixed(0)}°/s`);
-    this.say("part", `piece ${named}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
+    this.say("part", this.isAside ? "the blade does not pass the place that is shown"
+      : `piece ${named}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
     this.scrub.value = String(Math.round(tick));
     this.scrub.setAttribute("aria-valuetext", `${(tick * motion.period).toFixed(1)} seconds`);
   }

@@ -1,7 +1,15 @@
 // Facts and columns of the page, as they were written.
 
 /** @typedef {[number, number, number, number]} Box Left, lower, right and upper edge, mm. */
-/** @typedef {{number: string, name: string, size: string, window: number | null, extent: Box | null}} Piece */
+/**
+ * @typedef {object} Piece A piece, or an early section of one that windows of a conveyor split.
+ * @property {number} whole Its place in the marker, of a section that of its piece.
+ * @property {string} number
+ * @property {string} name
+ * @property {string} size
+ * @property {number | null} window
+ * @property {Box | null} extent
+ */
 /** @typedef {{name: string, holds: boolean, time_s: number | null, at: [number, number] | null}} Finding */
 /** @typedef {[string, number, number, number]} Deviation Kind, size, X and Y, mm. */
 /**
@@ -72,6 +80,22 @@ function lastUpTo(column, value) {
     if (column[middle] <= value) low = middle; else high = middle;
   }
   return low;
+}
+
+/**
+ * Box of some points.
+ * @param {Float64Array} x @param {Float64Array} y @param {number} [first] @param {number} [end] One past the last.
+ */
+function boxOf(x, y, first = 0, end = x.length) {
+  /** @type {Box} */
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let i = first; i < end; i++) {
+    box[0] = Math.min(box[0], x[i]);
+    box[1] = Math.min(box[1], y[i]);
+    box[2] = Math.max(box[2], x[i]);
+    box[3] = Math.max(box[3], y[i]);
+  }
+  return box;
 }
 
 /** Starts a page, and says in it what kept it from starting. @param {() => Promise<void>} start */

@@ -25,11 +25,7 @@ class Heads {
     /** Box of the cloth where it lies before the conveyor moves. @type {Box} */
     this.cloth = [0, 0, 0, 0];
     const { cut_x, cut_y } = columns;
-    if (cut_x.length > 0) {
-      const least = (/** @type {Float64Array} */ all) => all.reduce((a, b) => Math.min(a, b), Infinity);
-      const most = (/** @type {Float64Array} */ all) => all.reduce((a, b) => Math.max(a, b), -Infinity);
-      this.cloth = [least(cut_x), least(cut_y), most(cut_x), most(cut_y)];
-    }
+    if (cut_x.length > 0) this.cloth = boxOf(cut_x, cut_y);
     this.used = facts.heads.reduce((most, head) => Math.max(most, head.row), 0);
     this.top = element("top", HTMLCanvasElement);
     /** Trails on the cloth as far as they are drawn, mm. @type {Path2D[]} */

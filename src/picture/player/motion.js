@@ -4,6 +4,8 @@
 const KIND = { rest: 0, wait: 1, travel: 2, turn: 3, plunge: 4, cut: 5, lift: 6, stop: 7, advance: 8, drill: 10 };
 /** How far the drawn trail may be from the way of the tip, mm. */
 const TRAIL_OFF = 0.03;
+/** Greatest distance of the tip from a place that it passes, mm. */
+const NEAR = 1;
 
 /** @typedef {{x: number, y: number, c: number}} Place X and Y of the C axis on the table, mm, and C, degrees. */
 /** @typedef {{first: number, end: number, phase: number, part: number, box: Box}} Stroke Points of one cut. */
@@ -81,6 +83,31 @@ class Motion {
     return Math.hypot(x - swing * Math.sin(angle), y + swing * Math.cos(angle));
   }
 
+  /**
+   * Tick at which the tip passes a place, at its nearest; `null` if it stays away from it.
+   * @param {Trail} trail @param {[number, number]} place
+   * @param {number} part The piece with which it comes there, by its place in the marker; -1 for any.
+   */
+  passing({ x, y, tick, strokes }, place, part) {
+    let nearest = NEAR, at = 0;
+    for (const stroke of strokes) {
+      if (part >= 0 && this.facts.pieces[stroke.part]?.whole !== part) continue;
+      for (let i = stroke.first + 1; i < stroke.end; i++) {
+        const off = offChord(place, [x[i - 1], y[i - 1]], [x[i], y[i]]);
+        if (off < nearest) [nearest, at] = [off, i];
+      }
+    }
+    if (at === 0) return null;
+    // The tip goes on along the chord, at any speed.
+    let from = tick[at - 1], to = tick[at];
+    while (to - from > 0.01) {
+      const middle = (from + to) / 2, tip = this.blade(middle, this.facts.knife.tip_mm);
+      const isBefore = (place[0] - tip[0]) * (x[at] - x[at - 1]) + (place[1] - tip[1]) * (y[at] - y[at - 1]) > 0;
+      if (isBefore) from = middle; else to = middle;
+    }
+    return to;
+  }
+
   /** First tick of a phase. @param {number} phase */
   start(phase) { return this.columns.phase_tick[phase]; }
 
@@ -120,12 +147,12 @@ class Motion {
       let last = phase;
       while (phase_kind[last + 1] === KIND.cut) last++;
       if (last > phase) this.follow(phase_tick[phase + 1], phase_tick[last + 1] ?? this.end, points);
-      const end = points.length / 3;
-      strokes.push({ first, end, phase, part: phase_part[phase], box: boxOf(points, first, end) });
+      strokes.push({ first, end: points.length / 3, phase, part: phase_part[phase], box: [0, 0, 0, 0] });
     }
     const length = points.length / 3;
-    const pick = (/** @type {number} */ of) => Float64Array.from({ length }, (_, i) => points[3 * i + of]);
-    return { x: pick(0), y: pick(1), tick: pick(2), strokes };
+    const [x, y, tick] = [0, 1, 2].map(of => Float64Array.from({ length }, (_, i) => points[3 * i + of]));
+    for (const stroke of strokes) stroke.box = boxOf(x, y, stroke.first, stroke.end);
+    return { x, y, tick, strokes };
   }
 
   /**
@@ -178,20 +205,4 @@ function offChord([x, y], [px, py], [qx, qy]) {
   const dx = qx - px, dy = qy - py, square = dx * dx + dy * dy;
   const share = square > 0 ? Math.min(1, Math.max(0, ((x - px) * dx + (y - py) * dy) / square)) : 0;
   return Math.hypot(x - px - share * dx, y - py - share * dy);
-}
-
-/**
- * Box of points that stand as X, Y and a third number behind each other.
- * @param {number[]} points @param {number} first @param {number} end @returns {Box}
- */
-function boxOf(points, first, end) {
-  /** @type {Box} */
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  for (let i = 3 * first; i < 3 * end; i += 3) {
-    box[0] = Math.min(box[0], points[i]);
-    box[1] = Math.min(box[1], points[i + 1]);
-    box[2] = Math.max(box[2], points[i]);
-    box[3] = Math.max(box[3], points[i + 1]);
-  }
-  return box;
 }

@@ -24,8 +24,7 @@ function byColumn(a, b, column) {
 
 /** Has every head of a sortable table sort by its column, up and down in turn. */
 function makeSortable() {
-  for (const table of document.querySelectorAll("table.sortable")) {
-    if (!(table instanceof HTMLTableElement)) continue;
+  for (const table of /** @type {NodeListOf<HTMLTableElement>} */ (document.querySelectorAll("table.sortable"))) {
     const body = table.tBodies[0];
     const heads = [...table.querySelectorAll("thead th")];
     heads.forEach((head, column) => {
@@ -34,7 +33,9 @@ function makeSortable() {
       button.textContent = head.textContent;
       head.replaceChildren(button);
       button.addEventListener("click", () => {
-        const down = head.getAttribute("aria-sort") === "ascending";
+        // Numbers begin with the greatest, texts with A.
+        const before = head.getAttribute("aria-sort"), isNumber = head.classList.contains("number");
+        const down = before ? before === "ascending" : isNumber;
         heads.forEach(other => other.removeAttribute("aria-sort"));
         head.setAttribute("aria-sort", down ? "descending" : "ascending");
         const rows = [...body.rows].sort((a, b) => byColumn(a, b, column) * (down ? -1 : 1));
@@ -61,34 +62,24 @@ function searchField(body) {
   return field;
 }
 
+/** Rows of the table of pieces. @returns {NodeListOf<HTMLTableRowElement>} */
+function pieceRows() { return document.querySelectorAll("#pieces tr[data-part]"); }
+
+/** Places of the report, in its order. @returns {NodeListOf<HTMLButtonElement>} */
+function jumps() { return document.querySelectorAll("button.jump"); }
+
 /** Has a row of the table of pieces lead to its piece. @param {(part: number) => void} go */
 function linkPieces(go) {
-  for (const row of document.querySelectorAll("#pieces tbody tr")) {
-    if (!(row instanceof HTMLTableRowElement)) continue;
-    const part = Number(row.dataset.part);
+  for (const row of pieceRows()) {
     row.tabIndex = 0;
-    row.addEventListener("click", () => go(part));
+    row.addEventListener("click", () => go(Number(row.dataset.part)));
     row.addEventListener("keydown", event => {
-      if (event.key === "Enter") go(part);
+      if (event.key === "Enter") row.click();
     });
   }
 }
 
 /** Marks the row of a piece. @param {number} part */
 function markRow(part) {
-  for (const row of document.querySelectorAll("#pieces tbody tr")) {
-    if (row instanceof HTMLTableRowElement) row.classList.toggle("marked", Number(row.dataset.part) === part);
-  }
-}
-
-/**
- * Has every place of the report lead to the player.
- * @param {(x: number, y: number, time: number | null) => void} go
- */
-function linkPlaces(go) {
-  for (const button of document.querySelectorAll("button.jump")) {
-    if (!(button instanceof HTMLButtonElement)) continue;
-    const { x, y, time } = button.dataset;
-    button.addEventListener("click", () => go(Number(x), Number(y), time === undefined ? null : Number(time)));
-  }
+  for (const row of pieceRows()) row.classList.toggle("marked", Number(row.dataset.part) === part);
 }

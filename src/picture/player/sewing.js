@@ -37,16 +37,8 @@ class Pattern {
 
   /** @returns {Box} */
   get box() {
-    const { x, y } = this.columns;
-    /** @type {Box} */
-    const box = [0, 0, 0, 0];
-    x.forEach((value, i) => {
-      box[0] = Math.min(box[0], value);
-      box[1] = Math.min(box[1], y[i]);
-      box[2] = Math.max(box[2], value);
-      box[3] = Math.max(box[3], y[i]);
-    });
-    return box;
+    const [left, low, right, high] = boxOf(this.columns.x, this.columns.y);
+    return [Math.min(0, left), Math.min(0, low), Math.max(0, right), Math.max(0, high)];
   }
 
   /**

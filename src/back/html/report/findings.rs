@@ -1,8 +1,10 @@
 //! Points that need attention: messages, findings of the verifier, declared deviations.
 
 use super::table;
-use crate::back::html::about::{About, is_finite};
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::back::html::about::{About, Worth, is_finite};
+use crate::back::html::piece::Piece;
+use crate::diagnostic::pieces::listed;
+use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::picture::Markup;
@@ -12,15 +14,34 @@ use crate::units::number::{counted, fixed, short};
 const MOST_MESSAGES: usize = 40;
 /// Values below this, in any unit, are rounding of the computation.
 const NOISE_EPSILON: f64 = 1e-8;
+/// Rules of overcuts into parts, each with the warning of a compile that tells its places.
+const OVERCUTS: [(&str, &Code); 2] =
+    [("verify/overcut-part", &code::PATH_OVERCUT), ("verify/overcut-neighbour", &code::PATH_OVERCUT_NEIGHBOUR)];
+/// Distance within which a message and a finding are about one place, mm: the deepest place of a cut and the end of its blade.
+const SAME_PLACE: f64 = 0.5;
 /// Percent of a whole limit.
 const PERCENT: f64 = 100.0;
 
-/// A button that moves the player to a place, and to a time if there is one.
-fn jump(out: &mut Markup, at: Point, time: Option<f64>) {
+/// Moment at which the blade is at a place: its time, s, or the piece with which it comes there, by index.
+#[derive(Debug, Clone, Copy)]
+enum Moment {
+    At(f64),
+    During(usize),
+    /// With any piece.
+    Any,
+}
+
+/// Button that moves the player to a place, and to the moment at which the blade is there.
+fn jump(out: &mut Markup, at: Point, moment: Moment) {
     let (x, y) = (fixed(at.x, 3), fixed(at.y, 3));
-    let time = time.map(|time| fixed(time, 6));
+    let (time, part) = match moment {
+        Moment::At(time) => (Some(fixed(time, 6)), None),
+        Moment::During(part) => (None, Some(part.to_string())),
+        Moment::Any => (None, None),
+    };
     let mut attributes = vec![("type", "button"), ("class", "jump"), ("data-x", x.as_str()), ("data-y", y.as_str())];
     attributes.extend(time.as_deref().map(|time| ("data-time", time)));
+    attributes.extend(part.as_deref().map(|part| ("data-part", part)));
     let words = match &time {
         Some(time) => format!("X {} Y {}, {} s", fixed(at.x, 1), fixed(at.y, 1), &time[..time.len() - 3]),
         None => format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1)),
@@ -34,7 +55,7 @@ struct Group<'a> {
     messages: Vec<&'a Diagnostic>,
 }
 
-/// Groups messages by code, errors first; within a code the worst first, where measured.
+/// Groups messages by code, errors first, then warnings of harm to parts; within a code the worst first, where measured.
 fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
     let mut groups: Vec<Group> = Vec::new();
     for &message in messages {
@@ -43,29 +64,44 @@ fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
             None => groups.push(Group { code: message.code, messages: vec![message] }),
         }
     }
-    groups.sort_by_key(|group| group.code.severity);
+    groups.sort_by_key(|group| (group.code.severity, group.code.harm));
     for group in &mut groups {
         group.messages.sort_by(|a, b| b.by.unwrap_or(0.0).total_cmp(&a.by.unwrap_or(0.0)));
     }
     groups
 }
 
+/// True if a warning is about harm to parts.
+fn spoils(code: &Code) -> bool {
+    code.severity == Severity::Warning && code.harm == Harm::Spoils
+}
+
+/// Advice on the program before it is run; `is_harm` tells of warnings that parts may be spoilt.
+fn to_do(worth: Worth, is_harm: bool) -> &'static str {
+    match (worth, is_harm) {
+        (Worth::Refused, _) => "No program was written. Mend the errors and compile again.",
+        (Worth::NotJudged, _) => "The program is not verified. Verify it before you cut.",
+        (Worth::Verified, true) => "Before you cut, look at the warnings of parts that may be spoilt.",
+        (Worth::Verified, false) => "Nothing must be done before you cut: there is no warning of harm to parts.",
+    }
+}
+
 /// The section of errors and warnings, grouped by code.
 pub(super) fn messages(about: &About, out: &mut Markup) {
     let groups = groups(about.outcome.messages);
-    if groups.is_empty() {
-        return;
-    }
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
+    let is_harm = groups.iter().any(|group| spoils(group.code));
+    out.element("p", &[], to_do(about.worth(), is_harm));
     for Group { code, messages } in groups {
         let severity = match code.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
         let count = counted(messages.len(), severity);
-        let few = if messages.len() > MOST_MESSAGES { format!(", the worst {MOST_MESSAGES}") } else { String::new() };
-        out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(" ");
-        out.element("code", &[], code.name).text(&few).close("p");
+        let harm = if spoils(code) { "may spoil parts: " } else { "" };
+        let few = if messages.len() > MOST_MESSAGES { format!(" (the worst {MOST_MESSAGES})") } else { String::new() };
+        out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(harm);
+        out.element("code", &[], code.name).text(&few).close("p").element("p", &[("class", "about")], code.about);
         // A hint common to all of them is shown once.
         let shared =
             messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
@@ -75,7 +111,7 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         }
         out.open("ol", &[("class", "messages")]);
         for message in messages.into_iter().take(MOST_MESSAGES) {
-            entry(message, &shared, out);
+            entry(about, message, &shared, out);
         }
         out.close("ol");
     }
@@ -83,19 +119,30 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
 }
 
 /// One message, with the hints that are not common to its group.
-fn entry(message: &Diagnostic, shared: &[&String], out: &mut Markup) {
+fn entry(about: &About, message: &Diagnostic, shared: &[&String], out: &mut Markup) {
     out.open("li", &[]).element("span", &[], &message.message);
     if let Some(piece) = &message.piece {
         out.text(" ").element("span", &[("class", "quiet")], &piece.to_string());
     }
-    if let Some(&[x, y]) = message.at.as_deref().filter(|at| at.iter().all(|value| value.is_finite())) {
+    if let Some(at) = place(message) {
         out.text(" ");
-        jump(out, Point::new(x, y), None);
+        jump(out, at, moment(about, message));
     }
     for hint in message.hints.iter().filter(|hint| !shared.contains(hint)) {
         out.element("p", &[("class", "hint")], hint);
     }
     out.close("li");
+}
+
+/// Place of a message on the cloth.
+fn place(message: &Diagnostic) -> Option<Point> {
+    message.at.as_deref().map(|&at| Point::from(at)).filter(|&at| is_finite(at))
+}
+
+/// Moment of a message: while its piece is cut, if it names one.
+fn moment(about: &About, message: &Diagnostic) -> Moment {
+    let is_of = |piece: &&Piece| message.piece.as_deref().is_some_and(|name| piece.is_called(name));
+    about.pieces.iter().find(is_of).map_or(Moment::Any, |piece| Moment::During(piece.whole))
 }
 
 /// The section of the verifier's findings.
@@ -107,13 +154,13 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "findings")]).element("h2", &[], "Rules of the verifier");
     table::open(out, "sortable", &["Rule", "Verdict", "#Worst", "#Limit", "#Of limit", "Where", "Promise"]);
     for finding in findings {
-        row(finding, out);
+        row(about, finding, out);
     }
     table::close(out);
     out.close("section");
 }
 
-fn row(finding: &Finding, out: &mut Markup) {
+fn row(about: &About, finding: &Finding, out: &mut Markup) {
     let Finding { rule, worst, limit, unit, place } = finding;
     let verdict = match (limit, finding.holds()) {
         (None, _) => "reported",
@@ -139,8 +186,9 @@ fn row(finding: &Finding, out: &mut Markup) {
     }
     out.open("td", &[]);
     if let Some(place) = place.filter(|place| is_finite(place.point)) {
-        jump(out, place.point, place.time);
+        jump(out, place.point, place.time.map_or(Moment::Any, Moment::At));
     }
+    deepest(about, finding, out);
     out.close("td").open("td", &[]).text(rule.about);
     if !finding.holds() {
         for line in rule.more.lines().filter(|line| !line.trim().is_empty()) {
@@ -148,6 +196,32 @@ fn row(finding: &Finding, out: &mut Markup) {
         }
     }
     out.close("td").close("tr");
+}
+
+/// Line on the deepest entry into a part with a warning, for the rule that judges it. The worst value of the rule is the one
+/// nearest to its own limit, often at another place.
+fn deepest(about: &About, finding: &Finding, out: &mut Markup) {
+    let Some((_, code)) = OVERCUTS.iter().find(|(name, _)| *name == finding.rule.name) else { return };
+    let messages = about.outcome.messages.iter().filter(|message| message.code == *code);
+    let Some((message, by)) = deepest_of(messages) else { return };
+    let into = if message.pieces.is_empty() { String::new() } else { format!(" into {}", listed(&message.pieces)) };
+    let at = place(message);
+    let is_here = at.zip(finding.place).is_some_and(|(at, here)| (at - here.point).norm() <= SAME_PLACE);
+    if is_here {
+        out.element("p", &[("class", "hint")], &format!("the deepest{into}"));
+        return;
+    }
+    out.open("p", &[("class", "hint")]).text(&format!("deepest: {} mm{into} ", fixed(by, 2)));
+    if let Some(at) = at {
+        jump(out, at, moment(about, message));
+    }
+    out.close("p");
+}
+
+/// Message with the greatest magnitude, the first of equals: it is the first in its list as well.
+fn deepest_of<'a>(messages: impl Iterator<Item = &'a &'a Diagnostic>) -> Option<(&'a Diagnostic, f64)> {
+    let measured = messages.filter_map(|message| Some((*message, message.by?)));
+    measured.reduce(|deepest, other| if other.1 > deepest.1 { other } else { deepest })
 }
 
 /// The section of declared deviations with their places.
@@ -162,14 +236,19 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         let words = format!("The {} greatest of {count}; the program's .meta.json has all.", entries.len());
         out.element("p", &[], &words);
     }
-    table::open(out, "sortable", &["Deviation", "Piece", "#Size, mm", "Where"]);
+    table::open(out, "sortable", &["Deviation", "Piece", "Into", "#Size, mm", "Where"]);
     for (entry, at) in entries {
-        let part = about.context.marker.cuts[entry.cut as usize].piece as usize;
+        let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
         let [one, _] = entry.kind.words();
-        out.open("tr", &[]).element("td", &[], one).element("td", &[], &about.pieces[part].number);
+        out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.number);
+        let into = entry.part.and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
+            own if own == piece.whole => "its own part".to_owned(),
+            _ => format!("piece {}", part.number),
+        });
+        out.element("td", &[], &into.unwrap_or_default());
         table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
         out.open("td", &[]);
-        jump(out, at, None);
+        jump(out, at, Moment::During(piece.whole));
         out.close("td").close("tr");
     }
     table::close(out);
@@ -183,10 +262,11 @@ mod tests {
     #[test]
     fn a_place_without_a_time_is_jumped_to_by_its_place() {
         let mut out = Markup::default();
-        jump(&mut out, Point::new(1.0, -2.0), None);
+        jump(&mut out, Point::new(1.0, -2.0), Moment::During(3));
         assert_eq!(
             out.into_text(),
-            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\">X 1.0 Y -2.0</button>\n"
+            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\" data-part=\"3\">\
+             X 1.0 Y -2.0</button>\n"
         );
     }
 }

@@ -7,9 +7,10 @@ mod totals;
 
 use super::about::About;
 use crate::back::target::Context;
+use crate::diagnostic::Severity;
 use crate::machine::{Mode, sha256_hex};
 use crate::picture::{Markup, Script};
-use crate::units::number::fixed;
+use crate::units::number::{counted, fixed};
 
 /// Markup of the page.
 pub(super) fn body(about: &About) -> String {
@@ -17,6 +18,7 @@ pub(super) fn body(about: &About) -> String {
     out.open("header", &[]).element("h1", &[], &about.file());
     let worth = about.worth();
     out.element("p", &[("class", "worth"), ("data-worth", worth.word())], worth.words());
+    tally(about, &mut out);
     out.element("p", &[("class", "summary")], &totals::summary(about)).close("header");
     if about.record.ticks() > 0 {
         out.markup(Script::Cutting.markup());
@@ -31,6 +33,21 @@ pub(super) fn body(about: &About) -> String {
     pieces::windows(about, &mut out);
     out.close("main");
     out.into_text()
+}
+
+/// Numbers of errors and warnings, with a link to their list.
+fn tally(about: &About, out: &mut Markup) {
+    let count = |severity| about.outcome.messages.iter().filter(|message| message.code.severity == severity).count();
+    let counts = [(count(Severity::Error), "error"), (count(Severity::Warning), "warning")];
+    let said: Vec<String> =
+        counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| counted(count, word)).collect();
+    out.open("p", &[("class", "tally")]);
+    if said.is_empty() {
+        out.text("no warnings");
+    } else {
+        out.element("a", &[("href", "#messages")], &said.join(", "));
+    }
+    out.close("p");
 }
 
 /// Source, profile and machine of the program.

@@ -2,38 +2,117 @@
 
 use super::table;
 use crate::back::html::about::{About, clock};
+use crate::back::html::piece::Piece;
+use crate::back::html::record::Sums;
 use crate::picture::Markup;
 use crate::units::MM_PER_M;
 use crate::units::number::{counted, fixed};
 
+/// Row of a piece, with its sections in cut order.
+struct Row<'a> {
+    piece: &'a Piece,
+    sections: Vec<&'a Piece>,
+    /// Length of its cuts, mm.
+    cut: f64,
+    sums: Sums,
+}
+
+/// The pieces in the order in which they are begun; the sections of one that is split are one row.
+fn rows<'a>(about: &About<'a>) -> Vec<Row<'a>> {
+    let mut rows: Vec<Row> = Vec::new();
+    let mut known = vec![None; about.pieces.len()];
+    for section in about.pieces {
+        let place = *known[section.whole].get_or_insert_with(|| {
+            let piece = &about.pieces[section.whole];
+            rows.push(Row { piece, sections: Vec::new(), cut: 0.0, sums: Sums::default() });
+            rows.len() - 1
+        });
+        rows[place].sections.push(section);
+        rows[place].cut += section.cut;
+        rows[place].sums.join(&section.sums);
+    }
+    rows
+}
+
 /// The table of pieces, in cut order.
 pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "pieces")]).element("h2", &[], "Pieces");
-    let has_time = about.record.ticks() > 0;
-    let mut columns = vec!["#Order", "Piece", "Name", "Size", "Notches and holes", "#Cut, m"];
+    let (has_time, has_windows) = (about.record.ticks() > 0, about.pieces.iter().any(|piece| piece.window.is_some()));
+    // Columns without any text are left out.
+    let has_name = about.pieces.iter().any(|piece| !piece.name.is_empty());
+    let has_size = about.pieces.iter().any(|piece| !piece.size.is_empty());
+    let mut columns = vec!["#Order", "Piece"];
+    let some = [(has_name, "Name"), (has_size, "Size"), (has_windows, "#Window")];
+    columns.extend(some.into_iter().filter(|(has, _)| *has).map(|(_, name)| name));
+    columns.push("#Notches and holes");
+    let span = columns.len().to_string();
+    columns.push("#Cut, m");
     if has_time {
-        columns.extend(["#Time", "#Plunges"]);
+        columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges"]);
+        let words =
+            "Other: turning, plunging, lifting, drilling and waiting. The totals are those of the table of time.";
+        out.element("p", &[("class", "hint")], words);
     }
     columns.push("#Messages");
     table::open(out, "sortable", &columns);
-    for (place, piece) in about.pieces.iter().enumerate() {
-        let part = place.to_string();
-        out.open("tr", &[("data-part", &part)]);
+    let rows = rows(about);
+    for (place, Row { piece, sections, cut, sums }) in rows.iter().enumerate() {
+        out.open("tr", &[("data-part", &piece.whole.to_string())]);
         table::number(out, &(place + 1).to_string(), place as f64);
         out.element("td", &[], &piece.number);
-        out.element("td", &[("title", &piece.texts)], &piece.name);
-        out.element("td", &[], &piece.size).element("td", &[], &piece.marks);
-        table::number(out, &fixed(piece.cut / MM_PER_M, 3), piece.cut);
-        if has_time {
-            let time = about.time(piece.sums.total());
-            table::number(out, &clock(time), time);
-            table::number(out, &piece.sums.plunges.to_string(), piece.sums.plunges as f64);
+        if has_name {
+            out.element("td", &[("title", &piece.texts)], &piece.name);
         }
+        if has_size {
+            out.element("td", &[], &piece.size);
+        }
+        if has_windows {
+            let windows = sections.iter().filter_map(|section| section.window);
+            let names: Vec<String> = windows.clone().map(|window| (window + 1).to_string()).collect();
+            table::number(out, &names.join(", "), windows.min().unwrap_or(0) as f64);
+        }
+        table::number(out, &piece.marks.to_string(), piece.marks.total() as f64);
+        work(about, *cut, sums, out);
         table::number(out, &piece.messages.to_string(), piece.messages as f64);
         out.close("tr");
     }
+    if has_time {
+        table::totals(out);
+        totals(about, &rows, &span, out);
+    }
     table::close(out);
     out.close("section");
+}
+
+/// Cells of the work on a piece: metres, and what its time is spent on.
+fn work(about: &About, cut: f64, sums: &Sums, out: &mut Markup) {
+    table::number(out, &fixed(cut / MM_PER_M, 3), cut);
+    if about.record.ticks() > 0 {
+        let [cutting, travelling, other] = sums.shares();
+        for ticks in [cutting, travelling, other, sums.total()] {
+            let time = about.time(ticks);
+            table::number(out, &clock(time), time);
+        }
+        table::number(out, &sums.plunges.to_string(), sums.plunges as f64);
+    }
+}
+
+/// Totals under the pieces: work outside of them, if there is any, and all.
+fn totals(about: &About, rows: &[Row], columns: &str, out: &mut Markup) {
+    let mut inside = Sums::default();
+    for row in rows {
+        inside.join(&row.sums);
+    }
+    let cut = rows.iter().map(|row| row.cut).sum();
+    let all = &about.record.all;
+    let mut outside = Sums { plunges: all.plunges - inside.plunges, ..Sums::default() };
+    outside.ticks.iter_mut().zip(all.ticks.iter().zip(inside.ticks)).for_each(|(out, (all, of))| *out = all - of);
+    let lines = [("Outside of pieces", 0.0, &outside), ("All", cut, all)];
+    for (name, cut, sums) in lines.into_iter().filter(|(_, _, sums)| sums.total() > 0) {
+        out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", columns)], name);
+        work(about, cut, sums, out);
+        out.element("td", &[], "").close("tr");
+    }
 }
 
 /// The table of windows; empty where the cloth does not advance.
@@ -41,13 +120,22 @@ pub(super) fn windows(about: &About, out: &mut Markup) {
     let Some(last) = about.pieces.iter().filter_map(|piece| piece.window).max() else { return };
     out.open("section", &[("id", "windows")]).element("h2", &[], "Windows of the conveyor");
     table::open(out, "sortable", &["#Window", "Pieces", "#Cut, m", "#Time"]);
+    let mut sections = vec![0; about.pieces.len()];
+    for piece in about.pieces {
+        sections[piece.whole] += 1;
+    }
+    let is_split = |piece: &Piece| sections[piece.whole] > 1;
     for window in 0..=last {
         let pieces = || about.pieces.iter().filter(move |piece| piece.window == Some(window));
         let cut: f64 = pieces().map(|piece| piece.cut).sum();
         let time = about.time(pieces().map(|piece| piece.sums.total()).sum());
         out.open("tr", &[]);
         table::number(out, &(window + 1).to_string(), window as f64);
-        out.element("td", &[], &counted(pieces().count(), "piece"));
+        let (whole, split): (Vec<_>, Vec<_>) = pieces().partition(|piece| !is_split(piece));
+        let sections: Vec<&str> = split.iter().map(|piece| piece.number.as_str()).collect();
+        let sections = (!sections.is_empty()).then(|| format!("a section of {}", sections.join(", ")));
+        let wholes = (!whole.is_empty() || sections.is_none()).then(|| counted(whole.len(), "piece"));
+        out.element("td", &[], &wholes.into_iter().chain(sections).collect::<Vec<_>>().join(", "));
         table::number(out, &fixed(cut / MM_PER_M, 3), cut);
         table::number(out, &clock(time), time);
         out.close("tr");

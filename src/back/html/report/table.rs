@@ -23,6 +23,11 @@ pub(super) fn open(out: &mut Markup, class: &str, columns: &[&str]) {
     out.close("tr").close("thead").open("tbody", &[]);
 }
 
+/// Goes on from the rows to the totals below them, which stay there however the rows are sorted.
+pub(super) fn totals(out: &mut Markup) {
+    out.close("tbody").open("tbody", &[("class", "totals")]);
+}
+
 /// Closes the table.
 pub(super) fn close(out: &mut Markup) {
     out.close("tbody").close("table").close("div");

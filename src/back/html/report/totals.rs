@@ -3,9 +3,10 @@
 use super::table;
 use crate::analysis::area;
 use crate::back::html::about::{About, clock};
+use crate::back::html::piece::Marks;
 use crate::back::html::record::Sums;
 use crate::ir::declaration::Total;
-use crate::machine::Price;
+use crate::machine::{NotchStyle, Price};
 use crate::picture::Markup;
 use crate::units::number::{counted, fixed};
 use crate::units::{MM_PER_M, MM2_PER_M2};
@@ -37,6 +38,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         ("Cloth", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
         ("Lines to cut", format!("{} m", fixed(marker.cut_length() / MM_PER_M, 3))),
     ];
+    rows.extend(notches(about).map(|notches| ("Notches and holes", notches)));
     if let Some(area) = area(marker, &about.context.job.profile) {
         let of = width * height;
         let share =
@@ -45,8 +47,6 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     }
     if sums.total() > 0 {
         rows.push(("Time", clock(about.time(sums.total()))));
-        rows.push(("Way of the knife in the cloth", format!("{} m", fixed(sums.cut / MM_PER_M, 3))));
-        rows.push(("Way with the knife up", format!("{} m", fixed(sums.travel / MM_PER_M, 3))));
         rows.push(("Plunges", sums.plunges.to_string()));
         rows.push(("Overlaps past ends of cuts", format!("{} m", fixed(sums.overlaps / MM_PER_M, 3))));
     }
@@ -60,6 +60,17 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     if sums.total() > 0 {
         spent(about, sums, out);
     }
+}
+
+/// Notches and holes of all pieces by kind, and how notches are cut; `None` without any.
+fn notches(about: &About) -> Option<String> {
+    let marks = Marks::all(about.pieces.iter().map(|piece| &piece.marks));
+    let style = match about.context.job.profile.notch.style {
+        NotchStyle::AsDrawn => "cut as drawn",
+        NotchStyle::Slit => "notches are cut as slits",
+        NotchStyle::Skip => "no notch is cut",
+    };
+    (marks.total() > 0).then(|| format!("{marks}; {style}"))
 }
 
 /// Cost of the job; `None` when the price is unknown.
@@ -79,17 +90,28 @@ fn cost(about: &About) -> Option<String> {
 /// Breakdown of the time: one row per activity, with a bar of its share.
 fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     out.open("section", &[("id", "spent")]).element("h2", &[], "Time");
-    table::open(out, "bars", &["Spent on", "#Time", "#Share", ""]);
+    table::open(out, "bars", &["Spent on", "#Time", "#Share", "#Distance", ""]);
     let total = sums.total() as f64;
-    for (name, &ticks) in Sums::PARTS.iter().zip(&sums.ticks).filter(|(_, ticks)| **ticks > 0) {
+    let cells = |ticks: u64, way: Option<f64>, out: &mut Markup| {
         let (time, share) = (about.time(ticks), ticks as f64 / total);
-        out.open("tr", &[]).element("td", &[], name);
         table::number(out, &clock(time), time);
         table::number(out, &format!("{} %", fixed(PERCENT * share, 1)), share);
+        let metres = way.map(|way| format!("{} m", fixed(way / MM_PER_M, 3)));
+        table::number(out, &metres.unwrap_or_default(), way.unwrap_or(0.0));
+    };
+    let ways = [Some(sums.cut), Some(sums.travel)].into_iter().chain(std::iter::repeat(None));
+    for ((name, &ticks), way) in Sums::PARTS.iter().zip(&sums.ticks).zip(ways).filter(|((_, ticks), _)| **ticks > 0) {
+        out.open("tr", &[]).element("td", &[], name);
+        cells(ticks, way, out);
+        let share = ticks as f64 / total;
         let value = fixed(share, 4);
         out.open("td", &[]).open("meter", &[("value", &value), ("aria-label", name)]).close("meter").close("td");
         out.close("tr");
     }
+    table::totals(out);
+    out.open("tr", &[]).element("th", &[("scope", "row")], "in all");
+    cells(sums.total(), Some(sums.cut + sums.travel), out);
+    out.element("td", &[], "").close("tr");
     table::close(out);
     out.close("section");
 }
