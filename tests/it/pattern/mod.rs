@@ -10,6 +10,7 @@ mod programs;
 mod retrace;
 mod sets;
 mod spurs;
+mod stretches;
 mod writer;
 
 use std::fs;

@@ -32,10 +32,21 @@ const MOUTH_SHORTER: f64 = 0.05;
 /// Compares a marker as read with a scan of the bytes of a set of patterns.
 pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> {
     let mut judged = cloths(bytes, read, job).into_iter().map(|cloth| judged(cloth, read));
-    let first = judged.next().unwrap_or_default();
-    let holds = |findings: &Vec<Finding>| findings.iter().all(Finding::holds);
-    // Pieces that insertions place on top of each other may lie in a row instead.
-    if holds(&first) { first } else { judged.find(holds).unwrap_or(first) }
+    let mut least = judged.next().unwrap_or_default();
+    // Pieces that insertions place on top of each other may lie in a row instead. The layout with the fewest differences is
+    // the one that the marker was read as.
+    while !least.iter().all(Finding::holds)
+        && let Some(other) = judged.next()
+    {
+        let differences = |findings: &[Finding]| {
+            findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.worst).sum()
+        };
+        let [before, now]: [f64; 2] = [&least, &other].map(|findings| differences(findings));
+        if now < before {
+            least = other;
+        }
+    }
+    least
 }
 
 /// Compares the marker with one possible layout of the file, in which places may be off by up to `off` mm.
@@ -68,6 +79,19 @@ struct Line {
     notched: Vec<(Point, u32)>,
     /// Widths of the mouths, mm.
     widths: Vec<f64>,
+}
+
+/// A line without the stretches that go out and straight back.
+fn without_spikes(line: &[(Point, u32)]) -> Vec<(Point, u32)> {
+    let mut kept: Vec<(Point, u32)> = Vec::with_capacity(line.len());
+    for &place in line {
+        if kept.len() > 1 && kept[kept.len() - 2].0 == place.0 {
+            kept.pop();
+        } else {
+            kept.push(place);
+        }
+    }
+    kept
 }
 
 /// Marks of a block; `marks` is sorted by block.
@@ -226,8 +250,10 @@ impl Both<'_> {
         let Self { cuts, lines, reach, .. } = self;
         let bends = Lookup::of(cuts.bends.iter().map(|bend| bend.at), *reach);
         for line in lines.iter().filter(|_| !cuts.bends.is_empty()) {
-            let mut drawn = line.drawn.clone();
-            drawn.dedup_by(|next, before| next.0 == before.0);
+            let mut places = line.drawn.clone();
+            places.dedup_by(|next, before| next.0 == before.0);
+            // A slit that stands on a curve point leaves the curve there, and comes back to it.
+            let mut drawn = without_spikes(&places);
             // A closed line continues to its second place.
             if drawn.len() > 2 && drawn[0].0 == drawn[drawn.len() - 1].0 {
                 drawn.push(drawn[1]);

@@ -1,5 +1,5 @@
 //! Curves of a block, found anew: fine lines (layers 84 to 87) that replace coarse ones, and edges of other lines that may bow
-//! because curve points (layer 3) are on them. It follows no line and lays no curve.
+//! because curve points (layer 3) are on them. It lays no curve.
 
 use std::collections::BTreeMap;
 
@@ -7,6 +7,7 @@ use super::again::once;
 use super::fold::Fold;
 use super::lines::{MEETS, Measure, Path, Stroke, clusters, paths, strokes};
 use super::lookup::Lookup;
+use super::stretch::{Parted, parted};
 use super::tags::{Item, Sheet};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
@@ -55,10 +56,20 @@ pub(super) struct Bend {
     pub(super) turn: f64,
 }
 
+/// Edges that may bow, vertices at which a curve must go on, and vertices that it may pass.
+#[derive(Debug, Default)]
+pub(super) struct Bows {
+    pub(super) edges: Vec<Bow>,
+    pub(super) bends: Vec<Bend>,
+    pub(super) passed: Vec<Point>,
+}
+
 /// Replacement of coarse lines that belong together.
 pub(super) enum Course {
     /// The coarse lines are cut themselves; some edges may bow.
-    Own { bows: Vec<Bow>, bends: Vec<Bend>, passed: Vec<Point> },
+    Own(Bows),
+    /// Fine lines are cut in the place of some edges. Other edges may bow.
+    Part { lines: Vec<Path>, chords: Vec<[Point; 2]>, bows: Bows },
     /// Fine lines are cut in their place, and the spikes of the coarse ones.
     Fine(Vec<Path>),
 }
@@ -123,22 +134,27 @@ impl Curves {
                 return Course::Fine([whole, spikes].concat());
             }
         }
+        let own = self.fine.iter().filter(|(layer, _)| *layer == usual).map(|(_, fine)| fine);
+        if let Some(Parted { fine, rest, chords }) = parted(own.clone(), &bare, fold) {
+            let (bows, _) = self.bows(&rest, fold);
+            return Course::Part { lines: [fine, rest, spikes].concat(), chords, bows };
+        }
         // A control polygon shares a few vertices with a line that is fine itself: most of its curve points bend little.
-        let own = self.fine.iter().filter(|(layer, _)| *layer == usual).flat_map(|(_, fine)| fine);
-        let own = Lookup::of(own.flat_map(|path| path.points.iter().copied()), ON);
+        let own = Lookup::of(own.flatten().flat_map(|path| path.points.iter().copied()), ON);
         let count = places.iter().filter(|at| own.has(**at)).count();
         let may_be_polygon = count > 0 && 2 * count <= places.len();
-        let (mut bows, mut bends, mut passed, mut smooth) = (Vec::new(), Vec::new(), Vec::new(), 0);
-        if self.may_bow {
-            for path in &bare {
-                smooth += self.see(path, fold, &mut bows, &mut bends);
-                passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
-            }
+        let (bows, smooth) = self.bows(&bare, fold);
+        Course::Own(if may_be_polygon && 2 * bows.bends.len() <= smooth { Bows::default() } else { bows })
+    }
+
+    /// Edges of lines that may bow, and the count of all curve points between chords.
+    fn bows(&self, paths: &[Path], fold: Option<Fold>) -> (Bows, usize) {
+        let (mut bows, mut smooth) = (Bows::default(), 0);
+        for path in paths.iter().filter(|_| self.may_bow) {
+            smooth += self.see(path, fold, &mut bows);
+            bows.passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
         }
-        if may_be_polygon && 2 * bends.len() <= smooth {
-            return Course::Own { bows: Vec::new(), bends: Vec::new(), passed: Vec::new() };
-        }
-        Course::Own { bows, bends, passed }
+        (bows, smooth)
     }
 
     /// True if a curve may go on at a vertex.
@@ -158,13 +174,13 @@ impl Curves {
 
     /// Adds the edges that may bow, and the curve points whose chords a curve leaves by at least [`HIGH`]. Returns the count of
     /// all curve points between chords.
-    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) -> usize {
+    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Bows) -> usize {
         let mut smooth = 0;
         let count = path.points.len();
         for k in 0..path.curves.len() {
             let ends = path.edge(k);
             if path.curves[k].is_none() && ends.iter().any(|&end| self.goes_on(end)) {
-                bows.push(Bow { ends });
+                bows.edges.push(Bow { ends });
             }
             if !path.is_closed && (k == 0 || k + 1 == count) {
                 continue;
@@ -177,7 +193,7 @@ impl Curves {
             // chord's length.
             smooth += usize::from(is_smooth);
             if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
-                bends.push(Bend { at, turn });
+                bows.bends.push(Bend { at, turn });
             }
         }
         smooth
