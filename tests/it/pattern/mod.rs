@@ -4,6 +4,7 @@
 mod audit;
 mod curves;
 mod damage;
+mod gaps;
 mod habits;
 mod marked;
 mod programs;
