@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::curves::{Bend, Bow, lent};
+use super::curves::{Bow, lent};
 use super::cuts::{Cuts, Mark, Place};
 use super::left_out::wrong_count;
 use super::letters::Letters;
@@ -450,7 +450,7 @@ impl Cuts {
         self.rounds.extend(cuts.rounds.iter().map(|round| round.moved(to, scale)));
         let both = |ends: [Point; 2]| ends.map(|at| moved(at, to));
         self.bows.extend(cuts.bows.iter().map(|bow| Bow { ends: both(bow.ends) }));
-        self.bends.extend(cuts.bends.iter().map(|bend| Bend { at: moved(bend.at, to), ..*bend }));
+        self.bends.extend(cuts.bends.iter().map(|bend| bend.moved(|at| moved(at, to))));
         self.chords.extend(cuts.chords.iter().map(|ends| both(*ends)));
         self.faults += cuts.faults;
         self.length += cuts.length * scale;

@@ -17,8 +17,11 @@ use crate::machine::patterns::Dxf;
 pub(super) const ON: f64 = 0.01;
 /// Layers of fine lines.
 const FINE: [u32; 4] = [84, 85, 86, 87];
-/// Least height of a curve over its chords for it to be missed, mm.
+/// Height of a round curve over the chords at a vertex, mm. A line with smaller heights has fine chords.
 const HIGH: f64 = 0.2;
+/// Least such height for a curve to be missed, mm. A system may leave a chord that its curve leaves by less than 0.006 inch, and
+/// beside a corner a curve rises half as far.
+const MISSED: f64 = 2.0 * 0.1524;
 
 /// Information of a block about curves.
 pub(super) struct Curves {
@@ -49,11 +52,33 @@ pub(super) struct Bow {
     pub(super) ends: [Point; 2],
 }
 
-/// A vertex at which a curve goes on, and the turn of its chords there, rad.
+/// A vertex at which a curve goes on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bend {
     pub(super) at: Point,
+    /// The ends of its chords on both sides.
+    pub(super) ends: [Point; 2],
+    /// Turn of the chords, rad, and height of a round curve over them, mm.
     pub(super) turn: f64,
+    pub(super) height: f64,
+}
+
+impl Bend {
+    /// Its image by a motion or a mirror.
+    pub(super) fn moved(&self, to: impl Fn(Point) -> Point) -> Self {
+        Self { at: to(self.at), ends: self.ends.map(to), ..*self }
+    }
+
+    /// Length of its shorter chord, mm.
+    pub(super) fn chord(&self) -> f64 {
+        self.ends.iter().map(|end| (end - self.at).norm()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance of a place from its chords, mm.
+    pub(super) fn off(&self, place: Point) -> f64 {
+        let off = self.ends.iter().map(|end| polyline::distance_to_segment(place, self.at, *end));
+        off.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// Edges that may bow, vertices at which a curve must go on, and vertices that it may pass.
@@ -143,18 +168,19 @@ impl Curves {
         let own = Lookup::of(own.flatten().flat_map(|path| path.points.iter().copied()), ON);
         let count = places.iter().filter(|at| own.has(**at)).count();
         let may_be_polygon = count > 0 && 2 * count <= places.len();
-        let (bows, smooth) = self.bows(&bare, fold);
-        Course::Own(if may_be_polygon && 2 * bows.bends.len() <= smooth { Bows::default() } else { bows })
+        let (bows, [smooth, high]) = self.bows(&bare, fold);
+        Course::Own(if may_be_polygon && 2 * high <= smooth { Bows::default() } else { bows })
     }
 
-    /// Edges of lines that may bow, and the count of all curve points between chords.
-    fn bows(&self, paths: &[Path], fold: Option<Fold>) -> (Bows, usize) {
-        let (mut bows, mut smooth) = (Bows::default(), 0);
+    /// Edges of lines that may bow, and the counts of all curve points between chords and of those at which curves are high.
+    fn bows(&self, paths: &[Path], fold: Option<Fold>) -> (Bows, [usize; 2]) {
+        let (mut bows, mut counts) = (Bows::default(), [0; 2]);
         for path in paths.iter().filter(|_| self.may_bow) {
-            smooth += self.see(path, fold, &mut bows);
+            let of_path = self.see(path, fold, &mut bows);
+            counts = [counts[0] + of_path[0], counts[1] + of_path[1]];
             bows.passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
         }
-        (bows, smooth)
+        (bows, counts)
     }
 
     /// True if a curve may go on at a vertex.
@@ -172,10 +198,10 @@ impl Curves {
         self.notches.beside.has(at)
     }
 
-    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by at least [`HIGH`]. Returns the count of
-    /// all curve points between chords.
-    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Bows) -> usize {
-        let mut smooth = 0;
+    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by at least [`MISSED`]. Returns the counts
+    /// of all curve points between chords and of those with at least [`HIGH`].
+    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Bows) -> [usize; 2] {
+        let [mut smooth, mut high] = [0; 2];
         let count = path.points.len();
         for k in 0..path.curves.len() {
             let ends = path.edge(k);
@@ -191,12 +217,14 @@ impl Curves {
             let is_smooth = self.is_smooth(at) && !self.is_notched(at) && !path.doubled.contains(&at);
             // A round curve that turns by this angle from chord to chord rises an eighth of it over each chord, relative to the
             // chord's length.
+            let height = turn * (at - before).norm().min((behind - at).norm()) / 8.0;
             smooth += usize::from(is_smooth);
-            if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
-                bows.bends.push(Bend { at, turn });
+            high += usize::from(is_smooth && height >= HIGH);
+            if is_smooth && height >= MISSED {
+                bows.bends.push(Bend { at, ends: [before, behind], turn, height });
             }
         }
-        smooth
+        [smooth, high]
     }
 }
 

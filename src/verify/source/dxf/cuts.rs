@@ -169,7 +169,9 @@ impl Cuts {
             self.bows.extend(halving.both_ends([a, b]).map(|ends| Bow { ends }));
             self.chords.extend(halving.both_ends([a, b]));
         }
-        self.bends.extend(bows.bends.iter().flat_map(|bend| halving.both(bend.at).map(|at| Bend { at, ..*bend })));
+        self.bends.extend_from_slice(&bows.bends);
+        let across = |fold: Fold| bows.bends.iter().map(move |bend| bend.moved(|at| fold.across(at)));
+        self.bends.extend(halving.fold.into_iter().flat_map(across));
     }
 
     /// Adds lines that belong together, on both sides of a fold, without edges on the fold itself. A curve may pass some of
