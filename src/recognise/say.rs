@@ -324,8 +324,9 @@ fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
             gap => format!("ends {} mm from where it starts", fixed(gap, 1)),
         };
         let first_one = if open.len() == 1 { "it" } else { "the first one" };
-        let message = format!("not cut: {} in no part; {first_one} {ends}", counted(&open, "open line"));
+        let message = format!("not cut: {} in no part", counted(&open, "open line"));
         let found = finding(&code::DRAWING_OPEN_OUTLINES, message, first, sheet);
+        let found = found.hint(format!("{first_one} {ends}"));
         let how = doubts::how_to_close(gap).filter(|_| gap > 0.0);
         let found = found.hint(how.unwrap_or_else(|| "if they are outlines, let the CAD close them".to_owned()));
         out.push(found.hint("`--cut-all` cuts every line but a frame"));

@@ -129,3 +129,20 @@ fn check(fixture: &str, changes: &[Change]) {
         assert!(broken.contains(rule), "{fixture}, change {k}: {broken:?}");
     }
 }
+
+#[test]
+fn of_two_layouts_that_a_file_may_mean_the_nearer_is_reported() {
+    let name = "inserts-that-are-no-places.dxf";
+    let (_, bytes) = fixtures().into_iter().find(|(path, _)| path.ends_with(name)).expect("a fixture");
+    let (source, job) = (source(bytes), Job::default());
+    let (mut marker, _) = as_read(&source, &job);
+    let contour = marker.pieces[0].contours[0];
+    let (mut points, spans): (Vec<Point>, Vec<Span>) = marker.list.vertices(contour.range).unzip();
+    points[1].x += 0.5;
+    let range = marker.list.append_line(&points, &spans).expect("a line");
+    marker.pieces[0].contours[0] = Contour { range, ..contour };
+    let findings = pattern_audit(source.bytes(), &CutPlaces::of(&marker), &job);
+    // The pieces lie in a row, where a vertex is missing and another is too many. Few would be where INSERTs put them.
+    let points = findings.iter().find(|finding| finding.rule.name == "source/points").expect("a rule");
+    assert_eq!(points.worst.to_bits(), 2.0_f64.to_bits(), "{}", points.worst);
+}

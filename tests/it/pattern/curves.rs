@@ -17,7 +17,7 @@ use super::{as_read, source};
 pub(super) struct Outline {
     pub(super) vertices: Vec<Place>,
     pub(super) is_corner: Vec<bool>,
-    fine: Vec<Place>,
+    pub(super) fine: Vec<Place>,
 }
 
 /// A figure like a flower, whose corners are joined by arcs of waves: each side has points of its curve, or is straight.
@@ -81,12 +81,12 @@ pub(super) fn points(marker: &Marker) -> Vec<Point> {
 }
 
 /// How far the places of one line are from another, mm, at the most.
-fn apart(places: &[Point], line: &[Point]) -> f64 {
+pub(super) fn apart(places: &[Point], line: &[Point]) -> f64 {
     places.iter().map(|&at| polyline::distance(at, line)).fold(0.0, f64::max)
 }
 
 /// Moves a line of the file to where the lower left corner of the box around it is at the origin, as pieces in a row are.
-fn laid(places: &[Place]) -> Vec<Point> {
+pub(super) fn laid(places: &[Place]) -> Vec<Point> {
     let least = |axis: usize| places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
     let by = Vector::new(least(0), least(1));
     places.iter().chain(&places[..1]).map(|&place| Point::from(place) - by).collect()

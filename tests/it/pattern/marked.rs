@@ -56,3 +56,30 @@ fn points_that_rounding_moves_off_their_vertices_mark_them_and_others_are_told()
         assert_eq!((cut.len(), found), (outline.vertices.len() + 1, vec!["dxf/curve-missed"]), "{off}");
     }
 }
+
+#[test]
+fn a_line_that_ends_at_a_curve_point_bends_no_curve() {
+    for seed in 0..20 {
+        let mut random = Rng::with_seed(seed);
+        let outline = flower(&mut random, 5);
+        let write = |layer: Option<u32>| {
+            let mut file = Writer::begin();
+            file.block("A");
+            outline.write(&mut file, 1, Drawn::Closed);
+            for (at, _) in outline.vertices.iter().zip(&outline.is_corner).filter(|(_, is_corner)| !**is_corner) {
+                layer.into_iter().for_each(|layer| _ = file.line(layer, [*at, at.map(|value| 0.97 * value)]));
+            }
+            file.end_block();
+            source(file.end(&["UNITS: METRIC", "AUTHOR: CLO"]))
+        };
+        let [alone, inner, slits] = [None, Some(8), Some(1)].map(|layer| {
+            let source = write(layer);
+            let (marker, found) = as_read(&source, &Job::default());
+            assert_eq!(broken(&source, &marker, &Job::default()), [""; 0], "seed {seed}, layer {layer:?}");
+            (points(&marker), found)
+        });
+        assert_eq!(alone, inner, "seed {seed}");
+        let mut slits = slits.0.into_iter();
+        assert!(alone.0.iter().all(|at| slits.any(|of_slits| of_slits == *at)), "seed {seed}");
+    }
+}

@@ -4,12 +4,14 @@
 mod audit;
 mod curves;
 mod damage;
+mod gaps;
 mod habits;
 mod marked;
 mod programs;
 mod retrace;
 mod sets;
 mod spurs;
+mod stretches;
 mod writer;
 
 use std::fs;

@@ -2,17 +2,17 @@
 
 use super::curve::{Curve, Origin};
 use super::drafting::Drafting;
-use super::fine::FineLine;
+use super::fine::{FineLine, Stretch};
 use super::leg::Leg;
 use super::nodes::{Node, Nodes};
 use super::run::{Run, is_curve};
-use super::spikes;
+use super::spikes::{self, Base};
 use super::split::lay;
 use crate::front::pattern::chain::Chain;
 use crate::front::pattern::fold::Fold;
 use crate::front::pattern::layer::{Layer, Named};
 use crate::geom::budget::Budget;
-use crate::geom::polyline;
+use crate::geom::{Point, polyline};
 
 /// Minimum number of vertices of a ring.
 const LEAST_RING: usize = 3;
@@ -57,19 +57,28 @@ impl Curves {
         let usual = layer.fine();
         let (own, others): (Vec<&FineLine>, Vec<&FineLine>) =
             self.fine.iter().partition(|fine| Some(fine.layer) == usual);
-        if let Some(legs) = own.iter().chain(&others).find_map(|fine| fine.legs(&coarse.line, work)) {
-            return Curve::of(&coarse, legs, Origin::Fine);
+        let count = coarse.line.vertices.len();
+        let finer = own.iter().chain(&others).filter(|fine| fine.is_finer_than(count));
+        if let Some(legs) = finer.into_iter().find_map(|fine| fine.legs(&coarse.line, work)) {
+            return Curve::of(&coarse, legs, &vec![Origin::Fine; count]);
         }
+        let stretches = stretches(&own, &coarse.line, work);
         // Most vertices of a control polygon are not on the line. If few vertices are shared, the line itself is the fine one.
         let vertices = &coarse.line.vertices;
-        let shared = vertices.iter().filter(|vertex| own.iter().any(|fine| fine.turns_at(vertex.at, work))).count();
-        let is_fine_itself = shared > 0 && 2 * shared <= vertices.len() && self.has_small_chords(&coarse.line);
-        let about = own.iter().find(|fine| fine.lies_about(&coarse.line)).filter(|_| !is_fine_itself);
-        let missed = about.map(|fine| fine.span());
-        let mut curved = match self.laid(&coarse.line, drafting, work).filter(|_| !is_fine_itself) {
-            Some(legs) => Curve::of(&coarse, legs, Origin::Laid),
-            None => Curve::drawn(line),
+        let is_shared = |at: Point, work: &mut Budget| own.iter().any(|fine| fine.turns_at(at, work));
+        let shared = vertices.iter().filter(|vertex| is_shared(vertex.at, work)).count();
+        let is_fine_itself =
+            stretches.is_empty() && shared > 0 && 2 * shared <= count && self.has_small_chords(&coarse.line);
+        let is_used = |k: usize| stretches.iter().any(|(fine, _)| *fine == k);
+        let misses = |(k, fine): &(usize, &&FineLine)| {
+            // Without curve points an open line is no control polygon: those of a line that is fine itself go round it.
+            let may_miss = !is_fine_itself || !self.nodes.has_curves && fine.is_open();
+            may_miss && !is_used(*k) && fine.lies_about(&coarse.line) && !fine.goes_along(&coarse.line, work)
         };
+        let about = own.iter().enumerate().find(misses);
+        let missed = about.map(|(_, fine)| fine.span());
+        let laid = self.laid(&coarse.line, drafting, work).filter(|_| !is_fine_itself);
+        let mut curved = drawn_in_part(&coarse, laid, stretches).unwrap_or_else(|| Curve::drawn(line));
         (curved.missed, curved.stray) = (missed, self.nodes.stray);
         curved
     }
@@ -120,4 +129,35 @@ impl Curves {
         }
         is_curved.then_some(legs)
     }
+}
+
+/// The parts of a line that fine lines draw anew, with the indices of these fine lines. Where two of them draw one edge, neither
+/// is taken.
+fn stretches(fine: &[&FineLine], line: &Chain, work: &mut Budget) -> Vec<(usize, Stretch)> {
+    let count = line.vertices.len();
+    let all = fine.iter().enumerate().filter_map(|(k, fine)| Some((k, fine.stretch(line, work)?)));
+    let mut all: Vec<(usize, Stretch)> = all.collect();
+    let edges = |stretch: &Stretch| (stretch.first..stretch.first + stretch.legs.len()).map(|k| k % count);
+    let mut times = vec![0; if all.is_empty() { 0 } else { count }];
+    all.iter().flat_map(|(_, stretch)| edges(stretch)).for_each(|k| times[k] += 1);
+    all.retain(|(_, stretch)| edges(stretch).all(|k| times[k] == 1));
+    all
+}
+
+/// The curve of a line with stretches, laid by a rule elsewhere. `None` for a line without any curve.
+fn drawn_in_part(coarse: &Base, laid: Option<Vec<Leg>>, stretches: Vec<(usize, Stretch)>) -> Option<Curve> {
+    if laid.is_none() && stretches.is_empty() {
+        return None;
+    }
+    let vertices = &coarse.line.vertices;
+    let mut legs = laid.unwrap_or_else(|| vertices.iter().map(|&vertex| vec![vertex]).collect());
+    let origin_of = |leg: &Leg| if leg.len() == 1 { Origin::Drawn } else { Origin::Laid };
+    let mut origins: Vec<Origin> = legs.iter().map(origin_of).collect();
+    for (_, Stretch { first, legs: of_stretch }) in stretches {
+        for (k, leg) in of_stretch.into_iter().enumerate() {
+            let k = (first + k) % vertices.len();
+            (legs[k], origins[k]) = (leg, Origin::Fine);
+        }
+    }
+    Some(Curve::of(coarse, legs, &origins))
 }

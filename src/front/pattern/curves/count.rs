@@ -1,6 +1,6 @@
 //! Counts of pieces that are cut along curves, by the origin of the curves.
 
-use super::curve::{Curve, Origin};
+use super::curve::Curve;
 use crate::source::Span;
 
 /// Counts of pieces that are cut along curves instead of the chords of their outlines.
@@ -40,21 +40,18 @@ impl CurveCounts {
     /// Counts a line of a piece.
     pub(in crate::front::pattern) fn see(&mut self, curved: &Curve) {
         let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
-        let line = CurveCount { pieces: 1, off: curved.off, first };
+        let count = |off: f64| CurveCount { pieces: 1, off, first };
         if let Some(first) = curved.missed {
             self.missed.add(CurveCount { pieces: 1, off: 0.0, first });
-            if curved.origin == Origin::Drawn {
-                self.chords.add(line);
+            if curved.fine.is_none() && curved.laid.is_none() {
+                self.chords.add(count(0.0));
             }
         }
         if let Some(first) = curved.stray {
             self.stray.add(CurveCount { pieces: 1, off: 0.0, first });
         }
-        match curved.origin {
-            Origin::Drawn => {}
-            Origin::Fine => self.fine.add(line),
-            Origin::Laid => self.laid.add(line),
-        }
+        curved.fine.into_iter().for_each(|off| self.fine.add(count(off)));
+        curved.laid.into_iter().for_each(|off| self.laid.add(count(off)));
     }
 
     /// Merges the counts of lines of one piece, as one piece.

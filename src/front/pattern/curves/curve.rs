@@ -9,10 +9,10 @@ use crate::geom::{Point, polyline};
 use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Origin of the curve of a line.
+/// Origin of the curve over an edge of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::front::pattern) enum Origin {
-    /// The line as drawn.
+pub(super) enum Origin {
+    /// The edge as drawn.
     Drawn,
     /// A line on layers 84 to 87.
     Fine,
@@ -24,13 +24,14 @@ pub(in crate::front::pattern) enum Origin {
 #[derive(Debug)]
 pub(in crate::front::pattern) struct Curve {
     pub(in crate::front::pattern) line: Chain,
-    pub(in crate::front::pattern) origin: Origin,
-    /// Largest distance of the curve from the chords of the coarse line, mm.
-    pub(in crate::front::pattern) off: f64,
+    /// Largest distance of its fine lines from the chords of the coarse line, mm; `None` without fine lines.
+    pub(super) fine: Option<f64>,
+    /// Largest distance of the curves by a rule from the chords, mm; `None` without such curves.
+    pub(super) laid: Option<f64>,
     /// Start of a nearby fine line that misses some vertices of the line.
-    pub(in crate::front::pattern) missed: Option<Span>,
+    pub(super) missed: Option<Span>,
     /// Curve point of the block that marks no vertex.
-    pub(in crate::front::pattern) stray: Option<Span>,
+    pub(super) stray: Option<Span>,
     /// The coarse line, and the curve over each of its edges; empty for a line as drawn.
     coarse: Vec<Point>,
     legs: Vec<Vec<Point>>,
@@ -40,11 +41,11 @@ impl Curve {
     /// The line itself, for a line without curves.
     pub(super) fn drawn(line: &Chain) -> Self {
         let line = line.clone();
-        Self { line, origin: Origin::Drawn, off: 0.0, missed: None, stray: None, coarse: Vec::new(), legs: Vec::new() }
+        Self { line, fine: None, laid: None, missed: None, stray: None, coarse: Vec::new(), legs: Vec::new() }
     }
 
-    /// Curve over the edges of a coarse line, one leg per vertex; its spikes are restored.
-    pub(super) fn of(coarse: &Base, mut legs: Vec<Leg>, origin: Origin) -> Self {
+    /// Curve over the edges of a coarse line, one leg and its origin per vertex; its spikes are restored.
+    pub(super) fn of(coarse: &Base, mut legs: Vec<Leg>, origins: &[Origin]) -> Self {
         let base = &coarse.line;
         let round: Vec<Point> = base.points();
         let way = |k: usize| {
@@ -57,10 +58,15 @@ impl Curve {
         let off_edge = |(way, edge): (&Vec<Point>, &[Point])| {
             way.iter().map(|&at| polyline::distance_to_segment(at, edge[0], edge[1])).fold(0.0, f64::max)
         };
-        let off = ways.iter().zip(round.windows(2)).map(off_edge).fold(0.0, f64::max);
+        let off: Vec<f64> = ways.iter().zip(round.windows(2)).map(off_edge).collect();
+        let off_of = |wanted: Origin| {
+            let of_origin = off.iter().zip(origins).filter(|(_, origin)| **origin == wanted);
+            of_origin.map(|(off, _)| *off).reduce(f64::max)
+        };
+        let (fine, laid) = (off_of(Origin::Fine), off_of(Origin::Laid));
         coarse.put_back(&mut legs);
         let line = Chain { vertices: legs.concat(), is_closed: base.is_closed };
-        Self { line, origin, off, missed: None, stray: None, coarse: round, legs: ways }
+        Self { line, fine, laid, missed: None, stray: None, coarse: round, legs: ways }
     }
 
     /// Projects a point beside a chord of the coarse line perpendicularly onto the curve. Points elsewhere, and points already

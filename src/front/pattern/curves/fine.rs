@@ -1,5 +1,6 @@
 //! Fine lines: layers 84 to 87 contain the curves of layers 1, 8, 11 and 14 in small chords. Lines are paired by their
-//! geometry, because CAD systems pair the layers differently.
+//! geometry, because CAD systems pair the layers differently. Some systems write only the curved parts of a line: a [`Stretch`]
+//! is such a part, from one vertex of the line to another.
 
 use super::leg::Leg;
 use super::nodes::ON;
@@ -7,10 +8,14 @@ use crate::front::pattern::chain::Chain;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
+use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
 /// Maximum number of start stations tried at one vertex. A fine line passes a vertex once, or twice at a seam.
 const MOST_STARTS: usize = 4;
+
+/// Distance from a fine line within which the vertices of a stretch are on it, mm.
+const BESIDE: f64 = Dxf::POINT_OFF;
 
 /// A fine line with an index of its edges.
 #[derive(Debug, Clone)]
@@ -31,12 +36,21 @@ struct Start {
     is_forward: bool,
 }
 
+/// A part of a coarse line that a fine line draws anew.
+#[derive(Debug)]
+pub(super) struct Stretch {
+    /// Index of its first vertex in the coarse line.
+    pub(super) first: usize,
+    /// Legs from each of its vertices to the next.
+    pub(super) legs: Vec<Leg>,
+}
+
 impl FineLine {
     pub(super) fn of(layer: u16, chain: Chain) -> Self {
         let mut points: Vec<Point> = chain.vertices.iter().map(|vertex| vertex.at).collect();
         points.push(points[0]);
-        let edges = points.windows(2).map(|edge| Extent::between(edge[0], edge[1]).grown(ON)).collect();
-        let (stations, extent) = (polyline::stations(&points), Extent::of(&points).grown(ON));
+        let edges = points.windows(2).map(|edge| Extent::between(edge[0], edge[1]).grown(BESIDE)).collect();
+        let (stations, extent) = (polyline::stations(&points), Extent::of(&points).grown(BESIDE));
         Self { layer, chain, stations, edges: Boxes::new(edges), extent, points }
     }
 
@@ -54,14 +68,14 @@ impl FineLine {
         self.stations[self.stations.len() - 1]
     }
 
-    /// Stations at which the line passes a point, mm.
-    fn stations_of(&self, at: Point, work: &mut Budget) -> Vec<f64> {
+    /// Stations at which the line passes within `reach` of a point, mm.
+    fn stations_of(&self, at: Point, reach: f64, work: &mut Budget) -> Vec<f64> {
         if !self.extent.holds(at) || !work.spend(self.edges.cost_at(at)) {
             return Vec::new();
         }
         let on = |k: usize| {
             let [a, b] = [self.points[k], self.points[k + 1]];
-            let is_on = polyline::distance_to_segment(at, a, b) <= ON;
+            let is_on = polyline::distance_to_segment(at, a, b) <= reach;
             is_on.then(|| self.stations[k] + polyline::foot(at, a, b) * (b - a).norm())
         };
         let mut stations: Vec<f64> = self.edges.at(at).filter_map(on).collect();
@@ -78,52 +92,126 @@ impl FineLine {
         self.edges.at(at).any(|k| self.points[k..=k + 1].iter().any(|end| (end - at).norm() <= ON))
     }
 
+    pub(super) fn is_open(&self) -> bool {
+        !self.chain.is_closed
+    }
+
+    /// True if it has more vertices than a line.
+    pub(super) fn is_finer_than(&self, vertices: usize) -> bool {
+        self.chain.vertices.len() > vertices
+    }
+
     /// Legs from each vertex of a coarse line to the next. `None` unless the fine line passes all of them in order, exactly
     /// once.
     pub(super) fn legs(&self, coarse: &Chain, work: &mut Budget) -> Option<Vec<Leg>> {
-        let Chain { vertices, is_closed } = coarse;
-        if self.chain.vertices.len() <= vertices.len() {
+        let places: Vec<Point> = coarse.vertices.iter().map(|vertex| vertex.at).collect();
+        if !coarse.is_closed {
+            return self.legs_from_end_to_end(&places, ON, work);
+        }
+        let starts = self.stations_of(places[0], ON, work).into_iter().take(MOST_STARTS);
+        let starts = starts.flat_map(|station| [true, false].map(|is_forward| Start { station, is_forward }));
+        let round = |start: Start| {
+            let (ways, end) = self.ways(&places, start, ON, work)?;
+            let way = ways[ways.len() - 1] + self.ahead(start, [end, start.station], ON);
+            ((way - self.length()).abs() <= ON).then(|| self.parted(start, &ways))
+        };
+        starts.into_iter().find_map(round)
+    }
+
+    /// Legs along an open fine line from one of its ends to the other.
+    fn legs_from_end_to_end(&self, places: &[Point], reach: f64, work: &mut Budget) -> Option<Vec<Leg>> {
+        let [first, last] = self.ends()?;
+        let meets =
+            |[a, b]: [Point; 2]| (a - places[0]).norm() <= reach && (b - places[places.len() - 1]).norm() <= reach;
+        let is_forward = meets([first, last]);
+        if !is_forward && !meets([last, first]) {
             return None;
         }
-        let [first, last] = [vertices[0].at, vertices[vertices.len() - 1].at];
-        if *is_closed {
-            let starts = self.stations_of(first, work).into_iter().take(MOST_STARTS);
-            let starts = starts.flat_map(|station| [true, false].map(|is_forward| Start { station, is_forward }));
-            return starts.into_iter().find_map(|start| Some(self.parted(start, &self.ways(coarse, start, work)?)));
-        }
-        let ends = [self.points[0], self.points[self.points.len() - 2]];
-        let meets = |[a, b]: [Point; 2]| (a - first).norm() <= ON && (b - last).norm() <= ON;
-        let is_forward = meets(ends);
-        if self.chain.is_closed || !is_forward && !meets([ends[1], ends[0]]) {
-            return None;
-        }
-        let start =
-            Start { station: if is_forward { 0.0 } else { self.stations[self.stations.len() - 2] }, is_forward };
-        let ways = self.ways(coarse, start, work)?;
+        let station = if is_forward { 0.0 } else { self.stations[self.stations.len() - 2] };
+        let start = Start { station, is_forward };
+        let (ways, _) = self.ways(places, start, reach, work)?;
         Some(self.parted(start, &ways))
     }
 
-    /// Lengths along the fine line from the first vertex of a coarse line to each vertex, mm. `None` if a vertex lies off the
-    /// fine line or the order differs.
-    fn ways(&self, coarse: &Chain, start: Start, work: &mut Budget) -> Option<Vec<f64>> {
-        let length = self.length();
+    /// Both ends of an open line.
+    fn ends(&self) -> Option<[Point; 2]> {
+        (!self.chain.is_closed).then(|| [self.points[0], self.points[self.points.len() - 2]])
+    }
+
+    /// The part of a coarse line that an open fine line draws from end to end with more points: the one with the most
+    /// vertices, if a closed line has two.
+    pub(super) fn stretch(&self, coarse: &Chain, work: &mut Budget) -> Option<Stretch> {
+        let ends = self.ends()?;
+        let count = coarse.vertices.len();
+        if !work.spend(count) {
+            return None;
+        }
+        let vertex = |k: usize| coarse.vertices[k % count];
+        let meeting = |end: Point| (0..count).filter(move |&k| (vertex(k).at - end).norm() <= BESIDE).take(MOST_STARTS);
+        let pairs = meeting(ends[0]).flat_map(|a| meeting(ends[1]).flat_map(move |b| [[a, b], [b, a]]));
+        let ways = pairs.filter(|[first, last]| first < last || coarse.is_closed && first > last);
+        let mut best: Option<Stretch> = None;
+        for [first, last] in ways {
+            let last = if last < first { last + count } else { last };
+            let places: Vec<Point> = (first..=last).map(|k| vertex(k).at).collect();
+            if !self.is_finer_than(places.len())
+                || best.as_ref().is_some_and(|best| best.legs.len() + 1 >= places.len())
+            {
+                continue;
+            }
+            let Some(mut legs) = self.legs_from_end_to_end(&places, BESIDE, work) else { continue };
+            // The line keeps its own vertices at both ends.
+            legs.pop();
+            legs[0][0] = vertex(first);
+            if legs.len() > 1 || self.bows_from_edge(coarse, first, work) {
+                best = Some(Stretch { first, legs });
+            }
+        }
+        best
+    }
+
+    /// True if its middle lies nearer to an edge of a coarse line than to all others. The control polygon of a curve may end
+    /// at the vertices of a straight edge, but is nearer to the curve.
+    fn bows_from_edge(&self, coarse: &Chain, edge: usize, work: &mut Budget) -> bool {
+        let points = coarse.points();
+        let off = |k: usize, at: Point| polyline::distance_to_segment(at, points[k], points[k + 1]);
+        let own = self.chain.vertices.iter().map(|vertex| vertex.at);
+        let farthest = own.max_by(|a, b| off(edge, *a).total_cmp(&off(edge, *b)));
+        farthest.is_some_and(|at| {
+            let is_nearest = |k: usize| k == edge || off(k, at) >= off(edge, at);
+            work.spend(points.len()) && (0..points.len() - 1).all(is_nearest)
+        })
+    }
+
+    /// Length along the line from one station to another, mm.
+    fn ahead(&self, start: Start, [from, to]: [f64; 2], reach: f64) -> f64 {
+        let way = (if start.is_forward { to - from } else { from - to }).rem_euclid(self.length());
+        // A step back results from rounding and has no length.
+        if way > self.length() - reach { 0.0 } else { way }
+    }
+
+    /// Lengths along the fine line from the first of some places to each, mm, and the station of the last. `None` if a place
+    /// lies off the fine line or the order differs.
+    fn ways(&self, places: &[Point], start: Start, reach: f64, work: &mut Budget) -> Option<(Vec<f64>, f64)> {
         let (mut at, mut way, mut ways) = (start.station, 0.0, vec![0.0]);
-        let ahead = |from: f64, to: f64| {
-            let way = (if start.is_forward { to - from } else { from - to }).rem_euclid(length);
-            // A step back results from rounding and has no length.
-            if way > length - ON { 0.0 } else { way }
-        };
-        for vertex in &coarse.vertices[1..] {
-            let stations = self.stations_of(vertex.at, work).into_iter();
-            let (step, next) = stations.map(|next| (ahead(at, next), next)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        for &place in &places[1..] {
+            let stations = self.stations_of(place, reach, work).into_iter();
+            let steps = stations.map(|next| (self.ahead(start, [at, next], reach), next));
+            let (step, next) = steps.min_by(|a, b| a.0.total_cmp(&b.0))?;
             (at, way) = (next, way + step);
-            if way > length {
+            if way > self.length() {
                 return None;
             }
             ways.push(way);
         }
-        let is_round = !coarse.is_closed || (way + ahead(at, start.station) - length).abs() <= ON;
-        is_round.then_some(ways)
+        Some((ways, at))
+    }
+
+    /// True if it lies on a coarse line with all of its vertices.
+    pub(super) fn goes_along(&self, coarse: &Chain, work: &mut Budget) -> bool {
+        let points = coarse.points();
+        let mut own = self.chain.vertices.iter();
+        own.all(|vertex| work.spend(points.len()) && polyline::distance(vertex.at, &points) <= BESIDE)
     }
 
     /// The vertices in the direction of the coarse line, split at its vertices.

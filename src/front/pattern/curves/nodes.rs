@@ -1,6 +1,6 @@
 //! Nodes: behaviour of the curve at each vertex of a line, given by turn points (layer 2), curve points (layer 3) and notches.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::front::pattern::chain::Chain;
 use crate::front::pattern::fold::Fold;
@@ -66,6 +66,27 @@ impl Signs {
     }
 }
 
+/// Points that a line passes: another line that ends there stands on it, and joins nothing.
+struct Passed(BTreeSet<[u64; 2]>);
+
+impl Passed {
+    fn of(lines: &[Line]) -> Self {
+        let curved = || lines.iter().filter(|line| line.layer.is_curved() && !line.vertices.is_empty());
+        let is_ring = |line: &Line| line.is_closed || line.vertices[0].at == line.vertices[line.vertices.len() - 1].at;
+        let inner = |line: &Line| {
+            let count = line.vertices.len();
+            let inner = if is_ring(line) { 0..count } else { 1..count.max(2) - 1 };
+            line.vertices[inner].iter().map(|vertex| bits(vertex.at)).collect::<Vec<_>>()
+        };
+        let has_ends = curved().any(|line| !is_ring(line));
+        Self(if has_ends { curved().flat_map(inner).collect() } else { BTreeSet::new() })
+    }
+
+    fn has(&self, at: Point) -> bool {
+        self.0.contains(&bits(at))
+    }
+}
+
 /// The first curve point that marks no vertex of any line of its block.
 fn stray(lines: &[Line], dots: &[Dot]) -> Option<Span> {
     let mut vertices: Vec<Point> = lines.iter().flat_map(|line| &line.vertices).map(|vertex| vertex.at).collect();
@@ -119,12 +140,14 @@ impl Nodes {
             return Self::default();
         }
         nodes.stray = stray(lines, dots);
+        let passed = Passed::of(lines);
         for line in lines.iter().filter(|line| line.layer.is_curved()) {
             let doubled = line.vertices.windows(2).filter(|pair| pair[0].at == pair[1].at);
             doubled.for_each(|pair| nodes.add(pair[0].at, Signs::default().with(Sign::Doubled)));
             let open = |chain: &Chain| !chain.is_closed && !retraces(chain);
             let ends = Chain::of(line.vertices.clone(), line.is_closed).filter(open);
-            for end in ends.iter().flat_map(|chain| [chain.vertices.first(), chain.vertices.last()]).flatten() {
+            let ends = ends.iter().flat_map(|chain| [chain.vertices.first(), chain.vertices.last()]).flatten();
+            for end in ends.filter(|end| !passed.has(end.at)) {
                 nodes.add(end.at, Signs::default().with(Sign::Joint));
             }
         }

@@ -37,7 +37,7 @@ pub(super) fn once(paths: Vec<Path>) -> Vec<Path> {
 
 /// Lines in walking order, each in the direction of the walk, beginning with the first one or with those that lead to its
 /// start; `None` if they branch.
-fn walk(paths: &[Path]) -> Option<Vec<Path>> {
+pub(super) fn walk(paths: &[Path]) -> Option<Vec<Path>> {
     let [first, others @ ..] = paths else { return None };
     if others.is_empty() {
         return (first.points.len() > 1).then(|| vec![first.clone()]);

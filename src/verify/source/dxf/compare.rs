@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::cloth::cloths;
-use super::curves::{Bow, ON};
+use super::curves::{Bend, Bow, ON};
 use super::cuts::{Cuts, Mark};
 use super::lines::{MEETS, Round};
 use super::lookup::Lookup;
@@ -26,16 +26,31 @@ const NOTCH_OFF: f64 = Dxf::NOTCH_OFF;
 const SAME_PLACE: f64 = 0.2;
 /// Greatest turn of a line at a curve point, relative to the turn of its chords.
 const SMOOTHER: f64 = 0.75;
+/// Place on a line beside a curve point at which a curve has left the chords, as a share of the shorter chord; and its least
+/// distance from them there, as a share of the height of a round curve, which reaches three quarters of its height.
+const LEFT_AT: f64 = 0.25;
+const LEFT_BY: f64 = 0.25;
 /// Greatest relative shortfall of a mouth against the edge that it is cut into.
 const MOUTH_SHORTER: f64 = 0.05;
 
 /// Compares a marker as read with a scan of the bytes of a set of patterns.
 pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> {
     let mut judged = cloths(bytes, read, job).into_iter().map(|cloth| judged(cloth, read));
-    let first = judged.next().unwrap_or_default();
-    let holds = |findings: &Vec<Finding>| findings.iter().all(Finding::holds);
-    // Pieces that insertions place on top of each other may lie in a row instead.
-    if holds(&first) { first } else { judged.find(holds).unwrap_or(first) }
+    let mut least = judged.next().unwrap_or_default();
+    // Pieces that insertions place on top of each other may lie in a row instead. The layout with the fewest differences is
+    // the one that the marker was read as.
+    while !least.iter().all(Finding::holds)
+        && let Some(other) = judged.next()
+    {
+        let differences = |findings: &[Finding]| {
+            findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.worst).sum()
+        };
+        let [before, now]: [f64; 2] = [&least, &other].map(|findings| differences(findings));
+        if now < before {
+            least = other;
+        }
+    }
+    least
 }
 
 /// Compares the marker with one possible layout of the file, in which places may be off by up to `off` mm.
@@ -68,6 +83,19 @@ struct Line {
     notched: Vec<(Point, u32)>,
     /// Widths of the mouths, mm.
     widths: Vec<f64>,
+}
+
+/// A line without the stretches that go out and straight back.
+fn without_spikes(line: &[(Point, u32)]) -> Vec<(Point, u32)> {
+    let mut kept: Vec<(Point, u32)> = Vec::with_capacity(line.len());
+    for &place in line {
+        if kept.len() > 1 && kept[kept.len() - 2].0 == place.0 {
+            kept.pop();
+        } else {
+            kept.push(place);
+        }
+    }
+    kept
 }
 
 /// Marks of a block; `marks` is sorted by block.
@@ -221,21 +249,33 @@ impl Both<'_> {
         wrong.worst.finding()
     }
 
-    /// Counts curve points at which lines turn as much as their chords: no curve was laid through them.
+    /// Counts curve points at which lines lie on both chords and turn as much: no curve was laid through them.
     fn bends(&self, wrong: &mut Count) {
         let Self { cuts, lines, reach, .. } = self;
         let bends = Lookup::of(cuts.bends.iter().map(|bend| bend.at), *reach);
         for line in lines.iter().filter(|_| !cuts.bends.is_empty()) {
-            let mut drawn = line.drawn.clone();
-            drawn.dedup_by(|next, before| next.0 == before.0);
-            // A closed line continues to its second place.
-            if drawn.len() > 2 && drawn[0].0 == drawn[drawn.len() - 1].0 {
-                drawn.push(drawn[1]);
-            }
-            for way in drawn.windows(3) {
-                let turn = polyline::turn_at(way[0].0, way[1].0, way[2].0).abs();
-                if bends.near(way[1].0).any(|k| turn > SMOOTHER * cuts.bends[k].turn) {
-                    wrong.see(way[1].0, way[1].1);
+            let mut places = line.drawn.clone();
+            places.dedup_by(|next, before| next.0 == before.0);
+            // A slit that stands on a curve point leaves the curve there, and comes back to it.
+            let drawn = without_spikes(&places);
+            let points: Vec<Point> = drawn.iter().map(|place| place.0).collect();
+            let stations = polyline::stations(&points);
+            let is_ring = points.len() > 2 && points[0] == points[points.len() - 1];
+            // The last place of a ring is its first.
+            for (k, &(at, block)) in drawn.iter().enumerate().skip(usize::from(is_ring)) {
+                let lies_on_chords = |bend: &Bend| {
+                    let length = stations[stations.len() - 1];
+                    [-LEFT_AT, LEFT_AT].into_iter().all(|share| {
+                        let station = stations[k] + share * bend.chord();
+                        let station = if is_ring { station.rem_euclid(length) } else { station.clamp(0.0, length) };
+                        bend.off(polyline::place(&points, &stations, station)) <= LEFT_BY * bend.height
+                    })
+                };
+                let next = if k + 1 < points.len() { k + 1 } else { usize::from(is_ring) };
+                let turn = polyline::turn_at(points[k.saturating_sub(1)], at, points[next]).abs();
+                let is_bent = |bend: &Bend| turn > SMOOTHER * bend.turn && lies_on_chords(bend);
+                if bends.near(at).any(|k| is_bent(&cuts.bends[k])) {
+                    wrong.see(at, block);
                 }
             }
         }

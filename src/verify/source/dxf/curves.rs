@@ -1,5 +1,5 @@
 //! Curves of a block, found anew: fine lines (layers 84 to 87) that replace coarse ones, and edges of other lines that may bow
-//! because curve points (layer 3) are on them. It follows no line and lays no curve.
+//! because curve points (layer 3) are on them. It lays no curve.
 
 use std::collections::BTreeMap;
 
@@ -7,6 +7,7 @@ use super::again::once;
 use super::fold::Fold;
 use super::lines::{MEETS, Measure, Path, Stroke, clusters, paths, strokes};
 use super::lookup::Lookup;
+use super::stretch::{Parted, parted};
 use super::tags::{Item, Sheet};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
@@ -16,8 +17,11 @@ use crate::machine::patterns::Dxf;
 pub(super) const ON: f64 = 0.01;
 /// Layers of fine lines.
 const FINE: [u32; 4] = [84, 85, 86, 87];
-/// Least height of a curve over its chords for it to be missed, mm.
+/// Height of a round curve over the chords at a vertex, mm. A line with smaller heights has fine chords.
 const HIGH: f64 = 0.2;
+/// Least such height for a curve to be missed, mm. A system may leave a chord that its curve leaves by less than 0.006 inch, and
+/// beside a corner a curve rises half as far.
+const MISSED: f64 = 2.0 * 0.1524;
 
 /// Information of a block about curves.
 pub(super) struct Curves {
@@ -48,17 +52,49 @@ pub(super) struct Bow {
     pub(super) ends: [Point; 2],
 }
 
-/// A vertex at which a curve goes on, and the turn of its chords there, rad.
+/// A vertex at which a curve goes on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bend {
     pub(super) at: Point,
+    /// The ends of its chords on both sides.
+    pub(super) ends: [Point; 2],
+    /// Turn of the chords, rad, and height of a round curve over them, mm.
     pub(super) turn: f64,
+    pub(super) height: f64,
+}
+
+impl Bend {
+    /// Its image by a motion or a mirror.
+    pub(super) fn moved(&self, to: impl Fn(Point) -> Point) -> Self {
+        Self { at: to(self.at), ends: self.ends.map(to), ..*self }
+    }
+
+    /// Length of its shorter chord, mm.
+    pub(super) fn chord(&self) -> f64 {
+        self.ends.iter().map(|end| (end - self.at).norm()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance of a place from its chords, mm.
+    pub(super) fn off(&self, place: Point) -> f64 {
+        let off = self.ends.iter().map(|end| polyline::distance_to_segment(place, self.at, *end));
+        off.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Edges that may bow, vertices at which a curve must go on, and vertices that it may pass.
+#[derive(Debug, Default)]
+pub(super) struct Bows {
+    pub(super) edges: Vec<Bow>,
+    pub(super) bends: Vec<Bend>,
+    pub(super) passed: Vec<Point>,
 }
 
 /// Replacement of coarse lines that belong together.
 pub(super) enum Course {
     /// The coarse lines are cut themselves; some edges may bow.
-    Own { bows: Vec<Bow>, bends: Vec<Bend>, passed: Vec<Point> },
+    Own(Bows),
+    /// Fine lines are cut in the place of some edges. Other edges may bow.
+    Part { lines: Vec<Path>, chords: Vec<[Point; 2]>, bows: Bows },
     /// Fine lines are cut in their place, and the spikes of the coarse ones.
     Fine(Vec<Path>),
 }
@@ -123,22 +159,28 @@ impl Curves {
                 return Course::Fine([whole, spikes].concat());
             }
         }
+        let own = self.fine.iter().filter(|(layer, _)| *layer == usual).map(|(_, fine)| fine);
+        if let Some(Parted { fine, rest, chords }) = parted(own.clone(), &bare, fold) {
+            let (bows, _) = self.bows(&rest, fold);
+            return Course::Part { lines: [fine, rest, spikes].concat(), chords, bows };
+        }
         // A control polygon shares a few vertices with a line that is fine itself: most of its curve points bend little.
-        let own = self.fine.iter().filter(|(layer, _)| *layer == usual).flat_map(|(_, fine)| fine);
-        let own = Lookup::of(own.flat_map(|path| path.points.iter().copied()), ON);
+        let own = Lookup::of(own.flatten().flat_map(|path| path.points.iter().copied()), ON);
         let count = places.iter().filter(|at| own.has(**at)).count();
         let may_be_polygon = count > 0 && 2 * count <= places.len();
-        let (mut bows, mut bends, mut passed, mut smooth) = (Vec::new(), Vec::new(), Vec::new(), 0);
-        if self.may_bow {
-            for path in &bare {
-                smooth += self.see(path, fold, &mut bows, &mut bends);
-                passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
-            }
+        let (bows, [smooth, high]) = self.bows(&bare, fold);
+        Course::Own(if may_be_polygon && 2 * high <= smooth { Bows::default() } else { bows })
+    }
+
+    /// Edges of lines that may bow, and the counts of all curve points between chords and of those at which curves are high.
+    fn bows(&self, paths: &[Path], fold: Option<Fold>) -> (Bows, [usize; 2]) {
+        let (mut bows, mut counts) = (Bows::default(), [0; 2]);
+        for path in paths.iter().filter(|_| self.may_bow) {
+            let of_path = self.see(path, fold, &mut bows);
+            counts = [counts[0] + of_path[0], counts[1] + of_path[1]];
+            bows.passed.extend(path.points.iter().filter(|at| self.is_smooth(**at) && self.is_notched(**at)));
         }
-        if may_be_polygon && 2 * bends.len() <= smooth {
-            return Course::Own { bows: Vec::new(), bends: Vec::new(), passed: Vec::new() };
-        }
-        Course::Own { bows, bends, passed }
+        (bows, counts)
     }
 
     /// True if a curve may go on at a vertex.
@@ -156,15 +198,15 @@ impl Curves {
         self.notches.beside.has(at)
     }
 
-    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by at least [`HIGH`]. Returns the count of
-    /// all curve points between chords.
-    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Vec<Bow>, bends: &mut Vec<Bend>) -> usize {
-        let mut smooth = 0;
+    /// Adds the edges that may bow, and the curve points whose chords a curve leaves by at least [`MISSED`]. Returns the counts
+    /// of all curve points between chords and of those with at least [`HIGH`].
+    fn see(&self, path: &Path, fold: Option<Fold>, bows: &mut Bows) -> [usize; 2] {
+        let [mut smooth, mut high] = [0; 2];
         let count = path.points.len();
         for k in 0..path.curves.len() {
             let ends = path.edge(k);
             if path.curves[k].is_none() && ends.iter().any(|&end| self.goes_on(end)) {
-                bows.push(Bow { ends });
+                bows.edges.push(Bow { ends });
             }
             if !path.is_closed && (k == 0 || k + 1 == count) {
                 continue;
@@ -175,12 +217,14 @@ impl Curves {
             let is_smooth = self.is_smooth(at) && !self.is_notched(at) && !path.doubled.contains(&at);
             // A round curve that turns by this angle from chord to chord rises an eighth of it over each chord, relative to the
             // chord's length.
+            let height = turn * (at - before).norm().min((behind - at).norm()) / 8.0;
             smooth += usize::from(is_smooth);
-            if is_smooth && turn * (at - before).norm().min((behind - at).norm()) / 8.0 >= HIGH {
-                bends.push(Bend { at, turn });
+            high += usize::from(is_smooth && height >= HIGH);
+            if is_smooth && height >= MISSED {
+                bows.bends.push(Bend { at, ends: [before, behind], turn, height });
             }
         }
-        smooth
+        [smooth, high]
     }
 }
 
@@ -265,6 +309,28 @@ pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
         is_open(paths) && (free() == 1 || free() == 0 && meets_there(paths))
     };
     clusters.iter().enumerate().map(|(k, paths)| half != Some(k) && stands(paths)).collect()
+}
+
+/// Straight lines over the gaps of outlines, up to `most` mm wide: between free ends that are nearest to each other. Lines that
+/// stand off others have none.
+pub(super) fn bridges(clusters: &[Vec<Path>], most: f64) -> Vec<Path> {
+    if most == 0.0 || clusters.iter().all(|paths| free_ends(paths).is_empty()) {
+        return Vec::new();
+    }
+    let are_spurs = standing(clusters);
+    let of_outline = |(paths, is_spur): (&Vec<Path>, bool)| {
+        let kept = paths.iter().zip(twigs(paths)).filter(|(_, is_twig)| !is_spur && !is_twig);
+        free_ends(&kept.map(|(path, _)| path.clone()).collect::<Vec<_>>())
+    };
+    let ends: Vec<Point> = clusters.iter().zip(are_spurs).flat_map(of_outline).map(|end| end.1).collect();
+    let lookup = Lookup::of(ends.iter().copied(), most);
+    let nearest = |k: usize| {
+        let distance = |other: &usize| (ends[*other] - ends[k]).norm();
+        lookup.near(ends[k]).filter(|&other| other != k).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    let gaps = (0..ends.len())
+        .filter_map(|k| nearest(k).filter(|&other| other > k && nearest(other) == Some(k)).map(|other| [k, other]));
+    gaps.map(|gap| Path::straight(gap.map(|k| ends[k]))).collect()
 }
 
 /// Fine lines, with the chord that closes them if the coarse ones are closed.

@@ -1,7 +1,7 @@
 //! Cuts of a block, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
 use super::again::once;
-use super::curves::{Bend, Bow, Course, Curves, standing, twigs};
+use super::curves::{Bend, Bow, Bows, Course, Curves, bridges, standing, twigs};
 use super::fold::Fold;
 use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, strokes};
 use super::lookup::Lookup;
@@ -72,7 +72,14 @@ impl Cuts {
         let fold = fold.filter(|fold| fold.halves(&outlines)).map(|fold| fold.of_half(&outlines));
         let curves = lent.map(|lent| Curves::of(sheet, lent, measure));
         for (layer, usual) in [(1, FINE_OUTLINE), (11, 86)] {
-            let clusters: Vec<Vec<Path>> = clusters(paths(layer)).into_iter().map(once).collect();
+            let mut lines = clusters(paths(layer));
+            if layer == 1 {
+                let bridges = bridges(&lines, measure.close);
+                if !bridges.is_empty() {
+                    lines = clusters(lines.into_iter().flatten().chain(bridges).collect());
+                }
+            }
+            let clusters: Vec<Vec<Path>> = lines.into_iter().map(once).collect();
             let are_spurs = if layer == 1 { standing(&clusters) } else { vec![false; clusters.len()] };
             for (mut paths, is_spur) in clusters.into_iter().zip(are_spurs) {
                 if is_spur {
@@ -128,8 +135,7 @@ impl Cuts {
 
     /// Adds lines that belong together with their curves, if curves are asked for.
     fn add_curved(&mut self, mut paths: Vec<Path>, usual: u32, curves: Option<&Curves>, halving: Halving) {
-        let both = |at: Point| [Some(at), halving.fold.map(|fold| fold.across(at))].into_iter().flatten();
-        let both_ends = |[a, b]: [Point; 2]| both(a).zip(both(b)).map(|(a, b)| [a, b]).collect::<Vec<_>>();
+        let both_ends = |ends: [Point; 2]| halving.both_ends(ends);
         let edges = |paths: &[Path]| -> Vec<[Point; 2]> {
             paths.iter().flat_map(|path| (0..path.curves.len()).map(|k| path.edge(k)).collect::<Vec<_>>()).collect()
         };
@@ -138,22 +144,34 @@ impl Cuts {
                 self.chords.extend(edges(&paths).into_iter().flat_map(both_ends));
                 self.add(&fine, &[], halving);
             }
-            Some(Course::Own { bows, bends, passed }) => {
-                for [a, b] in bows.iter().map(|bow| bow.ends) {
-                    // A curve over a chord is at most as long as half a circle.
-                    self.slack += halving.times() * (FRAC_PI_2 - 1.0) * (b - a).norm();
-                    self.bows.extend(both_ends([a, b]).into_iter().map(|ends| Bow { ends }));
-                    self.chords.extend(both_ends([a, b]));
-                }
-                self.bends.extend(bends.iter().flat_map(|bend| both(bend.at).map(|at| Bend { at, ..*bend })));
+            Some(Course::Part { lines, chords, bows }) => {
+                self.chords.extend(chords.into_iter().flat_map(both_ends));
+                self.add_bows(&bows, halving);
+                self.add(&lines, &bows.passed, halving);
+            }
+            Some(Course::Own(bows)) => {
+                self.add_bows(&bows, halving);
                 double(&mut paths, usual);
-                self.add(&paths, &passed, halving);
+                self.add(&paths, &bows.passed, halving);
             }
             None => {
                 double(&mut paths, usual);
                 self.add(&paths, &[], halving);
             }
         }
+    }
+
+    /// Adds edges that may bow, on both sides of a fold.
+    fn add_bows(&mut self, bows: &Bows, halving: Halving) {
+        for [a, b] in bows.edges.iter().map(|bow| bow.ends) {
+            // A curve over a chord is at most as long as half a circle.
+            self.slack += halving.times() * (FRAC_PI_2 - 1.0) * (b - a).norm();
+            self.bows.extend(halving.both_ends([a, b]).map(|ends| Bow { ends }));
+            self.chords.extend(halving.both_ends([a, b]));
+        }
+        self.bends.extend_from_slice(&bows.bends);
+        let across = |fold: Fold| bows.bends.iter().map(move |bend| bend.moved(|at| fold.across(at)));
+        self.bends.extend(halving.fold.into_iter().flat_map(across));
     }
 
     /// Adds lines that belong together, on both sides of a fold, without edges on the fold itself. A curve may pass some of
@@ -207,7 +225,17 @@ struct Halving {
 }
 
 impl Halving {
-    fn times(&self) -> f64 {
+    /// A point, and its mirror image.
+    fn both(self, at: Point) -> impl Iterator<Item = Point> {
+        [Some(at), self.fold.map(|fold| fold.across(at))].into_iter().flatten()
+    }
+
+    /// The ends of an edge, and of its mirror image.
+    fn both_ends(self, [a, b]: [Point; 2]) -> impl Iterator<Item = [Point; 2]> {
+        self.both(a).zip(self.both(b)).map(|(a, b)| [a, b])
+    }
+
+    fn times(self) -> f64 {
         if self.fold.is_some() { 2.0 } else { 1.0 }
     }
 }

@@ -16,6 +16,7 @@ mod lines;
 mod lookup;
 mod places;
 pub(super) mod plain;
+mod stretch;
 mod tags;
 
 pub use compare::pattern_audit;
