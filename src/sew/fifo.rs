@@ -100,7 +100,7 @@ mod tests {
         let step = |i| Step { op: Op::Stitch, to: Point::new(i as f64, 0.0), is_tie: false, record: 0 };
         let stitches = Stitches { steps: (0..stitches).map(step).collect() };
         let runs = speed::runs(&stitches, &job.profile.sewing);
-        simulate(&Program { format: "test", record_word: "record", pattern: None, stitches, runs }, &job)
+        simulate(&Program { format: "test", record_word: "record", pattern: None, drawn: None, stitches, runs }, &job)
     }
 
     #[test]
