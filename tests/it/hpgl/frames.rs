@@ -102,6 +102,18 @@ fn somebody_says_whether_a_rectangle_that_is_nearly_empty_is_a_frame() {
 }
 
 #[test]
+fn a_frame_in_a_frame_that_is_nearly_empty_is_no_part_before_somebody_says_so() {
+    let [paper, sheet] = [[-600, -600, 81_200, 49_200], [0, 0, 80_000, 48_000]];
+    let all = [&[paper, sheet][..], &parts(0)].concat();
+    assert_eq!(cut(&all, &Job::default()).1, ["drawing/frame-or-part"]);
+    let mut job = Job::default();
+    job.profile.hpgl.frame = Frame::Outermost;
+    assert_eq!(cut(&all, &job).1, ["drawing/frame-or-part", "drawing/frame"]);
+    job.lines.inner = Some(Inner::Ignore);
+    assert_eq!(cut(&all, &job), (vec![[0, 0]], vec!["drawing/may-be-frame", "drawing/frame"]));
+}
+
+#[test]
 fn parts_in_strokes_are_whole_though_a_frame_lies_on_their_edges() {
     let strokes = |[x, y, width, height]: [i64; 4]| {
         let (right, top) = (x + width, y + height);
