@@ -211,7 +211,9 @@ impl Drawn<'_> {
         }
         // Few parts come here: no closed line may stand between, and a part with a seam line is an outline.
         edges.walls = Walls::new(self.walls(part, near, work));
-        let remains = match edges.around(&places, work) {
+        let cover = edges.around(&places, work);
+        let is_most = matches!(cover, Cover::Most(_));
+        let remains = match cover {
             Cover::Unsearched => unsearched(open),
             Cover::Little => return None,
             // Parts of this size have no seam line, so there is no doubt.
@@ -221,7 +223,11 @@ impl Drawn<'_> {
             Cover::Partial(lines) => Remains { lines, inner: part, is_sure: false },
             Cover::Most(lines) => Remains { lines, inner: part, is_sure: true },
         };
-        (!self.has_seam(part, &places, work)).then_some(remains)
+        // A part with a seam line is an outline, unless that is a topstitch, and the part the seam line of a broken outline.
+        match self.has_seam(part, &places, work) {
+            false => Some(remains),
+            true => Some(Remains { is_sure: false, ..remains }).filter(|_| is_most),
+        }
     }
 
     /// The edges of open lines near a part.

@@ -73,6 +73,20 @@ fn a_seam_line_is_no_part_when_its_outline_is_drawn_in_strokes_that_do_not_meet(
 }
 
 #[test]
+fn a_seam_line_with_a_topstitch_in_it_is_not_cut_in_the_place_of_a_broken_outline() {
+    let lines = rectangle(800, 800, 11_200, 7200) + &rectangle(1040, 1040, 10_720, 6720);
+    let mut guides = Job::default();
+    guides.profile.drawing.beside = Beside::Guide;
+    for (name, outline) in broken_outlines() {
+        for text in [format!("{outline}{lines}"), format!("{lines}{outline}")] {
+            let (_, codes) = found(&text, &Job::default());
+            assert!(codes.contains(&"drawing/may-be-seam-line"), "{name}: {codes:?}");
+            assert_eq!(areas(&found(&text, &guides).0), [50_400.0], "{name}");
+        }
+    }
+}
+
+#[test]
 fn an_open_outline_of_a_pen_that_only_draws_is_told() {
     let seam = rectangle(800, 800, 11_200, 7200);
     let text =
