@@ -87,6 +87,33 @@ fn a_seam_line_with_a_topstitch_in_it_is_not_cut_in_the_place_of_a_broken_outlin
 }
 
 #[test]
+fn lines_in_a_neighbour_that_touches_a_part_say_nothing_about_the_part() {
+    // Neighbours may overlap the part by the rounding of each.
+    for over in [0, 4] {
+        let parts = rectangle(0, 0, 9600, 4000 + over)
+            + &rectangle(0, 4000, 3000 + over, 1280)
+            + &rectangle(3000, 4000, 1280, 1280)
+            + &rectangle(4280 - over, 4000, 5320 + over, 1280)
+            + &rectangle(0, 5280 - over, 9600, 4000);
+        let dashes = (400..9200).step_by(600).fold(String::new(), |text, x| {
+            text + &format!("PU{x},3600;PD{},3600;PU{x},5680;PD{},5680;", x + 360, x + 360)
+        });
+        let dashes = (4100..5200)
+            .step_by(300)
+            .fold(dashes, |text, y| text + &format!("PU2600,{y};PD2600,{};PU4680,{y};PD4680,{};", y + 200, y + 200));
+        let bars = (400..9200).step_by(600).fold(String::new(), |text, x| {
+            text + &format!("PU{x},4000;PD{x},3800;PU{},3800;PD{},3800;", x - 100, x + 100)
+                + &format!("PU{x},5280;PD{x},5480;PU{},5480;PD{},5480;", x - 100, x + 100)
+        });
+        for lines in [dashes, bars] {
+            let (marker, codes) = found(&format!("{parts}{lines}"), &Job::default());
+            assert_eq!(marker.pieces.len(), 5, "{codes:?} {lines}");
+            assert!(!codes.contains(&"drawing/may-be-seam-line"), "{codes:?} {lines}");
+        }
+    }
+}
+
+#[test]
 fn an_open_outline_of_a_pen_that_only_draws_is_told() {
     let seam = rectangle(800, 800, 11_200, 7200);
     let text =
