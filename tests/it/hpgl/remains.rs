@@ -114,6 +114,19 @@ fn lines_in_a_neighbour_that_touches_a_part_say_nothing_about_the_part() {
 }
 
 #[test]
+fn a_broken_outline_beside_a_part_in_a_frame_is_told_as_such() {
+    let seam = rectangle(800, 800, 11_200, 7200);
+    let beside = rectangle(400, 8400, 12_000, 7000) + &rectangle(800, 8800, 11_200, 6200);
+    for (name, outline) in broken_outlines().into_iter().filter(|(name, _)| !name.contains("opposite")) {
+        for frame in [rectangle(400, 400, 12_000, 15_000), rectangle(-200, -200, 13_200, 16_200)] {
+            let (marker, codes) = found(&format!("{outline}{seam}{beside}{frame}"), &Job::default());
+            assert_eq!(areas(&marker), [52_500.0], "{name} {codes:?}");
+            assert!(codes.contains(&"drawing/open-part"), "{name} {codes:?}");
+        }
+    }
+}
+
+#[test]
 fn an_open_outline_of_a_pen_that_only_draws_is_told() {
     let seam = rectangle(800, 800, 11_200, 7200);
     let text =

@@ -72,14 +72,29 @@ impl Edges {
 /// out, the remaining cuts are included.
 pub(super) fn surrounded(drawn: &[Vec<Point>], cuts: &[Vec<Point>], close: f64) -> Vec<usize> {
     let rectangles = rectangle::drawn(drawn, close);
+    let is_edge = |stroke: &Vec<Point>| rectangles.iter().any(|one| one.runs_along(stroke, close));
+    surrounded_but_by(is_edge, drawn, cuts, close)
+}
+
+/// True if open lines surround an outline. Those along the frame of the plot or along another outline count as well.
+pub(super) fn is_surrounded(outline: &[Point], drawn: &[Vec<Point>], close: f64) -> bool {
+    !surrounded_but_by(|_| false, drawn, &[outline.to_vec()], close).is_empty()
+}
+
+/// Surrounded cuts, without regard for some open lines.
+fn surrounded_but_by(
+    is_edge: impl Fn(&Vec<Point>) -> bool,
+    drawn: &[Vec<Point>],
+    cuts: &[Vec<Point>],
+    close: f64,
+) -> Vec<usize> {
     let is_open = |stroke: &&Vec<Point>| {
         let [first, last] = [stroke[0], stroke[stroke.len() - 1]];
         let (width, height) = Extent::of(stroke).size();
         let is_letter = width.max(height) <= LETTER && !is_straight(stroke);
         (last - first).norm() > close && !is_letter
     };
-    let open: Vec<&Vec<Point>> = drawn.iter().filter(|stroke| stroke.len() > 1).filter(is_open).collect();
-    let open = open.into_iter().filter(|stroke| !rectangles.iter().any(|one| one.runs_along(stroke, close)));
+    let open = drawn.iter().filter(|stroke| stroke.len() > 1).filter(is_open).filter(|stroke| !is_edge(stroke));
     let edges: Vec<[Point; 2]> = open.flat_map(|stroke| stroke.windows(2)).map(|ends| [ends[0], ends[1]]).collect();
     if edges.is_empty() {
         return Vec::new();
