@@ -100,12 +100,14 @@ struct Frames<'a> {
 }
 
 impl Frames<'_> {
-    /// Largest line, and the rectangles beside it around at least two lines.
+    /// Largest line, and the rectangles beside it around at least two lines. A rectangle in one of them that may be a frame
+    /// as well is a doubt.
     fn asked(&self, order: &[usize], work: &mut Budget) -> Found {
         let tops = self.tops(order, work);
         let is_frame = |(k, top): &(usize, &Top)| *k == 0 || self.is_rectangle(top.line) && top.inner.len() > 1;
-        let frames = tops.iter().enumerate().filter(is_frame).map(|(_, top)| top.line).collect();
-        Found { frames, doubt: None }
+        let found: Vec<&Top> = tops.iter().enumerate().filter(is_frame).map(|(_, top)| top).collect();
+        let nested = |top: &&Top| self.inner_frames(top, 1, LEAST_DOUBTFUL, work).map(|(frames, _)| frames[0]);
+        Found { doubt: found.iter().find_map(nested), frames: found.iter().map(|top| top.line).collect() }
     }
 
     /// Frames among large lines, given the largest first, including those of several markers beside each other.
@@ -115,7 +117,7 @@ impl Frames<'_> {
         let mut fillings: Vec<(usize, Filling)> = Vec::new();
         for top in &tops {
             let area = self.lines[top.line].area;
-            match self.frame(top, 1, work) {
+            match self.frame(top, 1, LEAST_FILL, work) {
                 Some((found, filling)) => {
                     frames.extend(found);
                     fillings.push((top.line, filling));
@@ -136,22 +138,24 @@ impl Frames<'_> {
         Found { frames: Vec::new(), doubt: Some(first).filter(|_| outside <= framed) }
     }
 
-    /// Rectangle that takes up nearly all the area and is partly filled with parts or cut-outs beside each other.
+    /// Rectangle that takes up nearly all the area and is partly filled with parts or cut-outs beside each other, or around
+    /// another one that is.
     fn doubtful(&self, tops: &[Top], outside: f64, work: &mut Budget) -> Option<usize> {
-        let top = tops.first().filter(|top| top.inner.len() > 1 && self.is_rectangle(top.line))?;
+        let top = tops.first().filter(|top| top.inner.len() > 1)?;
         let area = self.lines[top.line].area;
-        let filling = self.filling(top, work).filter(|filling| filling.share >= LEAST_DOUBTFUL)?;
+        let (_, filling) = self.frame(top, 1, LEAST_DOUBTFUL, work)?;
         (filling.parts > 1 && outside - area <= MOST_OUTSIDE * area).then_some(top.line)
     }
 
-    /// Nested frames from a line inwards, the outermost first; `None` if the line is not a frame.
-    fn frame(&self, top: &Top, depth: usize, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
+    /// Nested frames from a line inwards, the outermost first; `None` if the line is not a frame, or if parts fill less than
+    /// a share of the innermost rectangle.
+    fn frame(&self, top: &Top, depth: usize, least: f64, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
         if depth > MOST_FRAMES || !self.is_rectangle(top.line) {
             return None;
         }
         let mut frames = vec![top.line];
-        let inner = self.inner_frames(top, depth, work);
-        let filling = self.filling(top, work).filter(|filling| filling.share >= LEAST_FILL);
+        let inner = self.inner_frames(top, depth, least, work);
+        let filling = self.filling(top, work).filter(|filling| filling.share >= least);
         let filling = match inner {
             Some((inner, filling)) => {
                 frames.extend(inner);
@@ -163,7 +167,7 @@ impl Frames<'_> {
     }
 
     /// Frames in a frame: the cloth on the paper, around everything except a title block.
-    fn inner_frames(&self, outer: &Top, depth: usize, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
+    fn inner_frames(&self, outer: &Top, depth: usize, least: f64, work: &mut Budget) -> Option<(Vec<usize>, Filling)> {
         let tops = self.tops(&outer.inner, work);
         let [first, others @ ..] = &tops[..] else { return None };
         let area = |line: usize| self.lines[line].area;
@@ -172,7 +176,7 @@ impl Frames<'_> {
         if !others.is_empty() && (!is_cloth || outside > MOST_OUTSIDE * area(first.line)) {
             return None;
         }
-        self.frame(first, depth + 1, work)
+        self.frame(first, depth + 1, least, work)
     }
 
     fn is_rectangle(&self, line: usize) -> bool {

@@ -125,7 +125,7 @@ impl Joining<'_> {
         let frame = self.frame();
         let open = |k: &usize| {
             let ends = [place(self.drawing, 2 * k), place(self.drawing, 2 * k + 1)];
-            ends[0] != ends[1] && !frame.is_some_and(|frame| self.ends_at(&frame, ends)) && !self.retraces(*k)
+            ends[0] != ends[1] && !frame.is_some_and(|frame| self.ends_at(&frame, *k)) && !self.retraces(*k)
         };
         let ends: Vec<End> = (0..self.drawing.strokes.len()).filter(open).flat_map(|k| [2 * k, 2 * k + 1]).collect();
         if ends.is_empty() {
@@ -209,9 +209,14 @@ impl Joining<'_> {
         frames.max_by(|a, b| a.area.total_cmp(&b.area)).map(|line| line.extent)
     }
 
-    /// True if a frame closes a line between two places.
-    fn ends_at(&self, frame: &Extent, ends: [Point; 2]) -> bool {
-        (ends[1] - ends[0]).amax() > SMALL_OUTLINE && along(frame, ends, self.close).is_some()
+    /// True if a frame closes a stroke. A stroke along its edge is a side of an outline.
+    fn ends_at(&self, frame: &Extent, stroke: usize) -> bool {
+        let vertices = &self.drawing.vertices[self.drawing.strokes[stroke].range()];
+        let ends = [vertices[0].at, vertices[vertices.len() - 1].at];
+        let is_side = |on: &[Vertex]| along(frame, [on[0].at, on[1].at], self.close).is_some_and(|at| at.is_empty());
+        (ends[1] - ends[0]).amax() > SMALL_OUTLINE
+            && along(frame, ends, self.close).is_some()
+            && !vertices.windows(2).all(is_side)
     }
 
     /// Groups of at least two ends at one place.

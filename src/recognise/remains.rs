@@ -209,9 +209,12 @@ impl Drawn<'_> {
             Cover::Little => return None,
             Cover::Side(_) | Cover::Partial(_) | Cover::Most(_) => {}
         }
-        // Few parts come here: no closed line may stand between, and a part with a seam line is an outline.
+        // Few parts come here: no closed line may stand between, and a line in a neighbour is a line of that.
+        edges = Edges::new(self.outside_others(edges.list, part, near, work), near.are_bare);
         edges.walls = Walls::new(self.walls(part, near, work));
-        let remains = match edges.around(&places, work) {
+        let cover = edges.around(&places, work);
+        let is_most = matches!(cover, Cover::Most(_));
+        let remains = match cover {
             Cover::Unsearched => unsearched(open),
             Cover::Little => return None,
             // Parts of this size have no seam line, so there is no doubt.
@@ -221,7 +224,11 @@ impl Drawn<'_> {
             Cover::Partial(lines) => Remains { lines, inner: part, is_sure: false },
             Cover::Most(lines) => Remains { lines, inner: part, is_sure: true },
         };
-        (!self.has_seam(part, &places, work)).then_some(remains)
+        // A part with a seam line is an outline, unless that is a topstitch, and the part the seam line of a broken outline.
+        match self.has_seam(part, &places, work) {
+            false => Some(remains),
+            true => Some(Remains { is_sure: false, ..remains }).filter(|_| is_most),
+        }
     }
 
     /// The edges of open lines near a part.
@@ -238,6 +245,22 @@ impl Drawn<'_> {
             let edge = |ends: &[Vertex]| Edge { ends: [ends[0].at, ends[1].at], line, is_own };
             let is_near = |edge: &Edge| edge.extent().meets(&reach) && margin.covers(&edge.extent());
             edges.extend(self.lines[line].vertices(self.vertices).windows(2).map(edge).filter(is_near));
+        }
+        edges
+    }
+
+    /// The edges that lie in no other part: lines in a part are its own. A neighbour may overlap an outline by rounding.
+    fn outside_others(&self, mut edges: Vec<Edge>, part: usize, near: &Near, work: &mut Budget) -> Vec<Edge> {
+        let reach = self.lines[part].extent.grown(seam::FARTHEST);
+        for other in near.part_boxes.near(reach).map(|k| near.parts[k]).filter(|&other| other != part) {
+            let (extent, places) = (self.lines[other].extent, self.points(other));
+            edges.retain(|edge| {
+                let middle = edge.ends[0] + (edge.ends[1] - edge.ends[0]) / 2.0;
+                !extent.holds(middle)
+                    || !work.spend(places.len())
+                    || !ring::contains(&places, middle)
+                    || polyline::distance(middle, &places) <= LEAST_OFF
+            });
         }
         edges
     }

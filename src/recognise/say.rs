@@ -19,7 +19,7 @@ use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::drawing::Ending;
 use crate::ir::marker::Notch;
 use crate::machine::Job;
-use crate::machine::plot::{Inner, PenUse};
+use crate::machine::plot::{Frame, Inner, PenUse};
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
@@ -372,8 +372,13 @@ fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     let (width, height, count) = (fixed(width, 1), fixed(height, 1), held.len());
     let message = format!("frame or part: {width} x {height} mm around {count} closed lines");
     let found = finding(&code::DRAWING_FRAME_OR_PART, message, line, sheet).on_cloth(line.extent.min);
-    let hint = "if it is a part, `--inner ignore`; `--inner cut` cuts its cut-outs, too";
-    Some(found.hint("if it is a frame, `--set hpgl.frame=outermost`: what lies in it is cut").hint(hint))
+    // The frame that was asked for is around it.
+    let of_frame = match job.profile.hpgl.frame {
+        Frame::Outermost => "if it is a frame in the frame, let the CAD draw one of them only",
+        Frame::Auto | Frame::None => "if it is a frame, `--set hpgl.frame=outermost`: what lies in it is cut",
+    };
+    let of_part = "if it is a part, `--inner ignore`; `--inner cut` cuts its cut-outs, too";
+    Some(found.hint(of_frame).hint(of_part))
 }
 
 /// Closed lines outside the frames: the cloth is not there.

@@ -8,6 +8,7 @@ use cutc::machine::{Job, Numbers};
 use cutc::pipeline;
 use cutc::verify::{DrawingCuts, drawing_audit};
 
+use super::closing::{areas, found};
 use super::{as_read, key, outlines, rectangle, source};
 
 const FRAME: [i64; 4] = [0, 0, 40_000, 24_000];
@@ -98,6 +99,41 @@ fn somebody_says_whether_a_rectangle_that_is_nearly_empty_is_a_frame() {
     assert_eq!(cut(&all, &job), (parts(0).map(|[x, y, ..]| [x, y]).to_vec(), vec!["drawing/frame"]));
     let job = Job { lines: Lines { inner: Some(Inner::Ignore), ..Lines::default() }, ..Job::default() };
     assert_eq!(cut(&all, &job), (vec![[0, 0]], vec!["drawing/may-be-frame"]));
+}
+
+#[test]
+fn a_frame_in_a_frame_that_is_nearly_empty_is_no_part_before_somebody_says_so() {
+    let [paper, sheet] = [[-600, -600, 81_200, 49_200], [0, 0, 80_000, 48_000]];
+    let all = [&[paper, sheet][..], &parts(0)].concat();
+    assert_eq!(cut(&all, &Job::default()).1, ["drawing/frame-or-part"]);
+    let mut job = Job::default();
+    job.profile.hpgl.frame = Frame::Outermost;
+    assert_eq!(cut(&all, &job).1, ["drawing/frame-or-part", "drawing/frame"]);
+    job.lines.inner = Some(Inner::Ignore);
+    assert_eq!(cut(&all, &job), (vec![[0, 0]], vec!["drawing/may-be-frame", "drawing/frame"]));
+}
+
+#[test]
+fn parts_in_strokes_are_whole_though_a_frame_lies_on_their_edges() {
+    let strokes = |[x, y, width, height]: [i64; 4]| {
+        let (right, top) = (x + width, y + height);
+        format!(
+            "PU{x},{y};PD{right},{y};PU{right},{y};PD{right},{top};PU{right},{top};PD{x},{top};PU{x},{top};PD{x},{y};"
+        )
+    };
+    let whole = |[x, y, width, height]: [i64; 4]| rectangle(x, y, width, height);
+    let [beside, above] = [[8000, 0, 10_000, 6000], [0, 6000, 8000, 5000]];
+    for (other, frame) in [(beside, [0, 0, 18_000, 6000]), (above, [0, 0, 8000, 11_000])] {
+        for (other, drawn) in [(other, whole(other)), (other, strokes(other))] {
+            let text = strokes([0, 0, 8000, 6000]) + &drawn + &whole(frame);
+            let (marker, codes) = found(&text, &Job::default());
+            let mut areas = areas(&marker);
+            areas.sort_by(f64::total_cmp);
+            let mut expected = [30_000.0, (other[2] * other[3]) as f64 / 1600.0];
+            expected.sort_by(f64::total_cmp);
+            assert_eq!((areas, codes), (expected.to_vec(), vec!["drawing/frame"]), "{text}");
+        }
+    }
 }
 
 #[test]

@@ -73,6 +73,60 @@ fn a_seam_line_is_no_part_when_its_outline_is_drawn_in_strokes_that_do_not_meet(
 }
 
 #[test]
+fn a_seam_line_with_a_topstitch_in_it_is_not_cut_in_the_place_of_a_broken_outline() {
+    let lines = rectangle(800, 800, 11_200, 7200) + &rectangle(1040, 1040, 10_720, 6720);
+    let mut guides = Job::default();
+    guides.profile.drawing.beside = Beside::Guide;
+    for (name, outline) in broken_outlines() {
+        for text in [format!("{outline}{lines}"), format!("{lines}{outline}")] {
+            let (_, codes) = found(&text, &Job::default());
+            assert!(codes.contains(&"drawing/may-be-seam-line"), "{name}: {codes:?}");
+            assert_eq!(areas(&found(&text, &guides).0), [50_400.0], "{name}");
+        }
+    }
+}
+
+#[test]
+fn lines_in_a_neighbour_that_touches_a_part_say_nothing_about_the_part() {
+    // Neighbours may overlap the part by the rounding of each.
+    for over in [0, 4] {
+        let parts = rectangle(0, 0, 9600, 4000 + over)
+            + &rectangle(0, 4000, 3000 + over, 1280)
+            + &rectangle(3000, 4000, 1280, 1280)
+            + &rectangle(4280 - over, 4000, 5320 + over, 1280)
+            + &rectangle(0, 5280 - over, 9600, 4000);
+        let dashes = (400..9200).step_by(600).fold(String::new(), |text, x| {
+            text + &format!("PU{x},3600;PD{},3600;PU{x},5680;PD{},5680;", x + 360, x + 360)
+        });
+        let dashes = (4100..5200)
+            .step_by(300)
+            .fold(dashes, |text, y| text + &format!("PU2600,{y};PD2600,{};PU4680,{y};PD4680,{};", y + 200, y + 200));
+        let bars = (400..9200).step_by(600).fold(String::new(), |text, x| {
+            text + &format!("PU{x},4000;PD{x},3800;PU{},3800;PD{},3800;", x - 100, x + 100)
+                + &format!("PU{x},5280;PD{x},5480;PU{},5480;PD{},5480;", x - 100, x + 100)
+        });
+        for lines in [dashes, bars] {
+            let (marker, codes) = found(&format!("{parts}{lines}"), &Job::default());
+            assert_eq!(marker.pieces.len(), 5, "{codes:?} {lines}");
+            assert!(!codes.contains(&"drawing/may-be-seam-line"), "{codes:?} {lines}");
+        }
+    }
+}
+
+#[test]
+fn a_broken_outline_beside_a_part_in_a_frame_is_told_as_such() {
+    let seam = rectangle(800, 800, 11_200, 7200);
+    let beside = rectangle(400, 8400, 12_000, 7000) + &rectangle(800, 8800, 11_200, 6200);
+    for (name, outline) in broken_outlines().into_iter().filter(|(name, _)| !name.contains("opposite")) {
+        for frame in [rectangle(400, 400, 12_000, 15_000), rectangle(-200, -200, 13_200, 16_200)] {
+            let (marker, codes) = found(&format!("{outline}{seam}{beside}{frame}"), &Job::default());
+            assert_eq!(areas(&marker), [52_500.0], "{name} {codes:?}");
+            assert!(codes.contains(&"drawing/open-part"), "{name} {codes:?}");
+        }
+    }
+}
+
+#[test]
 fn an_open_outline_of_a_pen_that_only_draws_is_told() {
     let seam = rectangle(800, 800, 11_200, 7200);
     let text =

@@ -1,7 +1,10 @@
 //! Open lines around a cut. If uncut lines run along nearly all of it from outside, they are its outline, and the cut is a seam
 //! line by mistake. Examples are an outline in dashes, in sides that do not meet, or in stretches between notches.
 //!
-//! Lines are examined place by place, regardless of strokes. No cut may lie in between.
+//! Lines are examined place by place, regardless of strokes. No cut may lie in between, and a line in another cut is a line of
+//! that.
+
+use std::cell::OnceCell;
 
 use super::rectangle;
 use crate::geom::boxes::Boxes;
@@ -69,14 +72,29 @@ impl Edges {
 /// out, the remaining cuts are included.
 pub(super) fn surrounded(drawn: &[Vec<Point>], cuts: &[Vec<Point>], close: f64) -> Vec<usize> {
     let rectangles = rectangle::drawn(drawn, close);
+    let is_edge = |stroke: &Vec<Point>| rectangles.iter().any(|one| one.runs_along(stroke, close));
+    surrounded_but_by(is_edge, drawn, cuts, close)
+}
+
+/// True if open lines surround an outline. Those along the frame of the plot or along another outline count as well.
+pub(super) fn is_surrounded(outline: &[Point], drawn: &[Vec<Point>], close: f64) -> bool {
+    !surrounded_but_by(|_| false, drawn, &[outline.to_vec()], close).is_empty()
+}
+
+/// Surrounded cuts, without regard for some open lines.
+fn surrounded_but_by(
+    is_edge: impl Fn(&Vec<Point>) -> bool,
+    drawn: &[Vec<Point>],
+    cuts: &[Vec<Point>],
+    close: f64,
+) -> Vec<usize> {
     let is_open = |stroke: &&Vec<Point>| {
         let [first, last] = [stroke[0], stroke[stroke.len() - 1]];
         let (width, height) = Extent::of(stroke).size();
         let is_letter = width.max(height) <= LETTER && !is_straight(stroke);
         (last - first).norm() > close && !is_letter
     };
-    let open: Vec<&Vec<Point>> = drawn.iter().filter(|stroke| stroke.len() > 1).filter(is_open).collect();
-    let open = open.into_iter().filter(|stroke| !rectangles.iter().any(|one| one.runs_along(stroke, close)));
+    let open = drawn.iter().filter(|stroke| stroke.len() > 1).filter(is_open).filter(|stroke| !is_edge(stroke));
     let edges: Vec<[Point; 2]> = open.flat_map(|stroke| stroke.windows(2)).map(|ends| [ends[0], ends[1]]).collect();
     if edges.is_empty() {
         return Vec::new();
@@ -85,7 +103,7 @@ pub(super) fn surrounded(drawn: &[Vec<Point>], cuts: &[Vec<Point>], close: f64) 
     let mut work = Budget::of_lines(drawn.len() + cuts.len());
     let places = edges.into_iter().flat_map(places).filter(|place| !walls.are_at(place.at)).collect::<Vec<_>>();
     let boxes = Boxes::new(places.iter().map(|place| Extent::between(place.at, place.at)).collect());
-    let around = Around { places, boxes, walls };
+    let around = Around { places, boxes, walls, cuts, cut_boxes: OnceCell::new() };
     (0..cuts.len()).filter(|&k| around.goes_around(&cuts[k], &mut work)).collect()
 }
 
@@ -102,15 +120,24 @@ fn places(edge: [Point; 2]) -> impl Iterator<Item = Uncut> {
 }
 
 /// Lines of a plot around its cuts: places of the uncut lines, and the edges of the cuts.
-struct Around {
+struct Around<'a> {
     places: Vec<Uncut>,
     boxes: Boxes,
     walls: Edges,
+    cuts: &'a [Vec<Point>],
+    /// The boxes of the cuts, built at first use.
+    cut_boxes: OnceCell<Boxes>,
 }
 
-impl Around {
+impl Around<'_> {
     /// True if lines surround a cut, or the work budget is used up.
     fn goes_around(&self, cut: &[Point], work: &mut Budget) -> bool {
+        // Few cuts are surrounded by lines at all.
+        self.runs_around(cut, false, work) && self.runs_around(cut, true, work)
+    }
+
+    /// True if lines surround a cut. Those in other cuts are left out if it `is_strict`.
+    fn runs_around(&self, cut: &[Point], is_strict: bool, work: &mut Budget) -> bool {
         let extent = Extent::of(cut);
         let (width, height) = extent.size();
         let is_ring = cut.len() > 3 && cut[0] == cut[cut.len() - 1] && width.max(height) >= LEAST_SIZE;
@@ -133,13 +160,27 @@ impl Around {
             if !work.spend(self.boxes.cost_near(&Extent::between(at, at).grown(OFF[1]))) {
                 return true;
             }
-            beside += usize::from(self.is_beside(at, way, -left(way) * turn, &within));
+            let outward = -left(way) * turn;
+            let found = self.line_beside(at, way, outward, &within);
+            let is_its_own = |place| !is_strict || !self.lie_apart([place, at - outward * OFF[0]], work);
+            beside += usize::from(found.is_some_and(is_its_own));
         }
         beside as f64 >= NEARLY_ALL * SAMPLES as f64
     }
 
-    /// True if a line runs beside a place of a cut, on its outer side, without another cut in between.
-    fn is_beside(&self, at: Point, way: Vector, outward: Vector, within: &Extent) -> bool {
+    /// True if a place lies well inside a cut that another one does not lie in.
+    fn lie_apart(&self, [place, other]: [Point; 2], work: &mut Budget) -> bool {
+        let boxes = self.cut_boxes.get_or_init(|| Boxes::new(self.cuts.iter().map(|cut| Extent::of(cut)).collect()));
+        boxes.at(place).map(|k| &self.cuts[k]).any(|cut| {
+            work.spend(3 * cut.len())
+                && ring::contains(cut, place)
+                && !ring::contains(cut, other)
+                && polyline::distance(place, cut) > OFF[0]
+        })
+    }
+
+    /// Place of a line that runs beside a place of a cut, on its outer side, without another cut in between.
+    fn line_beside(&self, at: Point, way: Vector, outward: Vector, within: &Extent) -> Option<Point> {
         let near = self.boxes.near(Extent::between(at, at).grown(OFF[1])).map(|k| &self.places[k]);
         let ahead = near.filter_map(|place| {
             let (off, edge) = (place.at - at, place.edge[1] - place.edge[0]);
@@ -151,6 +192,6 @@ impl Around {
             is_ahead.then_some((distance, place.at))
         });
         let nearest = ahead.min_by(|a, b| a.0.total_cmp(&b.0));
-        nearest.is_some_and(|(_, place)| !self.walls.part([at + outward * CUT, place]))
+        nearest.map(|(_, place)| place).filter(|&place| !self.walls.part([at + outward * CUT, place]))
     }
 }

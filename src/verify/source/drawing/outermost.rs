@@ -275,7 +275,7 @@ impl<'a> Judging<'a> {
         let is_in_open = |stroke: &Vec<Point>| {
             let extent = Extent::of(stroke);
             self.drawn.iter().filter(is_open).any(|other| Extent::of(other).covers(&extent))
-                || !around::surrounded(self.drawn, std::slice::from_ref(stroke), close).is_empty()
+                || around::is_surrounded(stroke, self.drawn, close)
         };
         let mut outlines = self.drawn.iter().filter(|stroke| goes_around(stroke) && is_beside(&Extent::of(stroke)));
         outlines.any(|stroke| is_open(&stroke) || is_in_open(stroke))
