@@ -225,10 +225,8 @@ impl Drawn<'_> {
             Cover::Most(lines) => Remains { lines, inner: part, is_sure: true },
         };
         // A part with a seam line is an outline, unless that is a topstitch, and the part the seam line of a broken outline.
-        match self.has_seam(part, &places, work) {
-            false => Some(remains),
-            true => Some(Remains { is_sure: false, ..remains }).filter(|_| is_most),
-        }
+        let has_seam = self.has_seam(part, &places, work);
+        (is_most || !has_seam).then_some(Remains { is_sure: remains.is_sure && !has_seam, ..remains })
     }
 
     /// The edges of open lines near a part.
