@@ -39,14 +39,12 @@ pub(super) fn closed(lines: Vec<Chain>, most: f64, gaps: &mut Vec<Gap>) -> Vec<C
     };
     let mut rings: Vec<Option<Chain>> = vec![None; lines.len()];
     let mut is_used = vec![false; lines.len()];
-    for &first in &open {
+    for &first in open.iter() {
         let Some((ring, of_ring, used)) = ring_from(&lines, first, partner).filter(|_| !is_used[first]) else {
             continue;
         };
         if is_wider_than(&ring, most) {
-            for k in used {
-                is_used[k] = true;
-            }
+            used.into_iter().for_each(|k| is_used[k] = true);
             rings[first] = Some(ring);
             gaps.extend(of_ring);
         }
@@ -81,16 +79,16 @@ fn ring_from(
         let is_forward = start.is_multiple_of(2);
         let of_line = line.vertices.iter().copied();
         if is_forward {
-            vertices.extend(of_line);
+            vertices.extend(of_line)
         } else {
-            vertices.extend(of_line.rev());
-        }
+            vertices.extend(of_line.rev())
+        };
         used.push(start / 2);
         let (width, next) = partner(start ^ 1)?;
         gaps.push(Gap { width, span });
         if next == 2 * first {
             let is_ring = vertices.len() >= LEAST_RING;
-            return is_ring.then_some((Chain { vertices, is_closed: true }, gaps, used));
+            return is_ring.then(|| (Chain { vertices, is_closed: true }, gaps, used));
         }
         if used.contains(&(next / 2)) {
             return None;
