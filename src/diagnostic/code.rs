@@ -247,7 +247,7 @@ codes! {
     /// A size that is not there.
     DXF_NO_SIZE = error(Shape, "dxf/no-size", "A size that `--size` asks for is not in the file.", "The sizes of a set stand in its texts, as in SIZE: M. The message lists them.\n  cutc compile pattern.dxf --size all");
     /// An outline with a gap.
-    DXF_OPEN_OUTLINE = error(Shape, "dxf/open-outline", "The outline of a piece (layer 1) does not close; its lines are joined where their ends meet within 0.2 mm, and gaps up to drawing.close_mm are closed.", "A piece whose outline is open cannot be cut out, and a straight line across the gap may be wrong by its width. Close the outline in the CAD system, or raise drawing.close_mm after a look at the gap.\n  cutc compile pattern.dxf --set drawing.close_mm=3");
+    DXF_OPEN_OUTLINE = error(Shape, "dxf/open-outline", "The outline of a piece (layer 1) does not close; its lines are joined where their ends meet within 0.2 mm.", "A piece whose outline is open cannot be cut out, and a straight line across the gap may be wrong by its width. Close the outline in the CAD system.");
     /// A fold that is no edge.
     DXF_FOLD = error(Shape, "dxf/fold", "A fold line (layer 6) does not lie along exactly one straight edge of its outline, so the piece cannot be unfolded.", "A block with a fold line is half a piece. Cut as it is drawn the garment would lack the other half, and unfolded about a wrong line it would have another shape. Let the CAD system export the whole piece, or correct the line.");
     /// Too much of everything.

@@ -9,7 +9,7 @@
 //! points in mm in the [`mod@unit`]. [`text`] reads facts from texts in their [`letters`](mod@letters), by their [`key`]s and
 //! with [`markup`], and [`choice`] selects the blocks to cut. [`unknown`] names keys that may be quantities, [`namesakes`]
 //! pieces that may be sizes. [`piece`] makes a piece of a block: [`outline`]s from [`chain`]s and each [`spur`], each traversed
-//! once ([`retrace`]), without narrow [`gaps`], unfolded at their [`fold`], along their [`curves`], with each [`mod@notch`] by the table of [`layer`]s
+//! once ([`retrace`]), unfolded at their [`fold`], along their [`curves`], with each [`mod@notch`] by the table of [`layer`]s
 //! that is not [`drawn`] already. [`set`] does all of this for a file, [`placing`] and [`lay`] position the pieces on the
 //! cloth, and [`over`] checks that none overlaps another. [`mod@marker`] makes the marker; [`tally`] and [`told`] report
 //! deviations from the file.
@@ -20,7 +20,6 @@ mod curves;
 mod doubts;
 mod drawn;
 mod fold;
-mod gaps;
 mod key;
 mod lay;
 mod layer;

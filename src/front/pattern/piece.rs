@@ -6,7 +6,6 @@ use super::chain::{Chain, REACH, chains};
 use super::curves::{CurveCounts, Curves, Drafting, Nodes};
 use super::doubts::Doubt;
 use super::fold::{Fold, Refusal};
-use super::gaps::{Gap, closed, open_outline};
 use super::layer::{Does, Form, Layer, Named, OUTLINE};
 use super::notch::{self, Mark, NotchedOutline};
 use super::outline::{Outline, outlines};
@@ -17,6 +16,7 @@ use super::tally::{Tally, Thing};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::geom::budget::Budget;
 use crate::geom::{Heading, Point, bits};
+use crate::ir::drawing::Vertex;
 use crate::ir::marker::{Label, Notch};
 use crate::source::Span;
 
@@ -74,9 +74,6 @@ pub(super) struct Making<'o> {
     pub(super) curved: CurveCounts,
     pub(super) work: Budget,
     pub(super) tally: Tally,
-    /// Maximum width of a gap of an outline that is closed, mm.
-    pub(super) close: f64,
-    pub(super) gaps: Vec<Gap>,
     /// Lines that continue past their own start or repeat themselves.
     pub(super) retraced: Vec<Retraced>,
     /// Lines of blocks without an outline.
@@ -127,7 +124,7 @@ impl Making<'_> {
         lines
             .extend(folds.into_iter().filter_map(|line| Some((line.layer, Chain::of(line.vertices, line.is_closed)?))));
         let (edges, lines): (Vec<_>, Vec<_>) = lines.into_iter().partition(|(layer, _)| layer.does == Does::Outline);
-        let edges = closed(edges.into_iter().map(|(_, chain)| chain).collect(), self.close, &mut self.gaps);
+        let edges: Vec<Chain> = edges.into_iter().map(|(_, chain)| chain).collect();
         if edges.is_empty() {
             let is_cut = lines.iter().any(|(layer, _)| layer.is_cut()) || dots.iter().any(|dot| dot.layer.is_cut());
             if is_cut {
@@ -205,13 +202,13 @@ impl Making<'_> {
             self.out.push(finding.hint("let the CAD system unfold the piece, or draw its half up to the fold line"));
             return vec![None; outlines.len()];
         }
-        let whole = |Outline { edge, .. }: &Outline| {
+        let closed = |Outline { edge, .. }: &Outline| {
             if !edge.is_closed {
-                self.out.push(open_outline(edge, outlines.iter().map(|outline| &outline.edge)));
+                self.out.push(open_outline(edge));
             }
             edge.is_closed.then(|| (edge.clone(), None))
         };
-        outlines.iter().map(whole).collect()
+        outlines.iter().map(closed).collect()
     }
 
     /// Distributes content to the outlines that contain it. Lines and points outside all outlines go to the first; labels
@@ -413,4 +410,13 @@ fn drop_doubled(lines: &mut Vec<Chain>) {
         let way = way(line);
         (line.is_closed || !closed.contains(&way)) && seen.insert(way)
     });
+}
+
+/// The error for an outline that does not close.
+fn open_outline(edge: &Chain) -> Diagnostic {
+    let ends: [Vertex; 2] = [edge.vertices[0], edge.vertices[edge.vertices.len() - 1]];
+    let gap = (ends[1].at - ends[0].at).norm();
+    let message = format!("the outline that begins here does not close: its ends are {gap:.1} mm apart");
+    let finding = Diagnostic::new(&code::DXF_OPEN_OUTLINE, message).at(ends[0].span);
+    finding.hint("close it in the CAD system: no key of the profile closes gaps of patterns")
 }

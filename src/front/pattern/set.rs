@@ -7,7 +7,6 @@ use super::choice::{Asked, Chosen};
 use super::curves::{CurveCounts, Drafting, Size, lend};
 use super::doubts;
 use super::fold;
-use super::gaps::say_gaps;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::{Does, Named, Names};
 use super::letters::letters;
@@ -250,8 +249,6 @@ impl<'o> Making<'o> {
         let sagitta = asked.job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
         Self {
             notch_depth: dxf.notch_mm,
-            close: asked.job.profile.drawing.close_mm,
-            gaps: Vec::new(),
             drafting: Drafting::of(&asked.author(), dxf.curves, sagitta),
             curved: CurveCounts::default(),
             work: Budget::of_a_marker(),
@@ -268,7 +265,6 @@ impl Making<'_> {
     fn report(&mut self) {
         say_curves(&self.curved, &self.drafting, self.out);
         say_retraced(&self.retraced, self.out);
-        say_gaps(&self.gaps, self.out);
         self.tally.report(self.out);
     }
 

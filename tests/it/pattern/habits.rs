@@ -16,7 +16,7 @@ fn same(a: Place, b: Place) -> bool {
 }
 
 /// A star about the origin of so many corners, from one angle to another.
-pub(super) fn star(random: &mut Rng, count: usize, [from, to]: [f64; 2]) -> Vec<Place> {
+fn star(random: &mut Rng, count: usize, [from, to]: [f64; 2]) -> Vec<Place> {
     let corner = |k: usize| {
         let angle = (from + (to - from) * (k as f64 + 0.5) / count as f64).to_radians();
         let reach = 120.0 + 60.0 * random.f64();

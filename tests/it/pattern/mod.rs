@@ -4,7 +4,6 @@
 mod audit;
 mod curves;
 mod damage;
-mod gaps;
 mod habits;
 mod marked;
 mod programs;

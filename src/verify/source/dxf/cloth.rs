@@ -62,8 +62,7 @@ struct Sheets<'a> {
 pub(super) fn cloths(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<(Cuts, f64)> {
     let sheets = Sheets::of(bytes, job);
     let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
-    let measure =
-        Measure { unit: sheets.unit, sagitta, notch: job.profile.dxf.notch_mm, close: job.profile.drawing.close_mm };
+    let measure = Measure { unit: sheets.unit, sagitta, notch: job.profile.dxf.notch_mm };
     let with_curves = job.profile.dxf.curves == Curves::Auto;
     let lent = lent(&sheets.blocks, sheets.says("SAMPLE SIZE"), sheets.unit);
     let cuts_of = |block: &Sheet, lent: &[Vec<Point>; 2]| Cuts::of(block, with_curves.then_some(lent), measure);
@@ -131,7 +130,7 @@ impl<'a> Sheets<'a> {
         if unit <= MM_PER_INCH {
             return false;
         }
-        let measure = Measure { unit: 1.0, sagitta: 1.0, notch: 0.0, close: 0.0 };
+        let measure = Measure { unit: 1.0, sagitta: 1.0, notch: 0.0 };
         let sheets = self.blocks.iter().chain([&self.loose]);
         let mut paths =
             sheets.flat_map(|sheet| [1, 11].into_iter().flat_map(|layer| paths(&sheet.items, layer, measure)));

@@ -311,28 +311,6 @@ pub(super) fn standing(clusters: &[Vec<Path>]) -> Vec<bool> {
     clusters.iter().enumerate().map(|(k, paths)| half != Some(k) && stands(paths)).collect()
 }
 
-/// Straight lines over the gaps of outlines, up to `most` mm wide: between free ends that are nearest to each other. Lines that
-/// stand off others have none.
-pub(super) fn bridges(clusters: &[Vec<Path>], most: f64) -> Vec<Path> {
-    if most == 0.0 || clusters.iter().all(|paths| free_ends(paths).is_empty()) {
-        return Vec::new();
-    }
-    let are_spurs = standing(clusters);
-    let of_outline = |(paths, is_spur): (&Vec<Path>, bool)| {
-        let kept = paths.iter().zip(twigs(paths)).filter(|(_, is_twig)| !is_spur && !is_twig);
-        free_ends(&kept.map(|(path, _)| path.clone()).collect::<Vec<_>>())
-    };
-    let ends: Vec<Point> = clusters.iter().zip(are_spurs).flat_map(of_outline).map(|end| end.1).collect();
-    let lookup = Lookup::of(ends.iter().copied(), most);
-    let nearest = |k: usize| {
-        let distance = |other: &usize| (ends[*other] - ends[k]).norm();
-        lookup.near(ends[k]).filter(|&other| other != k).min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    };
-    let gaps = (0..ends.len())
-        .filter_map(|k| nearest(k).filter(|&other| other > k && nearest(other) == Some(k)).map(|other| [k, other]));
-    gaps.map(|gap| Path::straight(gap.map(|k| ends[k]))).collect()
-}
-
 /// Fine lines, with the chord that closes them if the coarse ones are closed.
 fn closed(fine: &[Path], coarse: &[Path]) -> Vec<Path> {
     let mut all = fine.to_vec();

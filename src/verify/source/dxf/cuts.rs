@@ -1,7 +1,7 @@
 //! Cuts of a block, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
 use super::again::once;
-use super::curves::{Bend, Bow, Bows, Course, Curves, bridges, standing, twigs};
+use super::curves::{Bend, Bow, Bows, Course, Curves, standing, twigs};
 use super::fold::Fold;
 use super::lines::{MEETS, Measure, Path, Round, clusters, paths, round_path, strokes};
 use super::lookup::Lookup;
@@ -72,14 +72,7 @@ impl Cuts {
         let fold = fold.filter(|fold| fold.halves(&outlines)).map(|fold| fold.of_half(&outlines));
         let curves = lent.map(|lent| Curves::of(sheet, lent, measure));
         for (layer, usual) in [(1, FINE_OUTLINE), (11, 86)] {
-            let mut lines = clusters(paths(layer));
-            if layer == 1 {
-                let bridges = bridges(&lines, measure.close);
-                if !bridges.is_empty() {
-                    lines = clusters(lines.into_iter().flatten().chain(bridges).collect());
-                }
-            }
-            let clusters: Vec<Vec<Path>> = lines.into_iter().map(once).collect();
+            let clusters: Vec<Vec<Path>> = clusters(paths(layer)).into_iter().map(once).collect();
             let are_spurs = if layer == 1 { standing(&clusters) } else { vec![false; clusters.len()] };
             for (mut paths, is_spur) in clusters.into_iter().zip(are_spurs) {
                 if is_spur {

@@ -53,8 +53,6 @@ pub(super) struct Measure {
     pub(super) sagitta: f64,
     /// Depth of notches that state none, mm.
     pub(super) notch: f64,
-    /// Widest gap of an outline that is closed, mm.
-    pub(super) close: f64,
 }
 
 /// Line that may have curves, as it stands in the file.
