@@ -389,7 +389,7 @@ codes! {
     /// A sheet that takes places away from advances.
     SHEET_ADVANCE = error(Shape, "sheet/advance", "The file moves the cloth on (M69), and the sheet of the profile would take the marker away from where it expects that.", "What is cut before an advance lies in the first window of the conveyor, and the advance is as long as the file means it: turned, mirrored end to end, scaled along X or copied, parts would be cut where no cloth is yet. Move or flip the marker only, or ignore the advance where the table is long enough.\n  cutc compile m.cut --set sheet.copies=2 --set codes.M69=ignore");
     /// More than a program holds.
-    SHEET_COPIES = error(Shape, "sheet/too-many-copies", "So many copies of the marker have more points than one program can have; the hint says how many fit.", "A thousand million points are more than any table takes. Set sheet.copies to what the hint says, and run the program again.");
+    SHEET_COPIES = error(Shape, "sheet/too-many-copies", "So many copies of the marker have more points than one program can have, or a file of stitches is to be copied.", "A thousand million points are more than any table takes. Set sheet.copies to what the hint says, and run the program again. Between two copies of stitches the thread is cut and its colour set back, which is for the program that made the file to say.");
     /// A number that no piece has.
     SELECT_UNKNOWN_PIECE = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
     /// Nothing is chosen.
@@ -466,8 +466,6 @@ codes! {
     SEW_ELEMENT = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
     /// A needle point where the machine cannot be.
     SEW_FIELD = error(Shape, "sew/field", "A needle point lies outside the field of the machine (`table.*`), or the pattern is larger than its clamp (`sewing.field_mm`).", "The needle would strike the clamp, or X and Y their stops. Move the pattern, as with sheet.origin, or turn it, or give the field of the machine.\n  cutc sew pocket.csv --set sheet.origin=corner");
-    /// A placement that a file of stitches cannot have.
-    SEW_SHEET = error(Shape, "sew/sheet", "A file of stitches is placed once: it cannot be copied by `sheet.copies`.", "Between two copies the thread is cut and its colour set back, which is for the program that made the file to say. Repeat the design there, or sew the file again; patterns and drawings can be copied.");
     /// An inset that leaves nothing.
     SEW_INSET = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for, or the file has no contours.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
     /// No such line.

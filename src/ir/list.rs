@@ -125,14 +125,10 @@ impl SegmentList {
     /// Appends a chain of connected segments as a new range; `None` when the chain is empty.
     pub fn append(&mut self, chain: impl IntoIterator<Item = Segment, IntoIter: Clone>) -> Option<Range> {
         let chain = chain.into_iter();
-        let start = chain.clone().next()?.from;
         let front = self.ends.len();
-        self.ends.push(start);
+        self.ends.push(chain.clone().next()?.from);
         self.ends.extend(chain.clone().map(|segment| segment.to));
-        debug_assert!(
-            chain.clone().zip(&self.ends[front..]).all(|(segment, end)| segment.from == *end),
-            "the segments of a chain join"
-        );
+        debug_assert!(chain.clone().zip(&self.ends[front..]).all(|(segment, end)| segment.from == *end), "they join");
         self.spans.push(Span::default());
         self.spans.extend(chain.clone().map(|segment| segment.span));
         // Usually there are no requests, and checking is faster than storing.
@@ -156,7 +152,7 @@ impl SegmentList {
         Some(self.appended(front))
     }
 
-    /// The range behind the sentinel at an index, which goes on to the end of the list.
+    /// The range from behind a sentinel to the end of the list.
     fn appended(&mut self, front: usize) -> Range {
         let [first, last] = [front + 1, self.ends.len() - 1].map(id);
         let line = self.lines.add([first.0, last.0], &self.ends[front..]);
@@ -468,13 +464,8 @@ mod tests {
 
     fn chain(xs: &[f64]) -> Vec<Segment> {
         let p = |x: f64| Point::new(x, 0.0);
-        let segment = |w: &[f64]| Segment {
-            from: p(w[0]),
-            to: p(w[1]),
-            span: Span::default(),
-            joint: Joint::default(),
-            percent: FULL_SPEED,
-        };
+        let (span, joint) = (Span::default(), Joint::default());
+        let segment = |w: &[f64]| Segment { from: p(w[0]), to: p(w[1]), span, joint, percent: FULL_SPEED };
         xs.windows(2).map(segment).collect()
     }
 
@@ -593,8 +584,7 @@ mod tests {
             assert_eq!(list.join(a, a), None);
             assert_eq!(list.join(a, apart), None);
             let joined = list.join(a, b).expect("the same direction");
-            assert_eq!(list.walk(joined).collect::<Vec<_>>(), expected);
-            assert!(list.is_linked(joined));
+            assert!(list.is_linked(joined) && list.walk(joined).eq(expected));
         }
     }
 

@@ -30,7 +30,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "sewing.soft_start_stitches", takes: Takes::Count(100), about: "How many stitches a soft start has." },
     Key { name: "sewing.pitch_mm", takes: Takes::Number(from(0.1, 50.0)), about: "Length of a stitch on seams that are laid; evened between corners, never longer." },
     Key { name: "sewing.min_pitch_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Shorter stitches are merged with the next." },
-    Key { name: "sewing.field_mm", takes: Takes::PointOr(Off::WORD), about: "Opening of the clamp along X and Y: no pattern may be larger; \"off\" = any. Where it lies is `table.*`." },
+    Key { name: "sewing.field_mm", takes: Takes::PointOr(Off::WORD), about: "Opening of the clamp along X and Y: no pattern may be larger; \"off\" = any. Where it\nlies is `table.*`." },
     Key { name: "sewing.max_pitch_mm", takes: Takes::Number(from(0.1, 100.0)), about: "The longest stitch that the machine can make." },
     Key { name: "sewing.corner_deg", takes: Takes::Number(between(0.0, 180.0)), about: "A turn of a seam from which on its vertex is a corner: a stitch ends there." },
     Key { name: "sewing.on_long", takes: Takes::Word(words::<OnLong>), about: "What is done about stitches too long for the speed: \"slow\" = the whole run is sewn more slowly;\n\"split\" = they become several; \"reject\" = nothing is written." },

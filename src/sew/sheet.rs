@@ -25,7 +25,7 @@ pub(super) fn place(input: &mut Input, job: &Job, out: &mut Diagnostics) {
     if matches!(input, Input::Stitches(..)) && profile.sheet.copies > 1 {
         let message = format!("a file of stitches cannot be copied {} times", profile.sheet.copies);
         let hint = "repeat the design in the program that made it, or sew the file again";
-        out.push(Diagnostic::new(&code::SEW_SHEET, message).hint(hint));
+        out.push(Diagnostic::new(&code::SHEET_COPIES, message).hint(hint));
         return;
     }
     lay(input, drawn, profile);

@@ -234,38 +234,3 @@ fn the_cuts_of_two_edges_meet_at_their_corner() {
     }
     assert!(met >= 4 * count, "only {met} corners of {count} contours");
 }
-
-/// True if a cut file is compiled and proven.
-fn is_proven(text: &str) -> bool {
-    let source = Source::new("a.cut", text.as_bytes().to_vec()).expect("small");
-    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
-    let order = Order { from: None, target: &TARGETS[0], verify: true };
-    let compiled = pipeline::compile(&source, &Job::default(), order, &mut out, &mut found);
-    let is_compiled = compiled.expect("memory takes everything").is_some();
-    if !is_compiled {
-        println!("{}", render(&found, &source));
-    }
-    is_compiled
-}
-
-/// The foot of a notch is a unit of the file away from a vertex of the curve that it stands on.
-#[test]
-fn a_chord_of_a_unit_gives_no_direction_to_an_overlap() {
-    assert!(is_proven("H1*G70*N1*M15*X120508Y8294*M14*X120508Y8293*X120347Y7693*M15*M0*"));
-    assert!(is_proven("H1*G70*N1*M15*X120347Y7693*M14*X120508Y8293*X120508Y8294*M15*M0*"));
-}
-
-/// The knife is lifted between two chords of a curve, and a slit leads into the part from there.
-#[test]
-fn a_cut_that_goes_on_along_a_curve_starts_where_the_other_ends() {
-    let first = "X16150Y3990*M14*X16257Y4199*X16233Y4242*M15*";
-    assert!(is_proven(&format!("H1*G71*N1*M15*{first}M14*X16229Y4250*X16195Y4297*X13131Y4834*M15*M0*")));
-}
-
-/// A slit leads out of the part from a vertex that the blade spans when it is plunged at the corner before.
-#[test]
-fn a_slit_meets_an_edge_that_bows_away_from_the_plunged_blade() {
-    let slit = "X424Y463*M14*X383Y384*M15*";
-    let outline = "X482Y368*M14*X441Y401*X459Y431*X455Y438*X424Y463*X417Y473*X389Y444*X482Y368*M15*";
-    assert!(is_proven(&format!("H1*G71*N1*M15*{slit}{outline}M0*")));
-}

@@ -378,7 +378,6 @@ impl Lowering<'_> {
         let message = match doubt {
             Unknown::Corners => "SC scales the drawing to corners that the file does not give (IP)",
             Unknown::Page => "IR gives corners in percent of a page whose size the file does not give (PS)",
-            Unknown::Uneven => "SC scales X and Y by factors that are more than a tenth apart",
             Unknown::Range => "SC scales from or to a range without width and is ignored",
             Unknown::Incomplete => "numbers are missing here: SC needs four of them, IP and IR two or four",
             Unknown::Angle => "RO turns by quarters only; another angle is ignored",

@@ -49,14 +49,9 @@ pub(super) enum Unknown {
     Range,
     /// SC with fewer than four numbers, or IP or IR with one or three.
     Incomplete,
-    /// Scales of X and Y far apart: a digit may be lost.
-    Uneven,
     /// RO by an angle other than quarter turns.
     Angle,
 }
-
-/// Greatest ratio of the scales of X and Y without a doubt: plotters are trimmed by less.
-const UNEVEN: f64 = 1.1;
 
 /// Percent.
 const HUNDRED: f64 = 100.0;
@@ -147,7 +142,7 @@ impl Frame {
         self.put(Ranges { x: [x0, x1], y: [y0, y1], kind, share })
     }
 
-    /// Applies ranges to the corners. On an error other than [`Unknown::Uneven`] the previous ones stay in force.
+    /// Applies ranges to the corners. On an error the previous ones stay in force.
     fn put(&mut self, ranges: Ranges) -> Result<(), Unknown> {
         let Ranges { x: [x0, x1], y: [y0, y1], kind, share } = ranges;
         let [p1, p2] = self.corners;
@@ -172,8 +167,7 @@ impl Frame {
         }
         let offset = [offset[0] - x0 * factor[0], offset[1] - y0 * factor[1]];
         (self.ranges, self.scale) = (Some(ranges), Some(Scale { offset, factor }));
-        let [along, across] = factor.map(f64::abs);
-        if along.max(across) > UNEVEN * along.min(across) { Err(Unknown::Uneven) } else { Ok(()) }
+        Ok(())
     }
 
     /// True if the size of the drawing depends on the plotter: a scale between corners that the file does not give. With

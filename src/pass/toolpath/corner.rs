@@ -24,11 +24,6 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, limit));
 }
 
-/// Greatest length of a chord whose direction is that of rounding, in units of the file: the diagonal of a unit.
-const SPECK: f64 = std::f64::consts::SQRT_2 + 1e-6;
-/// Greatest distance of its inner vertex from the line without it, in units: what rounding may do.
-const OFF: f64 = 0.5;
-
 /// Criterion for a corner.
 #[derive(Clone, Copy)]
 struct Limit {
@@ -61,32 +56,10 @@ fn split(mut run: Run, limit: Limit) -> Vec<Run> {
     let (mut asked, mut from) = (0, 0);
     for to in corners.into_iter().chain([last]) {
         let ends = ends([from > 0, to < last], &run.joints[asked..=from], &run.joints[from + 1..=to]);
-        runs.push(without_specks(between(&run, [from, to], ends), limit.unit));
+        runs.push(between(&run, [from, to], ends));
         (asked, from) = (from + 1, to);
     }
     runs
-}
-
-/// A run without the vertex beside an end of it that is nearer than the grid of the file can tell and hardly off the line: the
-/// chord between the two would have its direction, along which the blade overlaps, from rounding.
-fn without_specks(mut run: Run, unit: f64) -> Run {
-    for is_end in [false, true] {
-        let last = run.points.len() - 1;
-        let [end, speck, next] = if is_end { [last, last - 1, last.max(2) - 2] } else { [0, 1, 2.min(last)] };
-        let is_speck = last > 1
-            && (run.points[speck] - run.points[end]).norm() <= SPECK * unit
-            && polyline::distance_to_segment(run.points[speck], run.points[end], run.points[next]) <= OFF * unit
-            && run.joints[speck] == Joint::default();
-        if is_speck {
-            // The chord that is left has the block of the longer one.
-            let chord = if is_end { last - 1 } else { 0 };
-            run.points.remove(speck);
-            run.joints.remove(speck);
-            run.spans.remove(chord);
-            run.feeds.remove(chord);
-        }
-    }
-    run
 }
 
 /// True if the knife is lifted at a point. On a ring, neighbouring points are looked up cyclically.

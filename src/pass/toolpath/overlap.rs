@@ -17,7 +17,7 @@ use super::scene::Scene;
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::{heel_share, overlaps};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, Vector, bits, polyline};
+use crate::geom::{Extent, bits, polyline};
 use crate::ir::marker::Notch;
 use crate::ir::toolpath::{End, Run, Shape, Side, Toolpath};
 use crate::machine::Knife;
@@ -26,10 +26,6 @@ use crate::units::number::fixed;
 /// Share of the tolerance by which a plunged blade may miss the start of its run where that must meet another cut: a small
 /// share of the widest thread.
 const MEETING_SHARE: f64 = 0.02;
-
-/// Least cosine of the angle between two runs of which one continues the other: 25 degrees. At more their overlaps cross within
-/// their lengths.
-const GOING_ON: f64 = 0.906;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "overlap",
@@ -41,33 +37,22 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
     let part = toolpath.part;
-    let mut met: BTreeMap<[u64; 2], Vec<Vector>> = BTreeMap::new();
+    let mut met: BTreeMap<[u64; 2], usize> = BTreeMap::new();
     for run in runs::each(toolpath) {
-        let last = run.points.len() - 1;
-        for [end, before] in [[0, 1], [last, last - 1]] {
-            let beyond = polyline::direction(run.points[before], run.points[end]).unwrap_or_default();
-            met.entry(bits(run.points[end])).or_default().push(beyond);
+        for end in [run.points[0], run.points[run.points.len() - 1]] {
+            *met.entry(bits(end)).or_default() += 1;
         }
     }
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
-        let given = [heel.length * going_on(run, heel.length, &met, &around), front.length];
+        let given = [heel.length, front.length];
         let least = [across(run, scene), meeting(run, &met, &around), at_root(run, part, scene, &around)];
         [run.heel, run.front] = least.into_iter().fold(given, |given, least| [0, 1].map(|k| given[k].max(least[k])));
         if run.shape == Shape::Ring {
             warn_if_tight(run, around.knife, diagnostics);
         }
     }
-}
-
-/// Share of a heel overlap with which the blade meets a cut that ends at the start of its run and that the run continues: the
-/// two cross only at a flat angle, so that the blade must pass the start itself.
-fn going_on(run: &Run, heel: f64, met: &BTreeMap<[u64; 2], Vec<Vector>>, around: &Surroundings) -> f64 {
-    let ahead = polyline::direction(run.points[0], run.points[1]).unwrap_or_default();
-    let ends = met.get(&bits(run.points[0])).map_or(&[][..], Vec::as_slice);
-    let is_continued = run.shape == Shape::Open && ends.iter().any(|beyond| beyond.dot(&ahead) >= GOING_ON);
-    if is_continued { share(run, 0, heel, around) } else { 1.0 }
 }
 
 /// Lengths by which a run must go past its start and its end to cross cuts of other parts that end beside it, mm.
@@ -85,13 +70,12 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
 
 /// Least overlaps at the start and the end of an open run, mm: one tolerance where a part lies ahead, including its own part at
 /// a reflex corner, because the cut that it must meet there may be off by that. The start has less on a curve that would turn
-/// the blade away from it. `met` has the ends of runs at each place.
-fn meeting(run: &Run, met: &BTreeMap<[u64; 2], Vec<Vector>>, around: &Surroundings) -> [f64; 2] {
+/// the blade away from it. `met` counts the ends of runs at each place.
+fn meeting(run: &Run, met: &BTreeMap<[u64; 2], usize>, around: &Surroundings) -> [f64; 2] {
     let is_meant = |k: usize| {
         let End { side, bare, .. } = run.ends[k];
         let end = run.points[[0, run.points.len() - 1][k]];
-        let is_narrow =
-            side == Side::Gap || side == Side::Part && met.get(&bits(end)).is_some_and(|ends| ends.len() > 1);
+        let is_narrow = side == Side::Gap || side == Side::Part && met.get(&bits(end)).is_some_and(|&ends| ends > 1);
         is_narrow && !bare
     };
     let least = |k: usize| if is_meant(k) { around.tolerance * share(run, k, around.tolerance, around) } else { 0.0 };

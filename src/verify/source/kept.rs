@@ -139,9 +139,17 @@ fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<KeptPlace>) {
     for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
         add(KnifeStroke { from: stroke.from, to: stroke.to, cause: Cause::of(stroke.span) });
     }
+    let mut was_ring = false;
     for contour in &piece.contours {
         let (points, spans) = (marker.list.points(contour.range), marker.list.spans(contour.range));
-        begin(places, points[0]);
+        // A ring is a line of its own, even where another line ends at its start or begins there.
+        let is_ring = points[0] == points[points.len() - 1];
+        if is_ring || was_ring {
+            places.push(KeptPlace { at: points[0], cause: Cause::NONE });
+        } else {
+            begin(places, points[0]);
+        }
+        was_ring = is_ring;
         let ways = points.windows(2).zip(spans.iter()).filter(|(ends, _)| ends[0] != ends[1]);
         places.extend(ways.map(|(ends, span)| KeptPlace { at: ends[1], cause: Cause::of(*span) }));
     }
@@ -186,9 +194,12 @@ fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     if !lost.is_empty() {
         let there: Vec<KnifeStroke> = strokes(read).filter(is_there).collect();
         // Ends of open lines of several strokes that are still cut.
-        let is_kept = |place: &KeptPlace| bytes.binary_search(&place.cause.byte).is_ok();
+        let is_kept = |pair: &[KeptPlace]| {
+            let stroke = KnifeStroke { from: pair[0].at, to: pair[1].at, cause: pair[1].cause };
+            is_there(&stroke) || ends.binary_search(&stroke.ends()).is_ok()
+        };
         let lines = read.chunk_by(|_, next| next.cause != Cause::NONE);
-        let open = lines.filter(|line| line.len() > 2 && line[1..].iter().all(is_kept));
+        let open = lines.filter(|line| line.len() > 2 && line.windows(2).all(is_kept));
         let open: Vec<[Point; 2]> = open.map(|line| [line[0].at, line[line.len() - 1].at]).collect();
         let lines = lost.chunk_by(|a, b| a.to == b.from);
         let lines =

@@ -187,20 +187,6 @@ fn a_polygon_that_another_one_replaces_has_no_end() {
 }
 
 #[test]
-fn a_scale_that_stretches_one_axis_is_doubted() {
-    let told = |scale: &str| {
-        read(
-            &source(format!("IN;IP0,0,24000,24000;{scale};SP1;{}PU;SP0;", rectangle(100, 100, 300, 300))),
-            &Job::default(),
-        )
-        .1
-    };
-    assert!(!told("SC0,6000,0,6000").contains(&"hpgl/scale-of-device"));
-    assert!(!told("SC0,6000,0,5900").contains(&"hpgl/scale-of-device"));
-    assert!(told("SC0,6000,0,600").contains(&"hpgl/scale-of-device"));
-}
-
-#[test]
 fn a_point_far_off_is_told_however_far_it_is() {
     for far in [20_000, 40_000, 400_000] {
         let outline = format!("PU0,0;PD4000,0,4800,400,5200,1000,5400,2000,5200,{far},5000,3200,4000,3600,0,3600,0,0;");

@@ -47,7 +47,7 @@ fn stitch_files_are_turned_moved_and_mirrored_and_proven() {
         assert_eq!(broken(&program, &fixture(name), &job, ("exp", &written(&program, &job, "exp"))), [""; 0], "{name}");
         job.profile.sheet.copies = 2;
         let (none, said, _) = plan(name, fixture(name), &job);
-        assert!(none.is_none() && said.contains("sew/sheet"), "{said}");
+        assert!(none.is_none() && said.contains("sheet/too-many-copies"), "{said}");
     }
 }
 
