@@ -53,12 +53,11 @@ fn lay(input: &mut Input, drawn: Extent, profile: &MachineProfile) {
     let turned = sheet.turned();
     move_points(input, &turned);
     let laid = extent(input);
-    let corner = match sheet.origin {
-        Some([x, y]) => [drawn.min.x + x, drawn.min.y + y],
-        None => {
-            let room = room(input, &profile.sewing);
-            [profile.table.x_mm, profile.table.y_mm].map(|ends| ends.map_or(0.0, |[least, _]| least) + room)
-        }
+    let corner = if let Some([x, y]) = sheet.origin {
+        [drawn.min.x + x, drawn.min.y + y]
+    } else {
+        let room = room(input, &profile.sewing);
+        [profile.table.x_mm, profile.table.y_mm].map(|ends| ends.map_or(0.0, |[least, _]| least) + room)
     };
     let by = [corner[0] - laid.min.x, corner[1] - laid.min.y];
     move_points(input, &AffineMap { axes: [[1.0, 0.0], [0.0, 1.0]], by });

@@ -1,6 +1,6 @@
 //! Nodes: behaviour of the curve at each vertex of a line, given by turn points (layer 2), curve points (layer 3) and notches.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::front::pattern::chain::Chain;
 use crate::front::pattern::fold::Fold;
@@ -66,24 +66,29 @@ impl Signs {
     }
 }
 
-/// Points that a line passes: another line that ends there stands on it, and joins nothing.
-struct Passed(BTreeSet<[u64; 2]>);
+/// Points that a line passes, each with the numbers of the layers of open lines that do, or none for a ring. Another line that ends there
+/// stands on it, and joins nothing; open lines of one layer are parts of an outline, one of which may go on past its start.
+struct Passed(BTreeMap<[u64; 2], Vec<Option<u16>>>);
 
 impl Passed {
     fn of(lines: &[Line]) -> Self {
         let curved = || lines.iter().filter(|line| line.layer.is_curved() && !line.vertices.is_empty());
         let is_ring = |line: &Line| line.is_closed || line.vertices[0].at == line.vertices[line.vertices.len() - 1].at;
-        let inner = |line: &Line| {
-            let count = line.vertices.len();
-            let inner = if is_ring(line) { 0..count } else { 1..count.max(2) - 1 };
-            line.vertices[inner].iter().map(|vertex| bits(vertex.at)).collect::<Vec<_>>()
-        };
-        let has_ends = curved().any(|line| !is_ring(line));
-        Self(if has_ends { curved().flat_map(inner).collect() } else { BTreeSet::new() })
+        let mut passed: BTreeMap<[u64; 2], Vec<Option<u16>>> = BTreeMap::new();
+        if curved().any(|line| !is_ring(line)) {
+            for line in curved() {
+                let count = line.vertices.len();
+                let (inner, by) =
+                    if is_ring(line) { (0..count, None) } else { (1..count.max(2) - 1, Some(line.layer.row.number)) };
+                line.vertices[inner].iter().for_each(|vertex| passed.entry(bits(vertex.at)).or_default().push(by));
+            }
+        }
+        Self(passed)
     }
 
-    fn has(&self, at: Point) -> bool {
-        self.0.contains(&bits(at))
+    /// True if a line that ends at a point stands on another one there.
+    fn has(&self, at: Point, layer: u16) -> bool {
+        self.0.get(&bits(at)).is_some_and(|by| by.iter().any(|by| *by != Some(layer)))
     }
 }
 
@@ -147,7 +152,7 @@ impl Nodes {
             let open = |chain: &Chain| !chain.is_closed && !retraces(chain);
             let ends = Chain::of(line.vertices.clone(), line.is_closed).filter(open);
             let ends = ends.iter().flat_map(|chain| [chain.vertices.first(), chain.vertices.last()]).flatten();
-            for end in ends.filter(|end| !passed.has(end.at)) {
+            for end in ends.filter(|end| !passed.has(end.at, line.layer.row.number)) {
                 nodes.add(end.at, Signs::default().with(Sign::Joint));
             }
         }
