@@ -1,5 +1,6 @@
 //! Notches that a plot draws as strokes of their own: from the edge of a part inwards, of any pen that is not ignored.
 
+use std::fmt::Write as _;
 use std::io::Cursor;
 
 use cutc::back::TARGETS;
@@ -378,7 +379,8 @@ fn a_notch_that_is_drawn_over_several_chords_of_a_curve_is_cut() {
         let wide = count / 72;
         for first in [count / 5, count / 2, count - wide / 2 - 1] {
             let middle = at(2 * first + wide, 2 * count, 2200.0);
-            text += &format!("PU{};PD{middle},{};", at(first, count, 2400.0), at(first + wide, count, 2400.0));
+            let [from, to] = [first, first + wide].map(|k| at(k, count, 2400.0));
+            write!(text, "PU{from};PD{middle},{to};").expect("a text takes all");
         }
         let source = source(format!("IN;SP1;{text}PU;SP0;"));
         let (mut out, mut told) = (Cursor::new(Vec::new()), Diagnostics::default());

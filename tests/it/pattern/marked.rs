@@ -67,7 +67,9 @@ fn a_line_that_ends_at_a_curve_point_bends_no_curve() {
             file.block("A");
             outline.write(&mut file, 1, Drawn::Closed);
             for (at, _) in outline.vertices.iter().zip(&outline.is_corner).filter(|(_, is_corner)| !**is_corner) {
-                layer.into_iter().for_each(|layer| _ = file.line(layer, [*at, at.map(|value| 0.97 * value)]));
+                if let Some(layer) = layer {
+                    file.line(layer, [*at, at.map(|value| 0.97 * value)]);
+                }
             }
             file.end_block();
             source(file.end(&["UNITS: METRIC", "AUTHOR: CLO"]))
