@@ -250,12 +250,11 @@ fn is_gp_gl(bytes: &[u8]) -> bool {
     leads.count() >= 2
 }
 
-/// Header lines of a message, or of one of its parts.
+/// The first header line of a message, or of one of its parts.
 fn is_mail(bytes: &[u8]) -> bool {
     let begins =
         [&b"content-type:"[..], b"content-transfer-encoding:", b"mime-version:", b"received:", b"return-path:"];
     begins.iter().any(|begin| bytes.get(..begin.len()).is_some_and(|head| head.eq_ignore_ascii_case(begin)))
-        || has(bytes, b"\ncontent-transfer-encoding:")
 }
 
 /// True if the eighth bit of each byte makes the number of its bits even, or of each odd, in what is otherwise text.

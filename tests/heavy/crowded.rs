@@ -168,14 +168,14 @@ fn what_was_not_looked_at_is_said() {
     let along = (0..2000).map(|k| [2 * k, 0, 2 * k + 1, 4000]);
     let (_, codes) = read(&pieces(across.chain(along)));
     assert!(codes.contains(&"marker/overlapping-pieces") && codes.contains(&"marker/search-ended"), "{codes:?}");
-    // Short strokes under long edges.
+    // Short strokes in the boxes of long edges.
     let mut teeth = "N1*M15*X0Y0*M14*".to_owned();
     for k in 0..5000 {
-        let _ = write!(teeth, "X30000Y{}*X0Y{}*", 2 * k + 1, 2 * k + 2);
+        let _ = write!(teeth, "X30000Y{}*X0Y{}*", 2 * k + 20_001, 2 * k + 2);
     }
     teeth.push_str("X0Y0*");
     for x in (0..5000).map(|k| 5 * k) {
-        let _ = write!(teeth, "M15*X{x}Y20000*M14*X{x}Y20030*M15*");
+        let _ = write!(teeth, "M15*X{x}Y15000*M14*X{x}Y15030*M15*");
     }
     let (_, codes) = read(&teeth);
     assert!(codes.contains(&"marker/search-ended"), "{codes:?}");
