@@ -88,7 +88,7 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
 
-/// The segments of the outlines of a piece that one of the sorted points may be on.
+/// Calls `edge` for each of the sorted points on an outline of a piece, with the segment that it is on.
 fn each_edge(
     list: &SegmentList,
     piece: &Piece,

@@ -138,9 +138,8 @@ impl Measure {
         off(one, other).min(off(other, one)) <= self.width
     }
 
-    /// Segments of a closed line that a spur may turn back at the start of or over, in order; the last point of the line is the
-    /// first again. A line does not turn back within a chain, so the bottom of a tip is the first or the last segment of a
-    /// chain.
+    /// Candidate tips of a closed line, in order: segments at whose start, or over which, it turns back. Its last point is the
+    /// first again. A line does not turn back within a chain, so each is the first or the last segment of a chain.
     fn tips(self, points: &[Point], chains: &[Chain]) -> Vec<usize> {
         let count = points.len().saturating_sub(1);
         if count <= LEAST_LEFT {
@@ -368,8 +367,8 @@ fn stretches(line: &[Point], slack: f64) -> Vec<[usize; 2]> {
     stretches
 }
 
-/// An outline that runs straight over the mouths of its spurs, with the segments that may be tips: those of before that are
-/// left, and those about a mouth.
+/// Outline without its spurs, straight over their mouths, and its candidate tips: those left from before, and segments about a
+/// mouth.
 fn without(segments: &[Segment], ways: &[Way], tips: &[usize]) -> (Vec<Segment>, Vec<usize>) {
     let count = segments.len();
     // The entry after the last segment is the first segment again, and the one before the first is the last.

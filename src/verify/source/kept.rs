@@ -264,7 +264,7 @@ fn stands_in_for(
         && line.iter().all(|stroke| !stroke.is_hole() && stroke.is_near(there, AGAIN))
 }
 
-/// Lines, with each that begins at the end of another behind that: an outline may start in the mouth of a notch.
+/// Lines joined end to start: an outline may begin in the mouth of a notch.
 fn joined(mut lines: Vec<Vec<KnifeStroke>>) -> Vec<Vec<KnifeStroke>> {
     let mut i = 0;
     while i < lines.len() {
@@ -282,7 +282,7 @@ fn joined(mut lines: Vec<Vec<KnifeStroke>>) -> Vec<Vec<KnifeStroke>> {
     lines
 }
 
-/// True for the edge over the mouth of a notch: a line whose strokes beside it, or its ends, lead to the ends of an open line
+/// True for the edge over the mouth of a notch: the ends of the line, or the strokes beside it, meet both ends of an open line
 /// that is still cut.
 fn is_mouth(line: &[KnifeStroke], beside: &[KnifeStroke], open: &[[Point; 2]]) -> bool {
     let (from, to) = (line[0].from, line[line.len() - 1].to);

@@ -43,8 +43,8 @@ struct Stretch {
     ends: [Point; 2],
 }
 
-/// Splits coarse lines where groups of fine lines draw stretches of them; `None` without any stretch. A stretch that shares an
-/// edge with another is none.
+/// Coarse lines, split where groups of fine lines draw stretches of them; `None` without any stretch. Two stretches that share
+/// an edge are left out.
 pub(super) fn parted<'p>(
     fine: impl Iterator<Item = &'p Vec<Path>>,
     coarse: &[Path],
