@@ -69,8 +69,8 @@ pub struct Piece {
     /// Fields of the piece in the file's list of labels, in the file's order.
     pub fields: Vec<Field>,
     /// Stretch along X, mm, in which the outline is cut with this section, where windows of a conveyor split the piece; `None`
-    /// = it is cut whole. The last section of a piece holds its contours and its texts; each section holds the slits and holes
-    /// in its stretch.
+    /// = it is cut whole. The last section of a piece holds its outline and its texts; each section holds the inner contours,
+    /// slits and holes in its stretch.
     pub section: Option<[f64; 2]>,
 }
 
@@ -319,11 +319,6 @@ impl Piece {
         Point::new(x - f64::from(station), at.y)
     }
 
-    /// True if it is a section of a later piece, which holds the contours.
-    pub fn is_early_section(&self) -> bool {
-        self.section.is_some() && self.contours.is_empty()
-    }
-
     /// True if both are the same piece, or sections of the same piece.
     pub fn is_of(&self, other: &Self) -> bool {
         (self.number, self.copy, self.span) == (other.number, other.copy, other.span)
@@ -355,33 +350,35 @@ impl Marker {
         self.pieces.iter().enumerate().flat_map(|(i, piece)| piece.contours.iter().map(move |c| (i, c)))
     }
 
-    /// Index of the piece that holds the contours of each piece: itself, except for early sections of a piece that windows of a
+    /// Index of the piece that holds the outline of each piece: itself, except for early sections of a piece that windows of a
     /// conveyor split.
     pub fn owners(&self) -> Vec<usize> {
-        let owner = |i: usize| {
-            let section = &self.pieces[i];
+        let owner = |(i, section): (usize, &Piece)| {
             let last = || self.pieces.iter().rposition(|piece| piece.section.is_some() && piece.is_of(section));
-            if section.is_early_section() { last().unwrap_or(i) } else { i }
+            section.section.and_then(|_| last()).unwrap_or(i)
         };
-        (0..self.pieces.len()).map(owner).collect()
+        self.pieces.iter().enumerate().map(owner).collect()
     }
 
     /// Number of pieces; one that windows of a conveyor split counts once.
     pub fn piece_count(&self) -> usize {
-        self.pieces.iter().filter(|piece| !piece.is_early_section()).count()
+        self.owners().into_iter().enumerate().filter(|(i, owner)| i == owner).count()
     }
 
-    /// The pieces, each with the holes and slits of its early sections.
+    /// The pieces, each with the inner contours, holes and slits of its early sections.
     pub fn wholes(&self) -> Cow<'_, [Piece]> {
-        if !self.pieces.iter().any(Piece::is_early_section) {
+        if self.pieces.iter().all(|piece| piece.section.is_none()) {
             return Cow::Borrowed(&self.pieces);
         }
-        let mut wholes = self.pieces.clone();
-        for (section, owner) in self.pieces.iter().zip(self.owners()).filter(|(piece, _)| piece.is_early_section()) {
+        let (mut wholes, owners) = (self.pieces.clone(), self.owners());
+        for (i, &owner) in owners.iter().enumerate().filter(|(i, owner)| i != *owner) {
+            let section = &self.pieces[i];
+            wholes[owner].contours.extend_from_slice(&section.contours);
             wholes[owner].drills.extend_from_slice(&section.drills);
             wholes[owner].notches.extend_from_slice(&section.notches);
         }
-        wholes.retain(|piece| !piece.is_early_section());
+        let mut places = owners.into_iter().enumerate();
+        wholes.retain(|_| places.next().is_some_and(|(i, owner)| i == owner));
         Cow::Owned(wholes)
     }
 

@@ -243,8 +243,8 @@ fn stops_and_advances_of_a_file_keep_their_say() {
     // A piece that is left out needs no window, and an advance at the end moves all off the table still.
     room.says("compile file.cut --force -o some.csv --set bite.length_mm=340 --pieces 1", DONE);
     assert_eq!(rows(&room.text("some.csv")).last().expect("rows")[ADVANCE], 475.0);
-    // A long piece with a line inside is not split.
-    let line = "X7000Y1000*M14*X9000Y1000*M15*M0*";
+    // A long piece with a line inside that is longer than a window is not split.
+    let line = "X6500Y1000*M14*X12000Y1000*M15*M0*";
     room.write("long.cut", ROW.replace("X9200", "X12200").replace("M0*", line).as_bytes());
     let said = room.says(&format!("compile long.cut {BITES}"), FAULTY);
     assert!(said.contains("error[marker/bite]: piece 3 takes 614.9 mm"), "{said}");

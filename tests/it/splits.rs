@@ -1,6 +1,8 @@
 //! Pieces that are longer than a window of the conveyor: they are split, and no thread holds them wherever the conveyor brings
 //! the cloth within its tolerance. Whether they come free is seen here by flooding the cloth, not by the verifier.
 
+use std::fmt::Write as _;
+
 use cutc::machine::Job;
 
 use crate::support::nests::compiled;
@@ -12,6 +14,12 @@ const LONG: &str = "H1*G71*N1*X0Y0*M14*X900Y0*X900Y900*X0Y900*X0Y0*M15*\
     X0Y1000*M14*X8000Y1000*X8000Y2000*X0Y2000*X0Y1000*M15*\
     N3*X0Y2200*M14*X1000Y2235*X2000Y2260*X3000Y2275*X4000Y2280*X5000Y2275*X6000Y2260*X7000Y2235*X8000Y2200*\
     X8000Y2900*X0Y2900*X0Y2200*M15*M0*";
+/// A strip of 800 mm with two cut-outs and a line of its own, and with a cut-out and a patch in it that are pieces.
+const HOLED: &str = "H1*G71*N1*X1000Y200*M14*X1500Y200*X1500Y500*X1000Y500*X1000Y200*M15*\
+    X3700Y200*M14*X4300Y200*X4300Y500*X3700Y500*X3700Y200*M15*X5000Y700*M14*X5600Y900*M15*\
+    X0Y0*M14*X8000Y0*X8000Y1400*X0Y1400*X0Y0*M15*\
+    N2*X6500Y300*M14*X7000Y300*X7000Y600*X6500Y600*X6500Y300*M15*\
+    N3*X2500Y800*M14*X3000Y800*X3000Y1100*X2500Y1100*X2500Y800*M15*M0*";
 /// Options with which both take three windows.
 const BITES: &str = "--set bite.length_mm=400";
 /// Size of a place of the cloth that is flooded, mm.
@@ -155,6 +163,55 @@ fn every_target_cuts_split_pieces_and_is_judged_by_its_own_bytes() {
 }
 
 #[test]
+fn cut_outs_of_a_part_that_is_split_are_whole_and_come_free_before_it() {
+    let room = Room::with("holed.cut", HOLED);
+    let said = room.says(&format!("compile holed.cut -o right.csv {BITES}"), DONE);
+    assert!(said.contains("  pieces     3\n") && said.contains("3 windows of a conveyor"), "{said}");
+    let (text, size) = (room.text("right.csv"), [800.0, 140.0]);
+    let places = [[50.0, 100.0], [125.0, 35.0], [400.0, 35.0], [675.0, 45.0], [275.0, 95.0]];
+    let rows = rows(&text);
+    assert_eq!(held(&rows, size, &places, |window| [0.5 * window as f64, -0.5 * window as f64]), 0);
+    // The knife is up over the first cut-out, or over the line.
+    for (low, high) in [([99.0, 19.0], [151.0, 51.0]), ([499.0, 69.0], [561.0, 91.0])] {
+        let mut damaged = rows.clone();
+        for row in &mut damaged {
+            let at = [row[1] + row[ADVANCE], row[2]];
+            if (0..2).all(|axis| (low[axis]..high[axis]).contains(&at[axis])) {
+                (row[4], row[7]) = (0.0, 0.0);
+            }
+        }
+        room.write("wrong.csv", written(&text, &damaged).as_bytes());
+        let said = room.says(&format!("verify wrong.csv --source holed.cut {BITES}"), FAULTY);
+        assert!(said.contains("FAIL  verify/complete"), "{said}");
+    }
+}
+
+#[test]
+fn no_part_with_cut_outs_anywhere_is_refused_as_a_fault() {
+    let mut random = fastrand::Rng::with_seed(49);
+    let room = Room::new();
+    let mut split = 0;
+    for _ in 0..24 {
+        let mut text = "H1*G71*N1*".to_owned();
+        let mut at = random.u32(200..900);
+        while at < 7500 {
+            let (low, long) = (random.u32(150..600), random.u32(80..900));
+            let [right, high] = [(at + long).min(7800), low + random.u32(80..600)];
+            write!(text, "X{at}Y{low}*M14*X{right}Y{low}*X{right}Y{high}*X{at}Y{high}*X{at}Y{low}*M15*").expect("text");
+            at = right + random.u32(100..1200);
+        }
+        text.push_str("X0Y0*M14*X8000Y0*X8000Y1400*X0Y1400*X0Y0*M15*M0*");
+        room.write("random.cut", text.as_bytes());
+        let ran = room.run(&format!("compile random.cut --force -o random.csv {BITES}"));
+        let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+        // Cut-outs side by side leave no room for a border.
+        assert!(ran.status.success() || said.contains("error[marker/bite]"), "{text}\n{said}");
+        split += usize::from(ran.status.success());
+    }
+    assert!(split >= 12, "{split} of 24 are split");
+}
+
+#[test]
 fn a_choice_of_windows_parts_no_piece() {
     let room = Room::with("long.cut", LONG);
     let said = room.says(&format!("compile long.cut {BITES} --resume-from bite:3"), FAULTY);
@@ -213,7 +270,6 @@ fn damage_to_split_cuts_is_found() {
     let room = Room::with("long.cut", LONG);
     room.says(&format!("compile long.cut {BITES} -o right.csv"), DONE);
     let text = room.text("right.csv");
-    let head = text.lines().next().expect("a header").to_owned();
     let damages: [(&str, &str, Damage); 5] = [
         ("the last advance a tenth longer than told", "verify/on-path", |rows| {
             let last = rows[rows.len() - 1][ADVANCE];
@@ -263,15 +319,20 @@ fn damage_to_split_cuts_is_found() {
     for (name, rule, damage) in damages {
         let mut damaged = rows(&text);
         damage(&mut damaged);
-        let lines = damaged.iter().map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
-        let lines: Vec<String> = std::iter::once(head.clone()).chain(lines).collect();
-        room.write("wrong.csv", (lines.join("\n") + "\n").as_bytes());
+        room.write("wrong.csv", written(&text, &damaged).as_bytes());
         let said = room.says(&format!("verify wrong.csv --source long.cut {BITES}"), FAULTY);
         assert!(said.contains(&format!("FAIL  {rule}")), "{name}: {said}");
     }
     // A conveyor that is worse than the one that the cuts were made for leaves threads.
     let said = room.says(&format!("verify right.csv --source long.cut {BITES} --set bite.match_mm=2"), FAULTY);
     assert!(said.contains("FAIL  verify/joint"), "{said}");
+}
+
+/// A program of other rows.
+fn written(program: &str, rows: &[Vec<f64>]) -> String {
+    let head = program.lines().next().expect("a header").to_owned();
+    let lines = rows.iter().map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
+    std::iter::once(head).chain(lines).collect::<Vec<_>>().join("\n") + "\n"
 }
 
 /// The ways of the cloth of all windows, mm.
@@ -289,7 +350,8 @@ fn pieces_that_cannot_be_split_are_refused() {
             "H1*G71*N1*X0Y0*M14*X6000Y0*X6000Y1000*X0Y1000*X0Y0*M15*{inside}N2*X0Y1100*M14*X500Y1100*X500Y1600*X0Y1600*X0Y1100*M15*M0*"
         )
     };
-    for inside in ["X1000Y500*M14*X5000Y500*M15*", "X2000Y300*M14*X3000Y300*X3000Y600*X2000Y600*X2000Y300*M15*"] {
+    let cut_out = "X1000Y300*M14*X5200Y300*X5200Y600*X1000Y600*X1000Y300*M15*";
+    for inside in ["X1000Y500*M14*X5000Y500*M15*", cut_out] {
         room.write("inside.cut", square(inside).as_bytes());
         let said = room.says(&format!("compile inside.cut {BITES}"), FAULTY);
         assert!(said.contains("error[marker/bite]: piece 1 takes 614.8 mm along X"), "{said}");

@@ -59,7 +59,7 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
     let piece = |((part, piece), station): ((u32, &marker::Piece), &u32)| {
         let texts = texts(context, piece);
         let is_about = |message: &&&Diagnostic| is_about(message, piece);
-        let whole = if piece.is_early_section() { None } else { wholes.next() };
+        let whole = if owners[part as usize] == part as usize { wholes.next() } else { None };
         Piece {
             whole: owners[part as usize],
             key: [piece.number, piece.copy],

@@ -21,6 +21,7 @@ use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Vector};
+use crate::ir::list::SegmentList;
 use crate::ir::marker::{Event, Marker, Notch, Piece};
 use crate::ir::toolpath;
 use crate::machine::Job;
@@ -57,7 +58,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
     let end = stretches.iter().flatten().map(|stretch| stretch.to).fold(start, f64::max);
     let end = (end - start).ceil().max(0.0) as u32;
-    if let Some(idle) = lay(marker, &blocks, &order, end) {
+    if let Some(idle) = lay(marker, &blocks, (&order, &windows.longs), end) {
         diagnostics.push(idle);
     }
 }
@@ -247,7 +248,8 @@ impl Misfit {
                 let message = format!(
                     "piece {number} takes {long} mm along X with its overlaps, more than a bite of {has} mm holds"
                 );
-                let hint = "it cannot be split: that takes straight edges beside waste, and a piece of one outline";
+                let hint =
+                    "it cannot be split: that takes straight edges beside waste, and an outline around all its lines";
                 (i, message, hint)
             }
             Self::Behind(i, by) => {
@@ -269,13 +271,18 @@ impl Misfit {
 /// Puts pieces in order, with the advances of the cloth before the first piece of each window. Events before a block stay
 /// before it; an advance at the end moves everything off the table. Advances of the file that move nothing are left out and
 /// reported.
-fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[Placed], end: u32) -> Option<Diagnostic> {
+fn lay(
+    marker: &mut Marker,
+    blocks: &[Range<usize>],
+    (order, longs): (&[Placed], &BTreeMap<usize, Long>),
+    end: u32,
+) -> Option<Diagnostic> {
     let of_block = |block: &Range<usize>| (block.start, std::mem::take(&mut marker.pieces[block.start].events));
     let mut asked = blocks.iter().map(of_block).collect::<Vec<_>>().into_iter().peekable();
     let mut pieces: Vec<Option<Piece>> = std::mem::take(&mut marker.pieces).into_iter().map(Some).collect();
     let (mut at, mut idle, mut place) = (0, Vec::new(), 0);
     for &Placed { piece, advance, section } in order {
-        let mut piece = placed(&mut pieces[piece], section);
+        let mut piece = placed(&mut pieces[piece], section, longs.get(&piece), &marker.list);
         if let Some((_, events)) = asked.next_if(|&(start, _)| start == place) {
             piece.events = events;
         }
@@ -298,21 +305,19 @@ fn lay(marker: &mut Marker, blocks: &[Range<usize>], order: &[Placed], end: u32)
     Some(Diagnostic::new(&code::MARKER_IDLE_ADVANCE, message).at(first.span).hint(hint))
 }
 
-/// A piece, or the next section of it with its holes and slits; the last section also has the rest of the piece.
-fn placed(piece: &mut Option<Piece>, section: Option<([f64; 2], bool)>) -> Piece {
-    let left = piece.as_mut().expect("each piece is in one window");
-    match section {
-        Some((stretch @ [_, to], false)) => Piece {
-            section: Some(stretch),
-            drills: left.drills.extract_if(.., |drill| drill.at.x < to).collect(),
-            notches: left.notches.extract_if(.., |notch| notch.root.x < to).collect(),
-            ..Piece { number: left.number, copy: left.copy, span: left.span, feed: left.feed, ..Piece::default() }
-        },
-        last => {
-            let last = last.map(|(stretch, _)| stretch);
-            Piece { section: last, ..piece.take().expect("each piece is in one window") }
-        }
+/// A piece, or the next section of it with what is in it; the last section also has the rest of the piece.
+fn placed(
+    piece: &mut Option<Piece>,
+    section: Option<([f64; 2], bool)>,
+    long: Option<&Long>,
+    list: &SegmentList,
+) -> Piece {
+    if let (Some((stretch, false)), Some(long)) = (section, long) {
+        let rest = piece.as_mut().expect("each piece is in one window");
+        return Piece { section: Some(stretch), ..long.split_off(rest, stretch[1], list) };
     }
+    let section = section.map(|(stretch, _)| stretch);
+    Piece { section, ..piece.take().expect("each piece is in one window") }
 }
 
 /// Replaces the first advance among some events by an advance of `way` mm, or inserts one before all, and returns the other

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 
 use super::split::{Lap, Lines, Ring};
 use crate::analysis::nesting::Nesting;
-use crate::geom::{Point, ring};
-use crate::ir::marker::{Marker, Notch, Piece};
+use crate::geom::{Extent, ring};
+use crate::ir::list::{Range, SegmentList};
+use crate::ir::marker::{Contour, Marker, Notch, Piece};
 use crate::machine::{Bite, Job, NotchStyle};
 
 /// Distance of the borders that are tried, mm.
@@ -29,6 +30,8 @@ pub(super) struct Stretch {
 /// A piece that is longer than a window.
 #[derive(Debug)]
 pub(super) struct Long {
+    /// Its outline in the list of segments.
+    outline: Range,
     /// Ends of the piece along X, mm.
     ends: [f64; 2],
     /// Places where a section may begin: the start of the piece, then the possible splits.
@@ -67,24 +70,32 @@ impl Long {
         }
         let nesting = Nesting::of(marker, job.profile.band(marker.unit));
         let lines = Lines::of(marker);
-        let is_plain = |i: &usize| is_plain(&marker.pieces[*i], job) && is_alone(*i, &nesting);
-        let long = |i: usize| Some((i, Self::new(i, marker, (stretches[i]?, length), &lines, job)));
-        longs.into_iter().filter(is_plain).filter_map(long).collect()
+        let long = |i: usize| {
+            let outline = outline(i, marker, &nesting).filter(|_| is_plain(&marker.pieces[i], job))?;
+            let piece = (&marker.pieces[i], outline);
+            Some((i, Self::new(piece, marker, (stretches[i]?, length), &lines, job)))
+        };
+        longs.into_iter().filter_map(long).collect()
     }
 
-    fn new(piece: usize, marker: &Marker, (stretch, length): (Stretch, f64), lines: &Lines, job: &Job) -> Self {
-        let Stretch { from, to } = stretch;
+    fn new(
+        (piece, outline): (&Piece, Range),
+        marker: &Marker,
+        (Stretch { from, to }, length): (Stretch, f64),
+        lines: &Lines,
+        job: &Job,
+    ) -> Self {
         let lap = Lap::of(job, marker.unit);
-        let range = marker.pieces[piece].contours[0].range;
-        let ring = Ring::new(&marker.list, range, ring::area(&marker.list.points(range)) > 0.0);
-        let extent = marker.list.extent(range);
+        let ring = Ring::new(&marker.list, outline, ring::area(&marker.list.points(outline)) > 0.0);
+        let extent = marker.list.extent(outline);
         let ends = [extent.min.x, extent.max.x];
         let reach = lap.length() + job.profile.knife.reach();
         let grid = ((ends[0] / GRID).ceil() as i64)..((ends[1] / GRID).ceil() as i64);
         let borders = grid.map(|step| step as f64 * GRID);
-        let notches = &marker.pieces[piece].notches;
+        let inside = Inside::all(piece, outline, &marker.list);
         let place = |x: f64| {
-            let cost = lines.cost(&ring, piece, x, lap).filter(|_| holds_slits(x, notches, lap.length()))?;
+            let is_held = |one: &Inside| one.beyond(x) <= lap.length();
+            let cost = lines.cost(&ring, x, lap).filter(|_| inside.iter().all(is_held))?;
             Some(Place { x, from: x - reach, cost, rest: None })
         };
         let start = Place { x: ends[0], from, cost: 0, rest: None };
@@ -95,7 +106,20 @@ impl Long {
             let ways = next.filter(|next| next.x - begin.x >= SHORTEST).filter_map(Place::with_rest);
             places[i].rest = if to - begin.from <= length { Some((1, 0)) } else { ways.min() };
         }
-        Self { ends, places, next: 0, window: None, reach }
+        Self { outline, ends, places, next: 0, window: None, reach }
+    }
+
+    /// Takes out of the rest of the piece what goes with the section before a border.
+    pub(super) fn split_off(&self, rest: &mut Piece, border: f64, list: &SegmentList) -> Piece {
+        let is_before = |contour: &mut Contour| {
+            contour.range != self.outline && Inside::of_contour(contour, list).is_before(border)
+        };
+        Piece {
+            contours: rest.contours.extract_if(.., is_before).collect(),
+            drills: rest.drills.extract_if(.., |drill| drill.at.x < border).collect(),
+            notches: rest.notches.extract_if(.., |notch| Inside::of_notch(notch).is_before(border)).collect(),
+            ..Piece { number: rest.number, copy: rest.copy, span: rest.span, feed: rest.feed, ..Piece::default() }
+        }
     }
 
     /// Start of the stretch that the blade may need for the rest, mm.
@@ -136,26 +160,56 @@ impl Place {
     }
 }
 
-/// True if each slit stays with the section of its root: no end lies farther beyond the border than the halves reach, mm.
-fn holds_slits(border: f64, notches: &[Notch], reach: f64) -> bool {
-    let holds = |notch: &Notch| {
-        let is_early = notch.root.x < border;
-        let beyond = |at: Point| if is_early { at.x - border } else { border - at.x };
-        notch.strokes().flat_map(|stroke| [stroke.from, stroke.to]).all(|at| beyond(at) <= reach)
-    };
-    notches.iter().all(holds)
+/// A slit or an inner contour of a piece, which goes whole with one of its sections.
+struct Inside {
+    /// Place along X that decides between two sections, mm.
+    anchor: f64,
+    /// Ends along X, mm.
+    ends: [f64; 2],
 }
 
-/// True if a piece has only a closed outline, slits and holes, all of which a section can have in its window.
+impl Inside {
+    fn of_notch(notch: &Notch) -> Self {
+        let mut extent = Extent::of(&[notch.root]);
+        notch.strokes().for_each(|stroke| extent.join(&Extent::between(stroke.from, stroke.to)));
+        Self { anchor: notch.root.x, ends: [extent.min.x, extent.max.x] }
+    }
+
+    fn of_contour(contour: &Contour, list: &SegmentList) -> Self {
+        let Extent { min, max } = list.extent(contour.range);
+        Self { anchor: f64::midpoint(min.x, max.x), ends: [min.x, max.x] }
+    }
+
+    /// The slits and inner contours of a piece.
+    fn all(piece: &Piece, outline: Range, list: &SegmentList) -> Vec<Self> {
+        let contours = piece.contours.iter().filter(|contour| contour.range != outline);
+        let contours = contours.map(|contour| Self::of_contour(contour, list));
+        piece.notches.iter().map(Self::of_notch).chain(contours).collect()
+    }
+
+    /// True if it goes with the section before a border.
+    fn is_before(&self, border: f64) -> bool {
+        self.anchor < border
+    }
+
+    /// Distance by which it protrudes from its section at a border, mm.
+    fn beyond(&self, border: f64) -> f64 {
+        if self.is_before(border) { self.ends[1] - border } else { border - self.ends[0] }
+    }
+}
+
+/// The outline of a piece that may be split: the closed contour around all its others, in no other piece.
+fn outline(piece: usize, marker: &Marker, nesting: &Nesting) -> Option<Range> {
+    let own = nesting.of_group(piece);
+    let outer = own.clone().find(|&line| nesting.around(line).len() == 0)?;
+    let is_in_it = |line: usize| line == outer || nesting.outermost(line) == Some(outer);
+    let outline = &marker.pieces[piece].contours[outer - own.start];
+    (outline.closed && own.into_iter().all(is_in_it)).then_some(outline.range)
+}
+
+/// True if a section of a piece can have the slits and holes in its stretch.
 fn is_plain(piece: &Piece, job: &Job) -> bool {
     let is_as_drawn = piece.outline_notches.is_empty() || job.profile.notch.style == NotchStyle::AsDrawn;
     let is_drilled_aside = !piece.drills.is_empty() && job.profile.drill.offset_mm != [0.0; 2];
-    piece.contours.len() == 1 && piece.contours[0].closed && is_as_drawn && !is_drilled_aside
-}
-
-/// True if a piece is in no other, and no other is in it.
-fn is_alone(piece: usize, nesting: &Nesting) -> bool {
-    let own = nesting.of_group(piece);
-    let is_in = |line: usize| nesting.around(line).any(|outer| own.contains(&outer));
-    own.clone().all(|line| nesting.around(line).len() == 0) && !(0..nesting.lines().len()).any(is_in)
+    is_as_drawn && !is_drilled_aside
 }

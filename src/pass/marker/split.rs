@@ -8,7 +8,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Rotation, Vector, polyline};
 use crate::ir::Marker;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
-use crate::ir::marker::Notch;
+use crate::ir::marker::{Contour, Notch};
 use crate::machine::{Bite, Job};
 
 /// Length of the deviation, as a multiple of its offset: ten degrees, for which no blade needs to be lifted.
@@ -69,6 +69,8 @@ impl Lap {
 
 /// A closed outline, addressed by stations.
 pub(super) struct Ring {
+    /// The outline in the list.
+    range: Range,
     segments: Vec<Segment>,
     /// Stations of the starts of the segments and of the last end, mm.
     stations: Vec<f64>,
@@ -79,7 +81,7 @@ impl Ring {
     /// Outline of a closed range of a list, with its part on the left or on the right.
     pub(super) fn new(list: &SegmentList, range: Range, is_part_left: bool) -> Self {
         let segments: Vec<Segment> = list.walk(range).map(|(_, segment)| segment).collect();
-        Self { stations: polyline::stations(&list.points(range)), segments, is_part_left }
+        Self { stations: polyline::stations(&list.points(range)), range, segments, is_part_left }
     }
 
     fn length(&self) -> f64 {
@@ -173,8 +175,8 @@ fn direction(segment: &Segment) -> Vector {
 
 /// Lines of a marker that a split must keep away from.
 pub(super) struct Lines {
-    /// Lines with the piece of their contour; `None` for slits and holes.
-    lines: Vec<([Point; 2], Option<usize>)>,
+    /// Lines with their contour; `None` for slits and holes.
+    lines: Vec<([Point; 2], Option<Range>)>,
     boxes: Boxes,
 }
 
@@ -182,9 +184,10 @@ impl Lines {
     /// Lines of a marker: contours, slits and holes.
     pub(super) fn of(marker: &Marker) -> Self {
         let mut lines = Vec::new();
-        for (i, piece) in marker.pieces.iter().enumerate() {
-            let contours = piece.contours.iter().flat_map(|contour| marker.list.lines(contour.range));
-            lines.extend(contours.map(|ends| (ends, Some(i))));
+        for piece in &marker.pieces {
+            for &Contour { range, .. } in &piece.contours {
+                lines.extend(marker.list.lines(range).map(|ends| (ends, Some(range))));
+            }
             let slits = piece.notches.iter().flat_map(Notch::strokes).map(|stroke| [stroke.from, stroke.to]);
             let holes = piece.drills.iter().map(|drill| [drill.at; 2]);
             lines.extend(slits.chain(holes).map(|ends| (ends, None)));
@@ -193,13 +196,13 @@ impl Lines {
         Self { lines, boxes }
     }
 
-    /// Cost of splitting the outline of a piece at a border; `None` where it must not be split.
-    pub(super) fn cost(&self, ring: &Ring, piece: usize, x: f64, lap: Lap) -> Option<u32> {
+    /// Cost of splitting an outline at a border; `None` where it must not be split.
+    pub(super) fn cost(&self, ring: &Ring, x: f64, lap: Lap) -> Option<u32> {
         let crossings = ring.crossings(x);
-        crossings.iter().map(|&(at, _)| self.cost_at(ring, piece, at, lap)).sum()
+        crossings.iter().map(|&(at, _)| self.cost_at(ring, at, lap)).sum()
     }
 
-    fn cost_at(&self, ring: &Ring, piece: usize, at: f64, lap: Lap) -> Option<u32> {
+    fn cost_at(&self, ring: &Ring, at: f64, lap: Lap) -> Option<u32> {
         let reach = lap.length() + FREE;
         if ring.length() < 4.0 * reach {
             return None;
@@ -214,7 +217,7 @@ impl Lines {
             || bow > MOST_BOW
             || line.windows(2).any(bends)
             || !line[1..].iter().all(is_plain)
-            || self.is_crowded(ring, piece, (at, reach), lap)
+            || self.is_crowded(ring, (at, reach), lap)
         {
             return None;
         }
@@ -223,13 +226,13 @@ impl Lines {
 
     /// True if any other line, or the same one farther on, is in the way of the halves of a split at a station; the halves
     /// reach `reach` mm along the line.
-    fn is_crowded(&self, ring: &Ring, piece: usize, (at, reach): (f64, f64), lap: Lap) -> bool {
+    fn is_crowded(&self, ring: &Ring, (at, reach): (f64, f64), lap: Lap) -> bool {
         let line = ring.between(at - reach, at + reach);
         let chord = [line[0].from, line[line.len() - 1].to];
         let clear = lap.clear + MOST_BOW;
         let is_near = |ends: [Point; 2]| polyline::distance_of_segments(ends, chord) <= clear;
         let near = self.boxes.near(Extent::between(chord[0], chord[1]).grown(clear));
-        if near.map(|i| self.lines[i]).any(|(ends, of)| of != Some(piece) && is_near(ends)) {
+        if near.map(|i| self.lines[i]).any(|(ends, of)| of != Some(ring.range) && is_near(ends)) {
             return true;
         }
         let beyond = reach + clear + ROOM;

@@ -78,7 +78,7 @@ impl<'a> Reference<'a> {
         let of_piece = |index| {
             let mut of_piece = OfPiece::new(index, marker, profile, near.as_ref());
             if owners[index] != index {
-                of_piece.see_aside(&marker.pieces[owners[index]], marker, profile);
+                of_piece.see_aside([index, owners[index]].map(|i| &marker.pieces[i]), marker, profile);
             }
             of_piece
         };
@@ -97,7 +97,7 @@ impl<'a> Reference<'a> {
             }
             rings.iter_mut().flatten().flat_map(|drawn| &mut drawn.cut).for_each(|cut| *cut += first_cut);
             let slits = lines.len()..lines.len() + slits;
-            let section = piece.section.map(|_| cut_of_pieces.len());
+            let section = piece.section.map(|_| owners[cut_of_pieces.len()]);
             shared.extend(rings.into_iter().map(|stretches| Around { slits: slits.clone(), stretches, section }));
             let contours = contours.into_iter().map(|ranks| ranks.start + small(first)..ranks.end + small(first));
             cut_of_pieces.push(CutOfPiece { slits, contours: contours.collect() });
@@ -211,9 +211,11 @@ impl<'a> OfPiece<'a> {
         Self { lines, slits, contours, rings, open, ranks: rank(), cuts: cut() }
     }
 
-    /// Marks the stretches where the cuts of an early section leave the contours, which another piece holds.
-    fn see_aside(&mut self, owner: &Piece, marker: &Marker, profile: &MachineProfile) {
-        let outlines = owner.contours.iter().map(|contour| Outline::new(contour, owner, marker, profile.notch).0);
+    /// Marks the stretches where the cuts of an early section leave its contours and the outline, which another piece holds.
+    fn see_aside(&mut self, [own, owner]: [&Piece; 2], marker: &Marker, profile: &MachineProfile) {
+        let contours =
+            [own, owner].into_iter().flat_map(|piece| piece.contours.iter().map(move |contour| (piece, contour)));
+        let outlines = contours.map(|(piece, contour)| Outline::new(contour, piece, marker, profile.notch).0);
         let drawn: Vec<Segment> = outlines.flat_map(|outline| outline.segments().to_vec()).collect();
         let drawn = Chords::of_contours(drawn.iter());
         for line in &mut self.lines[self.slits..] {

@@ -91,18 +91,18 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
             cutting.slit(&slit);
         }
         cutting.group(Group::Slits);
-        if pieces[i].section.is_some() {
-            if let Some(Section { cuts, outline, line }) = sections.remove(&i) {
-                cutting.edges([Vec::new(), cuts], outline, line);
-            }
-            continue;
-        }
-        for ((contour, range), line) in outlines.into_iter().enumerate().zip(nesting.of_group(i)) {
+        let section = sections.remove(&i);
+        let split = section.as_ref().map(|section| section.line);
+        let contours = outlines.into_iter().enumerate().zip(nesting.of_group(i));
+        for ((contour, range), line) in contours.filter(|(_, line)| Some(*line) != split) {
             match shared.remove(&line) {
                 Some(of_line) => cutting.edges(of_line, range, line),
                 None => cutting.contour(range, line),
             }
             cutting.group(Group::Contour(contour));
+        }
+        if let Some(Section { cuts, outline, line }) = section {
+            cutting.edges([Vec::new(), cuts], outline, line);
         }
     }
     let groups = cutting.groups;
@@ -153,8 +153,10 @@ impl Cutting<'_> {
     fn sections(&self, pieces: &[Piece], styled: &[Styled], lap: Lap) -> BTreeMap<usize, Section> {
         let mut found = BTreeMap::new();
         for (i, owner) in pieces.iter().enumerate().filter(|(_, piece)| piece.section.is_some()) {
-            let ([outline], Some(line)) = (&styled[i].outlines[..], self.nesting.of_group(i).next()) else { continue };
-            let outline = *outline;
+            let mut lines = styled[i].outlines.iter().zip(self.nesting.of_group(i));
+            // Early sections have inner contours alone.
+            let outline = lines.find(|(_, line)| self.nesting.around(*line).len() == 0);
+            let Some((&outline, line)) = outline else { continue };
             let of_owner = (0..pieces.len()).filter(|&k| pieces[k].section.is_some() && pieces[k].is_of(owner));
             let mut of_owner: Vec<(f64, usize)> = of_owner.filter_map(|k| Some((pieces[k].section?[0], k))).collect();
             of_owner.sort_by(|a, b| a.0.total_cmp(&b.0));
