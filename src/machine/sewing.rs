@@ -25,6 +25,8 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "sewing.ramp", takes: Takes::Word(words::<Ramp>), about: "\"fill\" = the gentlest ramp that just fills the window; \"fastest\" = as fast as the drives can, then\nidle until the window ends." },
     Key { name: "sewing.max_rpm", takes: Takes::Number(from(10.0, 20_000.0)), about: "Highest speed of the spindle: a turn is a stitch." },
     Key { name: "sewing.grid_rpm", takes: Takes::Count(1000), about: "Speeds are multiples of this." },
+    Key { name: "sewing.spindle", takes: Takes::Word(words::<Spindle>), about: "\"uniform\" = one speed within a run, that of its slowest stitch; \"eased\" = the spindle slows down\nbefore a long stitch and recovers after it." },
+    Key { name: "sewing.spindle_rpm_s", takes: Takes::Number(from(1.0, 1.0e7)), about: "How fast an eased spindle may change its speed, rpm a second; it does so between two windows." },
     Key { name: "sewing.speeds", takes: Takes::Pairs(from(0.0, 100.0), from(10.0, 20_000.0)), about: "Your own limits by pitch, a list of [pitch_mm, rpm]: a run with a stitch of this pitch or a longer\none is not sewn faster. [[2, 3000], [3, 2500]]" },
     Key { name: "sewing.soft_start_rpm", takes: Takes::NumberOr(from(10.0, 20_000.0), Off::WORD), about: "Speed of the first stitches of a run, which form the first loops; \"off\" = that of the run." },
     Key { name: "sewing.soft_start_stitches", takes: Takes::Count(100), about: "How many stitches a soft start has." },
@@ -73,6 +75,10 @@ pub struct Sewing {
     pub max_rpm: f64,
     /// Grid of speeds.
     pub grid_rpm: u32,
+    /// Speeds of the spindle within a run.
+    pub spindle: Spindle,
+    /// Greatest change of its speed, rpm per second.
+    pub spindle_rpm_s: f64,
     /// Speed limits by pitch: mm, rpm.
     pub speeds: Vec<[f64; 2]>,
     /// Speed of a soft start.
@@ -133,6 +139,16 @@ pub enum Ramp {
     Fastest,
 }
 
+/// Speeds of the spindle within a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Spindle {
+    /// One speed, apart from the soft start.
+    Uniform,
+    /// A speed for each stitch.
+    Eased,
+}
+
 /// Treatment of stitches that are too long for the speed of their run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -179,6 +195,8 @@ impl Default for Sewing {
             ramp: Ramp::Fill,
             max_rpm: 3200.0,
             grid_rpm: 10,
+            spindle: Spindle::Uniform,
+            spindle_rpm_s: 10_000.0,
             speeds: Vec::new(),
             soft_start_rpm: Some(400.0),
             soft_start_stitches: 2,

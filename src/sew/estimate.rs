@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use super::pace;
 use super::program::Program;
 use super::speed;
 use super::stitches::Op;
@@ -24,7 +25,7 @@ pub struct Estimate {
     pub stops: usize,
     /// Total length of the stitches, m.
     pub thread_m: f64,
-    /// Minimum and maximum speed of runs after their soft start, stitches per minute.
+    /// Minimum and maximum speed of the runs after their soft start, stitches per minute.
     pub rpm: [f64; 2],
     /// Total time of the stitches, s.
     pub sewing_s: f64,
@@ -58,8 +59,8 @@ pub fn estimate(program: &Program, job: &Job) -> Estimate {
         }
     }
     for run in &program.runs {
-        sum.sewing_s += speed::duration(run, sewing);
-        sum.rpm = [sum.rpm[0].min(run.rpm), sum.rpm[1].max(run.rpm)];
+        sum.sewing_s += pace::duration(&run.speeds, sewing);
+        sum.rpm = [sum.rpm[0].min(run.slowest), sum.rpm[1].max(run.rpm)];
     }
     sum.starting_s = program.runs.len() as f64 * sewing.start_time();
     sum.trimming_s = sum.trims as f64 * sewing.trim_time();

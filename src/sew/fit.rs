@@ -2,6 +2,7 @@
 //!
 //! Short stitches are merged with the next. Long ones are split or refused, or kept and sewn at a lower speed of their run.
 
+use super::pace;
 use super::speed::{self, PITCH_EPSILON};
 use super::stitches::{Op, Step, Stitches};
 use super::train::Drive;
@@ -180,7 +181,7 @@ fn end_run(steps: &mut Vec<Step>, short: &[Step], least: f64) {
 
 /// Speed of a stitch of a pitch without regard to the feed time, stitches per minute.
 fn wanted(pitch: f64, sewing: &Sewing) -> f64 {
-    speed::on_grid(speed::user(pitch, sewing).min(sewing.max_rpm), sewing)
+    pace::on_grid(speed::user(pitch, sewing).min(sewing.max_rpm), sewing)
 }
 
 /// Longest pitch up to which all stitches, in every direction, fit at the speed wanted for them, mm; at least the minimum

@@ -16,6 +16,7 @@ mod estimate;
 mod fifo;
 mod fit;
 mod lay;
+mod pace;
 mod pattern;
 mod program;
 mod read;

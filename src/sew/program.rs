@@ -45,7 +45,7 @@ impl Program {
     pub fn moves<'a>(&'a self, job: &'a Job) -> impl Iterator<Item = Move<'a>> {
         let sewing = &job.profile.sewing;
         let drive = Drive::of(sewing);
-        let speeds = speed::speeds(&self.stitches, &self.runs, sewing);
+        let speeds = speed::speeds(&self.stitches, &self.runs);
         self.stitches.moves().zip(speeds).zip(1..).map(move |(((from, step), rpm), entry)| Move {
             step,
             entry,

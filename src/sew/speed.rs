@@ -1,10 +1,11 @@
 //! The speed of each run: the maximum constant speed at which every stitch fits into its window.
 //!
 //! It is the minimum of the user's limit, the machine's limit and 60 window / longest move, rounded down to the grid. A turn is
-//! a stitch, so the spindle keeps its speed within a run, apart from the soft start.
+//! a stitch. The stitches of the soft start do not limit the rest of the run; `pace` has the speed of each stitch.
 
 use std::ops::Range;
 
+use super::pace::{self, on_grid};
 use super::stitches::{Op, Stitches};
 use super::train::Drive;
 use crate::geom::Point;
@@ -20,8 +21,12 @@ const GRID_EPSILON: f64 = 1e-6;
 pub struct Run {
     /// Range of its entries.
     pub steps: Range<usize>,
-    /// Speed after the soft start, stitches per minute.
+    /// Greatest speed after the soft start, stitches per minute.
     pub rpm: f64,
+    /// Least speed after the soft start; below `rpm` if the spindle eases.
+    pub slowest: f64,
+    /// Speed of each stitch, stitches per minute.
+    pub(super) speeds: Vec<f64>,
     /// Reason for the limit of its speed.
     pub limit: Limit,
     /// Additional time compared with the median speed of its stitches, s.
@@ -37,12 +42,6 @@ pub enum Limit {
     User(usize),
     /// The feed time of the stitch of this entry.
     Stitch(usize),
-}
-
-/// Speed of the spindle during an entry of a run, stitches per minute; the first entries have the soft start.
-pub(super) fn rpm_at(run: &Run, step: usize, sewing: &Sewing) -> f64 {
-    let soft = sewing.soft_start_rpm.filter(|_| step < run.steps.start + sewing.soft_start_stitches as usize);
-    soft.map_or(run.rpm, |soft| soft.min(run.rpm).floor())
 }
 
 /// Maximum speed of a stitch alone, stitches per minute, and true if it is the user's limit.
@@ -75,49 +74,40 @@ pub(super) fn pulses(from: Point, to: Point, drive: &Drive) -> [i64; 2] {
     [drive.grid(to.x) - drive.grid(from.x), drive.grid(to.y) - drive.grid(from.y)]
 }
 
-/// Largest speed of the grid up to a limit; 0 if that is below the first.
-pub(super) fn on_grid(rpm: f64, sewing: &Sewing) -> f64 {
-    let grid = f64::from(sewing.grid_rpm);
-    (rpm / grid).floor() * grid
-}
-
 /// The speeds of all runs.
 pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
     let drive = Drive::of(sewing);
-    let mut speeds: Vec<f64> = Vec::new();
+    let machine = on_grid(sewing.max_rpm, sewing);
     let run = |steps: Range<usize>| {
-        speeds.clear();
-        let machine = on_grid(sewing.max_rpm, sewing);
+        let soft = pace::soft_stitches(steps.len(), sewing);
+        // The soft start does not limit the rest, unless its stitches are all that there is or one fits at no speed.
+        let first = steps.start + if soft < steps.len() { soft } else { 0 };
         let (mut least, mut limit) = (machine, Limit::Machine);
+        let mut alone_rpm: Vec<f64> = Vec::with_capacity(steps.len());
         for i in steps.clone() {
             let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
             let (rpm, is_user) = alone([from, stitches.steps[i].to], sewing, &drive);
-            if rpm < least {
+            if rpm < least && (i >= first || rpm <= 0.0) {
                 (least, limit) = (rpm, if is_user { Limit::User(i) } else { Limit::Stitch(i) });
             }
-            speeds.push(rpm.min(machine));
+            alone_rpm.push(rpm.min(machine));
         }
-        let middle = speeds.len() / 2;
-        let (_, half, _) = speeds.select_nth_unstable_by(middle, f64::total_cmp);
-        let mut run = Run { steps, rpm: least, limit, cost: 0.0 };
-        let usual = Run { rpm: *half, ..run.clone() };
-        if least > 0.0 {
-            run.cost = duration(&run, sewing) - duration(&usual, sewing);
+        if least <= 0.0 {
+            let speeds = vec![0.0; steps.len()];
+            return Run { steps, rpm: 0.0, slowest: 0.0, speeds, limit, cost: 0.0 };
         }
-        run
+        let speeds = pace::paced(&alone_rpm, least, sewing);
+        let rest = &speeds[first - steps.start..];
+        let [slowest, rpm] =
+            rest.iter().fold([f64::INFINITY, 0.0], |[least, most], &rpm| [least.min(rpm), f64::max(most, rpm)]);
+        let middle = alone_rpm.len() / 2;
+        let half = *alone_rpm.select_nth_unstable_by(middle, f64::total_cmp).1;
+        alone_rpm.fill(half);
+        let usual = pace::paced(&alone_rpm, half, sewing);
+        let cost = pace::duration(&speeds, sewing) - pace::duration(&usual, sewing);
+        Run { steps, rpm, slowest, speeds, limit, cost }
     };
     stitches.runs().into_iter().map(run).collect()
-}
-
-/// Time of the stitches of a run, s.
-pub(super) fn duration(run: &Run, sewing: &Sewing) -> f64 {
-    let soft = match sewing.soft_start_rpm {
-        Some(_) => run.steps.len().min(sewing.soft_start_stitches as usize),
-        None => 0,
-    };
-    let rest = (run.steps.len() - soft) as f64;
-    let soft_rpm = rpm_at(run, run.steps.start, sewing);
-    soft as f64 * S_PER_MIN / soft_rpm + rest * S_PER_MIN / run.rpm
 }
 
 /// Time of a move with the needle up, s.
@@ -127,16 +117,15 @@ pub(super) fn jump_time(from: Point, to: Point, drive: &Drive) -> f64 {
 }
 
 /// Speed of the spindle during each entry, in order, stitches per minute; 0 if it stands.
-pub(super) fn speeds<'a>(
-    stitches: &'a Stitches,
-    runs: &'a [Run],
-    sewing: &'a Sewing,
-) -> impl Iterator<Item = f64> + 'a {
+pub(super) fn speeds<'a>(stitches: &'a Stitches, runs: &'a [Run]) -> impl Iterator<Item = f64> + 'a {
     let mut runs = runs.iter().peekable();
     stitches.steps.iter().enumerate().map(move |(i, step)| {
         while runs.next_if(|run| run.steps.end <= i).is_some() {}
         match (step.op, runs.peek()) {
-            (Op::Stitch, Some(run)) => rpm_at(run, i, sewing),
+            (Op::Stitch, Some(run)) => {
+                let at = i.saturating_sub(run.steps.start);
+                run.speeds.get(at).or(run.speeds.last()).copied().unwrap_or(0.0)
+            }
             (Op::Stitch | Op::Jump | Op::Trim | Op::Stop | Op::Color(_), _) => 0.0,
         }
     })
@@ -182,8 +171,22 @@ mod tests {
         let run = &runs(&along(&pitches), &sewing)[0];
         // 2116.95 stitches per minute; the grid has whole ones.
         assert_eq!((run.rpm, run.limit), (2116.0, Limit::Stitch(100)));
-        assert!((duration(run, &sewing) - 5.70).abs() < 0.005);
+        assert!((pace::duration(&run.speeds, &sewing) - 5.70).abs() < 0.005);
         assert!((run.cost - (5.697 - 3.769)).abs() < 0.005, "{}", run.cost);
+    }
+
+    #[test]
+    fn the_stitches_of_a_soft_start_do_not_limit_the_rest() {
+        let sewing = Sewing::default();
+        let run = &runs(&along(&[6.0, 6.0, 2.0, 2.0, 2.0]), &sewing)[0];
+        assert_eq!((run.rpm, run.limit), (3200.0, Limit::Machine));
+        assert_eq!(run.speeds, [400.0, 400.0, 3200.0, 3200.0, 3200.0]);
+        // A soft start is no faster than its own stitches, and than the rest.
+        let slow = Sewing { speeds: vec![[5.0, 300.0]], ..sewing.clone() };
+        assert_eq!(runs(&along(&[6.0, 2.0, 2.0]), &slow)[0].speeds, [300.0, 300.0, 3200.0]);
+        assert_eq!(runs(&along(&[2.0, 2.0, 6.0]), &slow)[0].speeds, [300.0; 3]);
+        // A run that is all soft start.
+        assert_eq!(runs(&along(&[6.0, 2.0]), &sewing)[0].limit, Limit::Stitch(0));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Messages on the speeds of a program: runs slowed down by a stitch, runs without a possible speed, patterns that are slow as
 //! a whole, and changed speeds of a queue.
 
+use super::pace;
 use super::program::Program;
 use super::read::Speed;
 use super::speed::{self, Limit, Run};
@@ -8,6 +9,7 @@ use super::stitches::Op;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::Sewing;
+use crate::machine::sewing::Spindle;
 use crate::units::number::{exact, fixed};
 
 /// Relative additional time of a run, compared with the median speed of its stitches, above which it is reported.
@@ -19,13 +21,14 @@ const TOLD_SPEED: f64 = 0.25;
 pub(super) fn tell(program: &Program, speeds: &[Speed], sewing: &Sewing, out: &mut Diagnostics) {
     slowed(program, sewing, out);
     slow(program, sewing, out);
-    others(program, speeds, sewing, out);
+    others(program, speeds, out);
 }
 
 /// Reports runs that a stitch slows down, the most costly first, and runs without a possible speed.
 fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
     let Program { stitches, runs, record_word, .. } = program;
     let mut costly: Vec<(usize, &Run)> = Vec::new();
+    let is_uniform = sewing.spindle == Spindle::Uniform;
     let which = |i: usize| {
         let step = &stitches.steps[i];
         let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
@@ -39,7 +42,7 @@ fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
             let message = format!("{which} fits at no speed of the grid, {} rpm", sewing.grid_rpm);
             let hint = "split it with `--on-long split`, or look at window, acceleration and grid of the profile";
             out.push(Diagnostic::new(&code::SEW_NO_SPEED, message).on_cloth(step.to).hint(hint));
-        } else if run.cost > TOLD_COST * (speed::duration(run, sewing) - run.cost) {
+        } else if is_uniform && run.cost > TOLD_COST * (pace::duration(&run.speeds, sewing) - run.cost) {
             costly.push((number, run));
         }
     }
@@ -53,7 +56,7 @@ fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
             exact(run.rpm),
             fixed(run.cost, 2)
         );
-        let hint = "`--on-long split` makes it several stitches and keeps the speed";
+        let hint = "`--on-long split` makes it several stitches; `sewing.spindle = \"eased\"` slows down for it alone";
         out.push(Diagnostic::new(&code::SEW_SLOWED, message).on_cloth(step.to).hint(hint));
     }
 }
@@ -78,11 +81,11 @@ fn slow(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
 }
 
 /// Reports speeds of a queue that are not kept.
-fn others(program: &Program, speeds: &[Speed], sewing: &Sewing, out: &mut Diagnostics) {
+fn others(program: &Program, speeds: &[Speed], out: &mut Diagnostics) {
     let Program { stitches, runs, record_word, .. } = program;
     let mut next = speeds.iter().peekable();
     let (mut asked, mut count, mut first) = (None, 0, None);
-    for (step, rpm) in stitches.steps.iter().zip(speed::speeds(stitches, runs, sewing)) {
+    for (step, rpm) in stitches.steps.iter().zip(speed::speeds(stitches, runs)) {
         while let Some(speed) = next.next_if(|speed| speed.record <= step.record) {
             asked = Some(speed.rpm);
         }

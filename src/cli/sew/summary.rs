@@ -33,6 +33,9 @@ pub(super) struct Figures {
 struct Run {
     stitches: usize,
     rpm: f64,
+    /// Least speed after the soft start; `None` if the spindle keeps its speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slowest_rpm: Option<f64>,
     /// Cause of the limit: "machine", "user" or "stitch".
     limit: &'static str,
     /// Record of the limiting stitch; null if no stitch limits the run.
@@ -74,6 +77,7 @@ impl Figures {
             Run {
                 stitches: run.steps.len(),
                 rpm: run.rpm,
+                slowest_rpm: (run.slowest < run.rpm).then_some(run.slowest),
                 limit,
                 record: step.map(|i| stitches.steps[i].record),
                 pitch_mm: step.map(pitch),
@@ -98,6 +102,26 @@ impl Figures {
     }
 }
 
+/// The speeds as text, with the stitch that limits the slowest run.
+fn speed(figures: &Figures) -> String {
+    let [least, most] = figures.estimate.rpm;
+    let speed = if least == most {
+        format!("{} stitches/min", exact(least))
+    } else {
+        format!("{} to {} stitches/min", exact(least), exact(most))
+    };
+    if figures.runs.iter().any(|run| run.slowest_rpm.is_some()) {
+        return format!("{speed}, eased from stitch to stitch");
+    }
+    let slowest = figures.runs.iter().min_by(|a, b| a.rpm.total_cmp(&b.rpm));
+    let told = slowest.and_then(|run| Some((run.limit, run.record?, run.pitch_mm?)));
+    let why = told.map_or(String::new(), |(limit, record, pitch)| {
+        let by = if limit == "user" { "your limit for a stitch" } else { "a stitch" };
+        format!("; the slowest by {by} of {} mm ({} {record})", fixed(pitch, 2), figures.record_word)
+    });
+    speed + &why
+}
+
 /// The figures as text.
 pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     let mut out = String::new();
@@ -113,18 +137,7 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
         line("sheet", sheet.to_string());
     }
     line("stitches", format!("{} in {}, {} m", sum.stitches, counted(sum.runs, "run"), fixed(sum.thread_m, 2)));
-    let speed = if sum.rpm[0] == sum.rpm[1] {
-        format!("{} stitches/min", exact(sum.rpm[0]))
-    } else {
-        format!("{} to {} stitches/min", exact(sum.rpm[0]), exact(sum.rpm[1]))
-    };
-    let slowest = figures.runs.iter().min_by(|a, b| a.rpm.total_cmp(&b.rpm));
-    let told = slowest.and_then(|run| Some((run.limit, run.record?, run.pitch_mm?)));
-    let why = told.map_or(String::new(), |(limit, record, pitch)| {
-        let by = if limit == "user" { "your limit for a stitch" } else { "a stitch" };
-        format!("; the slowest by {by} of {} mm ({} {record})", fixed(pitch, 2), figures.record_word)
-    });
-    line("speed", format!("{speed}{why}"));
+    line("speed", speed(figures));
     line(
         "time",
         format!(

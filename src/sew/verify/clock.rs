@@ -15,6 +15,14 @@ pub(super) fn window_us(sewing: &Sewing, rpm: f64) -> f64 {
     turn / TURN_DEG * S_PER_MIN * US_PER_S / rpm
 }
 
+/// Rate at which the spindle must change from one speed to another between two windows, rpm per second.
+pub(super) fn change_rpm_s(sewing: &Sewing, [from, to]: [f64; 2]) -> f64 {
+    let open = window_us(sewing, 1.0) / (S_PER_MIN * US_PER_S);
+    // The mean speed, turns per second, over the part of a turn in which the window is closed.
+    let time = (1.0 - open) * S_PER_MIN / f64::midpoint(from, to);
+    if from == to { 0.0 } else { (to - from).abs() / time }
+}
+
 /// Minimum time of the first step of a motor, microseconds: from the start rate with the maximum acceleration.
 pub(super) fn first_step_us(sewing: &Sewing) -> f64 {
     let (start, acceleration) = (sewing.start_hz * sewing.step_mm, sewing.feed_acceleration_mm_s2);

@@ -16,7 +16,8 @@ rules! {
     RAMP { name: "sew-verify/ramp", unit: "us", about: "intervals of an axis within a stitch fall, then rise", more: "A rate that rises again while it should fall shakes the clamp and, near its limit, loses steps. The value is by how much an interval falls behind one that rose." }
     ACCELERATION { name: "sew-verify/acceleration", unit: "mm/s2", about: "the rate changes no faster than the acceleration of the profile", more: "A motor follows no more than its torque allows: beyond it slips. The value is taken between neighbouring intervals, less what their rounding may add." }
     SPEED { name: "sew-verify/speed", unit: "rpm", about: "the spindle keeps its greatest speed, the soft start and the limits by pitch", more: "The value is by how much the speed passes the least of them. A speed where the needle is up, or none where it sews, counts in full." }
-    STEADY_SPEED { name: "sew-verify/steady-speed", unit: "rpm", about: "the spindle turns at one speed within a run, but for its soft start", more: "The spindle is heavy: it cannot follow from stitch to stitch, and the windows would lie elsewhere than planned. The value is the greatest difference." }
+    STEADY_SPEED { name: "sew-verify/steady-speed", unit: "rpm", about: "unless it eases, the spindle turns at one speed within a run, but for its soft start", more: "The spindle is heavy: it cannot follow from stitch to stitch, and the windows would lie elsewhere than planned. The value is the greatest difference." }
+    SPINDLE { name: "sew-verify/spindle", unit: "rpm/s", about: "an eased spindle changes its speed between two windows, no faster than it can", more: "A spindle that is still too fast when the window opens closes it before X and Y have arrived. The value is the rate at which the speed must change from feed end to feed start (`sewing.spindle_rpm_s`)." }
     SHORT_PITCH { name: "sew-verify/short-pitch", unit: "mm", about: "no stitch is shorter than the least pitch, but for those that lock the thread", more: "Stitches that are too short pile up under the needle and break the thread. The value is by how much the shortest misses `sewing.min_pitch_mm`." }
     LONG_PITCH { name: "sew-verify/long-pitch", unit: "mm", about: "no stitch is longer than the machine can make", more: "Neither the clamp nor the thread take-up of the machine reaches farther. The value is by how much the longest passes `sewing.max_pitch_mm`." }
     CORNER { name: "sew-verify/corner", unit: "mm", about: "every corner of a seam has a needle point", more: "A seam that cuts a corner short shows on the finished piece. Edges shorter than the least pitch are merged, so that much is allowed." }
@@ -31,10 +32,11 @@ rules! {
 
 /// Maximum value permitted by a rule.
 pub(super) fn limit(rule: &Rule, sewing: &Sewing) -> f64 {
-    let limits: [(&[&Rule], f64); 6] = [
+    let limits: [(&[&Rule], f64); 7] = [
         (&[&END_POINT], sewing.step_mm / 2.0 + PLACE_EPSILON),
         (&[&WINDOW, &TIME, &FIRST_INTERVAL, &LEAST_INTERVAL, &RAMP], TIME_US),
         (&[&ACCELERATION], sewing.feed_acceleration_mm_s2 * (1.0 + ACCELERATION_EPSILON)),
+        (&[&SPINDLE], sewing.spindle_rpm_s * (1.0 + SPEED_EPSILON)),
         (&[&SHORT_PITCH, &LONG_PITCH, &PLACED, &FIELD], PLACE_EPSILON),
         (&[&CORNER, &ON_SEAM], sewing.min_pitch_mm + PLACE_EPSILON),
         (&[&NEEDLE_POINT], FILE_UNIT / 2.0 + PLACE_EPSILON),
@@ -49,5 +51,7 @@ pub(super) const PLACE_EPSILON: f64 = 1e-4;
 const TIME_US: f64 = 0.0015;
 /// Relative rounding of accelerations: times are sums of roots.
 const ACCELERATION_EPSILON: f64 = 1e-4;
+/// Relative rounding of the change of a speed: a difference of squares.
+const SPEED_EPSILON: f64 = 1e-9;
 /// Unit of stitch files, mm.
 const FILE_UNIT: f64 = 0.1;

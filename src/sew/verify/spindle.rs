@@ -1,9 +1,11 @@
-//! Checks of the spindle speed: its limits, and its constancy within a run.
+//! Checks of the spindle speed: its limits, and its constancy within a run or the rate of its changes.
 
+use super::clock;
 use super::ground::{Ground, sighting};
 use super::rules::{self, PLACE_EPSILON};
 use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
+use crate::machine::sewing::Spindle as Eased;
 use crate::sew::stitches::Op;
 
 /// State of the spindle from entry to entry.
@@ -15,6 +17,8 @@ pub(super) struct Spindle {
     rpm: Option<f64>,
     /// Speed of its soft start, stitches per minute.
     soft: Option<f64>,
+    /// Speed of the stitch before, if it belongs to the run, stitches per minute.
+    last: Option<f64>,
 }
 
 impl Spindle {
@@ -41,9 +45,17 @@ impl Spindle {
         }
         let is_soft = self.stitches < sewing.soft_start_stitches && sewing.soft_start_rpm.is_some();
         self.stitches += 1;
-        let steady = if is_soft { &mut self.soft } else { &mut self.rpm };
-        let usual = *steady.get_or_insert(rpm);
-        worst.see(&rules::STEADY_SPEED, (rpm - usual).abs(), place);
+        match sewing.spindle {
+            Eased::Uniform => {
+                let steady = if is_soft { &mut self.soft } else { &mut self.rpm };
+                let usual = *steady.get_or_insert(rpm);
+                worst.see(&rules::STEADY_SPEED, (rpm - usual).abs(), place);
+            }
+            Eased::Eased => {
+                let last = self.last.replace(rpm).unwrap_or(rpm);
+                worst.see(&rules::SPINDLE, clock::change_rpm_s(sewing, [last, rpm]), place);
+            }
+        }
         if let Some(soft) = sewing.soft_start_rpm.filter(|_| is_soft) {
             limit = limit.min(soft);
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use cutc::machine::sewing::OnLong;
+use cutc::machine::sewing::{OnLong, Spindle};
 use cutc::machine::{Job, Mirror};
 use cutc::sew::verify::RULES;
 use cutc::sew::{Op, Program, Step};
@@ -82,6 +82,28 @@ const DAMAGES: &[Damage] = &[
     Damage("END is missing", "queue", "sew-verify/format", |rows| _ = rows.pop()),
     Damage("a word that is none", "queue", "sew-verify/format", |rows| "HOP,1.0000,1.0000,".clone_into(&mut rows[9])),
 ];
+
+#[rustfmt::skip] // a table: a damage a row
+const EASED_DAMAGES: &[Damage] = &[
+    Damage("the spindle is slower for a stitch", "pulses", "sew-verify/spindle", |rows| for i in of(rows, ENTRY) { change(&mut rows[i], 2, |_| "1000".to_owned()); }),
+    Damage("the spindle recovers too fast", "queue", "sew-verify/spindle", |rows| { let i = rows.iter().position(|row| row.starts_with("SPEED,,,7")).expect("a speed"); "SPEED,,,1400".clone_into(&mut rows[i]); }),
+    Damage("the spindle does not slow down", "queue", "sew-verify/window", |rows| for row in rows { if row == "SPEED,,,1720" { "SPEED,,,1800".clone_into(row); } }),
+    Damage("the soft start is left out", "queue", "sew-verify/speed", |rows| for row in rows { if row == "SPEED,,,400" { "SPEED,,,800".clone_into(row); } }),
+];
+
+#[test]
+fn every_damage_of_eased_speeds_is_refused_under_its_rule() {
+    let mut job = Job::default();
+    job.profile.sewing.spindle = Spindle::Eased;
+    let program = planned("sew/one-long-stitch.csv", &job);
+    for Damage(name, target, rule, run) in EASED_DAMAGES {
+        let text = String::from_utf8(written(&program, &job, target)).expect("text");
+        let mut rows: Vec<String> = text.lines().map(str::to_owned).collect();
+        run(&mut rows);
+        let broken = broken(&program, &[], &job, (target, &bytes(&rows)));
+        assert!(broken.contains(rule), "{name}: {rule} holds, but {broken:?} do not");
+    }
+}
 
 /// Rows as bytes again.
 fn bytes(rows: &[String]) -> Vec<u8> {
@@ -229,7 +251,7 @@ fn a_pattern_in_another_place_is_refused() {
 
 #[test]
 fn every_rule_is_broken_by_a_damage() {
-    let rows = DAMAGES.iter().map(|Damage(_, _, rule, _)| *rule);
+    let rows = DAMAGES.iter().chain(EASED_DAMAGES).map(|Damage(_, _, rule, _)| *rule);
     let bytes = BYTE_DAMAGES.iter().map(|row| row.2);
     let laid = LAID_DAMAGES.iter().map(|row| row.1);
     let aimed: BTreeSet<&str> =

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use cutc::geom::Point;
 use cutc::machine::Job;
-use cutc::machine::sewing::{OnLong, Ramp, SeamOrder};
+use cutc::machine::sewing::{OnLong, Ramp, SeamOrder, Spindle};
 use cutc::sew::{Drive, Op, Program};
 use fastrand::Rng;
 
@@ -32,6 +32,8 @@ fn random_patterns_are_proven_in_every_form_and_mode() {
         let sewing = &mut job.profile.sewing;
         sewing.ramp = if random.bool() { Ramp::Fill } else { Ramp::Fastest };
         sewing.on_long = if random.bool() { OnLong::Slow } else { OnLong::Split };
+        sewing.spindle = if random.bool() { Spindle::Uniform } else { Spindle::Eased };
+        sewing.spindle_rpm_s = 10.0_f64.powf(2.0 + 3.0 * random.f64());
         sewing.start_hz = [0.0, 1500.0, 2836.364, 3400.0][random.usize(0..4)];
         sewing.feed_acceleration_mm_s2 = 10.0_f64.powf(3.0 + 2.0 * random.f64());
         sewing.grid_rpm = [1, 10, 50][random.usize(0..3)];
@@ -108,6 +110,28 @@ fn random_lines_are_laid_with_every_corner_and_on_their_seams() {
             assert!(broken.is_empty(), "{i} {target}: {broken:?} {:?}\n{shown}", job.profile.sewing);
         }
     }
+}
+
+#[test]
+fn an_eased_spindle_sews_no_stitch_more_slowly_than_one_of_one_speed() {
+    let mut random = Rng::with_seed(52);
+    let mut faster = 0;
+    for _ in 0..60 {
+        let mut job = Job::default();
+        job.profile.sewing.soft_start_rpm = None;
+        let queue = random_queue(&mut random, 6.0);
+        let speeds = |job: &Job| -> Vec<f64> {
+            let (program, said, _) = plan("x.csv", queue.clone(), job);
+            program.unwrap_or_else(|| panic!("{said}")).moves(job).map(|entry| entry.rpm).collect()
+        };
+        let uniform = speeds(&job);
+        job.profile.sewing.spindle = Spindle::Eased;
+        for (eased, uniform) in speeds(&job).into_iter().zip(uniform) {
+            assert!(eased >= uniform, "{eased} {uniform}");
+            faster += usize::from(eased > uniform);
+        }
+    }
+    assert!(faster > 200, "{faster}");
 }
 
 #[test]
