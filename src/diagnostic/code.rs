@@ -1,5 +1,4 @@
 //! Every code that a diagnostic can carry: a stable name, its severity, and what it means.
-//!
 //! The first word is the stage. Names never change once released: scripts filter by them.
 
 pub use super::kind::Code;
@@ -448,6 +447,8 @@ codes! {
     SEW_ROW = error(Text, "sew/row", "A row of a pattern or of a queue cannot be read; the message says why.", "Sewing on without it would leave a gap or displace all that follows. Mend the row: decimal points, commas between the fields.\n  0,0,zigzag open");
     /// A file that ends too soon.
     SEW_TRUNCATED = error(Text, "sew/truncated", "A stitch file or queue ends before its end.", "What is missing would not be sewn, and a thread would be left uncut. Transfer the file again as binary data and compare the sizes of both.");
+    /// A pattern without its last record.
+    SEW_NO_END = warning(Spares, Text, "sew/no-end", "A DST file has no record for its end, but as many records as its header counts.", "Some programs leave the end out. The pattern is whole and is sewn; a machine that reads the file itself may not stop there. Write it anew if it goes to one.\n  cutc sew seat.dst -t dst -o whole.dst");
     /// A record that cannot be read.
     SEW_RECORD = error(Text, "sew/record", "A record of a stitch file is none that its format knows; the message has its number.", "All that follows would be sewn in another place. The file is damaged, or is of another format: name that with `--from`.\n  cutc sew odd.bin --from exp");
     /// A header that tells something else.
@@ -459,7 +460,7 @@ codes! {
     /// A machine that is hardly used.
     SEW_SLOW = warning(Spares, Shape, "sew/slow-pattern", "No run is sewn at a quarter of the greatest speed of the spindle, because no stitch fits into its window faster.", "The pattern takes many times as long as it should: most likely an angle of the window, a step or a rate of the profile is mistyped. The message has the window.\n  sewing.feed_start_deg = 250\n  sewing.feed_end_deg = 110");
     /// Jumps that cut the thread.
-    SEW_JUMPS_CUT = warning(Spares, Shape, "sew/jumps-cut", "Long moves without a trim are three jumps or more in a DST file, which most machines take for one.", "The thread is cut where it was to run on, and a seam may open. Let the thread be cut there anyway (`sewing.trim`), or write EXP, which has a record for a trim.");
+    SEW_JUMPS_CUT = warning(Spares, Shape, "sew/jumps-cut", "Long moves without a trim are three jumps or more in a DST or JEF file, which most machines take for one.", "The thread is cut where it was to run on, and a seam may open. Let the thread be cut there anyway (`sewing.trim`), or write EXP, which has a record for a trim.");
     /// Jump after jump.
     SEW_JUMPS = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
     /// An element on a line that cannot bear it.
@@ -592,9 +593,8 @@ mod tests {
     fn every_code_has_a_name_and_a_meaning_of_its_own() {
         for (i, code) in ALL.iter().enumerate() {
             assert!(ALL[..i].iter().all(|other| other.name != code.name), "{} stands twice", code.name);
-            let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '/';
-            assert!(code.name.chars().all(kebab) && code.name.matches('/').count() == 1, "{}", code.name);
-            assert!(code.about.ends_with('.'), "{}", code.name);
+            let is_kebab = code.name.chars().all(|c| matches!(c, 'a'..='z' | '0'..='9' | '-' | '/'));
+            assert!(is_kebab && code.name.matches('/').count() == 1 && code.about.ends_with('.'), "{}", code.name);
         }
     }
 }

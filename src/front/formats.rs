@@ -25,7 +25,9 @@ const EXPORT_DRAWING: &str = "let the CAD export the flat drawing as DXF or SVG"
 const TABLE: &str = "save a list of points as CSV: `x_mm,y_mm`; let the CAD export all else";
 const UNPACK: &str = "unpack it and give cutc the files inside";
 const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
-const OTHER_STITCHES: &str = "let the embroidery program save it as DST or EXP: `cutc sew` reads those";
+const OTHER_STITCHES: &str =
+    "let its program save it as DST for `cutc sew`, or the Python package pyembroidery convert it";
+const OWN_STITCHES: &str = "let its own program save it as DST: `cutc sew` reads that";
 const PICTURE: &str = "pictures hold no lines: let the CAD export an ISO cut file or an HPGL plot";
 const RASTER: &str = "it holds no lines: let the driver send vectors (HP-GL/2), or the CAD write an HPGL plot";
 const OTHER_PLOTTER: &str = "let the driver of the plotter write HPGL instead";
@@ -47,8 +49,11 @@ const FORMATS: &[Format] = &[
     known("a stitch file of a sewing machine (DST)", SEW, sewn::is_dst),
     known("a pattern for a sewing machine", SEW, sewn::is_pattern),
     known("a stitch queue of a sewing machine", SEW, sewn::is_queue),
-    known("an embroidery file (PES)", OTHER_STITCHES, |b| b.starts_with(b"#PES") || b.starts_with(b"#PEC")),
-    known("an embroidery file (VP3)", OTHER_STITCHES, |b| b.starts_with(b"%vsm%")),
+    known("an embroidery file of Barudan machines (DSB)", OTHER_STITCHES, sewn::is_dsb),
+    known("an embroidery file (PES)", SEW, sewn::is_pes),
+    known("an embroidery file (PEC)", SEW, sewn::is_pec),
+    known("an embroidery file (VP3)", SEW, sewn::is_vp3),
+    known("an embroidery file (JEF)", SEW, sewn::is_jef),
     known("a document of an office program (XLSX, DOCX)", TABLE, is_office),
     vague("a zip archive", UNPACK, |b| b.starts_with(b"PK")),
     known("a 7z archive", UNPACK, |b| b.starts_with(b"7z\xbc\xaf\x27\x1c")),
@@ -112,8 +117,10 @@ const fn named(extensions: &'static [&'static str], what: &'static str, hint: &'
 
 #[rustfmt::skip] // likewise
 const NAMED: &[Named] = &[
-    named(&["dst", "exp"], "a stitch file of a sewing machine", SEW),
-    named(&["jef", "hus", "xxx", "sew", "pec", "vip", "pcs", "emb"], "an embroidery file", OTHER_STITCHES),
+    named(&["dst", "exp", "pes", "pec", "jef", "vp3", "xxx", "u00", "u01", "u02"], "a stitch file of a sewing machine", SEW),
+    named(&["dsb"], "an embroidery file of Barudan machines (DSB)", OTHER_STITCHES),
+    named(&["hus", "sew", "shv", "dsz", "10o", "emd", "ksm", "pcs", "phb", "phc", "stx", "tbf", "zhs", "zxy"], "an embroidery file", OTHER_STITCHES),
+    named(&["emb", "vip", "art", "ofm"], "an embroidery file", OWN_STITCHES),
     named(&["mrk", "mark"], "a marker of AccuMark or Optitex (MRK)", EXPORT_PATTERN),
     named(&["mkx", "mka", "plx", "plh"], "a marker of Lectra Diamino", EXPORT_PATTERN),
     named(&["mdl", "iba", "vet", "vtx", "mdlx"], "a model of Lectra Modaris", EXPORT_PATTERN),

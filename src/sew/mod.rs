@@ -124,12 +124,7 @@ impl Made<'_> {
     /// Verifies bytes that were written for the program.
     pub fn judge(&self, bytes: Bytes, input: &mut dyn BufRead) -> io::Result<Verdict> {
         let Self { program, source, job } = *self;
-        let original = match program.format {
-            "dst" => Original::Dst(source.bytes()),
-            "exp" => Original::Exp(source.bytes()),
-            "queue" => Original::Queue(source.bytes()),
-            _ => Original::Other,
-        };
+        let original = Original::of(program.format, source.bytes());
         let ground = Ground {
             stitches: &program.stitches,
             pattern: program.pattern.as_ref(),

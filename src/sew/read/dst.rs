@@ -4,7 +4,7 @@
 //! trim.
 
 use super::format::{Format, Input};
-use super::moves::{Moves, span};
+use super::moves::{Moves, Trims, span};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::sewn;
 use crate::source::{Source, Span};
@@ -14,7 +14,7 @@ pub(super) const FORMAT: Format = Format {
     about: "stitch files of Tajima machines",
     extensions: &["dst"],
     record_word: "record",
-    is_it: |bytes, extension| extension == "dst" || sewn::is_dst(bytes),
+    is_it: |bytes, extension| (extension == "dst" && !sewn::is_dsb(bytes)) || sewn::is_dst(bytes),
     read,
 };
 
@@ -66,7 +66,7 @@ struct Count {
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
     let bytes = source.bytes();
-    let mut moves = Moves::new(Some(TRIM_JUMPS));
+    let mut moves = Moves::new(Trims { jumps: Some(TRIM_JUMPS), way: None });
     let Some((header, body)) = bytes.split_at_checked(HEADER_BYTES) else {
         let message = format!("the file has {} bytes, fewer than the header of a DST file", bytes.len());
         out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).hint("transfer it again"));
@@ -74,7 +74,8 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
     };
     let mut count = Count::default();
     let mut end = None;
-    let (records, rest) = body.as_chunks::<RECORD_BYTES>();
+    let filled = body.iter().rposition(|byte| !FILLING.contains(byte)).map_or(0, |last| last + 1);
+    let (records, rest) = body[..filled].as_chunks::<RECORD_BYTES>();
     for (i, &record) in records.iter().enumerate() {
         let number = i as u32 + 1;
         let place = span(HEADER_BYTES + i * RECORD_BYTES, RECORD_BYTES, number);
@@ -94,7 +95,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
             0x83 => moves.jump(way, number),
             0xC3 => {
                 count.colors += 1;
-                moves.color(number, out);
+                moves.next_thread(number, out);
                 if way != [0, 0] {
                     moves.jump(way, number);
                 }
@@ -102,13 +103,9 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
             _ => refuse(record, place, out),
         }
     }
-    if let Some(end) = end {
-        check_rest(body, end, out);
-    } else {
-        let message = format!("the file ends behind record {} without its end (00 00 F3)", records.len());
-        let hint = "the end of the pattern is missing: transfer the file again, and compare sizes";
-        let at = span(HEADER_BYTES + records.len() * RECORD_BYTES, rest.len(), records.len() as u32);
-        out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).at(at).hint(hint));
+    match end {
+        Some(end) => check_rest(body, end, out),
+        None => check_no_end(header, &count, rest, out),
     }
     if !out.has_errors() {
         check_header(header, &count, out);
@@ -125,6 +122,24 @@ fn check_rest(body: &[u8], end: usize, out: &mut Diagnostics) {
         let place = span(HEADER_BYTES + end, rest.len(), (end / RECORD_BYTES) as u32 + 1);
         out.push(Diagnostic::new(&code::SEW_BEHIND_END, message).at(place).hint(hint));
     }
+}
+
+/// Reports records without an end: those of a file that is cut off, or all of it, as some programs write it.
+fn check_no_end(header: &[u8], count: &Count, rest: &[u8], out: &mut Diagnostics) {
+    let Count { records, stitches, .. } = *count;
+    let at = span(HEADER_BYTES + records as usize * RECORD_BYTES, rest.len(), records);
+    // Some systems count all records, others stitches. One that counts the end writes it.
+    let whole = [records, stitches].map(i64::from);
+    if rest.is_empty() && field(header, b"ST:").is_some_and(|told| whole.contains(&told)) {
+        let message =
+            format!("the file has no end (00 00 F3) behind record {records}, the last that its header counts");
+        let hint = "the pattern is whole and is sewn; other machines may not stop there: write it anew for them";
+        out.push(Diagnostic::new(&code::SEW_NO_END, message).at(at).hint(hint));
+        return;
+    }
+    let message = format!("the file ends behind record {records} without its end (00 00 F3)");
+    let hint = "the end of the pattern is missing: transfer the file again, and compare sizes";
+    out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).at(at).hint(hint));
 }
 
 fn refuse(record: [u8; RECORD_BYTES], place: Span, out: &mut Diagnostics) {

@@ -4,14 +4,21 @@
 //! in [`FORMATS`]; all other input of `cutc` comes through `outline`. All faults are reported in one run. Never guesses
 //! silently.
 
+mod cursor;
 mod dst;
 mod exp;
 mod format;
 mod inset;
+mod jef;
 mod moves;
 mod outline;
 mod pattern;
+mod pec;
 mod queue;
+mod records;
+mod u01;
+mod vp3;
+mod xxx;
 
 pub(super) use format::Speed;
 pub use format::{Format, Input};
@@ -23,7 +30,18 @@ use crate::machine::Job;
 use crate::source::Source;
 
 /// All formats of sewing machines.
-pub const FORMATS: &[Format] = &[pattern::FORMAT, queue::FORMAT, dst::FORMAT, exp::FORMAT];
+pub const FORMATS: &[Format] = &[
+    pattern::FORMAT,
+    queue::FORMAT,
+    dst::FORMAT,
+    exp::FORMAT,
+    pec::PES,
+    pec::PEC,
+    jef::FORMAT,
+    vp3::FORMAT,
+    xxx::FORMAT,
+    u01::FORMAT,
+];
 
 /// Format and content of a source.
 pub(super) struct Reading {
@@ -44,7 +62,13 @@ pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnost
     let Some(Format { name, record_word, read, .. }) = format else {
         let first = out.iter().len();
         let Some((format, pattern)) = outline::read(source, asked, job, out) else {
-            out.revise(first, |found| found.hints = vec![known()]);
+            // Advice on the conversion of a stitch file stands; that on cutter files does not help here.
+            let is_stitches = |found: &Diagnostic| found.message.contains("embroidery");
+            out.revise(first, |found| {
+                if !is_stitches(found) {
+                    found.hints = vec![known()];
+                }
+            });
             return None;
         };
         return Some(Reading { format, record_word: outline::RECORD_WORD, input: Input::Pattern(pattern) });

@@ -21,14 +21,32 @@ pub(super) struct Moves {
     /// Number of jumps since the last entry, and the record of the first of them.
     jumps: u32,
     jumped_from: u32,
-    /// Number of consecutive jumps that stand for a trim; `None` if they never do.
-    trim_from: Option<u32>,
+    trims: Trims,
+}
+
+/// Jumps that stand for a thread cut.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Trims {
+    /// Number of consecutive jumps from which on they do; `None` if their number does not matter.
+    pub(super) jumps: Option<u32>,
+    /// Way of X or Y, tenths of a millimetre, beyond which they do; `None` if it does not matter.
+    pub(super) way: Option<i64>,
 }
 
 impl Moves {
-    /// Creates a collector; `trim_from` is the number of consecutive jumps that stand for a trim.
-    pub(super) fn new(trim_from: Option<u32>) -> Self {
-        Self { trim_from, thread: 1, ..Self::default() }
+    /// Creates a collector.
+    pub(super) fn new(trims: Trims) -> Self {
+        Self { trims, thread: 1, ..Self::default() }
+    }
+
+    /// Needle position, tenths of a millimetre.
+    pub(super) fn at(&self) -> [i64; 2] {
+        self.at
+    }
+
+    /// True if the thread runs from the last stitch to the needle.
+    pub(super) fn has_thread(&self) -> bool {
+        self.has_thread
     }
 
     fn push(&mut self, op: Op, record: u32) {
@@ -62,17 +80,32 @@ impl Moves {
         self.go(way);
     }
 
-    /// Adds a thread cut.
+    /// Adds a thread cut if there is a thread to cut.
     pub(super) fn trim(&mut self, record: u32, out: &mut Diagnostics) {
         self.land(out);
-        self.push(Op::Trim, record);
+        if self.has_thread {
+            self.push(Op::Trim, record);
+        }
+    }
+
+    /// Adds a stop for the operator.
+    pub(super) fn stop(&mut self, record: u32, out: &mut Diagnostics) {
+        self.land(out);
+        self.push(Op::Stop, record);
     }
 
     /// Adds a change to the next thread.
-    pub(super) fn color(&mut self, record: u32, out: &mut Diagnostics) {
+    pub(super) fn next_thread(&mut self, record: u32, out: &mut Diagnostics) {
+        self.thread(self.thread.saturating_add(1), record, out);
+    }
+
+    /// Adds a change to a thread, unless it is in use.
+    pub(super) fn thread(&mut self, thread: u16, record: u32, out: &mut Diagnostics) {
         self.land(out);
-        self.thread = self.thread.saturating_add(1);
-        self.push(Op::Color(self.thread), record);
+        if thread != self.thread {
+            self.thread = thread;
+            self.push(Op::Color(thread), record);
+        }
     }
 
     fn go(&mut self, [x, y]: [i64; 2]) {
@@ -93,7 +126,10 @@ impl Moves {
         let landed = self.at;
         let before = self.stitches.steps.last().map_or(Point::origin(), |step| step.to);
         self.at = [before.x, before.y].map(|value| (value * TENTHS_PER_MM).round() as i64);
-        if self.has_thread && self.trim_from.is_some_and(|least| jumps >= least) {
+        let way = [0, 1].map(|axis| (landed[axis] - self.at[axis]).abs());
+        let is_trim = self.trims.jumps.is_some_and(|least| jumps >= least)
+            || self.trims.way.is_some_and(|most| way[0].max(way[1]) > most);
+        if self.has_thread && is_trim {
             self.push(Op::Trim, record);
         }
         if landed != self.at {

@@ -35,7 +35,7 @@ pub(super) fn sewn(stitches: &Stitches) -> Vec<(Event, u32)> {
 /// The events of the records of a stitch file. Consecutive jumps are one move, and from `trim_jumps` on they cut a thread in
 /// use. A stop is a change to the next thread.
 pub(super) fn of_records(file: &File) -> Vec<Event> {
-    let mut events = Events { list: Vec::new(), jumps: 0, sews: false, needle: [0; 2], trim_jumps: file.trim_jumps };
+    let mut events = Events { list: Vec::new(), jumps: 0, sews: false, needle: [0; 2], file };
     let (mut at, mut thread) = ([0; 2], 1_u16);
     for &Record { kind, at: to } in &file.records {
         match kind {
@@ -45,14 +45,9 @@ pub(super) fn of_records(file: &File) -> Vec<Event> {
                 events.list.push(Event::Stitch(place(to)));
                 (events.needle, events.sews) = (to, true);
             }
-            Kind::Trim => {
+            Kind::Trim | Kind::Stop | Kind::Needle(_) | Kind::Halt => {
                 events.land(at);
-                events.trim();
-            }
-            Kind::Stop => {
-                events.land(at);
-                thread = thread.saturating_add(1);
-                events.list.push(Event::Thread(thread));
+                events.halt(kind, &mut thread);
                 events.jumps = usize::from(to != at);
             }
         }
@@ -62,7 +57,7 @@ pub(super) fn of_records(file: &File) -> Vec<Event> {
     events.list
 }
 
-struct Events {
+struct Events<'a> {
     list: Vec<Event>,
     /// Number of consecutive jumps.
     jumps: usize,
@@ -70,20 +65,39 @@ struct Events {
     sews: bool,
     /// Needle position before the jumps, tenths of a millimetre.
     needle: [i64; 2],
-    /// Number of consecutive jumps that cut the thread.
-    trim_jumps: Option<usize>,
+    /// The file, whose format says which jumps cut the thread.
+    file: &'a File,
 }
 
-impl Events {
+impl Events<'_> {
+    /// Cuts the thread in use.
     fn trim(&mut self) {
-        self.list.push(Event::Trim);
-        self.sews = false;
+        if std::mem::take(&mut self.sews) {
+            self.list.push(Event::Trim);
+        }
+    }
+
+    /// Adds an event at which the needle stands; `thread` is the one in use.
+    fn halt(&mut self, kind: Kind, thread: &mut u16) {
+        let next = match kind {
+            Kind::Trim => return self.trim(),
+            Kind::Halt => return self.list.push(Event::Stop),
+            Kind::Needle(needle) => needle,
+            Kind::Stop | Kind::Stitch | Kind::Jump => thread.saturating_add(1),
+        };
+        if next != *thread {
+            *thread = next;
+            self.list.push(Event::Thread(next));
+        }
     }
 
     /// Ends the jumps before an event, at a position.
     fn land(&mut self, at: [i64; 2]) {
         let jumps = std::mem::take(&mut self.jumps);
-        if self.sews && jumps > 0 && self.trim_jumps.is_some_and(|least| jumps >= least) {
+        let way = (at[0] - self.needle[0]).abs().max((at[1] - self.needle[1]).abs());
+        let is_cut = self.file.trim_jumps.is_some_and(|least| jumps >= least)
+            || self.file.trim_way.is_some_and(|most| way > most);
+        if jumps > 0 && is_cut {
             self.trim();
         }
         if at != self.needle {

@@ -4,6 +4,7 @@
 //! lay, plan and write: it counts pulses, measures intervals and decodes records itself. Never repairs anything.
 
 mod clock;
+mod decoders;
 mod events;
 mod ground;
 mod laid;
@@ -42,6 +43,10 @@ pub enum Bytes {
     Dst,
     /// An EXP file.
     Exp,
+    /// A PES file.
+    Pes,
+    /// A JEF file.
+    Jef,
 }
 
 /// Verifies a program from its bytes.
@@ -61,6 +66,8 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
         Bytes::QueueJson => queue::judge(input, queue::JSON, ground, &mut worst),
         Bytes::Dst => stitch_file::judge(input, records::dst, ground, &mut worst),
         Bytes::Exp => stitch_file::judge(input, records::exp, ground, &mut worst),
+        Bytes::Pes => stitch_file::judge(input, decoders::pec, ground, &mut worst),
+        Bytes::Jef => stitch_file::judge(input, decoders::jef, ground, &mut worst),
     };
     let unread = match read {
         Ok(()) => None,

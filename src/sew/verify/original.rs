@@ -6,7 +6,6 @@
 use super::events::{self, Event};
 use super::ground::{Ground, Original, sighting};
 use super::placed;
-use super::records;
 use super::rules;
 use crate::geom::Point;
 use crate::ir::verdict::WorstByRule;
@@ -16,8 +15,7 @@ const SUM_EPSILON: f64 = 1e-6;
 /// Counts the differences between the file and the sewn stitches, in both directions.
 pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     let decoded = match ground.original {
-        Original::Dst(bytes) => records::dst(bytes).ok().as_ref().map(events::of_records),
-        Original::Exp(bytes) => records::exp(bytes).ok().as_ref().map(events::of_records),
+        Original::File(bytes, decode) => decode(bytes).ok().as_ref().map(events::of_records),
         Original::Queue(bytes) => events::of_queue(bytes),
         Original::Other => return,
     };

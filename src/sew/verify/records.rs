@@ -12,22 +12,32 @@ pub(super) struct Record {
 pub(super) enum Kind {
     Stitch,
     Jump,
+    /// A thread cut, before the move of the record; so are the next three.
     Trim,
+    /// A stop for the next thread.
     Stop,
+    /// A stop for the thread of a needle.
+    Needle(u16),
+    /// A stop for the operator.
+    Halt,
 }
 
 /// Content of a file.
-#[derive(Debug)]
-pub(super) struct File {
+#[derive(Debug, Default)]
+pub struct File {
     pub(super) records: Vec<Record>,
     /// Number of wrong values in the header; `None` for a format without a header.
     pub(super) header: Option<u32>,
+    /// True if the end is missing.
+    pub(super) has_no_end: bool,
     /// True if bytes follow the end.
     pub(super) has_more: bool,
     /// True if the final record has additional bits; machines still stop there.
     pub(super) has_odd_end: bool,
     /// Number of consecutive jumps that cut the thread on machines.
     pub(super) trim_jumps: Option<usize>,
+    /// Way of jumps along an axis beyond which machines cut the thread, tenths of a millimetre.
+    pub(super) trim_way: Option<i64>,
 }
 
 /// Content of a file, or a description of the part that cannot be read.
@@ -46,7 +56,10 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
     let (triples, rest) = body.as_chunks::<3>();
     // Both bits of 81 up and down, which no move has.
     let is_end = |triple: &[u8; 3]| triple[2] & 0b1111_0011 == 0b1111_0011;
-    let end = triples.iter().position(is_end).ok_or("the end is missing")?;
+    let found = triples.iter().position(is_end);
+    // Without an end the filling behind the last record, whose last byte has its two lowest bits set, is none.
+    let whole = triples.iter().rposition(|triple| triple[2] & 3 == 3).map_or(0, |last| last + 1);
+    let end = found.unwrap_or(whole);
     for (i, &[a, b, c]) in triples[..end].iter().enumerate() {
         let kind = match c & 0b1100_0011 {
             0b0000_0011 => Kind::Stitch,
@@ -71,17 +84,32 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
         (0..4).for_each(|side| reach[side] = reach[side].max(now[side]));
         records.push(Record { kind, at });
     }
+    let wrong = wrong_fields(header, &records, reach);
+    Ok(File {
+        records,
+        header: Some(wrong),
+        has_no_end: found.is_none(),
+        has_more: end + 1 != triples.len() || !rest.is_empty(),
+        has_odd_end: triples.get(end) != Some(&[0, 0, 0xF3]),
+        trim_jumps: Some(TRIM_JUMPS),
+        trim_way: None,
+    })
+}
+
+/// Number of fields of the header of a DST file that are not those of its records. `reach` is their extent from the start.
+fn wrong_fields(header: &[u8], records: &[Record], reach: [i64; 4]) -> u32 {
+    let end = records.last().map_or([0; 2], |record| record.at);
     let stops = records.iter().filter(|record| record.kind == Kind::Stop).count();
     let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
     let told = [
-        ("ST", count(end)),
+        ("ST", count(records.len())),
         ("CO", count(stops)),
         ("+X", reach[0]),
         ("-X", reach[1]),
         ("+Y", reach[2]),
         ("-Y", reach[3]),
-        ("AX", at[0]),
-        ("AY", at[1]),
+        ("AX", end[0]),
+        ("AY", end[1]),
     ];
     let text = String::from_utf8_lossy(header);
     let fields: Vec<(&str, String)> = text
@@ -93,9 +121,7 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
         !fields.iter().any(|(field, told)| *field == name && told.parse() == Ok(value))
     };
     let wrong = told.iter().filter(is_wrong).count();
-    let has_more = end + 1 != triples.len() || !rest.is_empty();
-    let has_odd_end = triples[end] != [0, 0, 0xF3];
-    Ok(File { records, header: Some(wrong as u32), has_more, has_odd_end, trim_jumps: Some(TRIM_JUMPS) })
+    wrong as u32
 }
 
 /// Decodes an EXP file.
@@ -122,9 +148,5 @@ pub(super) fn exp(bytes: &[u8]) -> Decoded {
         at = [at[0] + signed(way[0]), at[1] + signed(way[1])];
         records.push(Record { kind, at });
     }
-    if rest.is_empty() {
-        Ok(File { records, header: None, has_more: false, has_odd_end: false, trim_jumps: None })
-    } else {
-        Err("the last record is cut off".to_owned())
-    }
+    if rest.is_empty() { Ok(File { records, ..File::default() }) } else { Err("the last record is cut off".to_owned()) }
 }

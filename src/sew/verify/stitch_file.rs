@@ -34,9 +34,14 @@ pub(super) fn judge(
 ) -> Result<(), Unread> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
-    let File { records, header, has_more, has_odd_end, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
-    if has_more || has_odd_end {
-        let what = if has_more { "bytes stand behind the end" } else { "the end is none that every machine knows" };
+    let File { records, header, has_no_end, has_more, has_odd_end, trim_jumps, .. } =
+        decode(&bytes).map_err(Unread::Row)?;
+    if has_no_end || has_more || has_odd_end {
+        let what = match (has_no_end, has_more) {
+            (true, _) => "the end is missing",
+            (false, true) => "bytes stand behind the end",
+            (false, false) => "the end is none that every machine knows",
+        };
         return Err(Unread::Row(what.to_owned()));
     }
     if let Some(wrong) = header {
@@ -95,8 +100,11 @@ fn found(records: &[Record]) -> Vec<Gap> {
     for record in records {
         match record.kind {
             Kind::Jump => gap.jumps += 1,
-            Kind::Trim => gap.is_cut = true,
-            Kind::Stitch | Kind::Stop => {
+            Kind::Trim => {
+                gap.is_cut = true;
+                gap.jumps += 1;
+            }
+            Kind::Stitch | Kind::Stop | Kind::Needle(_) | Kind::Halt => {
                 let at = Point::new(record.at[0] as f64 / TENTHS_PER_MM, record.at[1] as f64 / TENTHS_PER_MM);
                 gap.end = Some((record.kind == Kind::Stitch, at));
                 gaps.push(std::mem::take(&mut gap));

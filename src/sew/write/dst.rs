@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::stitch_file::{Record, records};
+use super::stitch_file::{Extents, Record, records, told_cuts};
 use super::target::{Target, Writer};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
@@ -62,47 +62,25 @@ fn record([mut x, mut y]: [i64; 2], kind: u8) -> [u8; 3] {
 struct Sums {
     records: i64,
     stops: i64,
-    /// End of the last record, tenths of a millimetre.
-    at: [i64; 2],
-    /// Extent of all records from the start: right, left, up, down.
-    reach: [i64; 4],
-    /// Number of moves without a trim that have as many jumps as one with a trim.
-    cuts: usize,
+    extents: Extents,
 }
 
 /// Writes each record, and returns their totals.
 fn encode(program: &Program, mut put: impl FnMut([u8; 3])) -> Sums {
     let mut sums = Sums::default();
-    // Jumps in a row, while the thread runs on.
-    let mut jumps = None;
     records(program, LONGEST, |kind, way| {
         let mut move_by = |way: [i64; 2], kind: u8| {
             put(record(way, kind));
             sums.records += 1;
-            sums.at = [sums.at[0] + way[0], sums.at[1] + way[1]];
-            let now = [sums.at[0], -sums.at[0], sums.at[1], -sums.at[1]];
-            sums.reach.iter_mut().zip(now).for_each(|(most, now)| *most = (*most).max(now));
+            sums.extents.add(way);
         };
         match kind {
-            Record::Stitch => {
-                move_by(way, STITCH);
-                jumps = Some(0);
-            }
-            Record::Jump => {
-                move_by(way, JUMP);
-                jumps = jumps.map(|jumps| jumps + 1);
-                sums.cuts += usize::from(jumps == Some(TRIM_WAYS.len()));
-            }
-            Record::Trim => {
-                for way in TRIM_WAYS {
-                    move_by(way, JUMP);
-                }
-                jumps = None;
-            }
-            Record::Stop => {
+            Record::Stitch => move_by(way, STITCH),
+            Record::Jump => move_by(way, JUMP),
+            Record::Trim => TRIM_WAYS.into_iter().for_each(|way| move_by(way, JUMP)),
+            Record::Stop | Record::Thread(_) => {
                 move_by(way, STOP);
                 sums.stops += 1;
-                jumps = None;
             }
         }
     });
@@ -111,7 +89,7 @@ fn encode(program: &Program, mut put: impl FnMut([u8; 3])) -> Sums {
 
 fn refusals(program: &Program, _: &Job, out: &mut Diagnostics) {
     let sums = encode(program, |_| {});
-    let reach = sums.reach.into_iter().max().unwrap_or(0);
+    let reach = sums.extents.reach.into_iter().max().unwrap_or(0);
     for (what, value, digits) in
         [("records", sums.records, 7), ("stops", sums.stops, 3), ("tenths of a millimetre from the start", reach, 5)]
     {
@@ -122,15 +100,8 @@ fn refusals(program: &Program, _: &Job, out: &mut Diagnostics) {
             out.push(Diagnostic::new(&code::TARGET_REFUSED, message).hint(hint));
         }
     }
-    if sums.cuts > 0 {
-        let message = format!(
-            "{} moves without a trim are {} jumps or more in the DST file: most machines cut the thread there",
-            sums.cuts,
-            TRIM_WAYS.len()
-        );
-        let hint = "set `sewing.trim`, move such seams nearer to each other, or write EXP";
-        out.push(Diagnostic::new(&code::SEW_JUMPS_CUT, message).hint(hint));
-    }
+    let rule = format!("{} jumps or more", TRIM_WAYS.len());
+    told_cuts(program, LONGEST, (&rule, "a DST"), |(jumps, _)| jumps >= TRIM_WAYS.len(), out);
 }
 
 fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {
@@ -143,7 +114,7 @@ fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {
 
 /// The header: number of records and stops, and extent of the pattern from its start, tenths of a millimetre.
 fn header(sums: &Sums) -> Vec<u8> {
-    let Sums { records, stops, at, reach: [right, left, up, down], .. } = sums;
+    let Sums { records, stops, extents: Extents { at, reach: [right, left, up, down] } } = sums;
     let signed = |value: i64| format!("{}{:5}", if value < 0 { '-' } else { '+' }, value.abs());
     let text = format!(
         "LA:{:<16}\rST:{records:7}\rCO:{stops:3}\r+X:{right:5}\r-X:{left:5}\r+Y:{up:5}\r-Y:{down:5}\rAX:{}\rAY:{}\rMX:{}\rMY:{}\rPD:******\r\u{1a}",

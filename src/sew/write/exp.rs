@@ -32,7 +32,7 @@ fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {
             Record::Stitch => body.extend_from_slice(&bytes),
             Record::Jump => body.extend(JUMP.into_iter().chain(bytes)),
             Record::Trim => body.extend_from_slice(&TRIM),
-            Record::Stop => body.extend(STOP.into_iter().chain(bytes)),
+            Record::Stop | Record::Thread(_) => body.extend(STOP.into_iter().chain(bytes)),
         }
     });
     out.write_all(&body)

@@ -6,7 +6,9 @@ mod chart;
 mod dst;
 mod exp;
 mod html;
+mod jef;
 mod markup;
+mod pes;
 mod pulses;
 mod queue;
 mod stitch_file;
@@ -23,6 +25,8 @@ pub const TARGETS: &[Target] = &[
     pulses::RECORDS,
     dst::TARGET,
     exp::TARGET,
+    pes::TARGET,
+    jef::TARGET,
     svg::TARGET,
     chart::TARGET,
     html::TARGET,

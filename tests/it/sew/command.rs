@@ -142,7 +142,16 @@ fn pictures_are_not_said_to_be_read_back() {
 #[test]
 fn other_commands_say_who_reads_files_of_sewing_machines() {
     let room = Room::new();
-    let files = ["sew/seat.dst", "sew/three-seams.exp", "sew/pocket.csv", "sew/headline.csv"];
+    let files = [
+        "sew/seat.dst",
+        "sew/three-seams.exp",
+        "sew/pocket.csv",
+        "sew/headline.csv",
+        "sew/leaf.pes",
+        "sew/leaf.pec",
+        "sew/leaf.jef",
+        "sew/leaf.vp3",
+    ];
     for name in files {
         let file = name.rsplit('/').next().expect("a name");
         room.write(file, &fixture(name));
@@ -159,7 +168,30 @@ fn a_file_that_nothing_reads_is_told_all_that_is_read() {
     room.write("x.txt", b"hello world\n");
     for file in ["x.txt", "junk.cut"] {
         let said = room.says(&format!("sew {file}"), FAULTY);
-        assert!(said.contains("reads pattern, queue, dst, exp, and the lines of iso, hpgl"), "{said}");
+        assert!(
+            said.contains("reads pattern, queue, dst, exp, pes, pec, jef, vp3, xxx, u01, and the lines of iso"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_stitch_file_of_another_kind_is_named_with_a_way_to_convert_it() {
+    let room = Room::new();
+    room.write("patch.dsb", &fixture("invalid/sew/barudan.dsb"));
+    room.write("patch.dst", &fixture("invalid/sew/barudan.dsb"));
+    room.write("patch.hus", b"[\xb3\xc8\0 patch");
+    room.write("patch.emb", b"\x01\x02 patch");
+    for (file, what, advice) in [
+        ("patch.dsb", "Barudan machines (DSB)", "pyembroidery"),
+        ("patch.dst", "Barudan machines (DSB)", "pyembroidery"),
+        ("patch.hus", "an embroidery file", "pyembroidery"),
+        ("patch.emb", "an embroidery file", "its own program"),
+    ] {
+        for command in ["sew", "compile -o made/"] {
+            let said = room.says(&format!("{command} {file}"), FAULTY);
+            assert!(said.contains(what) && said.contains(advice) && said.contains("DST"), "{command} {file}: {said}");
+        }
     }
 }
 

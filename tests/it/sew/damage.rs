@@ -128,6 +128,9 @@ type ByteDamage = (&'static str, &'static str, &'static str, fn(&mut Vec<u8>));
 
 const DST_BODY: usize = 512;
 const NPY_BODY: usize = 256;
+/// Offsets of the stitches of the pocket: of one thread, two with the next.
+const PES_STITCHES: usize = 22 + 532;
+const JEF_STITCHES: usize = 116 + 8 * 2;
 
 #[rustfmt::skip] // a table: a damage a row
 const BYTE_DAMAGES: &[ByteDamage] = &[
@@ -148,6 +151,24 @@ const BYTE_DAMAGES: &[ByteDamage] = &[
     ("an EXP file that is cut off", "exp", "sew-verify/format", |bytes| _ = bytes.pop()),
     ("a command of an EXP file that is none", "exp", "sew-verify/format", |bytes| { let i = (0..bytes.len()).find(|&i| bytes[i] == 0x80).expect("a jump"); bytes[i + 1] = 0x55; }),
     ("a trim of an EXP file is left out", "exp", "sew-verify/commands", |bytes| { let i = bytes.windows(2).position(|two| two == [0x80, 0x80]).expect("a trim"); bytes.drain(i..i + 4); }),
+    ("a stitch of a PES file is longer", "pes", "sew-verify/needle-point", |bytes| { let i = PES_STITCHES + 20; bytes[i] ^= 0x04; }),
+    ("a stitch of a PES file is left out", "pes", "sew-verify/entries", |bytes| _ = bytes.drain(PES_STITCHES + 20..PES_STITCHES + 22)),
+    ("a PES file without its end", "pes", "sew-verify/format", |bytes| bytes.truncate(PES_STITCHES + 60)),
+    ("bytes behind a PES file", "pes", "sew-verify/format", |bytes| bytes.push(0)),
+    ("a PES file with another number of threads", "pes", "sew-verify/header", |bytes| bytes[PES_STITCHES - 532 + 48] += 1),
+    ("a PES file of another width", "pes", "sew-verify/header", |bytes| bytes[PES_STITCHES - 532 + 520] += 1),
+    ("a trim of a PES file is left out", "pes", "sew-verify/commands", |bytes| {
+        let i = (PES_STITCHES..bytes.len()).find(|&i| bytes[i] & 0xF0 == 0xA0 && bytes[i + 2] & 0xF0 == 0xA0).expect("a trim");
+        (bytes[i], bytes[i + 2]) = (bytes[i] ^ 0x30, bytes[i + 2] ^ 0x30);
+    }),
+    ("a stitch of a JEF file is longer", "jef", "sew-verify/needle-point", |bytes| bytes[JEF_STITCHES + 61] ^= 0x02),
+    ("a stitch of a JEF file is left out", "jef", "sew-verify/entries", |bytes| _ = bytes.drain(JEF_STITCHES + 60..JEF_STITCHES + 62)),
+    ("a JEF file without its end", "jef", "sew-verify/format", |bytes| bytes.truncate(bytes.len() - 2)),
+    ("bytes behind a JEF file", "jef", "sew-verify/format", |bytes| bytes.push(0)),
+    ("a command of a JEF file that is none", "jef", "sew-verify/format", |bytes| { let i = (JEF_STITCHES..bytes.len()).find(|&i| bytes[i] == 0x80).expect("a jump"); bytes[i + 1] = 0x55; }),
+    ("a JEF file with another number of points", "jef", "sew-verify/header", |bytes| bytes[28] ^= 1),
+    ("a JEF file with another reach", "jef", "sew-verify/header", |bytes| bytes[36] ^= 1),
+    ("a trim of a JEF file is left out", "jef", "sew-verify/commands", |bytes| { let trim = [0x80, 2, 0, 0].repeat(3); let i = bytes.windows(12).position(|twelve| twelve == trim).expect("a trim"); bytes.drain(i..i + 12); }),
     ("an array that is cut off", "pulses-npy", "sew-verify/format", |bytes| bytes.truncate(bytes.len() - 5)),
     ("bytes behind an array", "pulses-npy", "sew-verify/format", |bytes| bytes.push(0)),
     ("a time of an array that is none", "pulses-npy", "sew-verify/format", |bytes| bytes[NPY_BODY..NPY_BODY + 8].copy_from_slice(&f64::NAN.to_le_bytes())),
@@ -206,7 +227,15 @@ const SOURCE: &str = "sew-verify/source";
 #[test]
 fn every_fault_of_a_reader_of_stitch_files_is_seen() {
     let job = Job::default();
-    for name in ["sew/seat.dst", "sew/three-seams.exp"] {
+    for name in [
+        "sew/seat.dst",
+        "sew/three-seams.exp",
+        "sew/leaf.pes",
+        "sew/leaf.jef",
+        "sew/leaf.vp3",
+        "sew/leaf.xxx",
+        "sew/leaf.u01",
+    ] {
         for (damage, run) in READ_DAMAGES {
             let mut program = planned(name, &job);
             run(&mut program.stitches.steps);

@@ -32,7 +32,7 @@ fn every_pattern_is_sewn_and_said() {
             let _ = writeln!(all, "  {} at {} rpm: {limit}, costs {:.2} s", run.steps.len(), run.rpm, run.cost);
         }
         all += &said;
-        for name in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp"] {
+        for name in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp", "pes", "jef"] {
             let bytes = written(&program, &job, name);
             assert_eq!(broken(&program, &original, &job, (name, &bytes)), [""; 0], "{name}");
             assert_eq!(bytes, written(&program, &job, name));
@@ -59,13 +59,54 @@ fn damaged_files_are_refused_or_sewn_but_never_end_in_a_panic() {
         survives(&mut random, DAMAGES, (&name, &fixture(&name)), |bytes| {
             let job = Job::default();
             if let Some(program) = plan(&name, bytes.to_vec(), &job).0 {
-                for target in ["queue", "dst"] {
+                for target in ["queue", "dst", "jef"] {
                     let written = written(&program, &job, target);
                     assert_eq!(broken(&program, bytes, &job, (target, &written)), [""; 0]);
                 }
             }
         });
     }
+}
+
+#[test]
+fn a_file_that_is_cut_off_anywhere_is_refused_or_sewn_as_a_whole() {
+    let job = Job::default();
+    let is_told = |name: &&String| !name.ends_with(".csv") && !name.contains("wrong-header");
+    for name in names("sew").iter().filter(is_told) {
+        let whole = fixture(name);
+        let steps = planned(name, &job).stitches.steps;
+        for end in 0..whole.len() {
+            let cut = plan(name, whole[..end].to_vec(), &job).0;
+            // An EXP file has no end; all others tell it, or how many records there are.
+            if let Some(program) = cut.filter(|_| !name.ends_with(".exp")) {
+                assert_eq!(program.stitches.steps.len(), steps.len(), "{name}, {end} of {} bytes", whole.len());
+            }
+        }
+    }
+}
+
+#[test]
+fn stitches_of_all_formats_are_those_of_the_design() {
+    let job = Job::default();
+    let leaf = |extension: &str| planned(&format!("sew/leaf.{extension}"), &job);
+    let needle = |program: &cutc::sew::Program| -> Vec<[i64; 2]> {
+        let stitches = program.stitches.steps.iter().filter(|step| step.op == Op::Stitch);
+        stitches.map(|step| [step.to.x, step.to.y].map(|mm| (10.0 * mm).round() as i64)).collect()
+    };
+    let first = needle(&leaf("pes"));
+    assert_eq!((first.len(), first[0], first[37]), (64, [-150, -40], [-60, -160]));
+    for extension in ["pec", "jef", "vp3", "xxx", "u01"] {
+        assert_eq!(needle(&leaf(extension)), first, "{extension}");
+    }
+    let halts = |extension: &str| -> Vec<Op> {
+        let steps = leaf(extension).stitches.steps;
+        steps.iter().map(|step| step.op).filter(|op| !matches!(op, Op::Stitch | Op::Jump | Op::Trim)).collect()
+    };
+    for extension in ["pes", "pec", "jef", "u01"] {
+        assert_eq!(halts(extension), [Op::Color(2), Op::Stop], "{extension}");
+    }
+    // XXX has a thread for a stop, and VP3 nothing.
+    assert_eq!((halts("xxx"), halts("vp3")), (vec![Op::Color(2), Op::Color(3)], vec![Op::Color(2)]));
 }
 
 #[test]
@@ -76,7 +117,7 @@ fn stitch_files_and_queues_read_back_as_what_was_written() {
         let stitches = program.stitches.steps.iter().filter(|step| step.op == Op::Stitch);
         stitches.map(|step| step.to).collect::<Vec<_>>()
     };
-    for (name, accuracy) in [("dst", 0.051), ("exp", 0.051), ("queue", 0.0251)] {
+    for (name, accuracy) in [("dst", 0.051), ("exp", 0.051), ("pes", 0.051), ("jef", 0.051), ("queue", 0.0251)] {
         let (read, said, _) = plan(&format!("x.{name}"), written(&program, &job, name), &job);
         let read = read.unwrap_or_else(|| panic!("{said}"));
         let (asked, found) = (places(&program), places(&read));

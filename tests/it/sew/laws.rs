@@ -8,7 +8,7 @@ use cutc::machine::sewing::{OnLong, Ramp, SeamOrder, Spindle};
 use cutc::sew::{Drive, Op, Program};
 use fastrand::Rng;
 
-use super::{broken, plan, planned, written};
+use super::{broken, plan, planned, refuses, written};
 
 /// A queue of random stitches within the pitches of the machine.
 fn random_queue(random: &mut Rng, longest: f64) -> Vec<u8> {
@@ -46,7 +46,10 @@ fn random_patterns_are_proven_in_every_form_and_mode() {
         let queue = random_queue(&mut random, 9.0);
         let (program, said, _) = plan("x.csv", queue.clone(), &job);
         let Some(program) = program else { panic!("{i}: {said}\n{}", String::from_utf8_lossy(&queue)) };
-        for target in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp"] {
+        for target in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp", "pes", "jef"] {
+            if refuses(&program, &job, target) {
+                continue;
+            }
             let bytes = written(&program, &job, target);
             let broken = broken(&program, &queue, &job, (target, &bytes));
             assert!(
@@ -104,7 +107,7 @@ fn random_lines_are_laid_with_every_corner_and_on_their_seams() {
         let shown = String::from_utf8_lossy(&pattern).into_owned();
         let (program, said, _) = plan("x.csv", pattern, &job);
         let Some(program) = program else { panic!("{i}: {said}\n{shown}") };
-        for target in ["queue", "pulses-npy", "dst"] {
+        for target in ["queue", "pulses-npy", "dst", "jef"] {
             let bytes = written(&program, &job, target);
             let broken = broken(&program, &[], &job, (target, &bytes));
             assert!(broken.is_empty(), "{i} {target}: {broken:?} {:?}\n{shown}", job.profile.sewing);

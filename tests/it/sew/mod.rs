@@ -53,6 +53,13 @@ fn written(program: &Program, job: &Job, name: &str) -> Vec<u8> {
     bytes
 }
 
+/// Whether a target cannot express a program.
+fn refuses(program: &Program, job: &Job, name: &str) -> bool {
+    let mut out = Diagnostics::default();
+    (target(name).emit.refusals)(program, job, &mut out);
+    out.has_errors()
+}
+
 /// The codes of the rules that some bytes break, of a program that was made from others.
 fn broken(program: &Program, original: &[u8], job: &Job, (name, bytes): (&str, &[u8])) -> Vec<&'static str> {
     let source = Source::new("original", original.to_vec()).expect("small");
