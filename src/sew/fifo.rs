@@ -99,7 +99,7 @@ mod tests {
         job.profile.sewing.soft_start_rpm = None;
         let step = |i| Step { op: Op::Stitch, to: Point::new(i as f64, 0.0), is_tie: false, record: 0 };
         let stitches = Stitches { steps: (0..stitches).map(step).collect() };
-        let runs = speed::runs(&stitches, &job.profile.sewing);
+        let runs = speed::runs(&stitches, &speed::Limits::new(&job.profile.sewing, None));
         simulate(&Program { format: "test", record_word: "record", pattern: None, drawn: None, stitches, runs }, &job)
     }
 

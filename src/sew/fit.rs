@@ -3,7 +3,7 @@
 //! Short stitches are merged with the next. Long ones are split or refused, or kept and sewn at a lower speed of their run.
 
 use super::pace;
-use super::speed::{self, PITCH_EPSILON};
+use super::speed::{self, Limits, PITCH_EPSILON};
 use super::stitches::{Op, Step, Stitches};
 use super::train::Drive;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -14,16 +14,16 @@ use crate::units::number::{exact, fixed};
 
 /// Adjustment of stitches to a machine.
 pub(super) struct Fit<'a> {
+    limits: &'a Limits<'a>,
     sewing: &'a Sewing,
-    drive: Drive,
     /// Word for the records of the file.
     record_word: &'static str,
 }
 
 impl<'a> Fit<'a> {
-    /// Creates the adjustment for a machine and a word for records.
-    pub(super) fn new(sewing: &'a Sewing, record_word: &'static str) -> Self {
-        Self { sewing, drive: Drive::of(sewing), record_word }
+    /// Creates the adjustment for the limits of a machine and a word for records.
+    pub(super) fn new(limits: &'a Limits<'a>, record_word: &'static str) -> Self {
+        Self { limits, sewing: limits.sewing, record_word }
     }
 
     /// Adjusts all stitches to the machine.
@@ -78,7 +78,7 @@ impl<'a> Fit<'a> {
 
     /// Refuses stitches longer than the machine can make; with `OnLong::Reject` also all that do not fit at full speed.
     fn refuse(&self, stitches: &Stitches, out: &mut Diagnostics) {
-        let Self { sewing, drive, record_word } = self;
+        let Self { limits, sewing, record_word } = self;
         for (from, step) in stitches.moves().filter(|(_, step)| step.op == Op::Stitch) {
             let pitch = (step.to - from).norm();
             let (record, long) = (step.record, fixed(pitch, 3));
@@ -91,8 +91,7 @@ impl<'a> Fit<'a> {
                 let hint = "no speed helps: split it with `--on-long split`, or make it a jump";
                 out.push(Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to).by(pitch - most).hint(hint));
             } else if sewing.on_long == OnLong::Reject {
-                let ends = [from, step.to];
-                let (rpm, wanted) = (speed::alone(ends, sewing, drive).0, wanted(pitch, sewing));
+                let (rpm, wanted) = (limits.alone(from, step).0, self.wanted(pitch, record));
                 if rpm < wanted {
                     let (fits, full) = (fixed(rpm, 0), fixed(wanted, 0));
                     let message = format!(
@@ -100,7 +99,7 @@ impl<'a> Fit<'a> {
                     );
                     let hint = "`--on-long slow` sews its run more slowly, `--on-long split` makes it several stitches";
                     let found = Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to);
-                    out.push(found.by(self.excess(ends, wanted)).hint(hint));
+                    out.push(found.by(self.excess([from, step.to], wanted)).hint(hint));
                 }
             }
         }
@@ -108,16 +107,16 @@ impl<'a> Fit<'a> {
 
     /// Excess of a stitch over the longest one in its direction that fits at a speed, mm.
     fn excess(&self, [from, to]: [Point; 2], rpm: f64) -> f64 {
-        let pulses = speed::pulses(from, to, &self.drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
+        let pulses = speed::pulses(from, to, &self.limits.drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
         let pulses = u32::try_from(pulses).unwrap_or(u32::MAX);
-        let fits = |pulses: &u32| speed::fitting(*pulses, self.sewing, &self.drive) >= rpm;
+        let fits = |pulses: &u32| speed::fitting(*pulses, self.sewing, &self.limits.drive) >= rpm;
         let most = (0..pulses).rev().find(fits).unwrap_or(0);
         (to - from).norm() * f64::from(pulses - most) / f64::from(pulses.max(1))
     }
 
     /// True if any stitch does not fit at full speed.
     pub(super) fn splits(&self, stitches: &Stitches) -> bool {
-        stitches.moves().any(|(from, step)| step.op == Op::Stitch && self.parts([from, step.to]) > 1)
+        stitches.moves().any(|(from, step)| step.op == Op::Stitch && self.parts(from, step) > 1)
     }
 
     /// Splits stitches that do not fit at full speed into equal ones.
@@ -125,7 +124,7 @@ impl<'a> Fit<'a> {
         let mut steps = Vec::with_capacity(stitches.steps.len());
         let mut added = 0;
         for (from, step) in stitches.moves() {
-            let parts = if step.op == Op::Stitch { self.parts([from, step.to]) } else { 1 };
+            let parts = if step.op == Op::Stitch { self.parts(from, step) } else { 1 };
             for part in 1..parts {
                 let to = from + (step.to - from) * (f64::from(part) / f64::from(parts));
                 steps.push(Step { to, ..*step });
@@ -142,13 +141,17 @@ impl<'a> Fit<'a> {
         Stitches { steps }
     }
 
+    /// Speed of a stitch of a pitch and record without regard to the feed time, stitches per minute.
+    fn wanted(&self, pitch: f64, record: u32) -> f64 {
+        pace::on_grid(self.limits.user(pitch, record).min(self.sewing.max_rpm), self.sewing)
+    }
+
     /// Number of parts of a stitch: the smallest one at which the parts fit, limited by the minimum pitch of the machine.
-    fn parts(&self, [from, to]: [Point; 2]) -> u32 {
-        let Self { sewing, drive, .. } = self;
-        let way = to - from;
+    fn parts(&self, from: Point, step: &Step) -> u32 {
+        let Self { limits, sewing, .. } = self;
+        let way = step.to - from;
         let pitch = way.norm();
-        if pitch <= sewing.max_pitch_mm + PITCH_EPSILON
-            && speed::alone([from, to], sewing, drive).0 >= wanted(pitch, sewing)
+        if pitch <= sewing.max_pitch_mm + PITCH_EPSILON && limits.alone(from, step).0 >= self.wanted(pitch, step.record)
         {
             return 1;
         }
@@ -156,10 +159,11 @@ impl<'a> Fit<'a> {
             let part = pitch / f64::from(parts);
             // Rounding to whole pulses makes one of the parts a pulse longer.
             let longest = way.x.abs().max(way.y.abs()) / f64::from(parts);
-            let pulses = (longest / drive.step - PITCH_EPSILON).ceil().max(0.0) as u32;
-            part <= sewing.max_pitch_mm + PITCH_EPSILON && speed::fitting(pulses, sewing, drive) >= wanted(part, sewing)
+            let pulses = (longest / limits.drive.step - PITCH_EPSILON).ceil().max(0.0) as u32;
+            part <= sewing.max_pitch_mm + PITCH_EPSILON
+                && speed::fitting(pulses, sewing, &limits.drive) >= self.wanted(part, step.record)
         };
-        let least = sewing.min_pitch_mm.max(drive.step);
+        let least = sewing.min_pitch_mm.max(limits.drive.step);
         let most = ((pitch / least) as u32).max(1);
         (1..most).find(|&parts| fits(parts)).unwrap_or(most)
     }
@@ -179,18 +183,16 @@ fn end_run(steps: &mut Vec<Step>, short: &[Step], least: f64) {
     }
 }
 
-/// Speed of a stitch of a pitch without regard to the feed time, stitches per minute.
-fn wanted(pitch: f64, sewing: &Sewing) -> f64 {
-    pace::on_grid(speed::user(pitch, sewing).min(sewing.max_rpm), sewing)
-}
-
 /// Longest pitch up to which all stitches, in every direction, fit at the speed wanted for them, mm; at least the minimum
 /// pitch.
 pub(super) fn longest(sewing: &Sewing) -> f64 {
     let drive = Drive::of(sewing);
     let most = (sewing.max_pitch_mm / drive.step + PITCH_EPSILON) as u32;
     let pitch = |pulses: u32| f64::from(pulses) * drive.step;
-    let fits = |pulses: &u32| speed::fitting(*pulses, sewing, &drive) >= wanted(pitch(*pulses), sewing);
+    let fits = |pulses: &u32| {
+        speed::fitting(*pulses, sewing, &drive)
+            >= pace::on_grid(speed::user(pitch(*pulses), sewing).min(sewing.max_rpm), sewing)
+    };
     // A stitch that is not longer than n steps has at most n pulses, wherever it begins. Shorter ones must fit, too, at the
     // higher speed that the user's limits may permit for them.
     (1..=most).take_while(fits).last().map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
@@ -215,7 +217,7 @@ mod tests {
 
     fn fitted(pitches_mm: &[f64], sewing: &Sewing) -> (Vec<f64>, Vec<&'static str>) {
         let mut out = Diagnostics::default();
-        let stitches = Fit::new(sewing, "record").fit(&along(pitches_mm), &mut out);
+        let stitches = Fit::new(&Limits::new(sewing, None), "record").fit(&along(pitches_mm), &mut out);
         (pitches(&stitches), out.iter().map(|found| found.code.name).collect())
     }
 
@@ -242,11 +244,11 @@ mod tests {
     #[test]
     fn what_is_too_long_is_refused_with_its_record() {
         let mut out = Diagnostics::default();
-        Fit::new(&Sewing::default(), "record").fit(&along(&[2.0, 13.0]), &mut out);
+        Fit::new(&Limits::new(&Sewing::default(), None), "record").fit(&along(&[2.0, 13.0]), &mut out);
         assert!(out.has_errors() && out.iter().any(|found| found.message.contains("record 2")));
         let by = |sewing: &Sewing, pitch: f64| {
             let mut out = Diagnostics::default();
-            Fit::new(sewing, "record").fit(&along(&[2.0, pitch]), &mut out);
+            Fit::new(&Limits::new(sewing, None), "record").fit(&along(&[2.0, pitch]), &mut out);
             out.iter().map(|found| found.by.map(|by| (by * 1e6).round() / 1e6)).collect::<Vec<_>>()
         };
         // Of 3 mm, 2.5 fit at full speed.

@@ -43,6 +43,7 @@ use std::io::{self, BufRead};
 
 use self::fit::Fit;
 use self::read::Reading;
+use self::speed::Limits;
 use self::verify::{Bytes, Ground, Original};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::verdict::Verdict;
@@ -72,9 +73,10 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
         out.push(Diagnostic::new(&code::SEW_NOTHING, "the file holds nothing to sew").hint(hint));
         return None;
     }
-    let stitches = Fit::new(sewing, record_word).fit(&stitches, out);
+    let limits = Limits::new(sewing, pattern.as_ref());
+    let stitches = Fit::new(&limits, record_word).fit(&stitches, out);
     sheet::hold_against_field(&stitches, &job.profile, out);
-    let runs = speed::runs(&stitches, sewing);
+    let runs = speed::runs(&stitches, &limits);
     let program = Program { format, record_word, pattern, drawn, stitches, runs };
     if !out.has_errors() {
         tell::tell(&program, &speeds, sewing, out);
@@ -87,16 +89,21 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
 fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     let stitches = lay::lay(pattern, sewing);
     let pitch = fit::longest(sewing);
+    let closer_seams = Pattern { seams: pattern.seams.iter().map(|seam| closer_seam(seam, pitch)).collect() };
     let closer = Sewing {
         pitch_mm: sewing.pitch_mm.min(pitch),
         zigzag_pitch_mm: sewing.zigzag_pitch_mm.min(pitch),
         tack_pitch_mm: sewing.tack_pitch_mm.min(pitch),
         ..sewing.clone()
     };
-    if sewing.on_long != OnLong::Split || closer == *sewing || !Fit::new(sewing, "").splits(&stitches) {
+    let is_same = closer == *sewing && closer_seams == *pattern;
+    if sewing.on_long != OnLong::Split
+        || is_same
+        || !Fit::new(&Limits::new(sewing, Some(pattern)), "").splits(&stitches)
+    {
         return stitches;
     }
-    let closer = lay::lay(pattern, &closer);
+    let closer = lay::lay(&closer_seams, &closer);
     let added = closer.count().saturating_sub(stitches.count());
     if added > 0 {
         let pitch = fixed(pitch, 2);
@@ -107,6 +114,11 @@ fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
         out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
     }
     closer
+}
+
+/// A seam with a pitch of its own that is no longer than another, mm.
+fn closer_seam(seam: &Seam, pitch: f64) -> Seam {
+    Seam { pitch: seam.pitch.map(|own| own.min(pitch)), ..seam.clone() }
 }
 
 /// A program with its origin.

@@ -40,8 +40,14 @@ pub struct Seam {
     pub points: Vec<Point>,
     /// Kind of stitching.
     pub element: Element,
-    /// Locking of its ends; `None` for that of the profile.
-    pub ends: Option<Ends>,
+    /// Locking of its start and of its end; `None` for that of the profile.
+    pub ends: [Option<Ends>; 2],
+    /// Stitch length, or advance with each stitch, mm; `None` for that of the profile.
+    pub pitch: Option<f64>,
+    /// Width, mm; `None` for that of the profile.
+    pub width: Option<f64>,
+    /// Greatest speed, stitches per minute; `None` for that of the profile.
+    pub rpm: Option<f64>,
     /// Number of its thread, from 1.
     pub thread: u16,
     /// True if the machine waits for its operator before the seam.
@@ -53,7 +59,8 @@ pub struct Seam {
 impl Seam {
     /// A straight seam of the first thread.
     pub fn plain(points: Vec<Point>, span: Span) -> Self {
-        Self { points, element: Element::Straight, ends: None, thread: 1, stop: false, span }
+        let (element, ends) = (Element::Straight, [None; 2]);
+        Self { points, element, ends, pitch: None, width: None, rpm: None, thread: 1, stop: false, span }
     }
 
     /// True if the seam ends at its start.

@@ -3,10 +3,12 @@
 //! It is the minimum of the user's limit, the machine's limit and 60 window / longest move, rounded down to the grid. A turn is
 //! a stitch. The stitches of the soft start do not limit the rest of the run; `pace` has the speed of each stitch.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::pace::{self, on_grid};
-use super::stitches::{Op, Stitches};
+use super::pattern::Pattern;
+use super::stitches::{Op, Step, Stitches};
 use super::train::Drive;
 use crate::geom::Point;
 use crate::machine::Sewing;
@@ -44,12 +46,40 @@ pub enum Limit {
     Stitch(usize),
 }
 
-/// Maximum speed of a stitch alone, stitches per minute, and true if it is the user's limit.
-pub(super) fn alone([from, to]: [Point; 2], sewing: &Sewing, drive: &Drive) -> (f64, bool) {
-    let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
-    let fits = fitting(u32::try_from(most).unwrap_or(u32::MAX), sewing, drive);
-    let user = on_grid(user((to - from).norm(), sewing), sewing);
-    (fits.min(user), user < fits)
+/// Limits of the speed of a stitch.
+pub(super) struct Limits<'a> {
+    pub(super) sewing: &'a Sewing,
+    pub(super) drive: Drive,
+    /// Speeds of seams that have one of their own, by the record where each begins; the lowest of one record.
+    seams: BTreeMap<u32, f64>,
+}
+
+impl<'a> Limits<'a> {
+    /// The limits of a machine, and of the seams of a pattern.
+    pub(super) fn new(sewing: &'a Sewing, pattern: Option<&Pattern>) -> Self {
+        let mut seams = BTreeMap::new();
+        for seam in pattern.iter().flat_map(|pattern| &pattern.seams) {
+            if let Some(rpm) = seam.rpm {
+                let least = seams.entry(seam.span.block).or_insert(rpm);
+                *least = f64::min(*least, rpm);
+            }
+        }
+        Self { sewing, drive: Drive::of(sewing), seams }
+    }
+
+    /// Maximum speed of a stitch alone, stitches per minute, and true if it is the user's limit.
+    pub(super) fn alone(&self, from: Point, step: &Step) -> (f64, bool) {
+        let most = pulses(from, step.to, &self.drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
+        let fits = fitting(u32::try_from(most).unwrap_or(u32::MAX), self.sewing, &self.drive);
+        let user = on_grid(self.user((step.to - from).norm(), step.record), self.sewing);
+        (fits.min(user), user < fits)
+    }
+
+    /// The user's limit for a stitch of a pitch in mm, of a record; infinite if there is none.
+    pub(super) fn user(&self, pitch: f64, record: u32) -> f64 {
+        let seam = self.seams.get(&record).copied().unwrap_or(f64::INFINITY);
+        user(pitch, self.sewing).min(seam)
+    }
 }
 
 /// Maximum speed at which a number of pulses of an axis fits into the window, stitches per minute; infinite for 0 pulses.
@@ -75,8 +105,8 @@ pub(super) fn pulses(from: Point, to: Point, drive: &Drive) -> [i64; 2] {
 }
 
 /// The speeds of all runs.
-pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
-    let drive = Drive::of(sewing);
+pub(super) fn runs(stitches: &Stitches, limits: &Limits) -> Vec<Run> {
+    let sewing = limits.sewing;
     let machine = on_grid(sewing.max_rpm, sewing);
     let run = |steps: Range<usize>| {
         let soft = pace::soft_stitches(steps.len(), sewing);
@@ -86,7 +116,7 @@ pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
         let mut alone_rpm: Vec<f64> = Vec::with_capacity(steps.len());
         for i in steps.clone() {
             let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
-            let (rpm, is_user) = alone([from, stitches.steps[i].to], sewing, &drive);
+            let (rpm, is_user) = limits.alone(from, &stitches.steps[i]);
             if rpm < least && (i >= first || rpm <= 0.0) {
                 (least, limit) = (rpm, if is_user { Limit::User(i) } else { Limit::Stitch(i) });
             }
@@ -134,7 +164,6 @@ pub(super) fn speeds<'a>(stitches: &'a Stitches, runs: &'a [Run]) -> impl Iterat
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sew::stitches::Step;
 
     /// Stitches of these pitches along X.
     fn along(pitches: &[f64]) -> Stitches {
@@ -150,11 +179,11 @@ mod tests {
     fn the_headline_figures_are_computed() {
         let sewing = Sewing { max_rpm: 5000.0, ..Sewing::default() };
         for (pitch, rpm) in [(2.5, 3200.0), (3.0, 2800.0)] {
-            let run = &runs(&along(&[pitch; 20]), &sewing)[0];
+            let run = &runs(&along(&[pitch; 20]), &Limits::new(&sewing, None))[0];
             assert_eq!(run.rpm, rpm, "{pitch} mm");
             assert!(matches!(run.limit, Limit::Stitch(_)));
         }
-        assert_eq!(runs(&along(&[1.0; 5]), &Sewing::default())[0].limit, Limit::Machine);
+        assert_eq!(runs(&along(&[1.0; 5]), &Limits::new(&Sewing::default(), None))[0].limit, Limit::Machine);
     }
 
     #[test]
@@ -168,7 +197,7 @@ mod tests {
         };
         let mut pitches = [2.5; 201];
         pitches[100] = 6.0;
-        let run = &runs(&along(&pitches), &sewing)[0];
+        let run = &runs(&along(&pitches), &Limits::new(&sewing, None))[0];
         // 2116.95 stitches per minute; the grid has whole ones.
         assert_eq!((run.rpm, run.limit), (2116.0, Limit::Stitch(100)));
         assert!((pace::duration(&run.speeds, &sewing) - 5.70).abs() < 0.005);
@@ -178,21 +207,21 @@ mod tests {
     #[test]
     fn the_stitches_of_a_soft_start_do_not_limit_the_rest() {
         let sewing = Sewing::default();
-        let run = &runs(&along(&[6.0, 6.0, 2.0, 2.0, 2.0]), &sewing)[0];
+        let run = &runs(&along(&[6.0, 6.0, 2.0, 2.0, 2.0]), &Limits::new(&sewing, None))[0];
         assert_eq!((run.rpm, run.limit), (3200.0, Limit::Machine));
         assert_eq!(run.speeds, [400.0, 400.0, 3200.0, 3200.0, 3200.0]);
         // A soft start is no faster than its own stitches, and than the rest.
         let slow = Sewing { speeds: vec![[5.0, 300.0]], ..sewing.clone() };
-        assert_eq!(runs(&along(&[6.0, 2.0, 2.0]), &slow)[0].speeds, [300.0, 300.0, 3200.0]);
-        assert_eq!(runs(&along(&[2.0, 2.0, 6.0]), &slow)[0].speeds, [300.0; 3]);
+        assert_eq!(runs(&along(&[6.0, 2.0, 2.0]), &Limits::new(&slow, None))[0].speeds, [300.0, 300.0, 3200.0]);
+        assert_eq!(runs(&along(&[2.0, 2.0, 6.0]), &Limits::new(&slow, None))[0].speeds, [300.0; 3]);
         // A run that is all soft start.
-        assert_eq!(runs(&along(&[6.0, 2.0]), &sewing)[0].limit, Limit::Stitch(0));
+        assert_eq!(runs(&along(&[6.0, 2.0]), &Limits::new(&sewing, None))[0].limit, Limit::Stitch(0));
     }
 
     #[test]
     fn limits_of_the_user_hold_from_their_pitch_on() {
         let sewing = Sewing { speeds: vec![[2.0, 1500.0], [3.0, 900.0]], ..Sewing::default() };
-        let rpm = |pitch: f64| runs(&along(&[pitch; 8]), &sewing)[0].rpm;
+        let rpm = |pitch: f64| runs(&along(&[pitch; 8]), &Limits::new(&sewing, None))[0].rpm;
         assert_eq!([rpm(1.9), rpm(2.0), rpm(2.9), rpm(3.0)], [3200.0, 1500.0, 1500.0, 900.0]);
     }
 

@@ -7,22 +7,23 @@ use crate::sew::pattern::{Element, Seam, distinct};
 
 /// The needle points of a seam, before its ends are locked.
 pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {
-    let straight = |points: &[Point]| even(points, sewing.pitch_mm, sewing.corner_deg);
+    let pitch = |usual: f64| seam.pitch.unwrap_or(usual);
+    let width = |usual: f64| seam.width.unwrap_or(usual);
+    let straight = |points: &[Point], pitch: f64| even(points, pitch, sewing.corner_deg);
     match seam.element {
-        Element::Straight => straight(&seam.points),
+        Element::Straight => straight(&seam.points, pitch(sewing.pitch_mm)),
         Element::Zigzag => {
-            let (width, pitch) = (sewing.zigzag_width_mm, sewing.zigzag_pitch_mm);
-            zigzag(&even(&seam.points, pitch, sewing.corner_deg), width)
+            zigzag(&straight(&seam.points, pitch(sewing.zigzag_pitch_mm)), width(sewing.zigzag_width_mm))
         }
         Element::BarTack => {
             // The underlay, then the zigzag back over it.
-            let mut points = straight(&seam.points);
+            let mut points = straight(&seam.points, sewing.pitch_mm);
             let back: Vec<Point> = seam.points.iter().rev().copied().collect();
-            points.extend(zigzag(&even(&back, sewing.tack_pitch_mm, sewing.corner_deg), sewing.tack_width_mm));
+            points.extend(zigzag(&straight(&back, pitch(sewing.tack_pitch_mm)), width(sewing.tack_width_mm)));
             points
         }
         // The corners of a box count as corners at any angle.
-        Element::BoxX => even(&box_x(&seam.points), sewing.pitch_mm, 0.0),
+        Element::BoxX => even(&box_x(&seam.points), pitch(sewing.pitch_mm), 0.0),
     }
 }
 

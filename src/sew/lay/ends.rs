@@ -4,46 +4,59 @@ use crate::geom::{Point, polyline};
 use crate::machine::Sewing;
 use crate::machine::sewing::Ends;
 
-/// The needle points of a seam after the first one, with its ends locked. The flag is true for points of a lock. Ties lie on
-/// `line`, the line of the thread.
-pub(super) fn locked(points: &[Point], line: &[Point], ends: Ends, sewing: &Sewing) -> Vec<(Point, bool)> {
-    let plain = |points: &[Point]| points.iter().map(|&point| (point, false)).collect::<Vec<_>>();
-    let [first, rest @ ..] = points else { return Vec::new() };
-    if rest.is_empty() {
+/// The needle points of a seam after the first one, with its start and its end locked. The flag is true for points of a lock.
+/// Ties lie on `line`, the line of the thread.
+pub(super) fn locked(points: &[Point], line: &[Point], [start, end]: [Ends; 2], sewing: &Sewing) -> Vec<(Point, bool)> {
+    if points.len() < 2 {
         return Vec::new();
     }
-    match ends {
-        Ends::Open => plain(rest),
-        Ends::Tie => tied((*first, rest), line, sewing),
+    let mut out = match start {
+        Ends::Open => Vec::new(),
+        Ends::Tie => tie_in(points, line, sewing),
         Ends::BackTack => {
-            let count = (sewing.back_tack_stitches as usize).min(rest.len());
-            // At the start: forwards, back, and on; at the end: on, back, and forwards again.
-            let mut out = plain(&points[1..=count]);
-            out.extend(points[..count].iter().rev().map(|&point| (point, true)));
-            out.extend(plain(rest));
+            // Forwards and back.
+            let count = repeated(points, sewing);
+            let forwards = points[1..=count].iter().map(|&point| (point, false));
+            forwards.chain(points[..count].iter().rev().map(|&point| (point, true))).collect()
+        }
+    };
+    let (last, before) = (points[points.len() - 1], &points[1..points.len() - 1]);
+    out.extend(before.iter().map(|&point| (point, false)));
+    match end {
+        Ends::Open => out.push((last, false)),
+        Ends::Tie => out.extend(tie_off(points, line, sewing)),
+        Ends::BackTack => {
+            // On, back, and forwards again.
+            let count = repeated(points, sewing);
             let tail = &points[points.len() - 1 - count..];
+            out.push((last, false));
             out.extend(tail[..count].iter().rev().map(|&point| (point, true)));
             out.extend(tail[1..].iter().map(|&point| (point, true)));
-            out
         }
     }
+    out
 }
 
-/// A seam with short stitches back and forth along the line at its ends; its own needle points stay.
-fn tied((first, rest): (Point, &[Point]), line: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
-    let last = rest[rest.len() - 1];
-    let before = if rest.len() > 1 { rest[rest.len() - 2] } else { first };
-    let head = on_line(line, (rest[0] - first).norm(), sewing);
+/// Number of stitches that a back-tack sews again.
+fn repeated(points: &[Point], sewing: &Sewing) -> usize {
+    (sewing.back_tack_stitches as usize).min(points.len() - 1)
+}
+
+/// Short stitches forth and back along the line at the start of a seam.
+fn tie_in(points: &[Point], line: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
+    let first = points[0];
+    let head = on_line(line, (points[1] - first).norm(), sewing);
+    (0..sewing.tie_stitches).map(|i| (if i.is_multiple_of(2) { head } else { first }, true)).collect()
+}
+
+/// The mirror image of a tie at the start; it ends at the end of the seam.
+fn tie_off(points: &[Point], line: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
+    let [before, last] = [2, 1].map(|back| points[points.len() - back]);
     let back: Vec<Point> = line.iter().rev().copied().collect();
     let tail = on_line(&back, (last - before).norm(), sewing);
     let stitches = sewing.tie_stitches;
-    let mut out: Vec<(Point, bool)> =
-        (0..stitches).map(|i| (if i.is_multiple_of(2) { head } else { first }, true)).collect();
-    out.extend(rest[..rest.len() - 1].iter().map(|&point| (point, false)));
-    // The mirror image of the start; it ends at the end of the seam.
-    out.extend((1..=stitches).rev().map(|i| (if i.is_multiple_of(2) { last } else { tail }, i != stitches)));
-    out.push((last, true));
-    out
+    let short = (1..=stitches).rev().map(|i| (if i.is_multiple_of(2) { last } else { tail }, i != stitches));
+    short.chain([(last, true)]).collect()
 }
 
 /// Point of a tie along a line from its start; at most half way to the next needle point if that is near. `pitch` is the
@@ -60,7 +73,7 @@ mod tests {
     fn check(ends: Ends, stitches: u32, expected: &[f64]) {
         let points: Vec<Point> = [0.0, 2.0, 4.0, 6.0].iter().map(|&x| Point::new(x, 0.0)).collect();
         let sewing = Sewing { tie_mm: 0.5, tie_stitches: stitches, back_tack_stitches: 2, ..Sewing::default() };
-        let xs: Vec<f64> = locked(&points, &points, ends, &sewing).iter().map(|(point, _)| point.x).collect();
+        let xs: Vec<f64> = locked(&points, &points, [ends; 2], &sewing).iter().map(|(point, _)| point.x).collect();
         assert_eq!(xs, expected);
     }
 
@@ -70,5 +83,9 @@ mod tests {
         check(Ends::Tie, 3, &[0.5, 0.0, 0.5, 2.0, 4.0, 5.5, 6.0, 5.5, 6.0]);
         check(Ends::Tie, 2, &[0.5, 0.0, 2.0, 4.0, 6.0, 5.5, 6.0]);
         check(Ends::BackTack, 3, &[2.0, 4.0, 2.0, 0.0, 2.0, 4.0, 6.0, 4.0, 2.0, 4.0, 6.0]);
+        let points: Vec<Point> = [0.0, 2.0, 4.0].iter().map(|&x| Point::new(x, 0.0)).collect();
+        let sewing = Sewing { tie_mm: 0.5, tie_stitches: 2, back_tack_stitches: 1, ..Sewing::default() };
+        let mixed = locked(&points, &points, [Ends::BackTack, Ends::Tie], &sewing);
+        assert_eq!(mixed.iter().map(|(point, _)| point.x).collect::<Vec<_>>(), [2.0, 0.0, 2.0, 4.0, 3.5, 4.0]);
     }
 }

@@ -66,7 +66,7 @@ impl Work<'_> {
             // The needle goes down without motion: the first needle point of the seam.
             self.push(Op::Stitch, start, (true, record));
         }
-        let ends = seam.ends.unwrap_or(self.sewing.ends);
+        let ends = seam.ends.map(|ends| ends.unwrap_or(self.sewing.ends));
         let line = element::line(seam, &points);
         for (to, is_tie) in ends::locked(&points, &line, ends, self.sewing) {
             self.push(Op::Stitch, to, (is_tie, record));
@@ -96,7 +96,7 @@ mod tests {
     fn seams_are_jumped_to_locked_and_trimmed() {
         let mut second = seam(&[[20.0, 0.0], [24.0, 0.0]]);
         second.thread = 2;
-        second.ends = Some(Ends::Open);
+        second.ends = [Some(Ends::Open); 2];
         let pattern = Pattern { seams: vec![seam(&[[0.0, 0.0], [5.0, 0.0]]), second] };
         insta::assert_snapshot!(text(&pattern, &Sewing::default()), @r"
         Stitch 0.00 0.00 tie

@@ -1,8 +1,8 @@
 //! Patterns as lists of points: `x_mm,y_mm,element`, one point per row, a blank line between seams.
 //!
 //! The third field of the first row of a seam gives its element: `straight`, `zigzag`, `bar-tack` or `box-x`. After a blank,
-//! `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop` may follow. An empty field is a straight seam with the
-//! defaults of the profile.
+//! `tie`, `back-tack` or `open` for its ends, also of one alone as in `end open`, `pitch 3`, `width 4`, `speed 1200`,
+//! `thread 2` and `stop` may follow. An empty field is a straight seam with the defaults of the profile.
 
 use super::format::{FARTHEST, Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -26,9 +26,32 @@ const BOX_CORNERS: usize = 4;
 
 /// Words for the ends of a seam.
 const ENDS: [(&str, Ends); 3] = [("tie", Ends::Tie), ("back-tack", Ends::BackTack), ("open", Ends::Open)];
+/// Words for one end of a seam, before how it is locked.
+const SIDES: [&str; 2] = ["start", "end"];
+/// Words before a number, with its range: mm, and stitches per minute.
+const PITCH: Number = Number { word: "pitch", what: "a stitch length in mm", range: [0.05, 50.0] };
+const WIDTH: Number = Number { word: "width", what: "a width in mm", range: [0.1, 50.0] };
+const SPEED: Number = Number { word: "speed", what: "a speed in stitches per minute", range: [10.0, 20_000.0] };
 /// Words for the thread, before its number, and for a wait before the seam.
 const THREAD: &str = "thread";
 const STOP: &str = "stop";
+
+/// A number of a seam.
+struct Number {
+    word: &'static str,
+    what: &'static str,
+    range: [f64; 2],
+}
+
+impl Number {
+    /// Parses the number that follows the word.
+    fn parse(&self, text: Option<&str>) -> Result<Option<f64>, String> {
+        let text = text.unwrap_or_default();
+        let [least, most] = self.range;
+        let found = text.parse().ok().filter(|&value: &f64| value >= least && value <= most);
+        found.map(Some).ok_or_else(|| format!("`{text}` is not {} from {least} to {most}", self.what))
+    }
+}
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
     let mut pattern = Pattern::default();
@@ -70,7 +93,8 @@ fn hint() -> String {
     let ends = ENDS.map(|(word, _)| word).join(", ");
     format!(
         "a row is x and y in mm and, in the first of a seam, what is made along it, as in `0,0,zigzag open`: one of \
-         {elements}, and of {ends}, `{THREAD} 2`, `{STOP}`"
+         {elements}, and of {ends}, `{} open`, `{} 3`, `{} 4`, `{} 1200`, `{THREAD} 2`, `{STOP}`",
+        SIDES[1], PITCH.word, WIDTH.word, SPEED.word
     )
 }
 
@@ -115,13 +139,27 @@ fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
         said.push(kind);
         if is_new { Ok(()) } else { Err(format!("{kind} is named twice")) }
     };
+    let lock = |word: &str| ENDS.iter().find(|(name, _)| *name == word).map(|(_, ends)| *ends);
     while let Some(word) = words.next() {
         if let Some((_, element)) = Element::WORDS.iter().find(|(name, _)| *name == word) {
             once("the element")?;
             seam.element = *element;
-        } else if let Some((_, ends)) = ENDS.iter().find(|(name, _)| *name == word) {
+        } else if let Some(ends) = lock(word) {
             once("what is done at the ends")?;
-            seam.ends = Some(*ends);
+            seam.ends = seam.ends.map(|told| told.or(Some(ends)));
+        } else if let Some(side) = SIDES.iter().position(|name| *name == word) {
+            once(["what is done at the start", "what is done at the end"][side])?;
+            let told = words.next().unwrap_or_default();
+            seam.ends[side] = Some(lock(told).ok_or_else(|| format!("`{told}` is no way to lock an end"))?);
+        } else if word == PITCH.word {
+            once("the pitch")?;
+            seam.pitch = PITCH.parse(words.next())?;
+        } else if word == WIDTH.word {
+            once("the width")?;
+            seam.width = WIDTH.parse(words.next())?;
+        } else if word == SPEED.word {
+            once("the speed")?;
+            seam.rpm = SPEED.parse(words.next())?;
         } else if word == STOP {
             seam.stop = true;
         } else if word == THREAD {
@@ -132,6 +170,9 @@ fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
         } else {
             return Err(format!("`{word}` is no element of a pattern"));
         }
+    }
+    if seam.width.is_some() && matches!(seam.element, Element::Straight | Element::BoxX) {
+        return Err("a width is given for a seam that has none".to_owned());
     }
     Ok(seam)
 }

@@ -1,5 +1,7 @@
 //! Checks that the machine can make the stitches, and that they lie on the lines of the pattern.
 
+use std::collections::BTreeMap;
+
 use super::ground::{Ground, sighting};
 use super::rules;
 use crate::geom::boxes::Boxes;
@@ -24,11 +26,16 @@ pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
 
 fn pitches(ground: &Ground, worst: &mut WorstByRule) {
     let mut at = Point::origin();
+    let asked = asked_pitches(ground);
     for (step, entry) in ground.stitches.steps.iter().zip(1..) {
         if step.op == Op::Stitch {
             let pitch = (step.to - at).norm();
             let place = sighting(entry, step.to);
             worst.see(&rules::LONG_PITCH, pitch - ground.sewing.max_pitch_mm, place);
+            if let Some(asked) = asked.get(&step.record) {
+                // A short stitch that is merged makes the next one longer.
+                worst.see(&rules::LONG_PITCH, pitch - asked - ground.sewing.min_pitch_mm, place);
+            }
             if !step.is_tie {
                 worst.see(&rules::SHORT_PITCH, ground.sewing.min_pitch_mm - pitch, place);
             }
@@ -37,12 +44,26 @@ fn pitches(ground: &Ground, worst: &mut WorstByRule) {
     }
 }
 
+/// Stitch length of each seam along whose line stitches are sewn, by the record where it begins; the greatest of one record.
+fn asked_pitches(ground: &Ground) -> BTreeMap<u32, f64> {
+    let mut pitches = BTreeMap::new();
+    for seam in ground.pattern.iter().flat_map(|pattern| &pattern.seams) {
+        let pitch = match seam.element {
+            Element::Straight | Element::BoxX => seam.pitch.unwrap_or(ground.sewing.pitch_mm),
+            Element::Zigzag | Element::BarTack => f64::INFINITY,
+        };
+        let most = pitches.entry(seam.span.block).or_insert(pitch);
+        *most = f64::max(*most, pitch);
+    }
+    pitches
+}
+
 /// Half the width of a seam, mm.
 pub(super) fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
     match seam.element {
         Element::Straight | Element::BoxX => 0.0,
-        Element::Zigzag => sewing.zigzag_width_mm / 2.0,
-        Element::BarTack => sewing.tack_width_mm / 2.0,
+        Element::Zigzag => seam.width.unwrap_or(sewing.zigzag_width_mm) / 2.0,
+        Element::BarTack => seam.width.unwrap_or(sewing.tack_width_mm) / 2.0,
     }
 }
 

@@ -40,7 +40,10 @@ fn compare(drawn: &Pattern, laid: &Pattern, profile: &MachineProfile, worst: &mu
     worst.see(&rules::PLACED, if is_whole { 0.0 } else { f64::INFINITY }, sighting(0, Point::origin()));
     for (i, found) in laid.seams.iter().enumerate() {
         let Some(seam) = drawn.seams.get(i % drawn.seams.len().max(1)) else { break };
-        let told = |seam: &Seam| (seam.element, seam.ends, seam.thread, seam.stop, seam.points.len());
+        let told = |seam: &Seam| {
+            let numbers = [seam.pitch, seam.width, seam.rpm];
+            (seam.element, seam.ends, seam.thread, seam.stop, seam.points.len(), numbers)
+        };
         let copy = (i / drawn.seams.len()) as f64;
         let away = seam.points.iter().zip(&found.points).map(|(from, to)| (place.image(*from, copy) - to).norm());
         let away = if told(seam) == told(found) { away.fold(0.0, f64::max) } else { f64::INFINITY };

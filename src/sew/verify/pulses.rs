@@ -51,7 +51,7 @@ pub(super) fn judge(
         tick_us,
         first_us: clock::first_step_us(ground.sewing),
         least_us: clock::least_interval_us(ground.sewing),
-        spindle: Spindle::default(),
+        spindle: Spindle::new(ground),
         entry: None,
         next: 0,
         at: [0; 2],

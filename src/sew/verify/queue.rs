@@ -54,7 +54,7 @@ pub(super) fn judge(
     }
     // Many moves have the same number of steps, so their times are cached.
     let mut times: BTreeMap<u64, f64> = BTreeMap::new();
-    let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::default(), false);
+    let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::new(ground), false);
     while let Some(text) = lines.next(input)? {
         let entry = (form.entry)(text).filter(|_| !is_ended).ok_or_else(|| lines.is("it is no entry"))?;
         let (is_asked, way) = match entry {

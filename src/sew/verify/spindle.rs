@@ -1,5 +1,7 @@
 //! Checks of the spindle speed: its limits, and its constancy within a run or the rate of its changes.
 
+use std::collections::BTreeMap;
+
 use super::clock;
 use super::ground::{Ground, sighting};
 use super::rules::{self, PLACE_EPSILON};
@@ -19,9 +21,23 @@ pub(super) struct Spindle {
     soft: Option<f64>,
     /// Speed of the stitch before, if it belongs to the run, stitches per minute.
     last: Option<f64>,
+    /// Limits of the seams, by the record where each begins; the highest of one record.
+    seams: BTreeMap<u32, f64>,
 }
 
 impl Spindle {
+    /// State before the first entry.
+    pub(super) fn new(ground: &Ground) -> Self {
+        let mut seams = BTreeMap::new();
+        for seam in ground.pattern.iter().flat_map(|pattern| &pattern.seams) {
+            let limit = seam.rpm.unwrap_or(f64::INFINITY);
+            let most = seams.entry(seam.span.block).or_insert(limit);
+            *most = f64::max(*most, limit);
+        }
+        seams.retain(|_, limit| limit.is_finite());
+        Self { seams, ..Self::default() }
+    }
+
     /// Checks the speed of the entry at index `i`; 0 if the spindle stands.
     pub(super) fn see(&mut self, i: usize, rpm: f64, ground: &Ground, worst: &mut WorstByRule) {
         let Some(step) = ground.stitches.steps.get(i) else { return };
@@ -29,7 +45,7 @@ impl Spindle {
         match step.op {
             Op::Stitch => {}
             Op::Jump | Op::Trim | Op::Stop | Op::Color(_) => {
-                *self = Self::default();
+                *self = Self { seams: std::mem::take(&mut self.seams), ..Self::default() };
                 worst.see(&rules::SPEED, rpm, place);
                 return;
             }
@@ -42,6 +58,9 @@ impl Spindle {
             if pitch >= *from + PLACE_EPSILON {
                 limit = limit.min(*rpm);
             }
+        }
+        if let Some(rpm) = self.seams.get(&step.record) {
+            limit = limit.min(*rpm);
         }
         let is_soft = self.stitches < sewing.soft_start_stitches && sewing.soft_start_rpm.is_some();
         self.stitches += 1;

@@ -7,7 +7,7 @@ use cutc::machine::{Job, Mirror};
 use cutc::sew::verify::RULES;
 use cutc::sew::{Op, Program, Step};
 
-use super::{broken, fixture, planned, written};
+use super::{broken, fixture, plan, planned, written};
 
 /// A way to damage a program: its name, the target, the rule that it breaks, and what it does.
 struct Damage(&'static str, &'static str, &'static str, fn(&mut Vec<String>));
@@ -212,6 +212,22 @@ fn every_damage_of_what_is_laid_is_refused_under_its_rule() {
     }
 }
 
+#[test]
+fn the_pitch_and_the_speed_of_a_seam_are_held_against_what_is_sewn() {
+    let job = Job::default();
+    let text = b"x_mm,y_mm,element\n0,0,straight pitch 2 speed 1200\n40,0,\n\n0,9,\n40,9,\n".to_vec();
+    let (program, said, _) = plan("x.csv", text, &job);
+    let mut program = program.unwrap_or_else(|| panic!("{said}"));
+    let queue = String::from_utf8(written(&program, &job, "queue")).expect("text");
+    assert_eq!(broken(&program, &[], &job, ("queue", queue.as_bytes())), [""; 0]);
+    let faster = queue.replace("SPEED,,,1200", "SPEED,,,1300");
+    assert_eq!(broken(&program, &[], &job, ("queue", faster.as_bytes())), ["sew-verify/speed"]);
+    // A needle point less doubles a stitch to 4 mm.
+    program.stitches.steps.remove(10);
+    let queue = written(&program, &job, "queue");
+    assert!(broken(&program, &[], &job, ("queue", &queue)).contains(&"sew-verify/long-pitch"));
+}
+
 /// A way in which a reader of stitch files could go wrong: its name, and what it makes of the steps.
 type ReadDamage = (&'static str, fn(&mut Vec<Step>));
 
@@ -259,6 +275,7 @@ type PlaceDamage = (&'static str, &'static str, fn(&mut Program));
 #[rustfmt::skip] // a table: a damage a row
 const PLACE_DAMAGES: &[PlaceDamage] = &[
     ("a pattern that is not mirrored", "sew-verify/placed", |program| program.pattern = program.drawn.clone()),
+    ("another pitch than that of the file", "sew-verify/placed", |program| program.pattern.as_mut().expect("a pattern").seams[0].pitch = Some(1.0)),
     ("a seam that is left out", "sew-verify/placed", |program| _ = program.pattern.as_mut().and_then(|pattern| pattern.seams.pop())),
     ("a needle point outside the field", "sew-verify/field", |program| program.stitches.steps[15].to.x += 500.0),
 ];

@@ -71,6 +71,13 @@ fn random_pattern(random: &mut Rng) -> Vec<u8> {
             element,
             ["", "tie", "back-tack", "open"][random.usize(0..4)],
             ["", "thread 2", "stop"][random.usize(0..3)],
+            ["", "pitch 1.2", "pitch 3.5 speed 1200", "speed 900"][random.usize(0..4)],
+            ["", "start open", "end back-tack"][random.usize(0..3)],
+            if matches!(element, "zigzag" | "bar-tack") {
+                ["", "width 1", "width 4.5"][random.usize(0..3)]
+            } else {
+                ""
+            },
         ];
         let count = match element {
             "bar-tack" => 2,

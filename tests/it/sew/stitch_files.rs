@@ -154,3 +154,51 @@ fn a_corner_of_a_box_that_comes_twice_is_one() {
     assert_eq!(broken(&program, &[], &job, ("queue", &bytes)), [""; 0]);
     assert!(program.stitches.steps.iter().any(|step| step.op == Op::Stitch && (step.to.x, step.to.y) == (20.0, 10.0)));
 }
+
+/// Pitches of the stitches of a pattern, in tenths of a millimetre, and its speeds.
+fn sewn(words: &str) -> (Vec<i64>, Vec<f64>) {
+    let job = Job::default();
+    let text = format!("x_mm,y_mm,element\n0,0,{words}\n12,0,\n");
+    let (program, said, _) = plan("x.csv", text.into_bytes(), &job);
+    let program = program.unwrap_or_else(|| panic!("{said}"));
+    let stitches = program.moves(&job).filter(|entry| entry.step.op == Op::Stitch);
+    stitches.map(|entry| ((10.0 * (entry.step.to - entry.from).norm()).round() as i64, entry.rpm)).unzip()
+}
+
+#[test]
+fn a_seam_has_a_pitch_a_width_a_speed_and_ends_of_its_own() {
+    assert_eq!(sewn("open pitch 3").0, [0, 30, 30, 30, 30]);
+    assert_eq!(sewn("open pitch 4 speed 1200").1, [400.0, 400.0, 1200.0, 1200.0]);
+    // A speed below that of the soft start holds for it, too.
+    assert_eq!(sewn("open pitch 4 speed 300").1, [300.0; 4]);
+    assert_eq!(sewn("start back-tack end open pitch 4").0, [0, 40, 40, 40, 40, 40, 40, 40, 40, 40]);
+    assert_eq!(sewn("open start tie pitch 6").0, [0, 7, 7, 7, 53, 60]);
+    // From side to side: an advance of 3 and a width of 4 mm.
+    assert_eq!(sewn("zigzag open pitch 3 width 4").0, [0, 50, 50, 50, 50]);
+    for (words, fault) in [
+        ("pitch", "`` is not a stitch length in mm from 0.05 to 50"),
+        ("pitch 0", "`0` is not a stitch length"),
+        ("speed fast", "`fast` is not a speed"),
+        ("zigzag width -1", "`-1` is not a width"),
+        ("width 3", "a width is given for a seam that has none"),
+        ("pitch 2 pitch 3", "the pitch is named twice"),
+        ("end", "`` is no way to lock an end"),
+        ("start tie start open", "what is done at the start is named twice"),
+    ] {
+        let text = format!("x_mm,y_mm,element\n0,0,{words}\n12,0,\n");
+        let (program, said, _) = plan("x.csv", text.into_bytes(), &Job::default());
+        assert!(program.is_none() && said.contains(fault) && said.contains("line 2"), "{words}: {said}");
+    }
+}
+
+#[test]
+fn a_seam_of_a_long_pitch_is_laid_closer_where_stitches_are_split() {
+    let mut job = Job::default();
+    job.profile.sewing.on_long = cutc::machine::sewing::OnLong::Split;
+    let text = "x_mm,y_mm,element\n0,0,open pitch 5\n40,0,\n40,30,\n";
+    let (program, said, _) = plan("x.csv", text.as_bytes().to_vec(), &job);
+    let program = program.unwrap_or_else(|| panic!("{said}"));
+    assert!(said.contains("sew/split-stitches") && program.runs[0].rpm == 3200.0, "{said}");
+    let queue = written(&program, &job, "queue");
+    assert_eq!(broken(&program, &[], &job, ("queue", &queue)), [""; 0]);
+}
