@@ -104,7 +104,9 @@ fn packages_that_read_stitch_files_agree_on_every_stitch() {
             if (package, name) == ("pyembroidery", "pocket.pes") {
                 // It takes the place of the start for a jump, which shifts all that follows.
                 let by = [0, 1].map(|axis| theirs[0][axis] - (10.0 * ours[0][axis]).round() as i64);
-                theirs.iter_mut().for_each(|place| *place = [place[0] - by[0], place[1] - by[1]]);
+                for place in &mut theirs {
+                    *place = [place[0] - by[0], place[1] - by[1]];
+                }
             }
             // Half a unit of the file, and half a step of the queue.
             expect_same(&theirs, &ours, 0.05 + 0.025 + 1e-6, &format!("{package} {name}"));

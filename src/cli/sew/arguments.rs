@@ -40,7 +40,8 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "FORMAT", value_parser = choices::sewing_formats())]
     from: Option<String>,
 
-    /// Sew the lines of this pen or layer of a drawing, as in `--line 14`; `seam` = the seam lines that are recognised
+    /// Sew the lines of this pen or layer of a drawing, as in `--line 14`, or of several with what is made along them, as
+    /// in `--line SEW,TACK=bar-tack`; `seam` = the seam lines that are recognised
     #[arg(long, value_name = "NAME")]
     line: Option<String>,
 

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::inset;
+use super::pattern;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read};
@@ -15,7 +16,7 @@ use crate::machine::Job;
 use crate::pass::marker::MARKER_PASSES;
 use crate::recognise;
 use crate::sew::asked::Asked;
-use crate::sew::pattern::{Pattern, Seam};
+use crate::sew::pattern::{Pattern, Seam, distinct};
 use crate::source::{Source, Span};
 use crate::units::number::exact;
 
@@ -45,9 +46,51 @@ pub(super) fn read(
         None => None,
     };
     let dialect = front::choose(source, from, extension, out)?;
-    let lines = Reader { source, job }.lines(dialect, asked.line.as_deref(), out);
-    let seams = if asked.inset == 0.0 { as_drawn(lines) } else { moved(&lines, asked.inset, out) };
+    let mut seams = Vec::new();
+    for (i, Choice { name, words }) in choices(asked.line.as_deref()).into_iter().enumerate() {
+        if i > 0 && out.has_errors() {
+            break;
+        }
+        // The file is read again for each of several names; what is said of the file itself is said once.
+        let mut said = Diagnostics::default();
+        let lines = Reader { source, job }.lines(dialect, name, if i == 0 { &mut *out } else { &mut said });
+        said.iter().filter(|found| found.code.name.starts_with("sew/")).for_each(|found| out.push(found.clone()));
+        let drawn = if asked.inset == 0.0 { as_drawn(lines) } else { moved(&lines, asked.inset, out) };
+        seams.extend(drawn.into_iter().filter_map(|seam| as_told(seam, words, out)));
+    }
     Some((dialect.name, Pattern { seams }))
+}
+
+/// Name of a pen or layer, and the words of its element.
+struct Choice<'a> {
+    /// `None` for contours.
+    name: Option<&'a str>,
+    words: &'a str,
+}
+
+/// Names with their words, as in `SEW,TACK=bar-tack`, in sewing order.
+fn choices(line: Option<&str>) -> Vec<Choice<'_>> {
+    let Some(line) = line else { return vec![Choice { name: None, words: "" }] };
+    let items = line.split(',').map(|item| item.split_once('=').unwrap_or((item, "")));
+    items.map(|(name, words)| Choice { name: Some(name.trim()), words: words.trim() }).collect()
+}
+
+/// A seam with the element that words name; reports words that name none, and lines that do not suit it.
+fn as_told(seam: Seam, words: &str, out: &mut Diagnostics) -> Option<Seam> {
+    if words.is_empty() {
+        return Some(seam);
+    }
+    let span = seam.span;
+    let told = pattern::with_words(Seam { points: distinct(&seam.points), ..seam }, words);
+    let told = told.and_then(|seam| match pattern::fault(&seam) {
+        None => Ok(seam),
+        Some(fault) => Err(fault),
+    });
+    let report = |message: String| {
+        let hint = "an element follows the name of its layer, as in `--line SEW,TACK=bar-tack`";
+        out.push(Diagnostic::new(&code::SEW_ELEMENT, message).at(span).hint(hint));
+    };
+    told.map_err(report).ok()
 }
 
 fn as_drawn(lines: Vec<Line>) -> Vec<Seam> {

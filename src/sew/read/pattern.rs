@@ -107,7 +107,7 @@ fn add(open: &mut Option<Seam>, point: Point, words: &str, span: Span) -> Result
             // The following points belong to the seam even if its words are faulty, so that one slip is one fault.
             let plain = Seam::plain(vec![point], span);
             *open = Some(plain.clone());
-            *open = Some(seam(plain, words)?);
+            *open = Some(with_words(plain, words)?);
         }
     }
     Ok(())
@@ -130,7 +130,7 @@ fn point(text: &str, separator: char) -> Result<(Point, &str), String> {
 }
 
 /// Applies words to a seam.
-fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
+pub(super) fn with_words(mut seam: Seam, words: &str) -> Result<Seam, String> {
     let mut words = words.split_whitespace();
     // A repeated word is refused: either occurrence may be meant.
     let mut said: Vec<&str> = Vec::new();
@@ -177,13 +177,11 @@ fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
     Ok(seam)
 }
 
-/// Ends a seam: removes consecutive equal points, which are no corners, and checks it.
-fn finish(seam: Option<Seam>, pattern: &mut Pattern, out: &mut Diagnostics) {
-    let Some(mut seam) = seam else { return };
-    seam.points = distinct(&seam.points);
+/// Reason why the element of a seam does not suit its line; `None` if it does. The line has no equal points in a row.
+pub(super) fn fault(seam: &Seam) -> Option<String> {
     let points = &seam.points;
     let corners = points.len() - usize::from(points.len() > 1 && points.first() == points.last());
-    let wrong = match seam.element {
+    match seam.element {
         Element::BoxX if corners != BOX_CORNERS => Some(format!("a box has four corners, and this has {corners}")),
         Element::BarTack if points.len() != 2 => {
             Some(format!("a bar tack goes from one point to another, and this has {}", points.len()))
@@ -191,8 +189,14 @@ fn finish(seam: Option<Seam>, pattern: &mut Pattern, out: &mut Diagnostics) {
         Element::Straight | Element::Zigzag | Element::BarTack | Element::BoxX => {
             (points.len() < 2).then(|| "the seam that starts here has no two different points".to_owned())
         }
-    };
-    match wrong {
+    }
+}
+
+/// Ends a seam: removes consecutive equal points, which are no corners, and checks it.
+fn finish(seam: Option<Seam>, pattern: &mut Pattern, out: &mut Diagnostics) {
+    let Some(mut seam) = seam else { return };
+    seam.points = distinct(&seam.points);
+    match fault(&seam) {
         Some(message) => out.push(Diagnostic::new(&code::SEW_ELEMENT, message).at(seam.span)),
         None => pattern.seams.push(seam),
     }

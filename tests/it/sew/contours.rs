@@ -2,7 +2,7 @@
 
 use cutc::geom::{Point, polyline, ring};
 use cutc::machine::Job;
-use cutc::sew::{self, Asked};
+use cutc::sew::{self, Asked, Element};
 use cutc::source::Source;
 
 use super::{fixture, plan_as, target};
@@ -120,5 +120,33 @@ fn layers_that_the_convention_does_not_have_keep_their_names() {
         let seams = program.map_or(0, |program| program.pattern.expect("lines").seams.len());
         assert_eq!(seams, count, "{name}: {said}");
         assert!(count > 0 || said.contains("its pens or layers are 1, STITCH, 20, 020"), "{said}");
+    }
+}
+
+#[test]
+fn layers_are_sewn_with_the_elements_that_are_named_with_them() {
+    let plot = "IN;SP1;PU0,0;PD1600,0;SP2;PU0,400;PD400,400;SP0;";
+    let sewn = |line: &str| {
+        let asked = Asked { line: Some(line.to_owned()), ..Asked::default() };
+        let job = Job::default();
+        let (program, said, _) = plan_as(&asked, "x.plt", plot.as_bytes().to_vec(), &job);
+        let program = program.ok_or(said)?;
+        let bytes = super::written(&program, &job, "queue");
+        assert_eq!(super::broken(&program, &[], &job, ("queue", &bytes)), [""; 0]);
+        let seams = program.pattern.expect("lines").seams;
+        Ok(seams.iter().map(|seam| (seam.element, seam.pitch, seam.points[0].y)).collect::<Vec<_>>())
+    };
+    let (first, tack) = ((Element::Straight, Some(3.0), 0.0), (Element::BarTack, None, 10.0));
+    assert_eq!(sewn("1=pitch 3,2=bar-tack"), Ok(vec![first, tack]));
+    // In the order of the names.
+    assert_eq!(sewn("2=bar-tack,1=pitch 3"), Ok(vec![tack, first]));
+    assert_eq!(sewn("1"), Ok(vec![(Element::Straight, None, 0.0)]));
+    for (line, fault) in [
+        ("1,2=box-x", "a box has four corners, and this has 2"),
+        ("1=bartack", "`bartack` is no element of a pattern"),
+        ("1,7=zigzag", "the file has no line `7`"),
+    ] {
+        let said: Result<Vec<_>, String> = sewn(line);
+        assert!(said.as_ref().is_err_and(|said| said.contains(fault)), "{line}: {said:?}");
     }
 }
