@@ -3,6 +3,7 @@
 import csv
 import pathlib
 import random
+import re
 import sys
 import tempfile
 
@@ -81,6 +82,66 @@ def ways(browser):
     check(browser.evaluate("cutc.player.tick") == browser.evaluate("cutc.motion.end"), "End is the end")
     browser.press("]")
     check(browser.evaluate("cutc.player.rate") == 2, "a bracket is faster")
+
+
+def controls(browser):
+    """The space bar acts on a control that has the focus, and plays everywhere else; keys switch what is shown."""
+    browser.evaluate("cutc.player.play(false); cutc.player.seek(0); document.getElementById('names').focus()")
+    for switched in [False, True]:
+        browser.press(" ", "Space")
+        check(browser.evaluate("cutc.player.cloth.shown.names") == switched, "the space bar switches a box")
+    browser.evaluate("document.getElementById('keys').focus()")
+    for key, code, opened in [(" ", "Space", True), ("?", "Slash", False), ("?", "Slash", True)]:
+        browser.press(key, code, shift=key == "?")
+        check(browser.evaluate("document.getElementById('keys').parentElement.open") == opened, f"{key} on the list of keys")
+    check(not browser.evaluate("cutc.player.playing"), "and nothing plays")
+    for key, name in [("p", "names"), ("m", "marks")]:
+        browser.press(key)
+        check(not browser.evaluate(f"cutc.player.cloth.shown.{name}"), f"{key} hides {name}")
+        browser.press(key)
+    browser.click("button.jump")
+    browser.press(" ", "Space")
+    check(browser.evaluate("cutc.player.playing"), "it plays after a place of the report was pressed")
+    browser.press(" ", "Space")
+
+
+def rates(browser, rows):
+    """Under the cloth are the speeds of the axes and their limits; C is within half a turn."""
+    period = browser.evaluate("cutc.motion.period")
+    cuts = [tick for tick in range(1, len(rows) - 1, 97)]
+    for tick in cuts:
+        browser.evaluate(f"cutc.player.seek({tick}); cutc.player.tellAll()")
+        line = browser.evaluate("document.getElementById('speed').textContent")
+        found = re.search(r": X (-?\d+)/(\d+) mm/s, Y (-?\d+)/(\d+), C (-?\d+)/(\d+)", line)
+        check(found, f"no speeds in {line}")
+        for axis, at in [("x_mm", 1), ("y_mm", 3), ("c_deg", 5)]:
+            before, after = (float(rows[tick + by][axis]) for by in [-1, 1])
+            rate, limit = int(found[at]), int(found[at + 1])
+            near = abs(rate - (after - before) / 2 / period) <= 1 + 0.02 * limit
+            check(near and abs(rate) <= limit + 1, f"tick {tick}: {line}")
+        turn = float(re.search(r"C (\S+)°", browser.evaluate("document.getElementById('axes').textContent"))[1])
+        off = (turn - float(rows[tick]["c_deg"])) % 360
+        check(-180 <= turn <= 180 and min(off, 360 - off) < 0.02, f"tick {tick}: C at {turn}")
+
+
+def curves(browser):
+    """The wheel on the curves shows more of them at once, and not another time."""
+    browser.evaluate("cutc.player.seek(0)")
+    browser.settle()
+    shown = "[cutc.player.charts.from, cutc.player.charts.to]"
+    x, y = browser.evaluate("(() => { const e = document.getElementById('charts'); e.scrollIntoView({ block: 'center' });"
+                            " const b = e.getBoundingClientRect(); return [b.right - 20, b.y + b.height / 2]; })()")
+    pixels = "document.getElementById('curves').toDataURL()"
+    before, drawn = browser.evaluate(shown), browser.evaluate(pixels)
+    for _ in range(3):
+        browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-300)
+    browser.wait(f"cutc.player.charts.from > {before[0]}")
+    browser.settle()
+    now = browser.evaluate(shown)
+    check(now[1] - now[0] < before[1] - before[0], f"the wheel shows less time: {before}, then {now}")
+    check(browser.evaluate(pixels) != drawn, "and the curves are drawn anew")
+    browser.press("End")
+    check(browser.evaluate(f"cutc.motion.end <= {shown}[1]"), "they go with the cursor when that moves")
 
 
 def cloth(browser):
@@ -252,6 +313,13 @@ def passed(browser):
     first = browser.evaluate("(({ x, y }) => [Number(x), Number(y)])(document.querySelector('button.jump').dataset)")
     check(browser.evaluate("cutc.player.cloth.spot") == first, "the key goes to the first place")
     check(browser.evaluate("cutc.player.tick") > 0, "and to its moment")
+    browser.click("button.jump:not([data-time])")
+    at = browser.evaluate("[...document.querySelectorAll('button.jump')].indexOf(cutc.player.jump)")
+    count = browser.evaluate("document.querySelectorAll('button.jump').length")
+    for shift, expected in [(False, at + 1), (True, at), (True, at - 1)]:
+        browser.press("N" if shift else "n", "KeyN", shift=shift)
+        here = browser.evaluate("[...document.querySelectorAll('button.jump')].indexOf(cutc.player.jump)")
+        check(here == expected % count, f"the key goes on from the place that was pressed: {here}, not {expected % count}")
 
 
 def warnings(browser):
@@ -272,6 +340,9 @@ def main(program, page, setpoints, many, gap):
         places(browser, rows)
         trail(browser)
         ways(browser)
+        controls(browser)
+        rates(browser, rows)
+        curves(browser)
         cloth(browser)
         moved(browser)
         touch(browser)

@@ -12,9 +12,10 @@ const FIRST_SPAN = 20;
 const LEFT = 86;
 
 class Charts {
-  /** @param {Motion} motion @param {(tick: number) => void} seek */
-  constructor(motion, seek) {
+  /** @param {Motion} motion @param {(tick: number) => void} seek @param {() => void} changed */
+  constructor(motion, seek, changed) {
     this.motion = motion;
+    this.changed = changed;
     this.frame = element("charts", HTMLElement);
     this.base = element("curves", HTMLCanvasElement);
     this.top = element("cursor", HTMLCanvasElement);
@@ -22,6 +23,8 @@ class Charts {
     this.from = 0;
     this.to = Math.max(1, Math.min(motion.end, FIRST_SPAN / motion.period));
     this.stale = true;
+    /** Tick of the cursor. */
+    this.cursor = 0;
     this.steer(seek);
   }
 
@@ -45,7 +48,13 @@ class Charts {
   zoom(factor, tick) {
     const { end } = this.motion, span = Math.max(20, Math.min(end || 1, (this.to - this.from) * factor));
     const share = (tick - this.from) / (this.to - this.from);
-    this.from = Math.max(0, Math.min(end - span, tick - share * span));
+    this.show(tick - share * span, span);
+    this.changed();
+  }
+
+  /** Shows a stretch of time. @param {number} from @param {number} span Ticks. */
+  show(from, span) {
+    this.from = Math.max(0, Math.min(this.motion.end - span, from));
     this.to = this.from + span;
     this.stale = true;
   }
@@ -65,26 +74,19 @@ class Charts {
   /** Has the curves be drawn anew. */
   renew() { this.stale = true; }
 
-  /** Draws the charts with their cursor at a tick, which the stretch of time goes with. @param {number} tick */
+  /** Draws the charts with their cursor at a tick; the stretch of time goes with it. @param {number} tick */
   draw(tick) {
     const span = this.to - this.from;
-    if (span < this.motion.end && (tick < this.from || tick > this.to)) {
-      this.from = Math.max(0, Math.min(this.motion.end - span, tick - 0.1 * span));
-      this.to = this.from + span;
-      this.stale = true;
-    }
+    if (tick !== this.cursor && (tick < this.from || tick > this.to)) this.show(tick - 0.1 * span, span);
+    this.cursor = tick;
     if (this.stale) {
       this.drawCurves();
       this.stale = false;
     }
     const to = sharpen(this.top, this.width, this.height), x = this.px(tick);
     if (x < LEFT || x > this.width) return;
-    to.strokeStyle = themed("ink");
-    to.lineWidth = 1;
-    to.beginPath();
-    to.moveTo(x, 0);
-    to.lineTo(x, this.height);
-    to.stroke();
+    to.fillStyle = themed("ink");
+    to.fillRect(x - 0.5, 0, 1, this.height);
   }
 
   drawCurves() {
@@ -115,14 +117,9 @@ class Charts {
     for (const [level, mark] of /** @type {[number, string][]} */ ([[1, "+limit"], [-1, "−limit"]])) {
       to.fillText(mark, LEFT - 4, middle - level * unit);
     }
-    to.lineWidth = 1;
     for (const level of [-1, 0, 1]) {
-      const y = Math.round(middle - level * unit) + 0.5;
-      to.strokeStyle = themed(level ? "limit" : "rule");
-      to.beginPath();
-      to.moveTo(LEFT, y);
-      to.lineTo(this.width, y);
-      to.stroke();
+      to.fillStyle = themed(level ? "limit" : "rule");
+      to.fillRect(LEFT, Math.round(middle - level * unit), this.width - LEFT, 1);
     }
   }
 

@@ -21,10 +21,10 @@ class Player extends Stage {
     this.following = false;
     /** True while a place is shown that the blade does not pass. */
     this.isAside = false;
-    /** Jumps of the report, for the keys that go through them. */
-    this.jump = -1;
+    /** The place of the report that was gone to last. @type {HTMLButtonElement | null} */
+    this.jump = null;
     this.cloth = new Cloth(motion, colours, this.view);
-    this.charts = new Charts(motion, tick => this.seek(tick));
+    this.charts = new Charts(motion, tick => this.seek(tick), () => this.wake());
     this.scrub.max = String(motion.end);
     this.rewind = () => {
       if (this.tick >= motion.end) this.tick = 0;
@@ -86,10 +86,11 @@ class Player extends Stage {
   /**
    * Goes to a place of the cloth, X and Y in mm, and to the moment at which the blade is there: at a time, s, or with a
    * piece, by its place in the marker, if either is known.
-   * @param {DOMStringMap} place
+   * @param {DOMStringMap} place @param {HTMLButtonElement} [button] The button of the report that has it.
    */
-  goToPlace({ time, part = "-1", ...at }) {
+  goToPlace({ time, part = "-1", ...at }, button) {
     this.play(false);
+    this.jump = button ?? this.jump;
     const x = Number(at.x), y = Number(at.y);
     this.cloth.spot = [x, y];
     const near = 40;
@@ -100,28 +101,33 @@ class Player extends Stage {
     if (tick !== null) this.seek(tick);
     this.isAside = tick === null;
     element("player", HTMLElement).scrollIntoView({ block: "start" });
+    // The next Space plays.
+    this.frame.focus({ preventScroll: true });
   }
 
-  /** Goes through the places of the report. @param {number} by */
+  /** Goes to the place of the report after or before the last one. @param {number} by 1 or -1. */
   nextPlace(by) {
-    const buttons = jumps();
-    this.jump = (this.jump + by + buttons.length) % buttons.length;
-    buttons[this.jump]?.click();
+    const buttons = [...jumps()], from = this.jump ? buttons.indexOf(this.jump) : Math.min(0, -by);
+    buttons.at((from + by) % buttons.length)?.click();
   }
 
   /** Says what happens at the cursor. */
   tellAll() {
-    const { motion, tick } = this, { x, y, c } = motion.at(tick), phase = motion.phase(tick);
+    const { motion, tick } = this, phase = motion.phase(tick);
+    const { x, y, c } = motion.at(tick), rates = motion.at(tick, true);
     const kind = motion.columns.phase_kind[phase], part = motion.columns.phase_part[phase];
     const words = WORDS[kind] ?? `drill ${kind - KIND.drill}`;
     const piece = motion.facts.pieces[part], named = [piece?.number, piece?.name].filter(Boolean).join(" ");
-    const rates = motion.at(tick, true);
     const speed = kind === KIND.cut ? motion.tipSpeed(tick) : Math.hypot(rates.x, rates.y);
     const block = motion.block(tick);
     this.say("time", `${(tick * motion.period).toFixed(3)} / ${motion.duration.toFixed(1)} s`);
     this.say("does", words + (block ? `, block ${block}` : ""));
-    this.say("axes", `X ${x.toFixed(2)}  Y ${y.toFixed(2)}  C ${c.toFixed(2)}°`);
-    this.say("speed", `${speed.toFixed(0)} mm/s, C ${rates.c.toFixed(0)}°/s`);
+    // The heading within half a turn of the X axis.
+    const heading = c - 360 * Math.ceil((c - 180) / 360);
+    this.say("axes", `X ${x.toFixed(2)}  Y ${y.toFixed(2)}  C ${heading.toFixed(2)}°`);
+    const [ofX, ofY, ofC] = motion.limits(phase).map(([most]) => most.toFixed(0));
+    this.say("speed", `${speed.toFixed(0)} mm/s: X ${rates.x.toFixed(0)}/${ofX} mm/s, Y ${rates.y.toFixed(0)}/${ofY}, `
+      + `C ${rates.c.toFixed(0)}/${ofC}°/s`);
     this.say("part", this.isAside ? "the blade does not pass the place that is shown"
       : `piece ${named}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
     this.scrub.value = String(Math.round(tick));
@@ -190,6 +196,9 @@ function keys(player) {
     "f": () => toggle("following"),
     "t": () => toggle("travels"),
     "l": () => toggle("aside"),
+    "p": () => toggle("names"),
+    "m": () => toggle("marks"),
+    "?": () => element("keys", HTMLElement).click(),
     "n": () => player.nextPlace(1),
     "Shift+N": () => player.nextPlace(-1),
   };

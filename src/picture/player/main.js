@@ -8,7 +8,7 @@ async function start() {
   const motion = new Motion(facts, await pageColumns(facts.columns));
   const player = new Player(motion, new Colours(motion, motion.trail()));
   linkPieces(part => player.goToPiece(part, true));
-  for (const button of jumps()) button.addEventListener("click", () => player.goToPlace(button.dataset));
+  for (const button of jumps()) button.addEventListener("click", () => player.goToPlace(button.dataset, button));
   element("loading", HTMLElement).hidden = true;
   const frame = element("cloth", HTMLElement), [left, low, right, high] = player.cloth.box;
   frame.style.setProperty("--shape", String((right - left + 1) / (high - low + 1)));

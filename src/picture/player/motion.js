@@ -63,6 +63,12 @@ class Motion {
     return { x: axis(x, rate_x), y: axis(y, rate_y), c: axis(c, rate_c) };
   }
 
+  /** Limits that hold in a phase: speed, acceleration and jerk of each axis. @param {number} phase */
+  limits(phase) {
+    const kind = this.columns.phase_kind[phase], { cut, travel } = this.facts.limits;
+    return kind === KIND.plunge || kind === KIND.cut ? cut : travel;
+  }
+
   /** Phase at a tick. @param {number} tick */
   phase(tick) { return lastUpTo(this.columns.phase_tick, tick); }
 

@@ -60,9 +60,9 @@ class Stage {
     }
     document.addEventListener("keydown", event => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
-      const on = event.target;
-      if (on instanceof HTMLSelectElement || (on instanceof HTMLInputElement && on.type === "search")) return;
-      if (on instanceof HTMLButtonElement && event.key === " ") return;
+      // A control that has the focus takes its own keys.
+      const takers = event.key === " " ? "button, summary, select, input:not([type=range])" : "select, [type=search]";
+      if (event.target instanceof Element && event.target.matches(takers)) return;
       const isLetter = event.key.length === 1, key = isLetter && !event.shiftKey ? event.key.toLowerCase() : event.key;
       const act = known[event.shiftKey ? `Shift+${key}` : key] ?? (isLetter ? known[key] : undefined);
       if (!act) return;
