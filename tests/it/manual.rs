@@ -109,6 +109,8 @@ fn every_command_of_the_manual_runs() {
     for name in ["pocket.csv", "seat.dst"] {
         fs::copy(root().join("fixtures/sew").join(name), room.at(name)).expect("a copy");
     }
+    fs::create_dir(room.at("designs")).expect("a folder");
+    fs::copy(root().join("fixtures/sew/seat.dst"), room.at("designs/seat.dst")).expect("a copy");
     for name in ["step.toml", "wander.toml"] {
         fs::copy(root().join("fixtures/track").join(name), room.at(name)).expect("a copy");
     }
