@@ -75,7 +75,7 @@ impl<'a> Limits<'a> {
         (fits.min(user), user < fits)
     }
 
-    /// The user's limit for a stitch of a pitch in mm, of a record; infinite if there is none.
+    /// Speed limit of the user for the stitch of a record with a pitch in mm; infinite without a limit.
     pub(super) fn user(&self, pitch: f64, record: u32) -> f64 {
         let seam = self.seams.get(&record).copied().unwrap_or(f64::INFINITY);
         user(pitch, self.sewing).min(seam)

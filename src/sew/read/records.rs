@@ -24,8 +24,8 @@ pub(super) enum Record {
     End,
 }
 
-/// First record of some bytes with its length in bytes; `None` if the bytes end within it, a meaning of `None` if it is none
-/// of the format.
+/// Parser of the first record of some bytes: its length in bytes and its meaning. `None` if the bytes end within the record; a
+/// meaning of `None` if the format has no such record.
 pub(super) type Parse = fn(&[u8]) -> Option<(usize, Option<Record>)>;
 
 /// Form of a file.

@@ -57,7 +57,7 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
     // Both bits of 81 up and down, which no move has.
     let is_end = |triple: &[u8; 3]| triple[2] & 0b1111_0011 == 0b1111_0011;
     let found = triples.iter().position(is_end);
-    // Without an end the filling behind the last record, whose last byte has its two lowest bits set, is none.
+    // In a file without an end, filling follows the last record. Each record has the two lowest bits of its last byte set.
     let whole = triples.iter().rposition(|triple| triple[2] & 3 == 3).map_or(0, |last| last + 1);
     let end = found.unwrap_or(whole);
     for (i, &[a, b, c]) in triples[..end].iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Janome JEF: a header with the hoop and two tables of threads, then pairs of signed bytes, tenths of a millimetre.
 //!
-//! The middle of the hoop is the origin of the pattern. A trim is three jumps that move nothing, of which most machines need one; a thread of number 0 in the
-//! table stands for a stop.
+//! The middle of the hoop is the origin of the pattern. A trim is three jumps that move nothing, of which most machines need
+//! one. A thread of number 0 in the table stands for a stop.
 
 use std::io::{self, Write};
 
