@@ -41,7 +41,7 @@ struct Topic {
 
 /// Every code, then every rule.
 fn topics() -> impl Iterator<Item = Topic> {
-    let codes = code::ALL.iter().map(|code| Topic {
+    let codes = code::all().map(|code| Topic {
         name: code.name,
         kind: severity(code.severity),
         about: code.about,

@@ -46,13 +46,13 @@ pub(super) const fn warning(
     Code { name, severity: Severity::Warning, harm, fault, about, more }
 }
 
-/// Declares each code, and the table of all codes in the order of the manual.
+/// Declares each code, and the table of them in the order of the manual.
 macro_rules! codes {
     ($($(#[$about:meta])* $name:ident = $code:expr;)*) => {
         $($(#[$about])* pub static $name: Code = $code;)*
 
-        /// Every code, in the order of the manual.
-        pub static ALL: &[&Code] = &[$(&$name),*];
+        /// Codes of this file, in the order of the manual.
+        pub(super) static CODES: &[&Code] = &[$(&$name),*];
     };
 }
 pub(super) use codes;

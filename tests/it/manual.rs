@@ -169,7 +169,7 @@ fn list(name: &str) -> String {
         "rules" => rules(RULES),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();
-            code::ALL.iter().map(|code| format!("`{}` ({}): {}", code.name, severity(code), code.about)).collect()
+            code::all().map(|code| format!("`{}` ({}): {}", code.name, severity(code), code.about)).collect()
         }
         "keys" => {
             let shown = |value: toml::Value| format!(" = `{}`", keys::shown_value(&value));

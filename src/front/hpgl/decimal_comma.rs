@@ -13,6 +13,8 @@ const FLAT: f64 = 3.0;
 /// both.
 const LEAST_PLACES: usize = 6;
 const FLAT_RATIO: f64 = 8.0;
+/// Minimum number of turns of a pen that follows a line back and forth.
+const LEAST_TURNS: usize = 3;
 
 /// True if the coordinates of a plot have decimal commas. Either all numbers have equally many digits after the comma, some of
 /// which begin with a zero, as no coordinate does; or the digits after the commas, read as Y, make a flat drawing. `unit` is
@@ -54,11 +56,12 @@ fn are_parted_by_blanks<'a>(places: impl Iterator<Item = &'a [u8]>) -> bool {
 }
 
 /// True if all points of a plot, read as pairs, have a Y without a sign and with equally many digits, so that the drawing is
-/// nearly a line but not exactly one. Plots with relative moves or scales are excluded. In nearly all plots one of the first
-/// points ends the search.
+/// nearly a line but not exactly one, or a line that the pen follows back and forth. Plots with relative moves or scales are
+/// excluded. In nearly all plots one of the first points ends the search.
 fn is_flat(bytes: &[u8], unit: f64) -> bool {
     let (mut x, mut y) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, 0.0_f64]);
     let (mut digits, mut count) = (None, 0);
+    let (mut last, mut is_forth, mut turns) = (f64::NAN, None, 0);
     for pairs in places(bytes) {
         let numbers = pairs.split(|&byte| byte == b',' || byte == b' ').filter(|number| !number.is_empty());
         let mut numbers = numbers.map(|number| (number, parsed(number)));
@@ -68,12 +71,16 @@ fn is_flat(bytes: &[u8], unit: f64) -> bool {
             if !is_alike || height * unit > FLAT {
                 return false;
             }
+            if column != last && !last.is_nan() {
+                turns += usize::from(is_forth.replace(column > last) == Some(column < last));
+            }
+            last = column;
             x = [x[0].min(column), x[1].max(column)];
             y = [y[0].min(height), y[1].max(height)];
             count += 1;
         }
     }
-    let leaves_line = y[1] > y[0] || digits.is_some_and(|digits| digits >= LEAST_DECIMALS) && y[1] == 0.0;
+    let leaves_line = y[1] > y[0] || digits.is_some_and(|digits| digits >= LEAST_DECIMALS) && y[1] == 0.0 || turns >= LEAST_TURNS;
     let is_scaled = || bytes.windows(3).any(|three| matches!(three, [b';', b'P', b'R'] | [b';', b'S', b'C']));
     count >= LEAST_PLACES && leaves_line && x[1] - x[0] >= FLAT_RATIO * y[1].max(1.0) && !is_scaled()
 }
@@ -96,6 +103,8 @@ mod tests {
             ("IN;PU400,00,400,00;PD4400,00,400,00;PD4400,00,2400,00;PD400,00,2400,00;", true),
             ("IN;PU404,9 413,5;PD12409,4 413,5 12409,4 8444,6 404,9 8444,6 404,9 413,5;", true),
             ("IN;PU404,9;PD413,5,12409,4,413,5,12409,4,8444,6,404,9,8444,6,404,9,413,5;", true),
+            ("IN;PU400,5,400,5;PD16400,5,400,5;PD16400,5,8400,5;PD400,5,8400,5;PD400,5,400,5;", true),
+            ("IN;PU400,5;PD800,5;PU1200,5;PD1600,5;PU2000,5;PD2400,5;PU2800,5;PD3200,5;", false),
             ("IN;PU400,100 400,200;PD4400,300 400,500;PD4400,200 2400,400;", false),
             ("IN;PU400,0 400,0;PD4400,0 400,0;PD4400,0 2400,0;", false),
             ("IN;PU400,00,400,00;PD4400,00,400,00;", false),

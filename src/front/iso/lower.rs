@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::alone::Alone;
 use super::arc::{Arc, Centre, Turn};
 use super::at_place::{AtPlace, Hole, Texts};
 use super::block::Blocks;
@@ -54,6 +55,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         turn: None,
         ended: None,
         tally: Tally::default(),
+        alone: Alone::default(),
         last_cut: None,
         out,
     };
@@ -91,6 +93,8 @@ struct Lowering<'a> {
     /// Offset after the M0 that ended the file.
     ended: Option<usize>,
     tally: Tally,
+    /// Points with one coordinate.
+    alone: Alone,
     /// Offset after the last block that cuts or drills; `None` until it is searched for.
     last_cut: Option<usize>,
     out: &'a mut Diagnostics,
@@ -183,6 +187,7 @@ impl Lowering<'_> {
             self.tally.ignore(code, "bite size", span);
         }
         self.tally.report(self.out);
+        self.alone.report(self.source.bytes(), self.out);
         if marker.pieces.is_empty() && !self.out.has_errors() {
             let finding = Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill");
             self.out
@@ -492,12 +497,13 @@ impl Lowering<'_> {
 
     /// True if any later block cuts or drills. The file is searched only once.
     fn more_to_cut(&mut self) -> bool {
-        let last = *self.last_cut.get_or_insert_with(|| last_cut(self.blocks.clone()));
+        let last = *self.last_cut.get_or_insert_with(|| trailer::last_cut(self.blocks.clone()));
         last > self.blocks.offset()
     }
 
     /// Converts a point of the file to mm and makes it the current position.
     fn locate(&mut self, point: Point, span: Span) -> geom::Point {
+        self.alone.see(point, span);
         self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
         convert(self.place.map(Option::unwrap_or_default), self.unit.convert(), span, &mut self.far)
     }
@@ -511,23 +517,6 @@ impl Lowering<'_> {
 
 fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {
     (from != to).then(|| Heading::of(to - from))
-}
-
-/// Offset after the last block that lowers the knife or drills; 0 if there is none.
-fn last_cut(mut blocks: Blocks<'_>) -> usize {
-    let mut last = 0;
-    while let Some(block) = blocks.next() {
-        let Ok(words) = block.words else { continue };
-        for &code in &words.codes {
-            match meaning(code) {
-                Meaning::Down | Meaning::Drill(_) => last = blocks.offset(),
-                Meaning::Message => _ = blocks.next_text(),
-                Meaning::Label => _ = label::read(&mut blocks, words.point),
-                _ => {}
-            }
-        }
-    }
-    last
 }
 
 #[cfg(test)]

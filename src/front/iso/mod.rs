@@ -8,8 +8,9 @@
 //! Arcs become chords. [`block`] splits the bytes into blocks, plain ones in [`run`]s; [`syntax`] is the grammar of a block,
 //! [`mod@meaning`] the table of codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end. [`lower`]
 //! executes the file, [`draft`] assembles its cuts from [`chain`]s of vertices ([`vertex`]), [`lost`] finds signs of lost knife
-//! codes, and [`owner`] assigns slits to pieces in files without piece numbers.
+//! codes, [`alone`] of lost coordinates, and [`owner`] assigns slits to pieces in files without piece numbers.
 
+mod alone;
 mod arc;
 mod at_place;
 mod block;

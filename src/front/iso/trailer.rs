@@ -5,6 +5,9 @@
 
 use std::collections::BTreeMap;
 
+use super::block::Blocks;
+use super::label;
+use super::meaning::{Meaning, meaning};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Field, Piece};
 use crate::source::{Source, Span};
@@ -57,6 +60,23 @@ pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Pie
         let message = "the list of labels behind M0 names a piece that the file does not hold";
         out.push(Diagnostic::new(&code::ISO_TRAILER_PIECE, message).at(span));
     }
+}
+
+/// Offset after the last block that lowers the knife or drills; 0 if there is none.
+pub(super) fn last_cut(mut blocks: Blocks<'_>) -> usize {
+    let mut last = 0;
+    while let Some(block) = blocks.next() {
+        let Ok(words) = block.words else { continue };
+        for &code in &words.codes {
+            match meaning(code) {
+                Meaning::Down | Meaning::Drill(_) => last = blocks.offset(),
+                Meaning::Message => _ = blocks.next_text(),
+                Meaning::Label => _ = label::read(&mut blocks, words.point),
+                _ => {}
+            }
+        }
+    }
+    last
 }
 
 /// Destination of the fields.
