@@ -1,8 +1,8 @@
 //! Codes of the cutting knife: marker, layout, path, motion, proof.
 
-use super::super::kind::{Code, codes, error, warning};
-use super::super::telling::Fault::Shape;
-use super::super::telling::Harm::{Spares, Spoils};
+use crate::diagnostic::kind::{Code, codes, error, warning};
+use crate::diagnostic::telling::Fault::Shape;
+use crate::diagnostic::telling::Harm::{Spares, Spoils};
 
 codes! {
     // The marker, whatever the dialect.

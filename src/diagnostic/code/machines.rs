@@ -1,8 +1,8 @@
 //! Codes of the other machines of the sewing floor, and of the machine profile.
 
-use super::super::kind::{Code, codes, error, warning};
-use super::super::telling::Fault::{Shape, Text};
-use super::super::telling::Harm::{Spares, Spoils};
+use crate::diagnostic::kind::{Code, codes, error, warning};
+use crate::diagnostic::telling::Fault::{Shape, Text};
+use crate::diagnostic::telling::Harm::{Spares, Spoils};
 
 codes! {
     // Sewn patterns.

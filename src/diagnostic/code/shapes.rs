@@ -1,8 +1,8 @@
 //! Codes of what is drawn: recognition of plots and drawings, patterns and plain drawings as DXF, polylines as CSV.
 
-use super::super::kind::{Code, codes, error, warning};
-use super::super::telling::Fault::{Shape, Text};
-use super::super::telling::Harm::{Spares, Spoils};
+use crate::diagnostic::kind::{Code, codes, error, warning};
+use crate::diagnostic::telling::Fault::{Shape, Text};
+use crate::diagnostic::telling::Harm::{Spares, Spoils};
 
 codes! {
     // Recognition of drawings.

@@ -31,8 +31,8 @@ impl Alone {
     /// Reports the points if the file repeats coordinates more often than it omits them.
     pub(super) fn report(&self, bytes: &[u8], out: &mut Diagnostics) {
         let Some((letter, span)) = self.first.filter(|_| self.count < repeats(bytes)) else { return };
-        let times = if self.count == 1 { "one block has".to_owned() } else { format!("{} blocks have", self.count) };
-        let message = format!("{times} X or Y alone, here {letter}, in a file that repeats those that do not change");
+        let blocks = if self.count == 1 { "one block".to_owned() } else { format!("one of {} blocks", self.count) };
+        let message = format!("{blocks} with {letter} alone, where others repeat an unchanged coordinate");
         let finding = Diagnostic::new(&code::ISO_ALONE, message).at(span);
         out.push(finding.hint("the letter of the other coordinate may be lost; transfer the file again"));
     }
