@@ -7,6 +7,7 @@ mod bend;
 mod continuation;
 mod corner;
 mod down;
+mod ends;
 mod entry;
 mod frame;
 mod junctions;

@@ -12,6 +12,12 @@ use crate::machine::Fit;
 /// Least sine of the angle between a slit and its edge: at flatter angles the extension would have no bound.
 const LEAST_SINE: f64 = 0.4;
 
+/// True if a slit of a part begins or ends at a place.
+pub(super) fn is_of_slit(root: Point, part: u32, scene: &Scene) -> bool {
+    let mut slits = scene.marker.cuts_of(part).iter().filter(|cut| cut.kind == CutKind::Slit);
+    slits.any(|cut| scene.marker.list.ends_of(cut.range).contains(&root))
+}
+
 /// Length by which a slit of a part extends past its root along a unit vector, mm: at most the longest overlap plus the
 /// tolerance. A root that is on no edge of its own part lies on a neighbour's edge, for which the greatest sagitta is assumed.
 pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene: &Scene) -> f64 {
