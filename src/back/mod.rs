@@ -12,6 +12,7 @@ mod html;
 mod iso;
 mod json;
 mod npy;
+mod states;
 mod svg;
 mod target;
 
@@ -26,6 +27,7 @@ pub const TARGETS: &[Target] = &[
     csv::TARGET,
     npy::TARGET,
     json::TARGET,
+    states::TARGET,
     svg::TARGET,
     html::TARGET,
     iso::TARGET,

@@ -42,6 +42,8 @@ pub enum Emit {
     Marker(fn(&Context, &mut dyn Output, &mut Diagnostics) -> io::Result<()>),
     /// From toolpaths, one at a time.
     Toolpath(Parts<Toolpath>),
+    /// From toolpaths, one at a time, and all findings about them: a picture, which may be of a refused program.
+    Picture(Parts<Toolpath>),
     /// From toolpaths as arcs and lines, one toolpath at a time.
     Arcs(ArcTarget),
     /// From the timed motion, one toolpath at a time.
@@ -55,7 +57,7 @@ impl Emit {
     pub fn needs_toolpaths(&self) -> bool {
         match self {
             Self::Marker(_) => false,
-            Self::Toolpath(_) | Self::Arcs(_) | Self::Motion(_) | Self::Page(_) => true,
+            Self::Toolpath(_) | Self::Picture(_) | Self::Arcs(_) | Self::Motion(_) | Self::Page(_) => true,
         }
     }
 }

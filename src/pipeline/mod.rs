@@ -176,7 +176,7 @@ impl<'a> Pages<'a> {
     fn of(products: &[Product], context: &Context<'a>) -> Self {
         let begin = |product: &Product| match product.target.emit {
             Emit::Page(begin) => Some(begin(context)),
-            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Arcs(_) | Emit::Motion(_) => None,
+            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Picture(_) | Emit::Arcs(_) | Emit::Motion(_) => None,
         };
         Self(products.iter().map(begin).collect())
     }
@@ -243,7 +243,7 @@ fn finish(
             page.write(outcome, &mut out)?;
             out.flush()?;
         }
-        if let Emit::Toolpath(parts) = &target.emit {
+        if let Emit::Toolpath(parts) | Emit::Picture(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
             (parts.tail)(context, outcome, &mut out)?;
             out.flush()?;

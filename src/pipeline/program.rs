@@ -46,7 +46,7 @@ impl<'a> Sink<'a> {
     pub(super) fn new(emit: &'static Emit, context: &Context<'a>, out: &'a mut dyn Medium) -> Option<Self> {
         let form = match emit {
             Emit::Marker(_) | Emit::Page(_) => return None,
-            Emit::Toolpath(parts) => Form::Toolpath(parts),
+            Emit::Toolpath(parts) | Emit::Picture(parts) => Form::Toolpath(parts),
             Emit::Motion(parts) => Form::Motion(parts),
             Emit::Arcs(target) => Form::Arcs(target, (target.begin)(context)),
         };

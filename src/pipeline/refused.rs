@@ -11,7 +11,7 @@ const MOST: usize = 24;
 
 /// True if a target draws the motion of the knife, so that it may be written even for a refused program.
 pub(super) fn is_picture(target: &Target) -> bool {
-    matches!(target.emit, Emit::Toolpath(_) | Emit::Page(_)) && target.proof.is_none()
+    matches!(target.emit, Emit::Picture(_) | Emit::Page(_))
 }
 
 /// The errors that refuse a program; those of the verifier are findings.
@@ -36,7 +36,7 @@ pub(super) fn draw(context: &Context, products: &mut [Product], diagnostics: &Di
     for Product { target, out, shows_refusal } in products {
         let mut out = BufWriter::new(&mut **out);
         match &target.emit {
-            Emit::Toolpath(parts) if is_picture(target) => {
+            Emit::Picture(parts) => {
                 (parts.head)(context, &mut out)?;
                 (parts.tail)(context, outcome, &mut out)?;
             }

@@ -56,8 +56,8 @@ const DECLARED: [Total; 2] = [
 fn parts() -> &'static Parts<Toolpath> {
     let target = TARGETS.iter().find(|target| target.name == "svg").expect("a target named svg");
     match &target.emit {
-        Emit::Toolpath(parts) => parts,
-        Emit::Marker(_) | Emit::Arcs(_) | Emit::Motion(_) | Emit::Page(_) => panic!("a picture is made from toolpaths"),
+        Emit::Picture(parts) => parts,
+        Emit::Marker(_) | Emit::Toolpath(_) | Emit::Arcs(_) | Emit::Motion(_) | Emit::Page(_) => panic!("no picture"),
     }
 }
 

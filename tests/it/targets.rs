@@ -1,8 +1,9 @@
-//! What the targets `npy` and `json` promise, and several targets in one compile.
+//! Promises of the targets `npy`, `json` and `states`, and several targets in one compile.
 
 use std::fs;
 
 use crate::support::room::Room;
+use crate::support::rows;
 use serde_json::Value;
 
 /// A square, a short line and a drill: every kind of run but an event.
@@ -171,4 +172,75 @@ fn of_several_targets_none_is_written_when_one_cannot_be() {
     fs::create_dir(room.at("small.json")).expect("writable");
     room.says("compile small.cut -t csv,json", 2);
     assert!(!room.has("small.csv"));
+}
+
+/// The rows of a `states` program: the state, then its numbers.
+fn states(text: &str) -> Vec<(String, Vec<f64>)> {
+    let row = |line: &str| {
+        let (state, numbers) = line.split_once(',').expect("a state and numbers");
+        (state.to_owned(), numbers.split(',').map(|field| field.parse().expect("a number")).collect())
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn the_states_of_a_square_are_those_of_the_paper() {
+    let square = "H1*G71*N1*X0Y0*M14*X1000Y0*X1000Y1000*X0Y1000*X0Y0*M15*M0*";
+    let room = Room::with("square.cut", square);
+    let knife = "width_mm=6 back_mm=2 front_overlap_mm=1 corner_front_overlap_mm=1 heel_overlap_mm=0.5 \
+                 corner_heel_overlap_mm=0.5";
+    let keys: String = knife.split_whitespace().map(|key| format!(" --set knife.{key}")).collect();
+    room.says(&format!("compile square.cut -o square.states{keys}"), 0);
+    let (states, table) = (states(&room.text("square.states")), rows("knife/square_table.csv"));
+    assert_eq!(states.len(), table.len());
+    for (i, ((state, numbers), row)) in states.iter().zip(table).enumerate() {
+        assert_eq!(state, ["plunge", "lift"][i % 2]);
+        let &[_, _, _, _, _, tip_x, tip_y, tail_x, tail_y, x, y, c, dx, dy, dc] = &numbers[..] else { panic!("{i}") };
+        assert_eq!([x, y, c, tip_x, tip_y, tail_x, tail_y], row[1..8], "{i}");
+        // The paper counts its increments from the first state, the target from `home`.
+        let home = if i == 0 { [1.5, 0.0, 0.0] } else { [0.0; 3] };
+        let increments: Vec<f64> = (0..3).map(|k| row[8 + k] + home[k]).collect();
+        assert_eq!([dx, dy, dc], increments[..], "{i}");
+    }
+}
+
+#[test]
+fn each_state_has_its_blade_on_the_path_and_the_increments_of_the_axes() {
+    let arc: String = (0..=40).map(|i| f64::from(i) * 4.0_f64.to_radians()).fold(String::new(), |text, a| {
+        format!("{text}X{:.0}Y{:.0}*", 3000.0 + 800.0 * a.sin(), 2000.0 - 800.0 * a.cos())
+    });
+    let (start, rest) = arc.split_once('*').expect("points");
+    let cut = format!("{}N3*{start}*M14*{rest}M15*M0*", SMALL.strip_suffix("M0*").expect("an end"));
+    let room = Room::with("small.cut", &cut);
+    for follow in ["tangent", "chord"] {
+        room.says(&format!("compile small.cut --force -o small.states --set knife.follow={follow}"), 0);
+        let states = states(&room.text("small.states"));
+        let kinds = ["plunge", "end", "lift", "plunge-cut", "drill"];
+        assert!(kinds.iter().all(|kind| states.iter().any(|(state, _)| state == kind)), "{states:?}");
+        let mut axes = [0.0; 3];
+        for (state, numbers) in &states {
+            let &[_, _, _, to_x, to_y, tip_x, tip_y, tail_x, tail_y, x, y, c, dx, dy, dc] = &numbers[..] else {
+                panic!("{numbers:?}")
+            };
+            let (along_x, along_y) = (tip_x - tail_x, tip_y - tail_y);
+            assert!((along_x.hypot(along_y) - 6.6).abs() < 1e-5, "{state} {numbers:?}");
+            let off = (along_y.atan2(along_x).to_degrees() - c).rem_euclid(360.0);
+            assert!((0.0..360.0).contains(&c) && off.min(360.0 - off) < 1e-4, "{state} {numbers:?}");
+            if state == "end" {
+                assert!((tip_x - to_x).hypot(tip_y - to_y) < 1e-5, "{state} {numbers:?}");
+            }
+            axes = [axes[0] + dx, axes[1] + dy, axes[2] + dc];
+            assert!((axes[0] - x).hypot(axes[1] - y) < 1e-4, "{state} {numbers:?}");
+            let turned = (axes[2] - c).rem_euclid(360.0);
+            assert!(turned.min(360.0 - turned) < 1e-3, "{state} {numbers:?}");
+        }
+    }
+}
+
+#[test]
+fn states_are_refused_on_a_conveyor() {
+    let room = Room::with("small.cut", SMALL);
+    let stderr = room.says("compile small.cut -t states --set bite.length_mm=70", 1);
+    assert!(stderr.contains("target/refused") && stderr.contains("bite.length_mm"), "{stderr}");
+    assert!(!room.has("small.states"));
 }

@@ -36,7 +36,7 @@ pub(super) const TARGET: Target = Target {
     name: "svg",
     about: "a picture to scale: pieces, labels, runs, overlaps, plunges, travels, findings",
     extension: "svg",
-    emit: Emit::Toolpath(Parts { refusals: nothing, head, body, tail }),
+    emit: Emit::Picture(Parts { refusals: nothing, head, body, tail }),
     proof: None,
 };
 
