@@ -485,6 +485,12 @@ mod tests {
             "profile/range: --set gcode.heading_tolerance_deg=1: `gcode.heading_tolerance_deg` is 1 degrees, more than \
              `verify.max_heading_deg`, 0.5 degrees",
         );
+        check(
+            &["gcode.feed_counts=all", "gcode.feed_mode=G93"],
+            "profile/range: --set gcode.feed_mode=G93: `gcode.feed_mode` is \"G93\" with arcs, which the grbl family \
+             mistimes",
+        );
+        profile("", &["gcode.feed_counts=all", "gcode.feed_mode=G93", "gcode.arcs=false"]);
         // Its default was not asked for.
         let strict = profile("", &["verify.max_heading_deg=0.05"]);
         assert!((strict.blade_tolerance() - 0.05_f64.to_radians()).abs() < 1e-12);

@@ -9,7 +9,7 @@ use crate::geom::{Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
-use crate::machine::gcode::{FeedMode, Step};
+use crate::machine::gcode::{FeedCounts, FeedMode, Step};
 use crate::source::Span;
 use crate::units::number::{exact, push_fixed, push_integer, short};
 use crate::units::{S_PER_MIN, rad};
@@ -215,12 +215,13 @@ impl<'a> Program<'a> {
                 self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
                 let away = centre - from.centre;
                 let best = self.pace.best_speed(piece.length, turn / piece.length);
-                let speed = speed.min(best).min(self.followed(piece.length, piece.to.c.0 - from.c.0));
+                let turned = piece.to.c.0 - from.c.0;
+                let speed = speed.min(best).min(self.followed(piece.length, turned));
                 self.plan(piece.to, piece.length, turn, speed, Some(-away));
                 self.axes_of_cut(piece.to);
                 self.word(b'I', away.x);
                 self.word(b'J', away.y);
-                self.push_feed(speed, piece.length);
+                self.push_feed(speed, piece.length, turned);
             }
             _ => {
                 let parts = self.chords(piece, path.chord);
@@ -237,13 +238,13 @@ impl<'a> Program<'a> {
                     };
                     let to = Pose { centre, c };
                     let (length, ratio) = self.told([self.pose, to], path);
-                    let followed = self.followed(length, to.c.0 - self.pose.c.0);
-                    let speed = fastest.min(piece.feed * ratio).min(followed);
+                    let turned = to.c.0 - self.pose.c.0;
+                    let speed = fastest.min(piece.feed * ratio).min(self.followed(length, turned));
                     self.number();
                     self.text.extend_from_slice(b"G1");
                     self.plan(to, length, 0.0, speed, None);
                     self.axes_of_cut(to);
-                    self.push_feed(speed, length);
+                    self.push_feed(speed, length, turned);
                 }
             }
         }
@@ -321,11 +322,14 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Writes the word F of a move at a speed along a length.
-    fn push_feed(&mut self, speed: f64, length: f64) {
-        let feed = match self.job.profile.gcode.feed_mode {
-            FeedMode::G94 => speed * S_PER_MIN,
-            FeedMode::G93 => speed / length * S_PER_MIN,
+    /// Writes the word F of a move at a speed along a length, mm, while C turns by `turn` rad.
+    fn push_feed(&mut self, speed: f64, length: f64, turn: f64) {
+        let keys = &self.job.profile.gcode;
+        let feed = match (keys.feed_mode, keys.feed_counts) {
+            (FeedMode::G94, FeedCounts::Linear) => speed * S_PER_MIN,
+            // C turns evenly along the move, so the ratio of the two lengths is constant.
+            (FeedMode::G94, FeedCounts::All) => speed / length * length.hypot(turn.to_degrees()) * S_PER_MIN,
+            (FeedMode::G93, FeedCounts::Linear | FeedCounts::All) => speed / length * S_PER_MIN,
         };
         let decimals = if feed < FEED_FINE { FINE_DECIMALS } else { FEED_DECIMALS };
         self.text.extend_from_slice(b" F");

@@ -1,6 +1,6 @@
 //! Table of the keys `gcode.*`: their values and meanings.
 
-use super::{FeedMode, Letter};
+use super::{FeedCounts, FeedMode, Letter};
 use crate::machine::key::{Key, Takes, from};
 use crate::machine::word::{Off, Word as _, words};
 
@@ -11,6 +11,7 @@ pub(in crate::machine) const KEYS: &[Key] = &[
     Key { name: "gcode.wrapped", takes: Takes::Flag, about: "Whether that axis counts from 0 to 360 degrees only; a negative number then means to turn back." },
     Key { name: "gcode.arcs", takes: Takes::Flag, about: "Whether the controller knows arcs (G2, G3) on which that axis turns, too." },
     Key { name: "gcode.feed_mode", takes: Takes::Word(words::<FeedMode>), about: "What F says: the speed of X and Y (G94), or one over the time of each move (G93), for controllers\nthat would count degrees as mm." },
+    Key { name: "gcode.feed_counts", takes: Takes::Word(words::<FeedCounts>), about: "Axes whose motion F of G94 counts: \"linear\" = X and Y; \"all\" = the axis of the blade, too, its\ndegrees as if they were mm (grblHAL, FluidNC, grbl-Mega-5X)." },
     Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), Off::WORD), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written: the controller does as it was set." },
     Key { name: "gcode.max_blocks_s", takes: Takes::NumberOr(from(1.0, 1.0e5), Off::WORD), about: "Moves a second that the controller plans: F makes no move shorter than that, so that it never\nwaits for the next one; \"off\" = it keeps up." },
     Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },

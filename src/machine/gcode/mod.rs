@@ -31,6 +31,8 @@ pub struct Gcode {
     pub arcs: bool,
     /// Meaning of F.
     pub feed_mode: FeedMode,
+    /// Axes that F of G94 counts.
+    pub feed_counts: FeedCounts,
     /// Tolerance in P of G64; `None` = no G64.
     #[serde(with = "OrWord::<Off>")]
     pub blend_mm: Option<f64>,
@@ -111,6 +113,16 @@ impl FeedMode {
     }
 }
 
+/// Axes whose motion a speed in mm/min counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FeedCounts {
+    /// X and Y.
+    Linear,
+    /// X, Y in mm and the axis of the blade in degrees: the length of the move is the norm of all three.
+    All,
+}
+
 impl Default for Gcode {
     fn default() -> Self {
         Self {
@@ -118,6 +130,7 @@ impl Default for Gcode {
             wrapped: false,
             arcs: true,
             feed_mode: FeedMode::G94,
+            feed_counts: FeedCounts::Linear,
             blend_mm: Some(0.05),
             max_blocks_s: None,
             decimals: 4,

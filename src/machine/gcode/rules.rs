@@ -1,9 +1,10 @@
-//! Rules for the steps of a profile, for each list and between lists. A reader of a program must know which tool is down from
-//! the first step of each list, and a tool that is put down must be lifted again.
+//! Rules for the steps of a profile, for each list and between lists, and for what F means. A reader of a program must know
+//! which tool is down from the first step of each list, and a tool that is put down must be lifted again.
 
 use super::step::{Parameter, Step, WHAT_ACTS};
 use super::text::{self, Line, ProgramEnd};
 use super::words::{Flaw, Number};
+use super::{FeedCounts, FeedMode, Gcode};
 use crate::machine::MachineProfile;
 use crate::machine::fault::Fault;
 
@@ -63,6 +64,7 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
         faults.extend(lasting(&lists));
         faults.extend(shared_output(&lists));
         faults.extend(unasked(&lists, [("gcode.header", header), ("gcode.footer", footer)]));
+        faults.extend(mistimed(keys));
         // The first fault of a key is enough.
         let mut told: Vec<String> = Vec::new();
         faults.retain(|fault| {
@@ -286,6 +288,18 @@ fn unasked(lists: &[List], texts: [(&'static str, Vec<Line>); 2]) -> Vec<Fault> 
         ))
     };
     others.into_iter().chain(texts).filter_map(fault).collect()
+}
+
+/// Fault of arcs in inverse time on a planner that counts the degrees of the rotary axis. Such controllers multiply F by the
+/// number of chords of an arc and then take it for a speed: the arc takes the length of a chord times as long as asked
+/// (grblHAL and FluidNC, `mc_arc`).
+fn mistimed(keys: &Gcode) -> Option<Fault> {
+    let is_mistimed = keys.arcs && keys.feed_mode == FeedMode::G93 && keys.feed_counts == FeedCounts::All;
+    is_mistimed.then(|| {
+        let message = "`gcode.feed_mode` is \"G93\" with arcs, which the grbl family mistimes";
+        let hint = "take \"G94\" or `gcode.arcs = false`; others have `gcode.feed_counts = \"linear\"`";
+        Fault::of_range(&["gcode.feed_mode", "gcode.arcs", "gcode.feed_counts"], message.to_owned(), hint)
+    })
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
-use crate::machine::gcode::FeedMode;
+use crate::machine::gcode::{FeedCounts, FeedMode};
 use crate::units::S_PER_MIN;
 use crate::units::number::exact;
 use crate::verify::axes::crawl::{Asked, Axes};
@@ -461,9 +461,11 @@ impl<'a> Places<'a> {
         let rounding = 2.0 * Self::rounding(self.profile).axis();
         let size = if length > 0.0 { length } else { turned.abs() };
         let sure = ((size - rounding) / size.max(f64::MIN_POSITIVE)).max(SURE_MIN);
-        let pace = match self.profile.gcode.feed_mode {
-            FeedMode::G93 => feed / S_PER_MIN,
-            FeedMode::G94 => feed / S_PER_MIN / size.max(f64::MIN_POSITIVE),
+        let keys = &self.profile.gcode;
+        let pace = match (keys.feed_mode, keys.feed_counts) {
+            (FeedMode::G93, FeedCounts::Linear | FeedCounts::All) => feed / S_PER_MIN,
+            (FeedMode::G94, FeedCounts::Linear) => feed / S_PER_MIN / size.max(f64::MIN_POSITIVE),
+            (FeedMode::G94, FeedCounts::All) => feed / S_PER_MIN / length.hypot(turned).max(f64::MIN_POSITIVE),
         };
         pace * sure
     }
