@@ -491,6 +491,13 @@ mod tests {
              mistimes",
         );
         profile("", &["gcode.feed_counts=all", "gcode.feed_mode=G93", "gcode.arcs=false"]);
+        let hasty = "gcode.advance=[\"G0 Z9\", \"M64 P5\"]";
+        profile("", &[hasty]);
+        check(
+            &[hasty, "gcode.outputs=immediate"],
+            "profile/range: --set gcode.outputs=immediate: `gcode.advance` has M64 P5 behind G0 Z9, for which it does not \
+             wait",
+        );
         // Its default was not asked for.
         let strict = profile("", &["verify.max_heading_deg=0.05"]);
         assert!((strict.blade_tolerance() - 0.05_f64.to_radians()).abs() < 1e-12);

@@ -9,7 +9,7 @@ use crate::geom::{Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
-use crate::machine::gcode::{FeedCounts, FeedMode, Step};
+use crate::machine::gcode::{FeedCounts, FeedMode, SETTLE, Step};
 use crate::source::Span;
 use crate::units::number::{exact, push_fixed, push_integer, short};
 use crate::units::{S_PER_MIN, rad};
@@ -31,14 +31,27 @@ fn comment(text: &str) -> String {
     name.chars().take(NAME_CHARS).map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
-/// Steps as lines of a program, with a number in place of `#`.
-fn filled(steps: &[Step], blank: f64) -> String {
-    lines(&steps.iter().map(|step| step.filled(blank)).collect::<Vec<_>>())
+/// Steps as lines of a program.
+#[derive(Clone)]
+struct Lines {
+    text: Rc<str>,
+    /// True if the axes must stand before them.
+    must_stand: bool,
+    /// True if Z moves in them.
+    moves_z: bool,
 }
 
-/// Steps as lines of a program.
-fn lines(steps: &[Step]) -> String {
-    steps.iter().map(Step::to_string).collect::<Vec<_>>().join("\n")
+impl Lines {
+    fn new(steps: &[Step], job: &Job) -> Self {
+        let text = steps.iter().map(Step::to_string).collect::<Vec<_>>().join("\n").into();
+        let moves_z = steps.iter().any(|step| matches!(step, Step::Z { .. }));
+        Self { text, must_stand: job.profile.gcode.must_stand(steps), moves_z }
+    }
+
+    /// Lines with a number in place of `#`.
+    fn filled(steps: &[Step], blank: f64, job: &Job) -> Self {
+        Self::new(&steps.iter().map(|step| step.filled(blank)).collect::<Vec<_>>(), job)
+    }
 }
 
 /// A program under construction.
@@ -51,7 +64,9 @@ pub(super) struct Program<'a> {
     /// Pose of the axes, in coordinates of the cloth.
     pose: Pose,
     /// Lines that lower the knife and that lift it, formatted once for all cuts.
-    knife: [Rc<str>; 2],
+    knife: [Lines; 2],
+    /// True if no move may be under way.
+    stands: bool,
     /// Advance of the cloth so far, mm.
     station: u32,
     /// Number of numbered lines so far.
@@ -67,8 +82,9 @@ impl<'a> Program<'a> {
         let ([x, y, c], station) = (job.profile.home, context.marker.moved_on);
         let (pose, source) = (Pose::new(x + f64::from(station), y, rad(c)), context.source.name());
         let keys = &job.profile.gcode;
-        let knife = [&keys.knife_down, &keys.knife_up].map(|steps| lines(steps).into());
-        Self { job, source, text: Vec::new(), pose, knife, station, lines: 0, moves: 0, pace: Pace::new(job) }
+        let knife = [&keys.knife_down, &keys.knife_up].map(|steps| Lines::new(steps, job));
+        let pace = Pace::new(job);
+        Self { job, source, text: Vec::new(), pose, knife, stands: true, station, lines: 0, moves: 0, pace }
     }
 
     /// Writes the lines before the first move.
@@ -115,10 +131,10 @@ impl<'a> Program<'a> {
     pub(super) fn event(&mut self, event: Event) {
         let keys = &self.job.profile.gcode;
         match event {
-            Event::Stop => self.order(&lines(&keys.stop), 0.0),
-            Event::Advance => self.order(&lines(&keys.advance), 0.0),
+            Event::Stop => self.order(&Lines::new(&keys.stop, self.job), 0.0),
+            Event::Advance => self.order(&Lines::new(&keys.advance, self.job), 0.0),
             Event::AdvanceBy(mm) => {
-                self.order(&filled(&keys.advance, mm.into()), 0.0);
+                self.order(&Lines::filled(&keys.advance, mm.into(), self.job), 0.0);
                 self.station += mm;
                 self.pose.centre.x += f64::from(mm);
             }
@@ -170,22 +186,32 @@ impl<'a> Program<'a> {
         self.rapid(Pose { centre: drill.at - Vector::new(x, y), c: self.pose.c });
         if job.mode.cuts() {
             let number = drill.tool.into();
-            self.order(&filled(&keys.drill_down, number), job.profile.drill.dwell());
-            self.order(&filled(&keys.drill_up, number), 0.0);
+            self.order(&Lines::filled(&keys.drill_down, number, job), job.profile.drill.dwell());
+            self.order(&Lines::filled(&keys.drill_up, number, job), 0.0);
         }
     }
 
     /// Steps of the controller, which wait for the axes, followed by a dwell, s.
-    fn order(&mut self, steps: &str, dwell: f64) {
-        self.say(steps);
-        self.pace.wait(0.0);
-        if dwell > 0.0 {
-            self.number();
-            self.text.extend_from_slice(b"G4 P");
-            push_fixed(&mut self.text, dwell, FEED_DECIMALS);
-            self.text.push(b'\n');
-            self.pace.wait(dwell);
+    fn order(&mut self, steps: &Lines, dwell: f64) {
+        if steps.must_stand && !self.stands {
+            self.dwell(SETTLE);
         }
+        self.say(&steps.text);
+        self.pace.wait(0.0);
+        self.stands &= !steps.moves_z;
+        if dwell > 0.0 {
+            self.dwell(dwell);
+        }
+    }
+
+    /// Writes a rest of the axes, s.
+    fn dwell(&mut self, time: f64) {
+        self.number();
+        self.text.extend_from_slice(b"G4 P");
+        push_fixed(&mut self.text, time, FEED_DECIMALS);
+        self.text.push(b'\n');
+        self.pace.wait(time);
+        self.stands |= time >= SETTLE;
     }
 
     /// Writes a rapid.
@@ -198,6 +224,7 @@ impl<'a> Program<'a> {
             along: [way.try_normalize(0.0).unwrap_or_default(); 2],
             curvature: 0.0,
         });
+        self.stands = false;
         self.number();
         self.text.extend_from_slice(b"G0");
         self.axes(to);
@@ -254,6 +281,7 @@ impl<'a> Program<'a> {
     /// start.
     fn plan(&mut self, to: Pose, length: f64, turn: f64, speed: f64, arm: Option<Vector>) {
         self.moves += 1;
+        self.stands = false;
         let way = to.centre - self.pose.centre;
         let along = arm.map_or(way, |arm| left(arm) * turn.signum()).try_normalize(0.0).unwrap_or_default();
         let (sin, cos) = turn.sin_cos();

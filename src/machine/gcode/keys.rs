@@ -1,6 +1,6 @@
 //! Table of the keys `gcode.*`: their values and meanings.
 
-use super::{FeedCounts, FeedMode, Letter};
+use super::{FeedCounts, FeedMode, Letter, Outputs};
 use crate::machine::key::{Key, Takes, from};
 use crate::machine::word::{Off, Word as _, words};
 
@@ -16,6 +16,7 @@ pub(in crate::machine) const KEYS: &[Key] = &[
     Key { name: "gcode.max_blocks_s", takes: Takes::NumberOr(from(1.0, 1.0e5), Off::WORD), about: "Moves a second that the controller plans: F makes no move shorter than that, so that it never\nwaits for the next one; \"off\" = it keeps up." },
     Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },
     Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
+    Key { name: "gcode.outputs", takes: Takes::Word(words::<Outputs>), about: "When M64 to M66 and M68 act: \"queued\" = when the moves before them are over (LinuxCNC);\n\"immediate\" = when they are read (grblHAL, FluidNC), so that a rest stands before them." },
     Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from the tangent where the axis turns evenly along a piece." },
     Key { name: "gcode.chord_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Without arcs: how far a straight piece may leave its arc." },
     Key { name: "gcode.header", takes: Takes::Text, about: "Lines behind the first one, which chooses mm and absolute positions: a coordinate system (G54), a\ntool (T1 M6), what is switched. They move nothing." },

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub(super) use self::keys::KEYS;
 pub(super) use self::rules::faults;
 pub(super) use self::spelling::spellings;
-pub use self::step::{Number, Parameter, Step};
+pub use self::step::{Number, Parameter, SETTLE, Step};
 pub(super) use self::words::Flaw;
 use super::word::{Off, OrWord};
 
@@ -43,6 +43,8 @@ pub struct Gcode {
     pub decimals: u32,
     /// True if lines are numbered (N).
     pub line_numbers: bool,
+    /// When outputs are switched.
+    pub outputs: Outputs,
     /// Greatest angle of the blade from its orientation mode, where the axis turns evenly along a piece.
     pub heading_tolerance_deg: f64,
     /// Greatest deviation of a straight piece from its arc, without arcs.
@@ -69,6 +71,11 @@ impl Gcode {
     /// Resolution of positions, mm and degrees.
     pub fn step(&self) -> f64 {
         10_f64.powi(-self.decimals.cast_signed())
+    }
+
+    /// True if the axes must stand before steps: the controller obeys the first one when it reads it, even amid a move.
+    pub fn must_stand(&self, steps: &[Step]) -> bool {
+        self.outputs == Outputs::Immediate && steps.first().is_some_and(Step::acts_when_read)
     }
 }
 
@@ -123,6 +130,16 @@ pub enum FeedCounts {
     All,
 }
 
+/// Time at which a controller switches outputs (M64, M65, M68) and waits for inputs (M66).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outputs {
+    /// When the moves before them are over.
+    Queued,
+    /// When it reads them, even amid a move.
+    Immediate,
+}
+
 impl Default for Gcode {
     fn default() -> Self {
         Self {
@@ -135,6 +152,7 @@ impl Default for Gcode {
             max_blocks_s: None,
             decimals: 4,
             line_numbers: false,
+            outputs: Outputs::Queued,
             heading_tolerance_deg: 0.1,
             chord_mm: 0.002,
             header: String::new(),

@@ -65,6 +65,7 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
         faults.extend(shared_output(&lists));
         faults.extend(unasked(&lists, [("gcode.header", header), ("gcode.footer", footer)]));
         faults.extend(mistimed(keys));
+        faults.extend(lists.iter().filter_map(|list| hasty(list, keys)));
         // The first fault of a key is enough.
         let mut told: Vec<String> = Vec::new();
         faults.retain(|fault| {
@@ -300,6 +301,14 @@ fn mistimed(keys: &Gcode) -> Option<Fault> {
         let hint = "take \"G94\" or `gcode.arcs = false`; others have `gcode.feed_counts = \"linear\"`";
         Fault::of_range(&["gcode.feed_mode", "gcode.arcs", "gcode.feed_counts"], message.to_owned(), hint)
     })
+}
+
+/// Fault of a list with a step that acts when it is read, straight behind a move of Z.
+fn hasty(list: &List, keys: &Gcode) -> Option<Fault> {
+    let pair = list.steps.windows(2).find(|pair| matches!(pair[0], Step::Z { .. }) && keys.must_stand(&pair[1..]))?;
+    let message = format!("`{}` has {} behind {}, for which it does not wait", list.key, pair[1], pair[0]);
+    let hint = "put a rest between them, such as G4 P0.01, or see `gcode.outputs`";
+    Some(Fault::of_range(&[list.key, "gcode.outputs"], message, hint))
 }
 
 #[cfg(test)]

@@ -98,6 +98,8 @@ const OWN: std::ops::RangeInclusive<f64> = 100.0..=199.0;
 const PIN_MAX: f64 = 63.0;
 /// Greatest mode of a wait for an input.
 const WAIT_MAX: f64 = 4.0;
+/// Shortest rest after which the axes surely stand, s: `FluidNC` takes G4 in whole ms and does not wait for 0.
+pub const SETTLE: f64 = 0.01;
 /// Greatest number in other words; it exceeds every position, speed and time of a machine.
 const NUMBER_MAX: f64 = 1e6;
 
@@ -114,6 +116,11 @@ impl Step {
                 Self::Code { m: *m, parameters: parameters.collect() }
             }
         }
+    }
+
+    /// True if some controllers obey it when they read it, before the moves that they have planned are over: M64 to M66, M68.
+    pub(super) fn acts_when_read(&self) -> bool {
+        matches!(self, Self::Output { .. } | Self::Code { m: 66 | 68, .. })
     }
 
     /// True if it contains `#`.

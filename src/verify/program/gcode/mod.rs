@@ -12,12 +12,12 @@ use std::io::{BufRead, Read as _};
 use std::rc::Rc;
 
 use self::arc::Arc;
-use self::texts::{HEAD, Meaning, Text, bite, texts};
+use self::texts::{HEAD, Meaning, Stands, Text, bite, texts};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
-use crate::machine::gcode::{FeedCounts, FeedMode};
+use crate::machine::gcode::{FeedCounts, FeedMode, Outputs, SETTLE};
 use crate::units::S_PER_MIN;
 use crate::units::number::exact;
 use crate::verify::axes::crawl::{Asked, Axes};
@@ -88,6 +88,10 @@ pub(in crate::verify) struct Places<'a> {
     /// Rest since the last command beyond what the profile asks for, s; between moves there must be none.
     too_long: f64,
     dwell: Worst,
+    /// True if no move may be under way.
+    stands: bool,
+    /// Rest since the last move that is allowed if an output follows it, s.
+    settling: f64,
     axes: Axes,
     /// Number of lines read, and the buffer for the next one.
     lines: u64,
@@ -130,6 +134,8 @@ impl<'a> Places<'a> {
             rest_due: None,
             too_long: 0.0,
             dwell: Worst::new(&rules::DWELL, Some(REST_EPSILON)).in_unit("s too long"),
+            stands: true,
+            settling: 0.0,
             axes: Axes::new(profile),
             lines: 0,
             room: Vec::new(),
@@ -233,6 +239,7 @@ impl<'a> Places<'a> {
             let why = || format!("is {} where a rest of {} s belongs", quoted(written), exact(rest));
             let time = time.ok_or_else(why)?;
             self.rest_due = None;
+            self.stands |= time >= SETTLE;
             self.linger(time - rest);
             return Ok(());
         }
@@ -242,13 +249,13 @@ impl<'a> Places<'a> {
         if let Some((mm, others)) = bite(line, &self.profile.gcode.advance) {
             self.now.station =
                 self.now.station.checked_add(mm).ok_or("moves the cloth on farther than there is any")?;
-            self.obey(Meaning::Event(2))?;
+            self.obey(Meaning::Event(2), Stands::of(&self.profile.gcode.advance, self.profile))?;
             self.due.extend(others);
             return Ok(());
         }
         if let Some(text) = self.text(line) {
-            let (meaning, rest) = (text.meaning, text.lines[1..].to_vec());
-            self.obey(meaning)?;
+            let (meaning, stands, rest) = (text.meaning, text.stands, text.lines[1..].to_vec());
+            self.obey(meaning, stands)?;
             self.due.extend(rest);
             return Ok(());
         }
@@ -272,8 +279,19 @@ impl<'a> Places<'a> {
         if self.over {
             return Err(BEHIND_END.to_owned());
         }
-        self.linger(rest);
+        self.rest(rest);
         Ok(())
+    }
+
+    /// Rests the axes for a time, s. As long as they need to stand, that is no rest beyond the profile's if an output follows.
+    fn rest(&mut self, time: f64) {
+        let settling = match self.profile.gcode.outputs {
+            Outputs::Immediate if !self.stands => time.min(SETTLE),
+            Outputs::Immediate | Outputs::Queued => 0.0,
+        };
+        self.settling += settling;
+        self.stands |= time >= SETTLE;
+        self.linger(time - settling);
     }
 
     /// Text that begins with a line. If several tools are lifted by the same line, the tool that is down is meant.
@@ -300,10 +318,16 @@ impl<'a> Places<'a> {
         self.now.block = number.and_then(whole).unwrap_or(self.now.block);
     }
 
-    fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
+    fn obey(&mut self, meaning: Meaning, stands: Stands) -> Result<(), String> {
         if self.over && meaning != Meaning::End {
             return Err(BEHIND_END.to_owned());
         }
+        if stands.before && !self.stands {
+            return Err("acts while the axes move: a rest belongs before it".to_owned());
+        }
+        let settling = std::mem::take(&mut self.settling);
+        self.linger(if stands.before { 0.0 } else { settling });
+        self.stands &= !stands.moves_z;
         let was_down = self.now.knife;
         let is_change = match meaning {
             Meaning::Down => !was_down,
@@ -366,6 +390,9 @@ impl<'a> Places<'a> {
         if self.over {
             return Err(BEHIND_END.to_owned());
         }
+        let settling = std::mem::take(&mut self.settling);
+        self.linger(settling);
+        self.stands = false;
         let from = self.now;
         if from.drill != 0 {
             return Err("is a move while a drill is down".to_owned());

@@ -30,6 +30,23 @@ pub(super) enum Meaning {
 pub(super) struct Text {
     pub(super) lines: Vec<Rc<Expected>>,
     pub(super) meaning: Meaning,
+    pub(super) stands: Stands,
+}
+
+/// Relation of lines to the motion of the axes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Stands {
+    /// True if the axes must stand before the first line.
+    pub(super) before: bool,
+    /// True if Z moves in them.
+    pub(super) moves_z: bool,
+}
+
+impl Stands {
+    pub(super) fn of(steps: &[Step], profile: &MachineProfile) -> Self {
+        let moves_z = steps.iter().any(|step| matches!(step, Step::Z { .. }));
+        Self { before: profile.gcode.must_stand(steps), moves_z }
+    }
 }
 
 /// Lines of a profile with their meanings; the head comes first.
@@ -37,10 +54,10 @@ pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
     let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
     let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(HEAD), keys.header, keys.feed_mode.code());
-    let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning };
+    let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning, stands: Stands::default() };
     let steps = |steps: &[Step], drill: u8, meaning| {
         let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill.into()))).collect();
-        Text { lines, meaning }
+        Text { lines, meaning, stands: Stands::of(steps, profile) }
     };
     let drills = DRILLS.flat_map(|tool| {
         [steps(&keys.drill_down, tool, Meaning::Drill(tool)), steps(&keys.drill_up, tool, Meaning::Raise(tool))]
