@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::pace::{Move, Pace};
 use crate::back::target::{Context, Output};
-use crate::geom::{Rotation, Vector, left};
+use crate::geom::{Point, Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
@@ -236,8 +236,11 @@ impl<'a> Program<'a> {
         let fastest = x.speed.min(y.speed);
         let speed = piece.speed.min(fastest);
         let from = self.pose;
+        let keys = &self.job.profile.gcode;
+        let is_written =
+            |centre: Point| keys.arcs && keys.max_radius_mm.is_none_or(|most| (centre - from.centre).norm() <= most);
         match piece.arc {
-            Some(Arc { centre, turn }) if self.job.profile.gcode.arcs => {
+            Some(Arc { centre, turn }) if is_written(centre) => {
                 self.number();
                 self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
                 let away = centre - from.centre;

@@ -10,6 +10,7 @@ pub(in crate::machine) const KEYS: &[Key] = &[
     Key { name: "gcode.letter", takes: Takes::Word(words::<Letter>), about: "Target gcode: letter of the axis that turns the blade." },
     Key { name: "gcode.wrapped", takes: Takes::Flag, about: "Whether that axis counts from 0 to 360 degrees only; a negative number then means to turn back." },
     Key { name: "gcode.arcs", takes: Takes::Flag, about: "Whether the controller knows arcs (G2, G3) on which that axis turns, too." },
+    Key { name: "gcode.max_radius_mm", takes: Takes::NumberOr(from(100.0, 1.0e9), Off::WORD), about: "Greatest radius of an arc: flatter ones are written as straight moves. A controller that reckons\nin single precision misses an arc of 1 km by 0.06 mm (grblHAL, FluidNC); \"off\" = any." },
     Key { name: "gcode.feed_mode", takes: Takes::Word(words::<FeedMode>), about: "What F says: the speed of X and Y (G94), or one over the time of each move (G93), for controllers\nthat would count degrees as mm." },
     Key { name: "gcode.feed_counts", takes: Takes::Word(words::<FeedCounts>), about: "Axes whose motion F of G94 counts: \"linear\" = X and Y; \"all\" = the axis of the blade, too, its\ndegrees as if they were mm (grblHAL, FluidNC, grbl-Mega-5X)." },
     Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), Off::WORD), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written: the controller does as it was set." },

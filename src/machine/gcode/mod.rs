@@ -29,6 +29,9 @@ pub struct Gcode {
     pub wrapped: bool,
     /// True if the axis may turn on arcs.
     pub arcs: bool,
+    /// Greatest radius of an arc, mm; `None` = any.
+    #[serde(with = "OrWord::<Off>")]
+    pub max_radius_mm: Option<f64>,
     /// Meaning of F.
     pub feed_mode: FeedMode,
     /// Axes that F of G94 counts.
@@ -146,6 +149,7 @@ impl Default for Gcode {
             letter: Letter::C,
             wrapped: false,
             arcs: true,
+            max_radius_mm: None,
             feed_mode: FeedMode::G94,
             feed_counts: FeedCounts::Linear,
             blend_mm: Some(0.05),

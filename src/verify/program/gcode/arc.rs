@@ -38,6 +38,9 @@ impl Arc {
                 fixed(radii[1], keys.decimals + 1)
             ));
         }
+        if keys.max_radius_mm.is_some_and(|most| radii[0] > most + RADIUS_STEPS * keys.step()) {
+            return Err(format!("is an arc of radius {} mm, which this controller misses", fixed(radii[0], 0)));
+        }
         let angle = |v: Vector| v.y.atan2(v.x);
         let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);
         if turned != 0.0 && turned.min(TAU - turned) < SWEEP_MIN {
