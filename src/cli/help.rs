@@ -28,6 +28,7 @@ pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                    
   cutc explain iso/open-slit                  what a message means and what to do
   cutc manual many-files                      folders of files at once, several machines
   cutc profile init -o machine.toml           every key of a machine with its default
+  cutc profile list                           ready profiles of controllers, for -p NAME
   cutc profile show -p machine.toml           the values in effect
 ";
 

@@ -13,7 +13,8 @@ use crate::front::{self, Dialect};
 use crate::machine::layers::{LayerUses, NotLayers};
 use crate::machine::patterns::{Patterns, Quantity, Sizes};
 use crate::machine::plot::{Inner, Lines};
-use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Remarks, Selection, Start, load_given};
+use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Remarks, Selection, Start};
+use crate::machine::{SHIPPED, Shipped, load_given};
 use crate::source::Source;
 use crate::track;
 pub(super) use crate::units::number::counted;
@@ -25,9 +26,9 @@ pub(super) const NO_HEADING: Option<&str> = None;
 /// Which machine.
 #[derive(Debug, Args)]
 pub(super) struct Machine {
-    /// Machine profile to use; `cutc profile init` prints one with every key explained
+    /// Machine profile to use: a file, or the name of one that ships (`cutc profile list`)
     ///
-    /// Without it the defaults hold: a real cutter's, with a worn 6.6 mm knife.
+    /// `cutc profile init` prints one with every key explained. A file is taken before a profile of its name. Without it the defaults hold: a real cutter's, with a worn 6.6 mm knife.
     #[arg(short, long, value_name = "PROFILE.toml")]
     pub(super) profile: Option<PathBuf>,
 
@@ -374,18 +375,35 @@ impl Machine {
     }
 
     fn file(&self) -> anyhow::Result<Option<Source>> {
-        match &self.profile {
-            Some(path) if !path.exists() => {
-                let path = path.display();
-                Err(failure(
-                    format!("there is no profile `{path}`"),
-                    format!("check the spelling, or begin one with `cutc profile init -o {path}`"),
-                ))
-            }
-            Some(path) => files::read(path).map(Some),
-            None => Ok(None),
-        }
+        self.profile.as_deref().map(profile).transpose()
     }
+}
+
+/// Profile at a path. Unless there is such a file, a path that is the name of a shipped profile stands for that.
+pub(super) fn profile(path: &Path) -> anyhow::Result<Source> {
+    if let Some(shipped) = shipped(path).filter(|_| !path.is_file()) {
+        return Ok(shipped.source());
+    }
+    if path.exists() {
+        return files::read(path);
+    }
+    let shown = path.display().to_string();
+    if path.extension().is_none() && path.components().count() == 1 {
+        return Err(no_profile(&shown));
+    }
+    let hint = format!("check the spelling, or begin one with `cutc profile init -o {shown}`");
+    Err(failure(format!("there is no profile `{shown}`"), hint))
+}
+
+/// Failure for a name that no shipped profile has.
+pub(super) fn no_profile(name: &str) -> anyhow::Error {
+    let names: Vec<&str> = SHIPPED.iter().map(|shipped| shipped.name).collect();
+    failure(format!("there is no profile `{name}`"), format!("these ship: {}", names.join(", ")))
+}
+
+/// Shipped profile that a path names.
+pub(super) fn shipped(path: &Path) -> Option<&'static Shipped> {
+    path.to_str().and_then(Shipped::find)
 }
 
 /// The result of a command with a faulty profile.

@@ -8,9 +8,9 @@ use clap::{Args, Subcommand};
 use super::draft::Draft;
 use super::files;
 use super::finished::{DONE, Finished};
-use super::options::{Machine, refuse};
+use super::options::{self, Machine, no_profile, refuse};
 use super::report::pretty;
-use crate::machine::{Comments, MachineProfile, load, schema};
+use crate::machine::{Comments, Extent, MachineProfile, SHIPPED, Shipped, load, schema};
 
 /// Comment above the keys of a new profile.
 const HEAD: &str = "\
@@ -34,8 +34,18 @@ enum Command {
         #[command(flatten)]
         machine: Machine,
     },
+    /// Print the profiles that ship with the program, a controller a line: `-p NAME` takes one
+    List,
     /// Print a profile with every key, its meaning, range and default: a beginning for your machine
     Init {
+        /// Print what a machine with the controller of a shipped profile needs, with the values of that
+        #[arg(long = "for", value_name = "NAME")]
+        controller: Option<String>,
+
+        /// With `--for`: print every other key, too
+        #[arg(long, requires = "controller")]
+        all: bool,
+
         /// File to write, instead of standard output (`-`); never overwritten
         #[arg(short, long, value_name = "PROFILE.toml")]
         out: Option<PathBuf>,
@@ -45,7 +55,7 @@ enum Command {
     Schema,
     /// Say everything that is wrong with profiles
     Check {
-        /// Profiles to check
+        /// Profiles to check: files, or names of profiles that ship
         #[arg(required = true, value_name = "PROFILE.toml")]
         files: Vec<PathBuf>,
     },
@@ -58,13 +68,29 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             Err(refused) => refused,
         }),
         Command::Schema => Ok(Finished::text(pretty(&schema()), String::new(), DONE)),
-        Command::Init { out } => init(out.as_ref()),
+        Command::List => Ok(Finished::text(list(), String::new(), DONE)),
+        Command::Init { controller, all, out } => init(beginning(controller.as_deref(), *all)?, out.as_ref()),
         Command::Check { files } => Ok(check(files)),
     }
 }
 
-fn init(out: Option<&PathBuf>) -> anyhow::Result<Finished> {
-    let text = format!("{HEAD}{}", MachineProfile::default().to_toml(Comments::Explained));
+/// Names of the shipped profiles with their controllers.
+fn list() -> String {
+    let width = SHIPPED.iter().map(|shipped| shipped.name.len()).max().unwrap_or_default();
+    let lines = SHIPPED.iter().map(|shipped| format!("{:width$}  {}", shipped.name, shipped.about));
+    lines.collect::<Vec<_>>().join("\n") + "\n"
+}
+
+/// Profile to begin with: the defaults, or those of a controller.
+fn beginning(controller: Option<&str>, all: bool) -> anyhow::Result<String> {
+    let Some(name) = controller else {
+        return Ok(format!("{HEAD}{}", MachineProfile::default().to_toml(Comments::Explained)));
+    };
+    let shipped = Shipped::find(name).ok_or_else(|| no_profile(name))?;
+    Ok(shipped.beginning(if all { Extent::All } else { Extent::Needed }))
+}
+
+fn init(text: String, out: Option<&PathBuf>) -> anyhow::Result<Finished> {
     let Some(path) = out.filter(|out| !files::is_dash(out)) else {
         return Ok(Finished::text(text, String::new(), DONE));
     };
@@ -77,7 +103,7 @@ fn init(out: Option<&PathBuf>) -> anyhow::Result<Finished> {
 fn check(paths: &[PathBuf]) -> Finished {
     let mut finished = Finished::text(String::new(), String::new(), DONE);
     for path in paths {
-        let (said, code) = match files::read(path) {
+        let (said, code) = match if files::is_dash(path) { files::read(path) } else { options::profile(path) } {
             Err(error) => (format!("error: {error:#}\n"), super::USAGE),
             Ok(file) => match load(Some(&file), &[]) {
                 Ok(_) => (format!("{}: no errors\n", file.name()), DONE),

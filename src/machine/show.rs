@@ -31,11 +31,16 @@ impl MachineProfile {
 
     /// Profile as TOML, with every key in the order of [`KEYS`]; it loads back as the same profile.
     pub fn to_toml(&self, comments: Comments) -> String {
+        self.toml_of(comments, &|_| true)
+    }
+
+    /// Profile as TOML, with the keys whose names are to be kept, in the order of [`KEYS`].
+    pub(super) fn toml_of(&self, comments: Comments, keep: &dyn Fn(&str) -> bool) -> String {
         let table = self.to_table();
         let mut out = String::new();
         let mut section = "";
         // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
-        for key in KEYS {
+        for key in KEYS.iter().filter(|key| keep(key.name)) {
             if key.section() != section {
                 section = key.section();
                 let gap = if out.is_empty() { "" } else { "\n" };

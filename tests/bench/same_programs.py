@@ -4,9 +4,9 @@
     python3 tests/bench/same_programs.py OLD NEW [FILE]...           # two binaries; files beside the fixtures
     python3 tests/bench/same_programs.py OLD NEW --keep DIR          # what OLD wrote is kept there, for the next time
 
-Every fixture that is an input, and every FILE, is compiled to every target for every machine in fixtures/machines and for
-the default one. Digests, which change with the profile's text, are left out. Lists every program that differs, and every
-compile that ends otherwise; messages that differ are counted, and listed with --messages.
+Every fixture that is an input, and every FILE, is compiled to every target for every machine in fixtures/machines, for
+every profile that ships and for the default one. Digests, which change with the profile's text, are left out. Lists every
+program that differs, and every compile that ends otherwise; messages that differ are counted, and listed with --messages.
 """
 
 import argparse
@@ -57,6 +57,7 @@ def listed(files):
     inputs = [path for name in FOLDERS for path in sorted((ROOT / "fixtures" / name).glob("*.*"))]
     inputs = [path for path in inputs if path.suffix in {".cut", ".plt", ".csv"}]
     machines = [None, *sorted((ROOT / "fixtures/machines").glob("*.toml"))]
+    machines += sorted((ROOT / "src/machine/shipped").glob("*.toml"))
     for path in [*inputs, *(file.resolve() for file in files)]:
         for machine in machines:
             name = path.relative_to(ROOT / "fixtures") if path.is_relative_to(ROOT / "fixtures") else path.name

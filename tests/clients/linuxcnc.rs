@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use cutc::geom::{Point, polyline};
-use cutc::machine::{MachineProfile, load};
+use cutc::machine::{MachineProfile, Shipped, load};
 use cutc::source::Source;
 
 use crate::{interpret, is_there, tell, unprivileged};
@@ -25,17 +25,21 @@ fn fixtures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures")
 }
 
-fn profile(name: &str) -> MachineProfile {
-    let path = fixtures().join(format!("machines/{name}.toml"));
-    let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    load(Some(&Source::new(name, bytes).expect("it is small")), &[]).expect("a profile")
+/// A machine as `-p` takes it: the name of a profile that ships, or else a file of `fixtures/machines`.
+fn machine(name: &str) -> PathBuf {
+    Shipped::find(name).map_or_else(|| fixtures().join(format!("machines/{name}.toml")), |shipped| shipped.name.into())
 }
 
-/// Compiles a fixture for a machine of `fixtures/machines`; what it says as JSON, when it can be compiled.
+fn profile(name: &str) -> MachineProfile {
+    let file = || Source::new(name, std::fs::read(machine(name)).expect("readable")).expect("it is small");
+    load(Some(&Shipped::find(name).map_or_else(file, Shipped::source)), &[]).expect("a profile")
+}
+
+/// Compiles a fixture for a machine; what it says as JSON, when it can be compiled.
 fn compile(input: &Path, machine: &str, folder: &Path) -> Option<serde_json::Value> {
     let mut compile = Command::new(env!("CARGO_BIN_EXE_cutc"));
     compile.args(["compile", "--force", "-t", "gcode", "-o", "program.ngc", "--format", "json"]).arg(input);
-    compile.arg("-p").arg(fixtures().join(format!("machines/{machine}.toml"))).current_dir(folder);
+    compile.arg("-p").arg(self::machine(machine)).current_dir(folder);
     let compiled = compile.output().expect("the program starts");
     compiled.status.success().then(|| serde_json::from_slice(&compiled.stdout).expect("JSON"))
 }
@@ -116,12 +120,16 @@ fn the_interpreter_of_linuxcnc_takes_every_program_and_means_the_same_places() {
     }
     inputs.sort();
     let mut taken = 0;
-    for machine in ["linuxcnc", "fluidnc", "eccentric"] {
+    for machine in ["linuxcnc", "grblhal", "fluidnc", "mega5x", "eccentric"] {
         let keys = profile(machine).gcode;
         // Where the blade's axis stands among A, B and C.
         let axis = (keys.letter.byte() - b'A') as usize;
-        // One table takes all; of the others the markers and cut files show what differs.
-        let is_asked = |input: &&PathBuf| machine == "linuxcnc" || input.extension().is_some_and(|end| end == "cut");
+        // One table takes all; of the others the markers and cut files show what differs, of those like another the markers.
+        let is_asked = |input: &&PathBuf| match machine {
+            "linuxcnc" => true,
+            "grblhal" | "mega5x" => input.parent().is_some_and(|folder| folder.ends_with("markers")),
+            _ => input.extension().is_some_and(|end| end == "cut"),
+        };
         for input in inputs.iter().filter(is_asked) {
             let name = format!("{machine}: {}", input.display());
             if compile(input, machine, folder.path()).is_none() {
@@ -229,7 +237,7 @@ fn the_interpreter_of_linuxcnc_and_the_verifier_read_a_program_that_is_spelled_b
     assert!(canon(&written).len() > 100 && canon(&written) == canon(&hand));
     let mut verify = Command::new(env!("CARGO_BIN_EXE_cutc"));
     verify.args(["verify", "hand.ngc", "--source"]).arg(&input).current_dir(folder.path());
-    let judged = verify.arg("-p").arg(fixtures().join("machines/linuxcnc.toml")).output().expect("the program starts");
+    let judged = verify.args(["-p", "linuxcnc"]).output().expect("the program starts");
     assert!(judged.status.success(), "{}", String::from_utf8_lossy(&judged.stdout));
 }
 

@@ -238,7 +238,7 @@ fn files_that_cannot_be_used_are_named_with_what_to_do() {
     check("compile circle.cut -o nowhere/folder/", "there is no directory `nowhere/folder`");
     check("compile circle.cut -o junk.cut/x.csv", "there is no directory `junk.cut`");
     check("compile circle.cut -p nowhere.toml", "there is no profile `nowhere.toml`");
-    check("profile check nowhere.toml", "there is no such file");
+    check("profile check nowhere.toml", "there is no profile `nowhere.toml`");
     assert_eq!(room.names(), ["circle.cut", "folder", "junk.cut"]);
 }
 

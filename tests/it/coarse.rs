@@ -7,7 +7,7 @@ use std::path::Path;
 
 use cutc::back::TARGETS;
 use cutc::diagnostic::Diagnostics;
-use cutc::machine::{Job, load};
+use cutc::machine::{Job, Shipped, load};
 use cutc::pipeline::{self, Order};
 use cutc::source::Source;
 
@@ -34,8 +34,7 @@ fn job(keys: &[&str]) -> Job {
 }
 
 fn jobs() -> Vec<Job> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/machines/fluidnc.toml");
-    let table = Source::new("fluidnc.toml", std::fs::read(path).expect("readable")).expect("it is small");
+    let table = Shipped::find("fluidnc").expect("it ships").source();
     let fluidnc = Job { profile: load(Some(&table), &[]).expect("a legal profile"), ..Job::default() };
     vec![job(&["gcode.decimals=3"]), job(&["gcode.arcs=false"]), fluidnc]
 }

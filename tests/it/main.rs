@@ -15,6 +15,7 @@ mod cli;
 mod coarse;
 mod codes;
 mod common;
+mod controllers;
 mod damaged;
 mod drawing;
 mod drives;

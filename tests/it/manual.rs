@@ -9,6 +9,7 @@ use cutc::back::TARGETS;
 use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
 use cutc::ir::verdict::Rule;
+use cutc::machine::SHIPPED;
 use cutc::machine::keys::{self, KEYS};
 use cutc::machines::{Listed, MACHINES, Machine};
 use cutc::manual::{PAGES, Page, glossary};
@@ -167,6 +168,7 @@ fn list(name: &str) -> String {
         "targets" => TARGETS.iter().map(|target| format!("`{}`: {}.", target.name, target.about)).collect(),
         "sewing formats" => sew::FORMATS.iter().map(|format| format!("`{}`: {}.", format.name, format.about)).collect(),
         "rules" => rules(RULES),
+        "profiles" => SHIPPED.iter().map(|shipped| format!("`{}`: {}.", shipped.name, shipped.about)).collect(),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();
             code::all().map(|code| format!("`{}` ({}): {}", code.name, severity(code), code.about)).collect()

@@ -12,6 +12,7 @@ use crate::cli::compile::one_map;
 use crate::cli::destination::targets_of_many;
 use crate::cli::files;
 use crate::cli::finished::{Finished, failure};
+use crate::cli::options;
 use crate::machine::Job;
 
 /// The file with the options of a folder.
@@ -112,7 +113,7 @@ fn words(file: &Path, folder: &Path) -> anyhow::Result<Vec<OsString>> {
                     continue;
                 }
                 toml::Value::Boolean(false) => continue,
-                toml::Value::String(path) if FILES.contains(&key.as_str()) => folder.join(path).into_os_string(),
+                toml::Value::String(path) if FILES.contains(&key.as_str()) => beside(folder, &key, &path),
                 toml::Value::String(text) => text.into(),
                 toml::Value::Integer(number) => number.to_string().into(),
                 toml::Value::Float(_) | toml::Value::Datetime(_) | toml::Value::Array(_) | toml::Value::Table(_) => {
@@ -125,6 +126,13 @@ fn words(file: &Path, folder: &Path) -> anyhow::Result<Vec<OsString>> {
         }
     }
     Ok(words)
+}
+
+/// File of an option as it is relative to the folder; a profile may be one that ships.
+fn beside(folder: &Path, key: &str, path: &str) -> OsString {
+    let file = folder.join(path);
+    let ships = key == "profile" && !file.is_file() && options::shipped(Path::new(path)).is_some();
+    if ships { path.into() } else { file.into_os_string() }
 }
 
 #[cfg(test)]
@@ -153,6 +161,8 @@ mod tests {
         let names: Vec<_> = settings.targets.iter().map(|target| target.name).collect();
         assert_eq!(names, ["gcode", "svg"]);
         assert_eq!((settings.job.profile.knife.width_mm, settings.job.profile.time.period_ms), (7.2, 2.0));
+        let settings = read("profile = \"fluidnc\"", &["in", "-o", "out"]).expect("a profile that ships");
+        assert_eq!(settings.job.origin.name(), "fluidnc");
         let settings = read("no-verify = false", &["in", "-o", "out", "--set", "knife.width_mm=5"]).expect("options");
         assert_eq!((settings.targets[0].name, settings.job.profile.knife.width_mm), ("csv", 5.0));
     }

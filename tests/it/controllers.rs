@@ -1,0 +1,113 @@
+//! Profiles that ship, a controller each: what a machine of that kind is given for a small job, and how they are taken by name.
+
+use std::fs;
+use std::path::Path;
+
+use cutc::machine::SHIPPED;
+
+use crate::support::room::{DONE, FAULTY, Room, USAGE};
+
+/// A room with a pocket: straight edges, one that bows, a hole and a stop.
+fn room() -> Room {
+    let room = Room::new();
+    let pocket = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/controllers/pocket.cut");
+    fs::copy(pocket, room.at("pocket.cut")).expect("a copy");
+    room
+}
+
+/// SHA-256 of the machine of a program, as its provenance records it.
+fn digest(room: &Room, program: &str) -> String {
+    let meta: serde_json::Value = serde_json::from_str(&room.text(&format!("{program}.meta.json"))).expect("JSON");
+    meta["profile_sha256"].as_str().expect("a digest").to_owned()
+}
+
+#[test]
+fn a_pocket_in_the_dialect_of_each_controller() {
+    let room = room();
+    for shipped in SHIPPED {
+        let name = shipped.name;
+        room.expect(&format!("compile pocket.cut -p {name} -t gcode -o {name}.ngc"), DONE);
+        let program = room.text(&format!("{name}.ngc"));
+        insta::assert_snapshot!(name, program);
+        room.expect(&format!("verify {name}.ngc --source pocket.cut -p {name}"), DONE);
+        room.expect(&format!("compile pocket.cut -p {name} -t gcode -o {name}.ngc --force"), DONE);
+        assert!(room.text(&format!("{name}.ngc")) == program, "{name}: another program of the same input");
+    }
+}
+
+#[test]
+fn a_profile_that_ships_is_taken_by_name_with_settings_on_top() {
+    let room = room();
+    let (listed, _) = room.expect("profile list", DONE);
+    assert_eq!(listed.lines().count(), SHIPPED.len());
+    for (line, shipped) in listed.lines().zip(SHIPPED) {
+        assert!(line.starts_with(shipped.name) && line.ends_with(shipped.about) && line.len() <= 100, "{line}");
+        let name = shipped.name;
+        room.expect(&format!("profile check {name}"), DONE);
+        room.expect(&format!("profile init --for {name} -o {name}.toml"), DONE);
+        room.expect(&format!("compile circle.cut -p {name} -t gcode -o named.ngc --force"), DONE);
+        room.expect(&format!("compile circle.cut -p {name}.toml -t gcode -o file.ngc --force"), DONE);
+        assert_eq!(digest(&room, "named.ngc"), digest(&room, "file.ngc"), "{name}");
+    }
+    let (shown, _) = room.expect("profile show -p fluidnc --set gcode.letter=B", DONE);
+    assert!(shown.contains("letter = \"B\"") && shown.contains("feed_mode = \"G93\""), "{shown}");
+    let (program, _) = room.expect("compile circle.cut -p fluidnc --set gcode.letter=B -t gcode -o -", DONE);
+    assert!(program.contains("(machine: fluidnc, with a key set)"), "{program}");
+}
+
+#[test]
+fn a_file_is_taken_before_a_profile_of_its_name() {
+    let room = room();
+    room.write("fluidnc", b"knife.width_mm = 3\n");
+    let (shown, _) = room.expect("profile show -p fluidnc", DONE);
+    assert!(shown.contains("width_mm = 3.0") && shown.contains("feed_mode = \"G94\""), "{shown}");
+    fs::create_dir(room.at("grblhal")).expect("writable");
+    let (shown, _) = room.expect("profile show -p grblhal", DONE);
+    assert!(shown.contains("feed_mode = \"G93\""), "{shown}");
+}
+
+#[test]
+fn a_name_that_no_profile_has_is_answered_with_those_that_ship() {
+    let room = room();
+    let names: Vec<&str> = SHIPPED.iter().map(|shipped| shipped.name).collect();
+    let known = format!("hint: these ship: {}", names.join(", "));
+    for arguments in ["compile circle.cut -p fluid", "profile init --for fluid", "profile check fluid"] {
+        let (_, stderr) = room.expect(arguments, USAGE);
+        assert!(stderr.contains("there is no profile `fluid`") && stderr.contains(&known), "{stderr}");
+        assert!(stderr.lines().all(|line| line.len() <= 100), "{stderr}");
+    }
+}
+
+#[test]
+fn an_output_that_does_not_wait_for_moves_is_switched_where_the_axes_stand() {
+    let room = room();
+    let held = "\nG4 P0.010\nM64 P1\nG4 P0.300\nM65 P1\n";
+    for name in ["grblhal", "grblhal-arcs", "fluidnc", "fluidnc-arcs", "mega5x"] {
+        let (program, _) = room.expect(&format!("compile pocket.cut -p {name} -t gcode -o -"), DONE);
+        assert!(program.contains(held), "{name}: {program}");
+        let check = |from: &str, to: &str, expected: &str| {
+            let damaged = program.replacen(from, to, 1);
+            assert_ne!(damaged, program, "{name}: {from}");
+            room.write("damaged.ngc", damaged.as_bytes());
+            let (said, _) = room.expect(&format!("verify damaged.ngc --source pocket.cut -p {name}"), FAULTY);
+            assert!(said.contains(expected), "{name}: {said}");
+        };
+        // The drill would come down while the head is still on its way.
+        check("G4 P0.010\n", "", "acts while the axes move: a rest belongs before it");
+        check("G4 P0.010\n", "G4 P0.000\n", "acts while the axes move: a rest belongs before it");
+        check("G4 P0.010\n", "G4 P0.020\n", "verify/dwell");
+        // Nothing is switched after this rest.
+        check("\nG1 X70.0000", "\nG4 P0.010\nG1 X70.0000", "verify/dwell");
+    }
+}
+
+#[test]
+fn a_flat_arc_is_a_straight_move_for_a_controller_that_would_miss_it() {
+    let room = room();
+    room.expect("compile pocket.cut -p grblhal-arcs --set gcode.max_radius_mm=off -t gcode -o any.ngc", DONE);
+    room.expect("compile pocket.cut -p grblhal-arcs -t gcode -o some.ngc", DONE);
+    let arcs = |name: &str| room.text(name).lines().filter(|line| line.contains(" I")).count();
+    assert_eq!([arcs("any.ngc"), arcs("some.ngc")], [4, 3]);
+    let (said, _) = room.expect("verify any.ngc --source pocket.cut -p grblhal-arcs", FAULTY);
+    assert!(said.contains("is an arc of radius 31152 mm, which this controller misses"), "{said}");
+}
