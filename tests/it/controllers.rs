@@ -111,3 +111,14 @@ fn a_flat_arc_is_a_straight_move_for_a_controller_that_would_miss_it() {
     let (said, _) = room.expect("verify any.ngc --source pocket.cut -p grblhal-arcs", FAULTY);
     assert!(said.contains("is an arc of radius 31152 mm, which this controller misses"), "{said}");
 }
+
+#[test]
+fn a_cut_that_is_little_longer_than_the_blade_is_plunged_where_that_would_turn_on_the_spot() {
+    let room = Room::new();
+    let name = "notches-that-lean-touch-and-stand-at-a-corner.cut";
+    let notches = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/iso").join(name);
+    fs::copy(notches, room.at("notches.cut")).expect("a copy");
+    for (machine, corner) in [("fluidnc", 22), ("fluidnc", 30), ("linuxcnc", 26)] {
+        room.expect(&format!("compile notches.cut -p {machine} --set corner.angle_deg={corner} -t gcode -o -"), DONE);
+    }
+}

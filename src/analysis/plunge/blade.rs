@@ -12,6 +12,10 @@ const HEEL_COSINE_MIN: f64 = 0.4;
 /// Longest motion of a tip that counts as standing still, in tolerances: smoothing moves a tip as far.
 pub(super) const STILL_TOLERANCES: f64 = 2.0;
 
+/// Least radius, mm, on which a moving blade turns from its chord to the tangent of its path. Decimals of a controller, 0.0001 mm,
+/// cannot tell the headings on a tighter one to within half a degree.
+const TURN_RADIUS_MIN: f64 = 0.75;
+
 /// True if a blade, given from heel to tip, stands across a path with this direction at its heel.
 pub fn stands_across(blade: Vector, direction: Vector) -> bool {
     blade.dot(&direction) < HEEL_COSINE_MIN * blade.norm()
@@ -63,6 +67,12 @@ impl Plunge {
         self.covers_all || self.way(path) <= STILL_TOLERANCES * tolerance
     }
 
+    /// True if the way is too short for the blade to turn from the chord to the tangent of the path.
+    pub fn turns_on_the_spot(&self, path: &[Point]) -> bool {
+        let along = polyline::direction(path[self.chord], path[self.chord + 1]).filter(|_| !self.covers_all);
+        along.is_some_and(|along| self.way(path) < TURN_RADIUS_MIN * angle::turn(self.blade(), along).abs())
+    }
+
     /// Vector from heel to tip, mm.
     pub fn blade(&self) -> Vector {
         self.tip - self.heel
@@ -94,6 +104,18 @@ mod tests {
         assert_eq!(plunges.map(|plunge| plunge.has_way(&path, 0.0)), [true, false, false]);
         assert_eq!(plunges.map(|plunge| plunge.covers_all), [false, false, true]);
         assert_eq!(plunges.map(|plunge| plunge.tip.x), [5.0, 6.0, 6.0]);
+    }
+
+    #[test]
+    fn a_blade_turns_on_the_spot_where_little_way_is_left_behind_a_bend() {
+        // The path turns by 45 degrees under a blade of 6 mm, whose chord is between both directions.
+        let turns = |end: f64| {
+            let path = [Point::new(0.0, 0.0), Point::new(5.0, 0.0), Point::new(5.0 + end, end)];
+            Plunge::at_start(&path, 6.0).turns_on_the_spot(&path)
+        };
+        assert_eq!([0.5, 1.0, 2.0].map(turns), [false, true, false]);
+        let straight = [Point::new(0.0, 0.0), Point::new(6.1, 0.0)];
+        assert!(!Plunge::at_start(&straight, 6.0).turns_on_the_spot(&straight));
     }
 
     #[test]

@@ -22,6 +22,17 @@ const BEND_SHARE: f64 = 0.7;
 /// Length of a run examined from its plunge, in blade widths: the blade spans less on any curve that it fits.
 pub const REACH: f64 = 4.0;
 
+/// Motion of a blade on a run between plunge and lift.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Leeway {
+    /// The blade covers the whole run, within the deviation that is allowed anyway.
+    None,
+    /// The run is so little longer than the blade that this would turn to the tangent nearly on the spot.
+    OnTheSpot,
+    /// The blade moves along the run.
+    Free,
+}
+
 /// Deviation of the start of an open run from the blade that is plunged there.
 #[derive(Debug, Clone, Copy)]
 pub struct Deviation {
@@ -35,8 +46,8 @@ pub struct Deviation {
     /// True if the deviation is at most that of an arc with the same turn, at a bend at most the tolerance, and the blade does
     /// not stand across the path.
     pub fits: bool,
-    /// True if the blade covers the whole run, within the deviation that is allowed anyway.
-    pub covers_all: bool,
+    /// Motion of the blade between plunge and lift.
+    pub leeway: Leeway,
     /// True if the path under the blade turns gradually, and not at a single bend.
     pub is_curve: bool,
     /// Net turn of the path under the blade, rad: left less right turns, absolute, so that rounding cancels.
@@ -77,7 +88,7 @@ impl Deviation {
             distance,
             most: arc.min(if distance > WORTH_SHARE * tolerance { distance } else { 0.0 }) + tolerance,
             fits: under.is_sure(tolerance) && distance <= arc + share * tolerance,
-            covers_all: under.plunge.stands_still(&under.path, tolerance),
+            leeway: under.leeway(tolerance),
             is_curve: turns.is_curve,
             turned: turns.signed,
         })
@@ -89,9 +100,15 @@ impl Deviation {
     }
 
     /// True if the blade may plunge like that: it fits the path and deviates only slightly, within its passing tolerance if it
-    /// covers the whole run.
+    /// has no way to turn.
     pub fn is_good(&self, around: &Surroundings) -> bool {
-        self.fits && self.is_slight(around) && (!self.covers_all || self.distance <= PASSING_SHARE * around.tolerance)
+        let may_pass = !self.is_one_plunge() || self.distance <= PASSING_SHARE * around.tolerance;
+        self.fits && self.is_slight(around) && may_pass
+    }
+
+    /// True if the blade has no way to turn between plunge and lift.
+    pub fn is_one_plunge(&self) -> bool {
+        self.leeway != Leeway::Free
     }
 }
 
@@ -163,6 +180,16 @@ impl Under {
                 .take_while(|(vertex, _)| *vertex <= self.plunge.chord)
                 .chain(behind)
                 .any(|far| is_near(&far))
+    }
+
+    fn leeway(&self, tolerance: f64) -> Leeway {
+        if self.plunge.turns_on_the_spot(&self.path) {
+            Leeway::OnTheSpot
+        } else if self.plunge.stands_still(&self.path, tolerance) {
+            Leeway::None
+        } else {
+            Leeway::Free
+        }
     }
 
     fn distance(&self, vertex: usize) -> f64 {

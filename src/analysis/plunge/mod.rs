@@ -12,5 +12,5 @@ mod overlaps;
 
 pub use blade::{PASSING_SHARE, Plunge, stands_across};
 pub use cut::BladePlacement;
-pub use deviation::{Deviation, REACH, WORTH_SHARE};
+pub use deviation::{Deviation, Leeway, REACH, WORTH_SHARE};
 pub use overlaps::{Overlap, heel_share, overlaps};

@@ -2,7 +2,7 @@
 
 use super::stretch::{REJOINED, Way};
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::{Deviation, REACH};
+use crate::analysis::plunge::{Deviation, Leeway, REACH};
 use crate::analysis::tight::{TightCurve, least_radius, radius};
 use crate::ir::toolpath::{Run, Shape};
 
@@ -31,7 +31,8 @@ pub(super) fn curved_start(run: &Run, around: &Surroundings) -> Option<CurvedSta
         let start = if vertex == 0 { run.ends[0] } else { REJOINED };
         let end = if to < way.length() { REJOINED } else { run.ends[1] };
         let deviation = Deviation::of(&way.part(station, to.min(way.length()), [start, end]), around)?;
-        Some(Deviation { covers_all: deviation.covers_all && to >= way.length(), ..deviation }).filter(is_bad)
+        let leeway = if to >= way.length() { deviation.leeway } else { Leeway::Free };
+        Some(Deviation { leeway, ..deviation }).filter(is_bad)
     };
     let deviation = from(0)?;
     let end = (1..way.chords()).find(|&vertex| from(vertex).is_none()).unwrap_or(way.chords());

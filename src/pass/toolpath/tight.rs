@@ -25,7 +25,7 @@ use super::scene::Scene;
 use super::start::{CurvedStart, curved_start};
 use super::tight_report::{Report, Treatment};
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::{Plunge, overlaps};
+use crate::analysis::plunge::{Leeway, Plunge, overlaps};
 use crate::analysis::tight::{TightCurve, joined, tight_curves};
 use crate::diagnostic::Diagnostics;
 use crate::geom::region::Ray;
@@ -126,12 +126,12 @@ fn treatment(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Treatme
     }
 }
 
-/// True if the curve at the start of a run is nibbled. Where curves are followed, that is one which the blade cannot enter or
-/// which it covers; where they are refused, one from which it deviates only slightly.
+/// True if the curve at the start of a run is nibbled. Where curves are followed, that is one which the blade cannot enter, which
+/// it covers or on which it has no way to turn; where they are refused, one from which it deviates only slightly.
 fn is_start_nibbled(start: &CurvedStart, treatment: Treatment, around: &Surroundings) -> bool {
     match treatment {
         Treatment::Nibbled => true,
-        Treatment::Followed(_) => !start.deviation.fits || start.deviation.covers_all,
+        Treatment::Followed(_) => !start.deviation.fits || start.deviation.is_one_plunge(),
         Treatment::Refused => start.deviation.is_slight(around),
         Treatment::Covered => false,
     }
@@ -143,7 +143,7 @@ fn is_best_covered(run: &Run, CurvedStart { deviation, curve }: &CurvedStart, ar
     let is_refused = around.knife.tight_curves == TightCurves::Refuse && !deviation.is_slight(around);
     // A run lifted amid a contour is only a part of it.
     let is_part = run.ends.iter().any(|end| end.side == Side::Contour);
-    deviation.covers_all
+    deviation.leeway == Leeway::None
         && deviation.fits
         && deviation.turned <= COVERED_TURN
         && !is_refused

@@ -81,7 +81,7 @@ impl Fade {
         }
         let fading = if arc.length - fading < least { arc.length } else { fading };
         let longest = self.length * (8.0 * BEND_SHARE * self.permitted / (FADE_BEND * self.lead.abs())).sqrt();
-        let mut count = (fading / longest).ceil().max(1.0) as usize;
+        let mut count = (fading / longest).ceil().min((fading / least).floor()).max(1.0) as usize;
         let mut parts = loop {
             let (parts, askew) = self.divided(beside, fading, count);
             if askew <= BEND_SHARE * self.permitted || fading / (2 * count) as f64 <= least {
