@@ -17,7 +17,7 @@ mod svg;
 mod target;
 
 pub use target::{
-    ArcTarget, ArcWriter, BeginPage, Context, Emit, Estimate, Outcome, Output, PageWriter, Parts, Proof, Target,
+    ArcTarget, ArcWriter, BeginPage, Beside, Context, Emit, Estimate, Outcome, Output, PageWriter, Parts, Proof, Target,
 };
 
 use crate::ir::Motion;

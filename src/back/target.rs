@@ -93,6 +93,17 @@ pub struct Outcome<'a> {
     pub deviations: &'a [Declaration],
     /// True if the verifier judged the setpoints.
     pub is_judged: bool,
+    /// Programs that the same compile writes to files; empty when they are refused.
+    pub programs: &'a [Beside],
+}
+
+/// Program that is written beside a page about it.
+#[derive(Debug)]
+pub struct Beside {
+    /// Name of its file.
+    pub name: String,
+    /// BLAKE3 of its bytes, as in its provenance.
+    pub blake3: String,
 }
 
 /// The refusals of a target that expresses everything.

@@ -52,7 +52,7 @@ impl Profile {
         Self {
             file: job.origin.file.clone(),
             sha256: job.profile.digest(),
-            set: job.origin.set.iter().cloned().collect(),
+            set: job.origin.set.keys().cloned().collect(),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::ir::declaration::Total;
 use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle, ToolKind};
-use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, rules, word};
+use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, rules};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
@@ -113,7 +113,7 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     }
     if let Some(spent) = &program.spent {
         line("spent", shares(&spent.parts(), spent.total()));
-        let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();
+        let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (bound.to_string(), time)).collect();
         let limited = shares(&bounds, spent.cut);
         if !limited.is_empty() {
             line("limited by", limited);

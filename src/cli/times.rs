@@ -8,7 +8,7 @@ use crate::ir::Marker;
 use crate::ir::marker::Piece;
 use crate::ir::toolpath::Event;
 use crate::machine::MachineProfile;
-use crate::pipeline::{Program, Spent, Waits, significant, waits, word};
+use crate::pipeline::{Program, Spent, Waits, significant, waits};
 use crate::units::number::fixed;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
 
@@ -72,7 +72,7 @@ pub(super) fn text(pieces: &[Timed]) -> String {
             let _ = write!(out, "  {:>6}", fixed(part, 2));
         }
         if let Some((bound, _)) = spent.bounds.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
-            let _ = write!(out, "  {}", word(*bound));
+            let _ = write!(out, "  {bound}");
         }
         let mut waits: Vec<&str> = asked.clone();
         waits.extend(waits_for.iter().take(NAMED).map(String::as_str));

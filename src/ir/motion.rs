@@ -5,6 +5,8 @@
 
 mod poses;
 
+use std::fmt;
+
 pub use poses::{Derivatives, Glide, Poses, StraightCut};
 
 use super::toolpath::{Edge, Event, OrientationMode, Overcut, Pose, Side};
@@ -26,6 +28,8 @@ pub struct Motion {
     pub phases: Vec<Phase>,
     /// Task of each plunge and each drill in the phases, in order.
     pub tasks: Vec<Task>,
+    /// Number of ticks of its cuts bound by each limit.
+    pub shares: Shares,
 }
 
 /// Task of a plunge or a drill.
@@ -176,6 +180,20 @@ impl Phase {
         let spells = self.spells.iter().zip(ends).map(|(spell, end)| (spell.first..end, spell.block));
         let none = self.spells.is_empty().then_some((0..self.ticks, 0));
         spells.chain(none).flat_map(move |(ticks, block)| ticks.map(move |i| (self.pose(i), block)))
+    }
+}
+
+impl fmt::Display for Bound {
+    /// Name in words, as in `jerk of c`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Ends => f.write_str("starts and stops"),
+            Self::Feed => f.write_str("feed"),
+            Self::Axis { axis, order } => {
+                let (axis, order) = (usize::from(axis), usize::from(order));
+                write!(f, "{} of {}", ["speed", "acceleration", "jerk"][order], ["x", "y", "c"][axis])
+            }
+        }
     }
 }
 

@@ -47,8 +47,11 @@ pub fn load_given(file: Option<&Source>, sets: &[String]) -> Result<(MachineProf
     }
     let name = file.map(|file| file.name().rsplit(['/', '\\']).next().unwrap_or_default().to_owned());
     let given = draft.given.iter().map(|(key, _)| key.clone()).collect();
-    let is_set = |(key, origin): &(String, Origin)| matches!(origin, Origin::Argument(_)).then(|| key.clone());
-    let set = draft.given.iter().filter_map(is_set).collect();
+    let set = |(key, origin): &(String, Origin)| match origin {
+        Origin::Argument(argument) => Some((key.clone(), argument.split_once('=')?.1.trim().to_owned())),
+        Origin::File(_) => None,
+    };
+    let set = draft.given.iter().filter_map(set).collect();
     let origin = origin::Origin { file: name, set, given };
     Ok((draft.finish()?, origin))
 }

@@ -1,6 +1,6 @@
 //! Origin of a profile as named by reports and programs, and the keys that the user gave.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Name of the machine if no file was given.
 const DEFAULT: &str = "default machine";
@@ -10,8 +10,8 @@ const DEFAULT: &str = "default machine";
 pub struct Origin {
     /// Name of its file, without the directory; `None` if none was given.
     pub file: Option<String>,
-    /// Keys set by arguments.
-    pub set: BTreeSet<String>,
+    /// Keys set by arguments, with their values as they were typed.
+    pub set: BTreeMap<String, String>,
     /// Keys given by the file or by arguments.
     pub given: BTreeSet<String>,
 }
@@ -36,7 +36,7 @@ impl Origin {
         if self.set.is_empty() {
             return self.name().to_owned();
         }
-        let keys: Vec<_> = self.set.iter().map(String::as_str).collect();
+        let keys: Vec<_> = self.set.keys().map(String::as_str).collect();
         format!("{}, with {} set", self.name(), keys.join(", "))
     }
 

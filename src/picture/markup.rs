@@ -51,6 +51,21 @@ impl Markup {
         self
     }
 
+    /// Adds text in which names stand between backticks: these become code.
+    pub fn prose(&mut self, text: &str) -> &mut Self {
+        let parts: Vec<&str> = text.split('`').collect();
+        for (i, part) in parts.iter().enumerate() {
+            let is_code = i % 2 == 1 && i + 1 < parts.len();
+            let part = escape(part);
+            if is_code {
+                let _infallible = write!(self.0, "<code>{part}</code>");
+            } else {
+                self.0.push_str(&part);
+            }
+        }
+        self
+    }
+
     /// Adds an element with nothing but text in it.
     pub fn element(&mut self, name: &str, attributes: &[(&str, &str)], text: &str) -> &mut Self {
         self.open(name, attributes).text(text).close(name)
@@ -71,6 +86,13 @@ impl Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_between_backticks_are_code() {
+        let mut markup = Markup::default();
+        markup.prose("set `a<b` or `c`, `").prose("as `it is");
+        assert_eq!(markup.into_text(), "set <code>a&lt;b</code> or <code>c</code>, as it is");
+    }
 
     #[test]
     fn no_text_becomes_markup() {

@@ -33,7 +33,7 @@ pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
 pub use savings::Savings;
-pub use spent::{Spent, word};
+pub use spent::Spent;
 pub use told::{Explained, Line, Told, quote, told};
 
 pub use crate::ir::verdict::Verdict;
@@ -51,13 +51,13 @@ use self::judge::Asked;
 use self::program::{Plan, Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::analysis::declare;
-use crate::back::{Context, Emit, Outcome, PageWriter, Proof, SETPOINTS, Target};
+use crate::back::{Beside, Context, Emit, Outcome, PageWriter, Proof, SETPOINTS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
 use crate::ir::declaration::Total;
 use crate::ir::{Finding, text};
-use crate::machine::Job;
+use crate::machine::{Job, blake3_of};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
@@ -235,8 +235,11 @@ fn finish(
     let (refusals, doubts) = (&refused::errors(diagnostics)[..], &refused::doubts(diagnostics)[..]);
     let messages: &[&Diagnostic] = &diagnostics.iter().collect::<Vec<_>>();
     let is_judged = verdict.is_some();
-    let outcome = Outcome { findings, refusals, declared, doubts, messages, deviations, is_judged };
-    for (Product { target, out, shows_refusal }, page) in products.iter_mut().zip(&mut pages.0) {
+    let has_page = pages.0.iter().any(Option::is_some);
+    let programs = if has_page && !diagnostics.has_errors() { beside(products)? } else { Vec::new() };
+    let outcome =
+        Outcome { findings, refusals, declared, doubts, messages, deviations, is_judged, programs: &programs };
+    for (Product { target, out, shows_refusal, .. }, page) in products.iter_mut().zip(&mut pages.0) {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Some(page) = page {
             let mut out = BufWriter::new(&mut **out);
@@ -251,6 +254,16 @@ fn finish(
         out.flush()?;
     }
     Ok(())
+}
+
+/// The complete programs among products, for a page that names them.
+fn beside(products: &mut [Product]) -> io::Result<Vec<Beside>> {
+    let programs = products.iter_mut().filter(|product| product.target.proof.is_some() && !product.name.is_empty());
+    let digest = |Product { name, out, .. }: &mut Product| {
+        out.rewind()?;
+        Ok(Beside { name: name.clone(), blake3: blake3_of(&mut **out)? })
+    };
+    programs.map(digest).collect()
 }
 
 /// Ways to judge the programs of a compile.

@@ -14,6 +14,8 @@ impl<T: Read + Write + Seek> Medium for T {}
 
 /// Program that a compile writes.
 pub struct Product<'a> {
+    /// Name of its file; empty where it has none.
+    pub name: String,
     /// Target.
     pub target: &'static Target,
     /// Destination.
@@ -23,8 +25,14 @@ pub struct Product<'a> {
 }
 
 impl<'a> Product<'a> {
-    /// Program that is not written yet.
+    /// Program that is not written yet, without a file of its own.
     pub fn new(target: &'static Target, out: &'a mut dyn Medium) -> Self {
-        Self { target, out, shows_refusal: false }
+        Self { name: String::new(), target, out, shows_refusal: false }
+    }
+
+    /// The program with the name of its file.
+    #[must_use]
+    pub fn named(self, name: String) -> Self {
+        Self { name, ..self }
     }
 }

@@ -232,7 +232,7 @@ impl Writer<'_, '_, '_> {
             match cuts {
                 Err(refused) => refused.into_iter().for_each(|finding| diagnostics.push(finding)),
                 Ok(cuts) => {
-                    self.tally.take([toolpath.piece, toolpath.part], &cuts);
+                    self.tally.take(&cuts);
                     let motion = self.planner.join(toolpath, cuts);
                     assert_sound("plan", || check::motion(&motion));
                     self.motion(&motion)?;
@@ -375,12 +375,8 @@ impl Tally {
     }
 
     /// Adds the facts known about cuts before they are joined to a motion.
-    fn take(&mut self, piece: [u32; 2], cuts: &[Cut]) {
-        for cut in cuts {
-            self.sagitta = self.sagitta.max(cut.sagitta);
-            self.clock.bind(&cut.shares);
-            self.clock_of(piece).bind(&cut.shares);
-        }
+    fn take(&mut self, cuts: &[Cut]) {
+        self.sagitta = cuts.iter().fold(self.sagitta, |most, cut| most.max(cut.sagitta));
     }
 
     fn add(&mut self, motion: &Motion) {

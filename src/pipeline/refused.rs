@@ -33,7 +33,7 @@ pub(super) fn draw(context: &Context, products: &mut [Product], diagnostics: &Di
     let (refusals, doubts) = (errors(diagnostics), doubts(diagnostics));
     let messages: Vec<&Diagnostic> = diagnostics.iter().collect();
     let outcome = Outcome { refusals: &refusals, doubts: &doubts, messages: &messages, ..Outcome::default() };
-    for Product { target, out, shows_refusal } in products {
+    for Product { target, out, shows_refusal, .. } in products {
         let mut out = BufWriter::new(&mut **out);
         match &target.emit {
             Emit::Picture(parts) => {

@@ -48,25 +48,13 @@ impl Spent {
     }
 }
 
-/// Name of a limit in words.
-pub fn word(bound: Bound) -> String {
-    match bound {
-        Bound::Ends => "starts and stops".to_owned(),
-        Bound::Feed => "feed".to_owned(),
-        Bound::Axis { axis, order } => {
-            let (axis, order) = (usize::from(axis), usize::from(order));
-            format!("{} of {}", ["speed", "acceleration", "jerk"][order], ["x", "y", "c"][axis])
-        }
-    }
-}
-
 impl Serialize for Spent {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         let mut map = out.serialize_map(None)?;
         for (name, time) in self.parts() {
             map.serialize_entry(&format!("{name}_s"), &to_millionths(time))?;
         }
-        let key = |bound| format!("{}_s", word(bound).replace(' ', "_"));
+        let key = |bound: Bound| format!("{}_s", bound.to_string().replace(' ', "_"));
         let bounds: serde_json::Map<String, serde_json::Value> =
             self.bounds.iter().map(|&(bound, time)| (key(bound), to_millionths(time).into())).collect();
         map.serialize_entry("cut_bound_by", &bounds)?;
@@ -82,16 +70,12 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Adds the phases of a motion.
+    /// Adds the phases of a motion and the limits of its cuts.
     pub(super) fn add(&mut self, motion: &Motion) {
+        self.shares.merge(&motion.shares);
         for phase in &motion.phases {
             self.ticks[phase.kind.part()] += u64::from(phase.ticks);
         }
-    }
-
-    /// Adds the limits of a cut.
-    pub(super) fn bind(&mut self, shares: &Shares) {
-        self.shares.merge(shares);
     }
 
     /// Times, s, for a period in s.

@@ -47,6 +47,7 @@ impl<'a> Planner<'a> {
     /// The timed motion of a toolpath with its solved runs.
     pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
         let mut motion = self.begin([toolpath.piece, toolpath.part]);
+        cuts.iter().for_each(|cut| motion.shares.merge(&cut.shares));
         let mut cuts = cuts.into_iter();
         let mut kind = Kind::Travel;
         for (step, next) in toolpath.steps.iter().zip(toolpath.steps.iter().skip(1).map(Some).chain([None])) {
@@ -123,7 +124,7 @@ impl<'a> Planner<'a> {
     /// An empty motion that starts now.
     fn begin(&self, [piece, part]: [u32; 2]) -> Motion {
         let (first_tick, first_step, first_time) = (self.tick, self.steps, self.time);
-        Motion { piece, part, first_tick, first_step, first_time, phases: Vec::new(), tasks: Vec::new() }
+        Motion { piece, part, first_tick, first_step, first_time, ..Motion::default() }
     }
 
     /// Moves to the start of a run, plunges, cuts along it and lifts; `kind` is that of the rapid before it.

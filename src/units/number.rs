@@ -1,5 +1,7 @@
 //! The only printer of numbers: no locale, no `-0.000`, the same bytes for the same value.
 
+use super::S_PER_MIN;
+
 /// Largest scaled magnitude for the integer path: below 2^53, so that every integer is exact in `f64`.
 const INTEGER_PATH_MAX: f64 = 9.0e15;
 
@@ -111,6 +113,18 @@ pub fn short(value: f64) -> String {
     exact(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
+/// A duration for people, with so many decimals of a second: `59.9 s`, `2 min 05.3 s`.
+pub fn clock(seconds: f64, decimals: u32) -> String {
+    // Round first: 119.96 s are 2 min, not 1 min 60.0 s.
+    let rounded = fixed(seconds, decimals).parse().unwrap_or(seconds);
+    let minutes = (rounded / S_PER_MIN).floor();
+    if minutes < 1.0 {
+        return format!("{} s", fixed(rounded, decimals));
+    }
+    let width = if decimals == 0 { 2 } else { decimals as usize + 3 };
+    format!("{} min {:0>width$} s", fixed(minutes, 0), fixed(rounded - minutes * S_PER_MIN, decimals))
+}
+
 /// A number with its noun: `1 error`, `2 errors`.
 pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
@@ -139,6 +153,12 @@ mod tests {
             let value = f64::from(i) * 0.003_7;
             assert!(up(value, 2).parse::<f64>().expect("a number") >= value - 1e-12, "{value}");
         }
+    }
+
+    #[test]
+    fn durations_are_rounded_before_they_are_split() {
+        let shown = [(59.94, 1), (59.96, 1), (125.3, 1), (119.999_9, 3), (3600.0, 0)].map(|(s, of)| clock(s, of));
+        assert_eq!(shown, ["59.9 s", "1 min 00.0 s", "2 min 05.3 s", "2 min 00.000 s", "60 min 00 s"]);
     }
 
     #[test]

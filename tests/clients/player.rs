@@ -52,9 +52,13 @@ fn chromium_plays_a_page_as_its_setpoints_are() {
     let gap = folder.path().join("gap.cut");
     std::fs::write(&gap, GAP).expect("writable");
     compile(gap.to_str().expect("a plain name"), "html", folder.path());
+    let bites = root().join("fixtures/pictures/marker.cut");
+    let mut windows = Command::new(env!("CARGO_BIN_EXE_cutc"));
+    windows.arg("compile").arg(bites).args(["-t", "html", "--set", "bite.length_mm=800", "-o", "bites.html"]);
+    assert!(windows.current_dir(folder.path()).status().expect("the program starts").success());
     let script = root().join("tests/clients/player.py");
     let mut lead = Command::new("python3");
-    let pages = ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html", "gap.html"];
+    let pages = ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html", "gap.html", "bites.html"];
     lead.arg(script).arg(browser).args(pages).current_dir(folder.path());
     let led = lead.output().expect("python3 starts");
     assert!(led.status.success(), "{}{}", String::from_utf8_lossy(&led.stdout), String::from_utf8_lossy(&led.stderr));

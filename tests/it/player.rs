@@ -330,6 +330,98 @@ fn times_and_ways_of_a_page_add_up() {
     }
 }
 
+/// Provenance of a program.
+fn meta(room: &Room, program: &str) -> Value {
+    serde_json::from_str(&room.text(&format!("{program}.meta.json"))).expect("JSON")
+}
+
+#[test]
+fn the_end_belongs_to_the_last_piece() {
+    let room = Room::with("long.cut", LONG);
+    room.says("compile long.cut -t html --set park=[10,20,0]", DONE);
+    let page = Page::of(&room, "long.html");
+    let (kinds, parts) = (&page.columns["phase_kind"], &page.columns["phase_part"]);
+    let last = page.facts["pieces"].as_array().expect("a list").len() - 1;
+    assert_eq!((kinds.last(), parts.last()), (Some(&0.0), Some(&(last as f64))));
+    // With the knife up around the box no piece is cut at any time.
+    room.says("compile long.cut -t html --force --frame", DONE);
+    let page = Page::of(&room, "long.html");
+    assert!(page.columns["phase_part"].iter().all(|&part| part == -1.0));
+}
+
+#[test]
+fn limits_and_times_of_a_page_are_those_of_info() {
+    let room = Room::with("long.cut", LONG);
+    room.write("gap.cut", GAP.as_bytes());
+    for name in ["long", "gap", "circle"] {
+        room.says(&format!("compile {name}.cut -t html"), DONE);
+        let page = room.text(&format!("{name}.html"));
+        let output = room.command(&format!("info {name}.cut --time --format json")).output().expect("it starts");
+        let info: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let bounds = info["spent"]["cut_bound_by"].as_object().expect("limits");
+        let limited = table(&page, "limited");
+        assert!(!bounds.is_empty() && limited.len() == bounds.len(), "{name}: {bounds:?}");
+        for row in &limited {
+            let key = format!("{}_s", row[0].1.to_lowercase().replace(' ', "_"));
+            let (told, time) = (bounds[&key].as_f64().expect("s"), row[1].0.expect("s"));
+            assert!((told - time).abs() < 1e-6, "{name}, {key}: {told} {time}");
+        }
+        let pieces = table(&page, "pieces");
+        for (row, timed) in pieces.iter().zip(info["time_by_piece"].as_array().expect("pieces")) {
+            let most = timed["spent"]["cut_bound_by"].as_object().expect("limits");
+            let most = most.iter().max_by(|a, b| a.1.as_f64().expect("s").total_cmp(&b.1.as_f64().expect("s")));
+            let most = most.expect("a limit").0.trim_end_matches("_s").replace('_', " ");
+            let bound = row.iter().find(|cell| cell.0.is_none() && cell.1.ends_with('%')).expect("a limit");
+            assert!(bound.1.to_lowercase().starts_with(&most), "{name}: {} instead of {most}", bound.1);
+            let time = row
+                .iter()
+                .filter_map(|cell| cell.0)
+                .find(|&time| (time - timed["time_s"].as_f64().expect("s")).abs() < 1e-6);
+            assert!(time.is_some(), "{name}: no time of {}", timed["time_s"]);
+        }
+    }
+}
+
+#[test]
+fn a_page_names_its_machine_its_program_and_its_windows() {
+    let room = Room::with("long.cut", LONG);
+    room.says("compile long.cut -t csv,html --set bite.length_mm=400 --set knife.lift_ms=0.05s", DONE);
+    let page = room.text("long.html");
+    let fact = |name: &str| between(&page, &format!("<th scope=\"row\">{name}</th>\n<td>"), "</td>").to_owned();
+    let meta = meta(&room, "long.csv");
+    assert_eq!(fact("Set for this job"), "bite.length_mm = 400; knife.lift_ms = 0.05s");
+    assert_eq!(fact("SHA-256 of all values in force"), meta["profile_sha256"]);
+    assert_eq!((fact("Program"), fact("BLAKE3 of the program")), ("long.csv".into(), digest_of(&meta)));
+    assert!(fact("Verified").starts_with("read back, ") && fact("Verified").ends_with(" rules hold"));
+    assert!(
+        page.contains(" m to cut in 4 windows, ")
+            && fact("Time").ends_with(" without the time in which the cloth is moved on")
+    );
+    room.says("compile long.cut -t html --force --no-verify", DONE);
+    let page = room.text("long.html");
+    assert!(page.contains("<td>none beside this page") && page.contains("with --no-verify nobody has read"));
+    assert!(!page.contains("Set for this job") && !page.contains("windows, "));
+}
+
+fn digest_of(meta: &Value) -> String {
+    meta["program_blake3"].as_str().expect("a digest").to_owned()
+}
+
+#[test]
+fn a_place_of_a_page_tells_both_pieces() {
+    let room = Room::with("gap.cut", GAP);
+    room.says("compile gap.cut -t html", DONE);
+    let page = room.text("gap.html");
+    let told: Vec<&str> = page.split("data-told=\"").skip(1).map(|rest| between(rest, "", "\"")).collect();
+    assert_eq!(told.len(), page.matches("class=\"jump\"").count());
+    let of = |words: &[&str]| told.iter().filter(|told| words.iter().all(|word| told.contains(word))).count();
+    assert!(of(&["piece 1: the blade", "it cuts 0.45 mm into piece 2"]) > 0, "{told:?}");
+    assert!(of(&["verify/overcut-neighbour, holds with 0.4", "piece 1: the blade", "into piece 2"]) == 1, "{told:?}");
+    assert!(of(&["in a part, 0.4", "piece 1 into piece 2"]) > 0, "{told:?}");
+    let body = between(&page, "<body>", "<script");
+    assert!(body.contains("<code>") && !body.contains('`'), "backticks are no text for people");
+}
+
 #[test]
 fn messages_and_rules_name_one_deepest_place() {
     let room = Room::with("gap.cut", GAP);
@@ -362,7 +454,8 @@ fn messages_and_rules_name_one_deepest_place() {
     assert!(pairs > 2, "{pairs} rules with messages");
     let page = room.text("gap.html");
     assert!(
-        page.contains("it cuts 0.45 mm into piece 2 before its start") && page.contains("the deepest into piece 2")
+        page.contains("it cuts 0.45 mm into piece 2 before its start")
+            && page.contains("the deepest entry into piece 2")
     );
     assert!(page.contains("<td>1</td>\n<td>piece 2</td>") && page.contains("<td>1</td>\n<td>its own part</td>"));
     let places = page.split("class=\"jump\"").skip(1).filter(|place| !between(place, "", ">").contains("data-time"));

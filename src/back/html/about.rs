@@ -8,9 +8,10 @@ use crate::back::target::{Context, Outcome};
 use crate::geom::{Point, polyline};
 use crate::ir::Finding;
 use crate::ir::declaration::Declaration;
-use crate::units::S_PER_MIN;
-use crate::units::number::fixed;
+use crate::units::number;
 
+/// Duration below which milliseconds are shown, s.
+const SHORT: f64 = 0.1;
 /// Maximum number of deviations listed on a page; the greatest are listed.
 const MOST_DEVIATIONS: usize = 400;
 
@@ -81,6 +82,11 @@ impl About<'_> {
         entries.into_iter().map(place).collect()
     }
 
+    /// Number of conveyor windows; `None` where the cloth does not advance.
+    pub(super) fn windows(&self) -> Option<usize> {
+        self.pieces.iter().filter_map(|piece| piece.window).max().map(|last| last + 1)
+    }
+
     /// Duration of a number of ticks, s.
     pub(super) fn time(&self, ticks: u64) -> f64 {
         ticks as f64 * self.context.job.profile.time.period()
@@ -107,11 +113,7 @@ impl Worth {
 
 /// A duration for people, as in `2 min 05.3 s`.
 pub(super) fn clock(seconds: f64) -> String {
-    if seconds < S_PER_MIN {
-        return format!("{} s", fixed(seconds, 1));
-    }
-    let minutes = (seconds / S_PER_MIN).floor();
-    format!("{} min {:0>4} s", fixed(minutes, 0), fixed(seconds - minutes * S_PER_MIN, 1))
+    number::clock(seconds, if seconds > 0.0 && seconds < SHORT { 3 } else { 1 })
 }
 
 /// True if a point can be drawn.

@@ -3,7 +3,7 @@
 use super::fit::{Axes, Fit};
 use super::peaks::{Limits, Peaks};
 use crate::ir::Motion;
-use crate::ir::motion::{Kind, Phase, Poses};
+use crate::ir::motion::{BOUNDS, Bound, Kind, Phase, Poses, Shares};
 use crate::ir::toolpath::{Event, Pose};
 use crate::machine::{self, MachineProfile};
 use crate::picture::Columns;
@@ -13,7 +13,9 @@ use crate::units::deg;
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sums {
     /// Ticks by activity, in the order of [`Sums::PARTS`].
-    pub(super) ticks: [u64; 7],
+    pub(super) ticks: [u64; 10],
+    /// Ticks of its cuts by the limit that binds them.
+    pub(super) bound: Shares,
     /// Path length of the C axis with the knife up, mm.
     pub(super) travel: f64,
     /// Path length of the tip with the knife down, mm.
@@ -25,12 +27,28 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Names of the activities, by index.
-    pub(super) const PARTS: [&str; 7] =
-        ["cutting", "travelling", "turning", "plunging", "lifting", "drilling", "waiting"];
+    /// Names of the activities, by index: those of [`Kind::part`], with a line for each thing that is waited for.
+    pub(super) const PARTS: [&str; 10] = [
+        "cutting",
+        "travelling",
+        "turning",
+        "plunging",
+        "lifting",
+        "drilling",
+        "waiting for the knife to be all the way up",
+        "asking for a stop: its length is not counted",
+        "asking for the cloth: its move is not counted",
+        "resting at the end",
+    ];
 
     fn add(&mut self, phase: &Phase) {
-        self.ticks[phase.kind.part()] += u64::from(phase.ticks);
+        let activity = match phase.kind {
+            Kind::Event(Event::Stop) => 7,
+            Kind::Event(Event::Advance | Event::AdvanceBy(_)) => 8,
+            Kind::Rest => 9,
+            kind => kind.part(),
+        };
+        self.ticks[activity] += u64::from(phase.ticks);
         match phase.kind {
             Kind::Cut => self.cut += phase.length,
             Kind::Travel | Kind::Turn => self.travel += phase.length,
@@ -42,6 +60,7 @@ impl Sums {
     /// Adds the sums of another section.
     pub(super) fn join(&mut self, other: &Self) {
         self.ticks.iter_mut().zip(other.ticks).for_each(|(ticks, more)| *ticks += more);
+        self.bound.merge(&other.bound);
         self.travel += other.travel;
         self.cut += other.cut;
         self.plunges += other.plunges;
@@ -52,6 +71,16 @@ impl Sums {
     pub(super) fn shares(&self) -> [u64; 3] {
         let [cutting, travelling, ..] = self.ticks;
         [cutting, travelling, self.total() - cutting - travelling]
+    }
+
+    /// Limits of its cuts with their ticks, the longest first; those without any are omitted. A program that keeps the knife
+    /// up cuts nothing that they could bind.
+    pub(super) fn bounds(&self) -> Vec<(Bound, u64)> {
+        let cut = self.ticks[Kind::Cut.part()];
+        let bounds = BOUNDS.iter().map(|&bound| (bound, self.bound.of(bound)));
+        let mut bounds: Vec<_> = bounds.filter(|&(_, ticks)| cut > 0 && ticks > 0).collect();
+        bounds.sort_by_key(|&(_, ticks)| std::cmp::Reverse(ticks));
+        bounds
     }
 
     /// Total number of ticks.
@@ -65,7 +94,8 @@ impl Sums {
 struct Stretch {
     tick: u64,
     kind: i64,
-    part: u32,
+    /// Index of its piece in the marker; -1 before any piece.
+    part: i64,
     station: u32,
 }
 
@@ -82,6 +112,8 @@ struct Open {
 #[derive(Debug)]
 pub(super) struct Record {
     tick: u64,
+    /// Index in the marker of the piece whose work was taken last; what follows outside of pieces counts for it.
+    part: Option<usize>,
     /// Limits of the axes in cuts and with the knife up.
     limits: [Limits; 2],
     open: Option<Open>,
@@ -105,6 +137,7 @@ impl Record {
         };
         Self {
             tick: 0,
+            part: None,
             limits: [in_page(profile.axes.limits()), in_page(profile.axes.travel_limits())],
             open: None,
             fit: Fit::default(),
@@ -128,22 +161,28 @@ impl Record {
 
     /// Adds the motion of a toolpath.
     pub(super) fn take(&mut self, motion: &Motion) {
+        if motion.piece > 0 {
+            self.part = Some(motion.part as usize);
+        }
         for phase in &motion.phases {
-            self.phase(phase, motion.part);
+            self.phase(phase);
         }
         let overlaps: f64 = motion.tasks.iter().map(|task| task.front.max(0.0) + task.heel.max(0.0)).sum();
-        self.all.overlaps += overlaps;
-        if let Some(piece) = self.pieces.get_mut(motion.part as usize) {
-            piece.overlaps += overlaps;
-        }
+        self.count(|sums| {
+            sums.overlaps += overlaps;
+            sums.bound.merge(&motion.shares);
+        });
     }
 
-    fn phase(&mut self, phase: &Phase, part: u32) {
+    /// Adds to the sums over the program and to those of the piece.
+    fn count(&mut self, add: impl Fn(&mut Sums)) {
+        add(&mut self.all);
+        self.part.and_then(|part| self.pieces.get_mut(part)).into_iter().for_each(add);
+    }
+
+    fn phase(&mut self, phase: &Phase) {
         self.close(axes(phase.pose(0)));
-        self.all.add(phase);
-        if let Some(piece) = self.pieces.get_mut(part as usize) {
-            piece.add(phase);
-        }
+        self.count(|sums| sums.add(phase));
         let limits = &self.limits[usize::from(!phase.kind.knife_down())];
         let rests = matches!(phase.poses, Poses::Still(_));
         let mut way = Vec::with_capacity(if rests { 1 } else { phase.ticks as usize + 1 });
@@ -155,6 +194,7 @@ impl Record {
             }
         }
         self.open = Some(Open { first_tick: self.tick, ticks: u64::from(phase.ticks), way });
+        let part = self.part.map_or(-1, |part| part as i64);
         self.stretches.push(Stretch { tick: self.tick, kind: number(phase.kind), part, station: phase.station });
         for spell in &phase.spells {
             self.blocks.push([self.tick + u64::from(spell.first), u64::from(spell.block)]);
@@ -181,7 +221,7 @@ impl Record {
         self.fit.write(columns);
         columns.add("phase_tick", 1.0, self.stretches.iter().map(|phase| phase.tick.cast_signed()));
         columns.add("phase_kind", 1.0, self.stretches.iter().map(|phase| phase.kind));
-        columns.add("phase_part", 1.0, self.stretches.iter().map(|phase| i64::from(phase.part)));
+        columns.add("phase_part", 1.0, self.stretches.iter().map(|phase| phase.part));
         columns.add("phase_station", 1.0, self.stretches.iter().map(|phase| i64::from(phase.station)));
         columns.add("block_tick", 1.0, self.blocks.iter().map(|block| block[0].cast_signed()));
         columns.add("block", 1.0, self.blocks.iter().map(|block| block[1].cast_signed()));

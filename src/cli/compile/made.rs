@@ -85,7 +85,9 @@ impl Compile<'_> {
     /// Writes the programs and their provenance; for a refused program the pictures only.
     fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Written> {
         let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
-        let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
+        let outs =
+            programs.iter_mut().zip(paths).map(|(program, path)| (name(path), program.file() as &mut dyn Medium));
+        let outs = outs.collect();
         let emitted = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?;
         let is_kept = |shows_refusal: bool| shows_refusal || emitted.compiled.is_some();
         let (mut kept, mut metas) = (Vec::new(), Vec::new());
@@ -121,15 +123,16 @@ impl Compile<'_> {
         provenance::draft(path, program, &made)
     }
 
-    /// Compiles into `outs`, one for each target; [`Emitted`] tells which of them are usable.
+    /// Compiles into `outs`, one for each target with the name of its file, if any; [`Emitted`] tells which of them are usable.
     pub(in crate::cli) fn emit(
         &self,
-        outs: Vec<&mut dyn Medium>,
+        outs: Vec<(String, &mut dyn Medium)>,
         diagnostics: &mut Diagnostics,
     ) -> io::Result<Emitted> {
         let Making { reading, no_verify, .. } = self.making;
+        let products = self.targets.iter().zip(outs);
         let mut products: Vec<Product> =
-            self.targets.iter().zip(outs).map(|(target, out)| Product::new(target, out)).collect();
+            products.map(|(target, (name, out))| Product::new(target, out).named(name)).collect();
         let choices = Choices { from: reading.from, verify: !no_verify, advance: self.advance };
         let compile = machines::tool_of(self.job).compile;
         let compiled = compile(self.source, self.job, choices, &mut products, diagnostics)?;
@@ -167,6 +170,11 @@ impl Drafted {
         }
         Ended { compiled: Ok(compiled), diagnostics, programs, beside }
     }
+}
+
+/// Name of a file without its directory.
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// Moves older programs aside, and returns a message.

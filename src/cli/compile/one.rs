@@ -55,9 +55,10 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
 fn to_stdout(compile: &Compile, arguments: &Arguments) -> anyhow::Result<Finished> {
     let mut spool = SpooledTempFile::new(SPOOL_BYTES);
     let mut diagnostics = Diagnostics::default();
-    let Emitted { compiled, pictures } = compile.emit(vec![&mut spool], &mut diagnostics).map_err(|error| {
-        failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
-    })?;
+    let Emitted { compiled, pictures } =
+        compile.emit(vec![(String::new(), &mut spool)], &mut diagnostics).map_err(|error| {
+            failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
+        })?;
     let shows_refusal = compiled.is_none() && pictures[0];
     if let (Some(path), Some(compiled)) = (&arguments.making.meta, &compiled) {
         let meta = compile.meta(path, &mut spool, (compile.targets[0], Some(compiled)))?;

@@ -38,6 +38,42 @@ function themed(name) {
 }
 
 /**
+ * @typedef {object} Writing
+ * @property {number} size Pixels.
+ * @property {number} weight
+ * @property {string} colour
+ * @property {CanvasTextAlign} align
+ * @property {CanvasTextBaseline} baseline
+ */
+
+/**
+ * Writes a text of some pixels in a colour of the style.
+ * @param {CanvasRenderingContext2D} to @param {string} text @param {[number, number]} at
+ * @param {Partial<Writing>} [how]
+ */
+function write(to, text, [x, y], how = {}) {
+  const { size = 11, weight = 400, colour = "quiet", align = "left", baseline = "middle" } = how;
+  to.font = `${weight} ${size}px system-ui, sans-serif`;
+  to.fillStyle = themed(colour);
+  to.textAlign = align;
+  to.textBaseline = baseline;
+  to.fillText(text, x, y);
+}
+
+/**
+ * Draws a line through points in a colour of the style.
+ * @param {CanvasRenderingContext2D} to @param {[number, number][]} points
+ * @param {string} colour @param {number} width
+ */
+function drawLine(to, points, colour, width) {
+  to.strokeStyle = themed(colour);
+  to.lineWidth = width;
+  to.beginPath();
+  for (const [x, y] of points) to.lineTo(x, y);
+  to.stroke();
+}
+
+/**
  * Moves what a canvas shows and has the strips drawn that come into view.
  * @param {HTMLCanvasElement} canvas @param {View} view
  * @param {[number, number]} by Pixels to the right and down, whole ones of the screen.

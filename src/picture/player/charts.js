@@ -106,17 +106,9 @@ class Charts {
    * @param {CanvasRenderingContext2D} to @param {string} words @param {number} middle @param {number} unit
    */
   drawScale(to, words, middle, unit) {
-    to.fillStyle = themed("ink");
-    to.font = "12px system-ui, sans-serif";
-    to.textAlign = "left";
-    to.textBaseline = "middle";
-    to.fillText(words, 2, middle);
-    to.font = "10px system-ui, sans-serif";
-    to.textAlign = "right";
-    to.fillStyle = themed("quiet");
-    for (const [level, mark] of /** @type {[number, string][]} */ ([[1, "+limit"], [-1, "−limit"]])) {
-      to.fillText(mark, LEFT - 4, middle - level * unit);
-    }
+    write(to, words, [2, middle], { size: 12, colour: "ink" });
+    write(to, "+limit", [LEFT - 4, middle - unit], { size: 10, align: "right" });
+    write(to, "−limit", [LEFT - 4, middle + unit], { size: 10, align: "right" });
     for (const level of [-1, 0, 1]) {
       to.fillStyle = themed(level ? "limit" : "rule");
       to.fillRect(LEFT, Math.round(middle - level * unit), this.width - LEFT, 1);
@@ -158,11 +150,7 @@ class Charts {
    */
   drawStripe(to, y) {
     const { phase_kind, phase_tick } = this.motion.columns;
-    to.fillStyle = themed("quiet");
-    to.font = "10px system-ui, sans-serif";
-    to.textAlign = "right";
-    to.textBaseline = "middle";
-    to.fillText("knife down", LEFT - 4, y + STRIPE / 2);
+    write(to, "knife down", [LEFT - 4, y + STRIPE / 2], { size: 10, align: "right" });
     to.fillStyle = themed("rule");
     to.fillRect(LEFT, y + 1, this.width - LEFT, STRIPE - 2);
     for (let phase = this.motion.phase(this.from); phase < phase_kind.length && phase_tick[phase] < this.to; phase++) {
@@ -180,15 +168,11 @@ class Charts {
     const seconds = (this.to - this.from) * this.motion.period;
     const steps = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1800];
     const every = steps.find(step => seconds / step <= (this.width - LEFT) / 70) ?? 3600;
-    to.fillStyle = themed("quiet");
-    to.font = "11px system-ui, sans-serif";
-    to.textBaseline = "bottom";
-    to.textAlign = "center";
     const decimals = every < 0.1 ? 2 : every < 1 ? 1 : 0;
     for (let i = Math.ceil(this.from * this.motion.period / every); i * every <= this.to * this.motion.period; i++) {
       const x = this.px(i * every / this.motion.period);
       if (x < LEFT + 8 || x > this.width - 16) continue;
-      to.fillText(`${(i * every).toFixed(decimals)} s`, x, this.height - 2);
+      write(to, clock(i * every, decimals), [x, this.height - 2], { align: "center", baseline: "bottom" });
     }
   }
 }

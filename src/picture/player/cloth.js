@@ -136,27 +136,14 @@ class Cloth {
   /** The origin of the table and the directions of its axes. @param {CanvasRenderingContext2D} to */
   drawOrigin(to) {
     const x = this.view.px(0), y = this.view.py(0);
-    to.strokeStyle = to.fillStyle = themed("quiet");
-    to.lineWidth = 1;
-    to.font = "11px system-ui, sans-serif";
-    to.beginPath();
-    to.moveTo(x, y - 22);
-    to.lineTo(x, y);
-    to.lineTo(x + 22, y);
-    to.stroke();
-    to.textAlign = "left";
-    to.textBaseline = "middle";
-    to.fillText("X", x + 25, y);
-    to.textAlign = "center";
-    to.fillText("Y", x, y - 29);
+    drawLine(to, [[x, y - 22], [x, y], [x + 22, y]], "quiet", 1);
+    write(to, "X", [x + 25, y]);
+    write(to, "Y", [x, y - 29], { align: "center" });
   }
 
   /** @param {CanvasRenderingContext2D} to */
   drawNames(to) {
     const { view } = this;
-    to.textAlign = "center";
-    to.textBaseline = "middle";
-    to.fillStyle = themed("ink");
     this.motion.facts.pieces.forEach(piece => {
       if (!piece.extent || !view.sees(piece.extent)) return;
       const [left, low, right, high] = piece.extent;
@@ -164,17 +151,16 @@ class Cloth {
       if (wide < 18 || tall < 14) return;
       const x = view.px((left + right) / 2), y = view.py((low + high) / 2);
       const name = piece.name && piece.name !== piece.number && tall > 40 ? piece.name : "";
-      to.font = `600 ${wide < 40 ? 10 : 13}px system-ui, sans-serif`;
-      to.fillText(piece.number, x, name ? y - 8 : y);
-      to.font = "11px system-ui, sans-serif";
-      if (name && to.measureText(name).width < wide - 6) to.fillText(name, x, y + 8);
+      const size = wide < 40 ? 10 : 13;
+      write(to, piece.number, [x, name ? y - 8 : y], { size, colour: "ink", align: "center", weight: 600 });
+      if (name && to.measureText(name).width < wide) write(to, name, [x, y + 8], { colour: "ink", align: "center" });
     });
   }
 
   /** Draws what was cut up to a tick; goes on from what is drawn where it can. @param {number} tick */
   drawTrail(tick) {
     const { trail, view } = this;
-    const end = tick < (trail.tick[0] ?? Infinity) ? 0 : lastUpTo(trail.tick, tick) + 1;
+    const end = countUpTo(trail.tick, tick);
     let to = context(this.cut);
     if (this.drawn < 0 || end < this.drawn) {
       to = sharpen(this.cut, view.width, view.height);
@@ -232,6 +218,16 @@ class Cloth {
     if (this.shown.marks) this.drawMarks(to);
     this.drawTip(to, tick);
     this.drawBlade(to, tick);
+    this.drawRuler(to);
+  }
+
+  /** A length of 1, 2 or 5 by a power of ten that is at most 120 pixels long. @param {CanvasRenderingContext2D} to */
+  drawRuler(to) {
+    const { scale, height } = this.view, ten = 10 ** Math.floor(Math.log10(120 / scale)), y = height - 12;
+    const length = [5, 2, 1].find(times => times * ten * scale <= 120) ?? 1, end = 12 + length * ten * scale;
+    drawLine(to, [[12, y - 5], [12, y], [end, y], [end, y - 5]], "ink", 1.5);
+    const words = ten >= 1000 ? `${length * ten / 1000} m` : `${Number((length * ten).toPrecision(1))} mm`;
+    write(to, words, [18, y - 8], { colour: "ink" });
   }
 
   /** @param {CanvasRenderingContext2D} to @param {number} tick */
@@ -349,8 +345,10 @@ class Cloth {
    */
   pieceAt(px, py) {
     const to = context(this.base), ratio = globalThis.devicePixelRatio || 1;
-    const hit = this.lines.filter(line => line.kind === LINE.closed && this.view.sees(line.box));
-    const inside = hit.filter(line => to.isPointInPath(this.path(line), px * ratio, py * ratio));
+    const x = this.view.mmX(px), y = this.view.mmY(py);
+    const near = this.lines.filter(({ kind, box: [left, low, right, high] }) =>
+      kind === LINE.closed && left <= x && x <= right && low <= y && y <= high);
+    const inside = near.filter(line => to.isPointInPath(this.path(line), px * ratio, py * ratio));
     const size = (/** @type {Line} */ line) => (line.box[2] - line.box[0]) * (line.box[3] - line.box[1]);
     inside.sort((a, b) => size(a) - size(b));
     return inside[0]?.part ?? -1;

@@ -3,7 +3,10 @@
 /** Speeds of playing, in times of the real one. */
 const RATES = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 25, 60, 150];
 /** What happens in phases, by their kinds. */
-const WORDS = ["rest", "wait", "travel", "turn", "plunge", "cut", "lift", "stop", "advance"];
+const WORDS = [
+  "rest at the end", "wait for the knife to be up", "travel", "turn", "plunge", "cut", "lift", "stop of the file",
+  "cloth is moved on",
+];
 /** Buttons that do what a key does. */
 const BUTTONS = {
   cut_next: "ArrowRight", cut_before: "ArrowLeft", piece_next: "Shift+ArrowRight", piece_before: "Shift+ArrowLeft",
@@ -14,6 +17,10 @@ class Player extends Stage {
   constructor(motion, colours) {
     super(RATES, 1, () => this.cloth.box, elapsed => this.draw(elapsed), (px, py) => {
       this.goToPiece(this.cloth.pieceAt(px, py), false);
+    });
+    this.frame.addEventListener("pointermove", ({ buttons, offsetX, offsetY }) => {
+      const piece = motion.facts.pieces[buttons ? -1 : this.cloth.pieceAt(offsetX, offsetY)];
+      this.frame.title = piece ? named(piece) : "";
     });
     this.motion = motion;
     this.colours = colours;
@@ -77,6 +84,10 @@ class Player extends Stage {
     markRow(part);
     const { phase_part } = this.motion.columns, { pieces } = this.motion.facts;
     const first = this.motion.pieces.find(phase => pieces[phase_part[phase]]?.whole === part);
+    const { motion } = this;
+    const begins = first === undefined ? "is not cut" : `is cut from ${motion.clock(motion.start(first), 1)} on`;
+    const told = `${named(pieces[part])} ${begins}; its row in the table is marked`;
+    this.say("found", part < 0 ? "no piece lies there" : told);
     if (first !== undefined && show) this.seek(this.motion.start(first));
     const box = pieces[part]?.extent;
     if (box && show && !this.view.sees(box)) this.view.fit(box);
@@ -88,11 +99,12 @@ class Player extends Stage {
    * piece, by its place in the marker, if either is known.
    * @param {DOMStringMap} place @param {HTMLButtonElement} [button] The button of the report that has it.
    */
-  goToPlace({ time, part = "-1", ...at }, button) {
+  goToPlace({ time, part = "-1", told = "", ...at }, button) {
     this.play(false);
     this.jump = button ?? this.jump;
     const x = Number(at.x), y = Number(at.y);
     this.cloth.spot = [x, y];
+    this.say("found", told);
     const near = 40;
     this.view.fit([x - near, y - near, x + near, y + near]);
     const { motion } = this;
@@ -117,21 +129,25 @@ class Player extends Stage {
     const { x, y, c } = motion.at(tick), rates = motion.at(tick, true);
     const kind = motion.columns.phase_kind[phase], part = motion.columns.phase_part[phase];
     const words = WORDS[kind] ?? `drill ${kind - KIND.drill}`;
-    const piece = motion.facts.pieces[part], named = [piece?.number, piece?.name].filter(Boolean).join(" ");
+    const piece = motion.facts.pieces[part], station = motion.columns.phase_station[phase];
     const speed = kind === KIND.cut ? motion.tipSpeed(tick) : Math.hypot(rates.x, rates.y);
     const block = motion.block(tick);
-    this.say("time", `${(tick * motion.period).toFixed(3)} / ${motion.duration.toFixed(1)} s`);
+    this.say("time", `${motion.clock(tick, 3)} of ${motion.clock(motion.end, 3)}`);
     this.say("does", words + (block ? `, block ${block}` : ""));
     // The heading within half a turn of the X axis.
     const heading = c - 360 * Math.ceil((c - 180) / 360);
-    this.say("axes", `X ${x.toFixed(2)}  Y ${y.toFixed(2)}  C ${heading.toFixed(2)}°`);
+    const window = piece?.window ?? null;
+    const place = `X ${x.toFixed(2)}  Y ${y.toFixed(2)}  C ${heading.toFixed(2)}°`;
+    this.say("axes", window === null ? place : `${place} on the table`);
+    this.say("window", window === null ? "" : `X ${(x + station).toFixed(2)} on the cloth: window ${window + 1}, `
+      + `moved on by ${station} mm; the time of moving on is not counted`);
     const [ofX, ofY, ofC] = motion.limits(phase).map(([most]) => most.toFixed(0));
     this.say("speed", `${speed.toFixed(0)} mm/s: X ${rates.x.toFixed(0)}/${ofX} mm/s, Y ${rates.y.toFixed(0)}/${ofY}, `
       + `C ${rates.c.toFixed(0)}/${ofC}°/s`);
     this.say("part", this.isAside ? "the blade does not pass the place that is shown"
-      : `piece ${named}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
+      : `${named(piece)}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
     this.scrub.value = String(Math.round(tick));
-    this.scrub.setAttribute("aria-valuetext", `${(tick * motion.period).toFixed(1)} seconds`);
+    this.scrub.setAttribute("aria-valuetext", motion.clock(tick, 1));
   }
 
   /** @param {string} id @param {string} text */
@@ -157,18 +173,16 @@ class Player extends Stage {
   }
 }
 
+/** A piece by its number and name. @param {Piece | undefined} piece */
+function named(piece) { return piece ? ["piece", piece.number, piece.name].filter(Boolean).join(" ") : "no piece yet"; }
+
 /** Shows what colours mean. @param {Legend} legend */
 function showLegend({ colours, words, bounds }) {
   const list = element("legend", HTMLElement);
   list.replaceChildren();
   if (words.length === 0 && colours.length > 0) {
-    const bar = document.createElement("canvas");
-    [bar.width, bar.height] = [colours.length * 8, 10];
-    const to = context(bar);
-    colours.forEach((colour, i) => {
-      to.fillStyle = colour;
-      to.fillRect(8 * i, 0, 8, 10);
-    });
+    const bar = document.createElement("b");
+    bar.style.background = `linear-gradient(90deg, ${colours.join()})`;
     list.append(bar);
   }
   words.forEach((word, i) => {

@@ -35,6 +35,14 @@ function element(id, type) {
   return found;
 }
 
+/** A time as people say it, as in `2 min 05.3 s`. @param {number} seconds @param {number} decimals */
+function clock(seconds, decimals) {
+  const text = seconds.toFixed(decimals), minutes = Math.floor(Number(text) / 60);
+  if (minutes === 0) return `${text} s`;
+  const rest = (Number(text) - 60 * minutes).toFixed(decimals);
+  return `${minutes} min ${rest.padStart(decimals ? decimals + 3 : 2, "0")} s`;
+}
+
 /** Bytes behind base64 and deflate. @param {string} text @returns {Promise<Uint8Array>} */
 async function unpack(text) {
   const packed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
@@ -81,6 +89,9 @@ function lastUpTo(column, value) {
   }
   return low;
 }
+
+/** How many numbers of a sorted column are at most `value`. @param {Float64Array} column @param {number} value */
+function countUpTo(column, value) { return column[0] <= value ? lastUpTo(column, value) + 1 : 0; }
 
 /**
  * Box of some points.

@@ -72,16 +72,12 @@ class Heads {
   /** @param {CanvasRenderingContext2D} to */
   drawRows(to) {
     const { view } = this.stage, { stations, travel } = this.facts;
-    to.font = "12px system-ui, sans-serif";
-    to.textAlign = "left";
-    to.textBaseline = "top";
     for (let row = 0; row <= this.used; row++) {
       to.fillStyle = themed("accent");
       to.globalAlpha = 0.1;
       to.fillRect(view.px(stations[row]), 0, travel * view.scale, view.height);
       to.globalAlpha = 1;
-      to.fillStyle = themed("quiet");
-      to.fillText(`row ${row + 1}`, view.px(stations[row]) + 4, 4);
+      write(to, `row ${row + 1}`, [view.px(stations[row]) + 4, 4], { size: 12, baseline: "top" });
     }
   }
 
@@ -142,12 +138,9 @@ class Heads {
     const across = 0.7 * room * view.scale, along = room * view.scale;
     to.strokeRect(view.px(x) - across / 2, view.py(y) - along / 2, across, along);
     const reach = Math.max(width, 14), lead = width ? radius / width * reach : reach / 2;
-    to.lineWidth = 4;
-    to.strokeStyle = themed(down ? "bad" : "quiet");
-    to.beginPath();
-    to.moveTo(view.px(x + (lead - reach) * Math.cos(c)), view.py(y + (lead - reach) * Math.sin(c)));
-    to.lineTo(view.px(x + lead * Math.cos(c)), view.py(y + lead * Math.sin(c)));
-    to.stroke();
+    /** @param {number} by @returns {[number, number]} */
+    const onBlade = by => [view.px(x + by * Math.cos(c)), view.py(y + by * Math.sin(c))];
+    drawLine(to, [onBlade(lead - reach), onBlade(lead)], down ? "bad" : "quiet", 4);
     return down;
   }
 }

@@ -38,10 +38,11 @@ class Motion {
       if (columns.phase_part[phase] !== part) this.pieces.push(phase);
       part = columns.phase_part[phase];
     });
+    this.starts = Float64Array.from(this.cuts, phase => this.start(phase));
   }
 
-  /** Duration, s. */
-  get duration() { return this.end * this.period; }
+  /** The time of a tick in words. @param {number} tick @param {number} decimals */
+  clock(tick, decimals) { return clock(tick * this.period, decimals); }
 
   /**
    * Place and rates of the axes at a tick, whole or not.
@@ -118,14 +119,7 @@ class Motion {
   start(phase) { return this.columns.phase_tick[phase]; }
 
   /** Number of the cut at a tick: how many have begun. @param {number} tick */
-  cutsBegun(tick) {
-    let low = 0, high = this.cuts.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.start(this.cuts[middle]) <= tick) low = middle + 1; else high = middle;
-    }
-    return low;
-  }
+  cutsBegun(tick) { return countUpTo(this.starts, tick); }
 
   /** Source block that is cut at a tick; 0 when none is. @param {number} tick */
   block(tick) {

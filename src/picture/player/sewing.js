@@ -136,14 +136,6 @@ class Pattern {
     const turn = sews ? this.time * rpm[i] / 60 : 0, angle = (this.facts.start_deg + 360 * turn) % 360;
     const rad = (/** @type {number} */ degrees) => (degrees - 90) * Math.PI / 180;
     const to = sharpen(this.dial, 420, 170);
-    /** @param {string} colour @param {number} width @param {[number, number][]} ends */
-    const line = (colour, width, ends) => {
-      to.strokeStyle = themed(colour);
-      to.lineWidth = width;
-      to.beginPath();
-      for (const [x, y] of ends) to.lineTo(x, y);
-      to.stroke();
-    };
     for (const [colour, share] of /** @type {[string, number][]} */ ([["rule", 1], ["good", this.open]])) {
       to.strokeStyle = themed(colour);
       to.lineWidth = 13;
@@ -151,17 +143,15 @@ class Pattern {
       to.arc(85, 85, 60, rad(this.facts.start_deg), rad(this.facts.start_deg + 360 * share));
       to.stroke();
     }
-    line("ink", 3, [[85, 85], [85 + 66 * Math.cos(rad(angle)), 85 + 66 * Math.sin(rad(angle))]]);
+    drawLine(to, [[85, 85], [85 + 66 * Math.cos(rad(angle)), 85 + 66 * Math.sin(rad(angle))]], "ink", 3);
     // The needle is lowest amid the closed part of the turn.
     const lowest = this.facts.start_deg - 180 * (1 - this.open), shut = Math.cos(Math.PI * (1 - this.open));
     const height = sews ? Math.cos((angle - lowest) * Math.PI / 180) : -1, tip = 120 + (height - shut) * 40;
-    line("travel", 5, [[190, 120], [290, 120]]);
-    line("ink", 4, [[240, tip - 90], [240, tip]]);
+    drawLine(to, [[190, 120], [290, 120]], "travel", 5);
+    drawLine(to, [[240, tip - 90], [240, tip]], "ink", 4);
     const moves = (pulses_x[i] || pulses_y[i]) && (sews ? turn < this.open : this.time < this.duration(i));
-    to.fillStyle = themed("ink");
-    to.font = "13px system-ui, sans-serif";
-    to.fillText(`${angle.toFixed(0)}°`, 310, 70);
-    to.fillText(moves ? "the cloth moves" : "the cloth rests", 310, 92);
+    write(to, `${angle.toFixed(0)}°`, [310, 66], { size: 13, colour: "ink" });
+    write(to, moves ? "the cloth moves" : "the cloth rests", [310, 88], { size: 13, colour: "ink" });
   }
 }
 

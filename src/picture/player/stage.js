@@ -87,7 +87,8 @@ class Stage {
   /** Shows all. */
   fit() {
     this.view.measure();
-    this.view.fit(this.box());
+    this.view.whole = this.box();
+    this.view.fit(this.view.whole);
     this.fitted = this.view.scale;
   }
 

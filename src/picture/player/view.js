@@ -1,7 +1,7 @@
 // The window onto the cloth: which part of it is shown how large, and how it is moved by mouse, touch and keys.
 
-/** Greatest and least size of a millimetre, pixels. */
-const MOST_SCALE = 200, LEAST_SCALE = 0.005;
+/** Greatest size of a millimetre, pixels, and the least in shares of that at which all is seen. */
+const MOST_SCALE = 200, LEAST_SHARE = 0.5;
 /** Free space around what is fitted, pixels. */
 const MARGIN = 24;
 
@@ -17,6 +17,14 @@ class View {
     this.left = 0; this.top = 0;
     /** What is being drawn of the frame, pixels. @type {Box} */
     this.window = [0, 0, 1, 1];
+    /** All there is to see, mm: its middle stays near. @type {Box} */
+    this.whole = [0, 0, 1, 1];
+  }
+
+  /** Size of a millimetre at which a box fits. @param {Box} box */
+  fitting([left, low, right, high]) {
+    const across = (this.width - 2 * MARGIN) / Math.max(right - left, 1);
+    return Math.max(1e-6, Math.min(MOST_SCALE, across, (this.height - 2 * MARGIN) / Math.max(high - low, 1)));
   }
 
   /** Size of the frame, pixels. */
@@ -51,17 +59,17 @@ class View {
   }
 
   /** Shows a box as large as it fits. @param {Box} box */
-  fit([left, low, right, high]) {
-    const across = (this.width - 2 * MARGIN) / Math.max(right - left, 1);
-    const up = (this.height - 2 * MARGIN) / Math.max(high - low, 1);
-    this.scale = Math.min(MOST_SCALE, Math.max(LEAST_SCALE, Math.min(across, up)));
+  fit(box) {
+    const [left, low, right, high] = box;
+    this.scale = this.fitting(box);
     this.moveTo((left + right) / 2, (low + high) / 2);
   }
 
   /** Shows a place in the middle. @param {number} x @param {number} y */
   moveTo(x, y) {
-    this.x = x;
-    this.y = y;
+    const [left, low, right, high] = this.whole;
+    this.x = Math.min(right + 200, Math.max(left - 200, x));
+    this.y = Math.min(high + 200, Math.max(low - 200, y));
     this.place();
     this.changed();
   }
@@ -75,7 +83,7 @@ class View {
    */
   zoom(factor, px = this.width / 2, py = this.height / 2) {
     const x = this.mmX(px), y = this.mmY(py);
-    this.scale = Math.min(MOST_SCALE, Math.max(LEAST_SCALE, this.scale * factor));
+    this.scale = Math.min(MOST_SCALE, Math.max(LEAST_SHARE * this.fitting(this.whole), this.scale * factor));
     this.moveTo(x - (px - this.width / 2) / this.scale, y + (py - this.height / 2) / this.scale);
   }
 }
@@ -104,7 +112,8 @@ function steer(view, clicked) {
     if (!before) return;
     moved += Math.hypot(now.x - before.x, now.y - before.y);
     if (down.size === 1) {
-      if (moved > 4) view.pan(now.x - before.x, now.y - before.y);
+      // A finger alone scrolls the page.
+      if (moved > 4 && event.pointerType !== "touch") view.pan(now.x - before.x, now.y - before.y);
     } else {
       const other = [...down].find(([id]) => id !== event.pointerId)?.[1] ?? now;
       /** @param {{x: number, y: number}} at */
@@ -121,6 +130,9 @@ function steer(view, clicked) {
   };
   frame.addEventListener("pointerup", up);
   frame.addEventListener("pointercancel", up);
+  frame.addEventListener("touchstart", event => {
+    if (event.touches.length > 1) event.preventDefault();
+  }, { passive: false });
   frame.addEventListener("wheel", event => {
     event.preventDefault();
     const { x, y } = place(event);

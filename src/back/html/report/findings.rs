@@ -8,10 +8,12 @@ use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::picture::Markup;
-use crate::units::number::{counted, fixed, short};
+use crate::units::number::{clock, counted, exact, fixed, short};
 
 /// Maximum number of messages listed per code; people fix the worst of them and compile again.
 const MOST_MESSAGES: usize = 40;
+/// Numbers of messages of a code and of deviations that the style sheet leaves on paper.
+const PRINTED: [usize; 2] = [10, 40];
 /// Values below this, in any unit, are rounding of the computation.
 const NOISE_EPSILON: f64 = 1e-8;
 /// Rules of overcuts into parts, each with the warning of a compile that tells its places.
@@ -19,6 +21,8 @@ const OVERCUTS: [(&str, &Code); 2] =
     [("verify/overcut-part", &code::PATH_OVERCUT), ("verify/overcut-neighbour", &code::PATH_OVERCUT_NEIGHBOUR)];
 /// Distance within which a message and a finding are about one place, mm: the deepest place of a cut and the end of its blade.
 const SAME_PLACE: f64 = 0.5;
+/// Depths that differ by less are equal on the page, mm.
+const ROUNDING: f64 = 0.01;
 /// Percent of a whole limit.
 const PERCENT: f64 = 100.0;
 
@@ -31,8 +35,9 @@ enum Moment {
     Any,
 }
 
-/// Button that moves the player to a place, and to the moment at which the blade is there.
-fn jump(out: &mut Markup, at: Point, moment: Moment) {
+/// Button that moves the player to a place, and to the moment at which the blade is there; `told` is shown beside the cloth.
+fn jump(out: &mut Markup, at: Point, moment: Moment, told: &str) {
+    let told = told.replace('`', "");
     let (x, y) = (fixed(at.x, 3), fixed(at.y, 3));
     let (time, part) = match moment {
         Moment::At(time) => (Some(fixed(time, 6)), None),
@@ -40,12 +45,13 @@ fn jump(out: &mut Markup, at: Point, moment: Moment) {
         Moment::Any => (None, None),
     };
     let mut attributes = vec![("type", "button"), ("class", "jump"), ("data-x", x.as_str()), ("data-y", y.as_str())];
+    attributes.push(("data-told", &told));
     attributes.extend(time.as_deref().map(|time| ("data-time", time)));
     attributes.extend(part.as_deref().map(|part| ("data-part", part)));
-    let words = match &time {
-        Some(time) => format!("X {} Y {}, {} s", fixed(at.x, 1), fixed(at.y, 1), &time[..time.len() - 3]),
-        None => format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1)),
-    };
+    let mut words = format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1));
+    if let Moment::At(time) = moment {
+        words += &format!(", {}", clock(time, 3));
+    }
     out.element("button", &attributes, &words);
 }
 
@@ -101,14 +107,16 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         let harm = if spoils(code) { "may spoil parts: " } else { "" };
         let few = if messages.len() > MOST_MESSAGES { format!(" (the worst {MOST_MESSAGES})") } else { String::new() };
         out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(harm);
-        out.element("code", &[], code.name).text(&few).close("p").element("p", &[("class", "about")], code.about);
+        out.element("code", &[], code.name).text(&few).close("p");
+        out.open("p", &[("class", "about")]).prose(code.about).close("p");
         // A hint common to all of them is shown once.
         let shared =
             messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
         let shared: Vec<&String> = shared.collect();
         for hint in &shared {
-            out.element("p", &[("class", "hint")], hint);
+            advice(hint, out);
         }
+        printed(PRINTED[0], messages.len(), out);
         out.open("ol", &[("class", "messages")]);
         for message in messages.into_iter().take(MOST_MESSAGES) {
             entry(about, message, &shared, out);
@@ -120,18 +128,36 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
 
 /// One message, with the hints that are not common to its group.
 fn entry(about: &About, message: &Diagnostic, shared: &[&String], out: &mut Markup) {
-    out.open("li", &[]).element("span", &[], &message.message);
+    out.open("li", &[]).open("span", &[]).prose(&message.message).close("span");
     if let Some(piece) = &message.piece {
         out.text(" ").element("span", &[("class", "quiet")], &piece.to_string());
     }
     if let Some(at) = place(message) {
         out.text(" ");
-        jump(out, at, moment(about, message));
+        jump(out, at, moment(about, message), &told(message));
     }
     for hint in message.hints.iter().filter(|hint| !shared.contains(hint)) {
-        out.element("p", &[("class", "hint")], hint);
+        advice(hint, out);
     }
     out.close("li");
+}
+
+/// A line of advice.
+fn advice(text: &str, out: &mut Markup) {
+    out.open("p", &[("class", "hint")]).prose(text).close("p");
+}
+
+/// Line on paper about entries that are left out there.
+fn printed(most: usize, count: usize, out: &mut Markup) {
+    if count > most {
+        out.element("p", &[("class", "omitted")], &format!("The first {most} of {count} are printed."));
+    }
+}
+
+/// A message with its piece.
+fn told(message: &Diagnostic) -> String {
+    let piece = message.piece.as_deref().map(|piece| format!("{piece}: "));
+    piece.unwrap_or_default() + &message.message
 }
 
 /// Place of a message on the cloth.
@@ -152,7 +178,14 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         return;
     }
     out.open("section", &[("id", "findings")]).element("h2", &[], "Rules of the verifier");
-    table::open(out, "sortable", &["Rule", "Verdict", "#Worst", "#Limit", "#Of limit", "Where", "Promise"]);
+    let words = "Nearest to its limit: the value that leaves least room. Where limits differ from place to place, as those of \
+                 overcuts do, a greater value elsewhere may leave more.";
+    out.element("p", &[("class", "hint")], words);
+    table::open(
+        out,
+        "sortable",
+        &["Rule", "Verdict", "#Nearest to its limit", "#Limit there", "#Of limit", "Where", "Promise"],
+    );
     for finding in findings {
         row(about, finding, out);
     }
@@ -170,8 +203,10 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     out.open("tr", &[("class", verdict)]).element("td", &[], rule.name).element("td", &[], verdict);
     let shown = |value: f64| match value.abs() {
         noise if noise < NOISE_EPSILON => format!("0 {unit}"),
-        _ if value.is_finite() => format!("{} {unit}", short(value)),
-        _ => "missing".to_owned(),
+        _ if !value.is_finite() => "missing".to_owned(),
+        // A value and the limit that it breaks may differ in late digits only.
+        _ if finding.holds() => format!("{} {unit}", exact(format!("{value:.3e}").parse().unwrap_or(value))),
+        _ => format!("{} {unit}", short(value)),
     };
     table::number(out, &shown(*worst), *worst);
     match limit {
@@ -186,16 +221,26 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     }
     out.open("td", &[]);
     if let Some(place) = place.filter(|place| is_finite(place.point)) {
-        jump(out, place.point, place.time.map_or(Moment::Any, Moment::At));
+        let limit = limit.map(|limit| format!(" of {}", shown(limit))).unwrap_or_default();
+        let mut words = format!("{}, {verdict} with {}{limit}: {}", rule.name, shown(*worst), rule.about);
+        let is_here = |message: &&&Diagnostic| self::place(message).is_some_and(|at| is_one(at, place.point));
+        let here = about.outcome.messages.iter().find(is_here).map(|message| format!(". {}", told(message)));
+        words += &here.unwrap_or_default();
+        jump(out, place.point, place.time.map_or(Moment::Any, Moment::At), &words);
     }
     deepest(about, finding, out);
-    out.close("td").open("td", &[]).text(rule.about);
+    out.close("td").open("td", &[]).prose(rule.about);
     if !finding.holds() {
         for line in rule.more.lines().filter(|line| !line.trim().is_empty()) {
-            out.element("p", &[("class", "hint")], line.trim());
+            advice(line.trim(), out);
         }
     }
     out.close("td").close("tr");
+}
+
+/// True if two places are one for a message and a finding.
+fn is_one(a: Point, b: Point) -> bool {
+    (a - b).norm() <= SAME_PLACE
 }
 
 /// Line on the deepest entry into a part with a warning, for the rule that judges it. The worst value of the rule is the one
@@ -206,14 +251,15 @@ fn deepest(about: &About, finding: &Finding, out: &mut Markup) {
     let Some((message, by)) = deepest_of(messages) else { return };
     let into = if message.pieces.is_empty() { String::new() } else { format!(" into {}", listed(&message.pieces)) };
     let at = place(message);
-    let is_here = at.zip(finding.place).is_some_and(|(at, here)| (at - here.point).norm() <= SAME_PLACE);
+    let is_here = at.zip(finding.place).is_some_and(|(at, here)| is_one(at, here.point));
     if is_here {
-        out.element("p", &[("class", "hint")], &format!("the deepest{into}"));
+        out.element("p", &[("class", "hint")], &format!("the deepest entry{into}"));
         return;
     }
-    out.open("p", &[("class", "hint")]).text(&format!("deepest: {} mm{into} ", fixed(by, 2)));
+    let more = if by > finding.worst + ROUNDING { ", where more is allowed," } else { "" };
+    out.open("p", &[("class", "hint")]).text(&format!("deepest entry: {} mm{into}{more} ", fixed(by, 2)));
     if let Some(at) = at {
-        jump(out, at, moment(about, message));
+        jump(out, at, moment(about, message), &told(message));
     }
     out.close("p");
 }
@@ -236,6 +282,7 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         let words = format!("The {} greatest of {count}; the program's .meta.json has all.", entries.len());
         out.element("p", &[], &words);
     }
+    printed(PRINTED[1], count, out);
     table::open(out, "sortable", &["Deviation", "Piece", "Into", "#Size, mm", "Where"]);
     for (entry, at) in entries {
         let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
@@ -245,10 +292,12 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
             own if own == piece.whole => "its own part".to_owned(),
             _ => format!("piece {}", part.number),
         });
+        let words = format!("{one}, {} mm: piece {}", fixed(entry.magnitude_mm, 3), piece.number);
+        let words = words + &into.iter().map(|into| format!(" into {into}")).collect::<String>();
         out.element("td", &[], &into.unwrap_or_default());
         table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
         out.open("td", &[]);
-        jump(out, at, Moment::During(piece.whole));
+        jump(out, at, Moment::During(piece.whole), &words);
         out.close("td").close("tr");
     }
     table::close(out);
@@ -262,11 +311,11 @@ mod tests {
     #[test]
     fn a_place_without_a_time_is_jumped_to_by_its_place() {
         let mut out = Markup::default();
-        jump(&mut out, Point::new(1.0, -2.0), Moment::During(3));
+        jump(&mut out, Point::new(1.0, -2.0), Moment::During(3), "set `a`");
         assert_eq!(
             out.into_text(),
-            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\" data-part=\"3\">\
-             X 1.0 Y -2.0</button>\n"
+            "<button type=\"button\" class=\"jump\" data-x=\"1.000\" data-y=\"-2.000\" \
+             data-told=\"set a\" data-part=\"3\">X 1.0 Y -2.0</button>\n"
         );
     }
 }

@@ -5,9 +5,10 @@ mod pieces;
 mod table;
 mod totals;
 
-use super::about::About;
-use crate::back::target::Context;
+use super::about::{About, Worth};
+use crate::back::target::{Beside, Context};
 use crate::diagnostic::Severity;
+use crate::ir::verdict::counts;
 use crate::machine::{Mode, sha256_hex};
 use crate::picture::{Markup, Script};
 use crate::units::number::{counted, fixed};
@@ -41,13 +42,26 @@ fn tally(about: &About, out: &mut Markup) {
     let counts = [(count(Severity::Error), "error"), (count(Severity::Warning), "warning")];
     let said: Vec<String> =
         counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| counted(count, word)).collect();
-    out.open("p", &[("class", "tally")]);
+    let class = if counts[0].0 > 0 { "tally error" } else { "tally" };
+    out.open("p", &[("class", class)]);
     if said.is_empty() {
         out.text("no warnings");
     } else {
         out.element("a", &[("href", "#messages")], &said.join(", "));
     }
     out.close("p");
+}
+
+/// Judgement of the program in a line.
+fn verified(about: &About) -> String {
+    let findings = about.outcome.findings;
+    let broken = findings.iter().filter(|finding| !finding.holds()).count();
+    match about.worth() {
+        Worth::Verified => format!("read back, {} hold", counted(counts(findings).0, "rule")),
+        Worth::NotJudged => "no: with --no-verify nobody has read the program back".to_owned(),
+        Worth::Refused if broken > 0 => format!("read back, {} broken", counted(broken, "rule")),
+        Worth::Refused => "no: it was refused before".to_owned(),
+    }
 }
 
 /// Source, profile and machine of the program.
@@ -65,14 +79,29 @@ fn job(about: &About, out: &mut Markup) {
     let mut rows = vec![
         ("File", about.file()),
         ("SHA-256 of the file", sha256_hex(source.bytes())),
-        ("Machine", job.origin.described()),
-        ("Digest of the machine", profile.digest()),
+        ("Profile", job.origin.name().to_owned()),
+        ("SHA-256 of all values in force", profile.digest()),
+    ];
+    let set: Vec<String> = job.origin.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+    rows.extend((!set.is_empty()).then(|| ("Set for this job", set.join("; "))));
+    rows.extend([
         ("Knife", knife),
         ("Cycle", format!("{} ms", fixed(profile.time.period_ms, 3))),
         ("Mode", mode.to_owned()),
         ("Compiler", format!("cutc {}", env!("CARGO_PKG_VERSION"))),
-        ("Verified", about.worth().words().to_owned()),
-    ];
+        ("Verified", verified(about)),
+    ]);
+    let programs = about.outcome.programs;
+    for Beside { name, blake3 } in programs {
+        rows.extend([("Program", name.clone()), ("BLAKE3 of the program", blake3.clone())]);
+    }
+    if programs.is_empty() {
+        let words = match about.worth() {
+            Worth::Refused => "none: it was refused",
+            Worth::Verified | Worth::NotJudged => "none beside this page; -t csv,html writes both",
+        };
+        rows.push(("Program", words.to_owned()));
+    }
     rows.extend(job.remarks.date.iter().map(|date| ("Date", date.clone())));
     table::facts(out, "job", "Job", &rows);
 }

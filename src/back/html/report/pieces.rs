@@ -1,12 +1,20 @@
 //! Tables of the pieces and of the windows of a conveyor.
 
 use super::table;
+use super::totals::limit;
+use crate::analysis::waits::{Waits, waits};
 use crate::back::html::about::{About, clock};
 use crate::back::html::piece::Piece;
 use crate::back::html::record::Sums;
+use crate::ir::motion::Bound;
+use crate::ir::toolpath::Event;
 use crate::picture::Markup;
 use crate::units::MM_PER_M;
 use crate::units::number::{counted, fixed};
+
+/// Maximum number of inner pieces that a row names.
+const MOST_INNER: usize = 3;
+const PERCENT: f64 = 100.0;
 
 /// Row of a piece, with its sections in cut order.
 struct Row<'a> {
@@ -15,6 +23,8 @@ struct Row<'a> {
     /// Length of its cuts, mm.
     cut: f64,
     sums: Sums,
+    /// Pieces and events that come before it, in words.
+    after: String,
 }
 
 /// The pieces in the order in which they are begun; the sections of one that is split are one row.
@@ -24,14 +34,35 @@ fn rows<'a>(about: &About<'a>) -> Vec<Row<'a>> {
     for section in about.pieces {
         let place = *known[section.whole].get_or_insert_with(|| {
             let piece = &about.pieces[section.whole];
-            rows.push(Row { piece, sections: Vec::new(), cut: 0.0, sums: Sums::default() });
+            rows.push(Row { piece, sections: Vec::new(), cut: 0.0, sums: Sums::default(), after: String::new() });
             rows.len() - 1
         });
         rows[place].sections.push(section);
         rows[place].cut += section.cut;
         rows[place].sums.join(&section.sums);
     }
+    let waits = waits(about.context.marker, &about.context.job.profile);
+    for row in &mut rows {
+        row.after = after(about, row.piece, &waits[row.piece.whole]);
+    }
     rows
+}
+
+/// Prerequisites of a piece in words, as in `stop, 3, 4 and 2 more`.
+fn after(about: &About, piece: &Piece, Waits { inner, events }: &Waits) -> String {
+    let events = events.iter().map(|event| match event.kind {
+        Event::Stop => "a stop",
+        Event::Advance | Event::AdvanceBy(_) => "the cloth",
+    });
+    let mut inner: Vec<usize> = inner.iter().map(|&inner| about.pieces[inner].whole).collect();
+    inner.dedup();
+    inner.retain(|&inner| inner != piece.whole);
+    let names = inner.iter().take(MOST_INNER).map(|&inner| about.pieces[inner].number.as_str());
+    let said = events.chain(names).collect::<Vec<_>>().join(", ");
+    match inner.len().saturating_sub(MOST_INNER) {
+        0 => said,
+        more => format!("{said} and {more} more"),
+    }
 }
 
 /// The table of pieces, in cut order.
@@ -48,15 +79,17 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     let span = columns.len().to_string();
     columns.push("#Cut, m");
     if has_time {
-        columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges"]);
-        let words =
-            "Other: turning, plunging, lifting, drilling and waiting. The totals are those of the table of time.";
+        columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges", "Limited by"]);
+        let words = "Other: turning, plunging, lifting, drilling and waiting. Limited by: what most of the cutting is \
+                     bound by. The totals are those of the tables of time.";
         out.element("p", &[("class", "hint")], words);
     }
+    let rows = rows(about);
+    let has_after = rows.iter().any(|row| !row.after.is_empty());
+    columns.extend(has_after.then_some("Comes after"));
     columns.push("#Messages");
     table::open(out, "sortable", &columns);
-    let rows = rows(about);
-    for (place, Row { piece, sections, cut, sums }) in rows.iter().enumerate() {
+    for (place, Row { piece, sections, cut, sums, after }) in rows.iter().enumerate() {
         out.open("tr", &[("data-part", &piece.whole.to_string())]);
         table::number(out, &(place + 1).to_string(), place as f64);
         out.element("td", &[], &piece.number);
@@ -73,12 +106,15 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         }
         table::number(out, &piece.marks.to_string(), piece.marks.total() as f64);
         work(about, *cut, sums, out);
+        if has_after {
+            out.element("td", &[], after);
+        }
         table::number(out, &piece.messages.to_string(), piece.messages as f64);
         out.close("tr");
     }
     if has_time {
         table::totals(out);
-        totals(about, &rows, &span, out);
+        totals(about, &rows, (&span, 1 + usize::from(has_after)), out);
     }
     table::close(out);
     out.close("section");
@@ -94,11 +130,19 @@ fn work(about: &About, cut: f64, sums: &Sums, out: &mut Markup) {
             table::number(out, &clock(time), time);
         }
         table::number(out, &sums.plunges.to_string(), sums.plunges as f64);
+        let bounds = sums.bounds();
+        let all: u64 = bounds.iter().map(|(_, ticks)| ticks).sum();
+        let said = |&(bound, ticks): &(Bound, u64)| {
+            format!("{} {} %", limit(bound), fixed(PERCENT * ticks as f64 / all as f64, 0))
+        };
+        let said: Vec<String> = bounds.iter().map(said).collect();
+        let first = said.first().map_or("", String::as_str);
+        out.element("td", &[("class", "bound"), ("title", &said.join(", "))], first);
     }
 }
 
 /// Totals under the pieces: work outside of them, if there is any, and all.
-fn totals(about: &About, rows: &[Row], columns: &str, out: &mut Markup) {
+fn totals(about: &About, rows: &[Row], (before, after): (&str, usize), out: &mut Markup) {
     let mut inside = Sums::default();
     for row in rows {
         inside.join(&row.sums);
@@ -109,23 +153,29 @@ fn totals(about: &About, rows: &[Row], columns: &str, out: &mut Markup) {
     outside.ticks.iter_mut().zip(all.ticks.iter().zip(inside.ticks)).for_each(|(out, (all, of))| *out = all - of);
     let lines = [("Outside of pieces", 0.0, &outside), ("All", cut, all)];
     for (name, cut, sums) in lines.into_iter().filter(|(_, _, sums)| sums.total() > 0) {
-        out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", columns)], name);
+        out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", before)], name);
         work(about, cut, sums, out);
-        out.element("td", &[], "").close("tr");
+        (0..after).for_each(|_| _ = out.element("td", &[], ""));
+        out.close("tr");
     }
 }
 
 /// The table of windows; empty where the cloth does not advance.
 pub(super) fn windows(about: &About, out: &mut Markup) {
-    let Some(last) = about.pieces.iter().filter_map(|piece| piece.window).max() else { return };
+    let Some(count) = about.windows() else { return };
     out.open("section", &[("id", "windows")]).element("h2", &[], "Windows of the conveyor");
+    out.element(
+        "p",
+        &[("class", "hint")],
+        "The time in which the conveyor moves the cloth on is not counted anywhere.",
+    );
     table::open(out, "sortable", &["#Window", "Pieces", "#Cut, m", "#Time"]);
     let mut sections = vec![0; about.pieces.len()];
     for piece in about.pieces {
         sections[piece.whole] += 1;
     }
     let is_split = |piece: &Piece| sections[piece.whole] > 1;
-    for window in 0..=last {
+    for window in 0..count {
         let pieces = || about.pieces.iter().filter(move |piece| piece.window == Some(window));
         let cut: f64 = pieces().map(|piece| piece.cut).sum();
         let time = about.time(pieces().map(|piece| piece.sums.total()).sum());

@@ -6,6 +6,7 @@ use crate::back::html::about::{About, clock};
 use crate::back::html::piece::Marks;
 use crate::back::html::record::Sums;
 use crate::ir::declaration::Total;
+use crate::ir::motion::Bound;
 use crate::machine::{NotchStyle, Price};
 use crate::picture::Markup;
 use crate::units::number::{counted, fixed};
@@ -24,8 +25,10 @@ pub(super) fn summary(about: &About) -> String {
         fixed(height, 0),
         fixed(marker.cut_length() / MM_PER_M, 2)
     );
+    let windows = about.windows().map(|windows| format!(" in {}", counted(windows, "window")));
     let ticks = about.record.all.total();
-    if ticks > 0 { format!("{said}, {}", clock(about.time(ticks))) } else { said }
+    let time = (ticks > 0).then(|| format!(", {}", clock(about.time(ticks))));
+    said + &windows.unwrap_or_default() + &time.unwrap_or_default()
 }
 
 /// The section of totals.
@@ -46,7 +49,8 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         rows.push(("Area of the parts", format!("{} m2{share}", fixed(area / MM2_PER_M2, 4))));
     }
     if sums.total() > 0 {
-        rows.push(("Time", clock(about.time(sums.total()))));
+        let moved = if about.windows().is_some() { " without the time in which the cloth is moved on" } else { "" };
+        rows.push(("Time", clock(about.time(sums.total())) + moved));
         rows.push(("Plunges", sums.plunges.to_string()));
         rows.push(("Overlaps past ends of cuts", format!("{} m", fixed(sums.overlaps / MM_PER_M, 3))));
     }
@@ -59,6 +63,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     table::facts(out, "totals", "Totals", &rows);
     if sums.total() > 0 {
         spent(about, sums, out);
+        limited(about, sums, out);
     }
 }
 
@@ -103,9 +108,7 @@ fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     for ((name, &ticks), way) in Sums::PARTS.iter().zip(&sums.ticks).zip(ways).filter(|((_, ticks), _)| **ticks > 0) {
         out.open("tr", &[]).element("td", &[], name);
         cells(ticks, way, out);
-        let share = ticks as f64 / total;
-        let value = fixed(share, 4);
-        out.open("td", &[]).open("meter", &[("value", &value), ("aria-label", name)]).close("meter").close("td");
+        bar(name, ticks as f64 / total, out);
         out.close("tr");
     }
     table::totals(out);
@@ -114,4 +117,42 @@ fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     out.element("td", &[], "").close("tr");
     table::close(out);
     out.close("section");
+}
+
+/// Cell with a bar of a share.
+fn bar(name: &str, share: f64, out: &mut Markup) {
+    let value = fixed(share, 4);
+    out.open("td", &[]).open("meter", &[("value", &value), ("aria-label", name)]).close("meter").close("td");
+}
+
+/// Breakdown of the time with the knife down on its way: one row per limit that keeps a cut from being faster.
+fn limited(about: &About, sums: &Sums, out: &mut Markup) {
+    let bounds = sums.bounds();
+    if bounds.is_empty() {
+        return;
+    }
+    out.open("section", &[("id", "limited")]).element("h2", &[], "Limits of the cutting");
+    let words =
+        "Starts and stops: from rest to speed and back to rest. Feed: what the profile or the file allows the tip.";
+    table::open(out, "bars", &["Limited by", "#Time", "#Of cutting", ""]);
+    let all: u64 = bounds.iter().map(|(_, ticks)| ticks).sum();
+    for (bound, ticks) in bounds {
+        let (time, share, name) = (about.time(ticks), ticks as f64 / all as f64, limit(bound));
+        out.open("tr", &[]).element("td", &[], &name);
+        table::number(out, &clock(time), time);
+        table::number(out, &format!("{} %", fixed(PERCENT * share, 1)), share);
+        bar(&name, share, out);
+        out.close("tr");
+    }
+    table::close(out);
+    out.element("p", &[("class", "hint")], words).close("section");
+}
+
+/// Name of a limit; axes in capitals as elsewhere on the page.
+pub(super) fn limit(bound: Bound) -> String {
+    let words = bound.to_string();
+    match words.rsplit_once(' ') {
+        Some((order, axis)) if axis.len() == 1 => format!("{order} {}", axis.to_uppercase()),
+        _ => words,
+    }
 }
