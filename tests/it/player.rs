@@ -233,6 +233,16 @@ fn a_folder_of_pages_has_an_overview() {
     assert!(page.contains("<a href=\"./circle.html\">") && page.contains("1 failed") && !page.contains("./junk.html"));
     let again = room.says("compile in -o out/ -t html,csv --changed", FAULTY);
     assert!(again.contains("wrote `out/index.html`") && room.text("out/index.html").contains("unchanged"), "{again}");
+    // The broken file is the first, with its message; the others have their verdict and what is worst in them.
+    let row =
+        |name: &str| page.split("<tr").skip(2).position(|row| row.contains(&format!("{name}.cut"))).expect("a row");
+    assert_eq!((row("junk"), row("circle")), (0, 2));
+    let rows: Vec<&str> = page.split("<tr").skip(2).collect();
+    assert!(rows[0].contains("class=\"broken\"") && rows[0].contains("<td>refused</td>\n<td>not</td>"), "{}", rows[0]);
+    assert!(rows[0].contains("source/unknown-format<p class=\"hint\">this is binary data"), "{}", rows[0]);
+    assert!(rows[2].contains("<td>verified</td>\n<td>now</td>"), "{}", rows[2]);
+    let digest = meta(&room, "out/circle.csv")["profile_sha256"].as_str().expect("a digest").to_owned();
+    assert!(page.contains(&format!("Profile: default machine, SHA-256 of all values {digest}")));
     // What is no overview stays, and neither a part of the files nor setpoints have one.
     room.write("out/index.html", b"mine");
     assert!(room.says("compile in -o out/ -t html", USAGE).contains("`out/index.html` is no overview of pages"));

@@ -10,8 +10,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
+use super::Input;
+use super::found::{Found, worst};
 use super::shard::Shard;
-use super::{Input, worst};
 use crate::cli::draft::{self, Draft, Whole};
 use crate::cli::files::{cannot_write, directory, meta};
 use crate::cli::finished::Console;
@@ -101,6 +102,9 @@ pub(in crate::cli) struct Line {
     pub(in crate::cli) time_s: Option<f64>,
     /// The code of the worst finding, if there is any.
     pub(in crate::cli) worst: Option<String>,
+    /// Findings in numbers and words; a line of an earlier version has none.
+    #[serde(default)]
+    pub(in crate::cli) found: Found,
 }
 
 /// The manifest of a folder of programs.
@@ -227,7 +231,7 @@ impl Manifest {
         let output = |Whole { path, sha256 }| Output { path: self.name_of(&path), sha256 };
         let outputs = whole.into_iter().map(output).collect();
         let worst = worst(out).map(str::to_owned);
-        Line { made, verdict, outputs, pieces: None, cut_m: None, time_s: None, worst }
+        Line { made, verdict, outputs, pieces: None, cut_m: None, time_s: None, worst, found: Found::of(out) }
     }
 
     /// Adds a line; if it cannot be written whole, removes the rest of it.

@@ -2,6 +2,7 @@
 
 mod collisions;
 mod figures;
+mod found;
 mod inputs;
 mod manifest;
 mod passed;
@@ -18,6 +19,7 @@ use std::thread;
 use clap::Args;
 
 pub(super) use figures::{Cloth, Figures};
+pub(super) use found::{Found, worst};
 pub(super) use inputs::{Input, Inputs, extensions, files_in, find, find_programs, hint, is_cutter_file};
 pub(super) use manifest::{Line, Made, Manifest, Standing, rounded};
 pub(super) use passed::tell_passed_over;
@@ -29,7 +31,6 @@ pub(super) use table::{Columns, Row, State, Telling, counts, failed_last, sum, t
 use self::progress::Progress;
 use self::table::BROKEN;
 use super::finished::{Console, DONE, FAULTY, Finished};
-use crate::diagnostic::Diagnostics;
 
 /// How many files are worked on.
 #[derive(Debug, Clone, Copy, Args)]
@@ -69,6 +70,7 @@ impl Outcome {
         let message = format!("{error:#}");
         let row = Row {
             worst: message.lines().next().unwrap_or_default().to_owned(),
+            found: Found { errors: 1, ..Found::default() },
             ..Row::new(&input.path, State::Failed)
         };
         Self { row: Some(row), said: format!("error: {message}\n"), json: None }
@@ -83,11 +85,6 @@ impl Outcome {
     pub(super) fn elsewhere() -> Self {
         Self { row: None, said: String::new(), json: None }
     }
-}
-
-/// The code of the worst finding, for a row.
-pub(super) fn worst(diagnostics: &Diagnostics) -> Option<&'static str> {
-    diagnostics.tally().first().map(|(code, _)| code.name)
 }
 
 /// Files to work on.

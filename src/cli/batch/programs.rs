@@ -152,6 +152,8 @@ pub(in crate::cli) fn kept(manifest: &Manifest, input: &Input, line: Line) -> Ro
         cut_m: line.cut_m,
         time_s: line.time_s,
         worst: line.worst.clone().unwrap_or_default(),
+        found: line.found.clone(),
+        verdict: Some(line.verdict),
         ..Row::new(&input.path, state)
     };
     manifest.keep(line);

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::figures::Figures;
+use super::found::Found;
+use super::manifest::Standing;
 use crate::cli::options::counted;
 use crate::cli::price::{Costs, Price};
 use crate::cli::times::clock;
@@ -43,6 +45,10 @@ pub(in crate::cli) struct Row {
     pub(in crate::cli) figures: Option<Figures>,
     /// The worst finding or the verdict; empty if there is none.
     pub(in crate::cli) worst: String,
+    /// Findings in numbers and words.
+    pub(in crate::cli) found: Found,
+    /// Verdict on its programs; `None` if it was not compiled.
+    pub(in crate::cli) verdict: Option<Standing>,
 }
 
 impl Row {
@@ -69,6 +75,8 @@ impl Row {
             time_s: None,
             figures: None,
             worst: String::new(),
+            found: Found::default(),
+            verdict: None,
         }
     }
 }
@@ -169,6 +177,8 @@ pub(in crate::cli) fn sum(rows: &[Row]) -> Row {
         time_s: Some(rows.iter().filter_map(|row| row.time_s).sum()),
         figures: Figures::sum(rows.iter().filter_map(|row| row.figures.as_ref())),
         worst: String::new(),
+        found: Found::default(),
+        verdict: None,
     }
 }
 

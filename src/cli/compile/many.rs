@@ -8,7 +8,7 @@ use super::one;
 use super::overview::{Overview, page_of};
 use crate::back::{TARGETS, Target};
 use crate::cli::batch::{
-    self, Columns, Input, Line, Made, Manifest, Outcome, Programs, Row, Standing, State, Telling, Work, rounded,
+    self, Columns, Found, Input, Line, Made, Manifest, Outcome, Programs, Row, Standing, State, Telling, Work, rounded,
 };
 use crate::cli::choices::Format;
 use crate::cli::destination::{not_of_another, targets_of_many};
@@ -56,7 +56,7 @@ pub(super) fn run(
     programs.make(console, work, |ended| {
         let page = page_of(targets)?;
         let rows: Vec<_> = ended.rows.iter().zip(places).map(|(row, places)| (row, places[page].as_path())).collect();
-        overview.map(|overview| overview.write(&rows))
+        overview.map(|overview| overview.write(&rows, &job))
     })
 }
 
@@ -105,11 +105,7 @@ impl<'a> Many<'a> {
     pub(in crate::cli) fn publish(&self, One { source, made, drafted }: One) -> Published {
         let record = |compiled: Option<&Compiled>, diagnostics: &Diagnostics, whole: Vec<Whole>| {
             let report = compiled.map(|compiled| &compiled.report);
-            let verdict = match compiled {
-                None => Standing::Refused,
-                Some(Compiled { verdict: None, .. }) => Standing::Unverified,
-                Some(Compiled { verdict: Some(_), .. }) => Standing::Verified,
-            };
+            let verdict = standing(compiled);
             self.manifest.add(Line {
                 pieces: report.map(|report| report.pieces),
                 cut_m: report.map(|report| rounded(report.cut_m)),
@@ -129,6 +125,15 @@ impl<'a> Many<'a> {
             Err(_) => Became::Unwritten,
         };
         Published { source, became, ended }
+    }
+}
+
+/// Verdict on the programs of a file.
+fn standing(compiled: Option<&Compiled>) -> Standing {
+    match compiled {
+        None => Standing::Refused,
+        Some(Compiled { verdict: None, .. }) => Standing::Unverified,
+        Some(Compiled { verdict: Some(_), .. }) => Standing::Verified,
     }
 }
 
@@ -187,6 +192,8 @@ impl Published {
             cut_m: report.map(|report| report.cut_m),
             time_s: report.and_then(Report::time_s),
             worst: batch::worst(&diagnostics).unwrap_or_default().to_owned(),
+            found: Found::of(&diagnostics),
+            verdict: Some(standing(compiled.as_ref())),
             ..Row::new(&input.path, if compiled.is_some() { State::Done } else { State::Failed })
         };
         Outcome { row: Some(row), said: said + &beside, json }

@@ -5,13 +5,13 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use crate::back::{Emit, Target};
-use crate::cli::batch::{Row, State};
+use crate::cli::batch::{Row, Standing, State};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::cannot_write;
 use crate::cli::finished::failure;
-use crate::cli::times::clock;
+use crate::machine::Job;
 use crate::picture::{Columns, Markup, Page, Script};
-use crate::units::number::{counted, fixed};
+use crate::units::number::{clock, counted, fixed};
 
 /// File name of the overview.
 const NAME: &str = "index.html";
@@ -64,10 +64,10 @@ impl<'a> Overview<'a> {
     /// # Errors
     ///
     /// The file cannot be written.
-    pub(in crate::cli) fn write(&self, rows: &[Seen<'_>]) -> anyhow::Result<String> {
+    pub(in crate::cli) fn write(&self, rows: &[Seen<'_>], job: &Job) -> anyhow::Result<String> {
         let page = Page {
             title: format!("{}: overview", counted(rows.len(), "file")),
-            body: self.body(rows),
+            body: self.body(rows, job),
             facts: serde_json::json!({}),
             columns: Columns::default(),
             script: Script::Cutting,
@@ -78,7 +78,7 @@ impl<'a> Overview<'a> {
         Ok(self.path.display().to_string())
     }
 
-    fn body(&self, rows: &[Seen<'_>]) -> String {
+    fn body(&self, rows: &[Seen<'_>], job: &Job) -> String {
         let mut out = Markup::default();
         let failed = rows.iter().filter(|(row, _)| row.state == State::Failed).count();
         out.open("header", &[]).element("h1", &[], &counted(rows.len(), "file"));
@@ -86,17 +86,22 @@ impl<'a> Overview<'a> {
         let worth = if failed == 0 { "verified" } else { "refused" };
         out.element("p", &[("class", "worth"), ("data-worth", worth)], &said);
         let sum = |of: fn(&Row) -> Option<f64>| rows.iter().filter_map(|(row, _)| of(row)).sum::<f64>();
-        let summary = format!("{} m to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s)));
+        let summary = format!("{} m to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s), 1));
         out.element("p", &[("class", "summary")], &summary).close("header");
-        out.markup(MARK).open("section", &[]).open("div", &[("class", "scroll")]);
+        out.markup(MARK).open("section", &[]);
+        let profile = format!("Profile: {}, SHA-256 of all values {}", job.origin.described(), job.profile.digest());
+        out.element("p", &[("class", "hint")], &profile).open("div", &[("class", "scroll")]);
         out.open("table", &[("class", "sortable")]).open("thead", &[]).open("tr", &[]);
-        for (class, name) in
-            [("", "File"), ("", "State"), ("number", "Pieces"), ("number", "Cut, m"), ("number", "Time")]
+        for column in
+            ["File", "Verdict", "Made", "#Errors", "#Warnings", "#Pieces", "#Cut, m", "#Time", "Worst finding"]
         {
+            let (class, name) = column.strip_prefix('#').map_or(("", column), |name| ("number", name));
             out.element("th", &[("scope", "col"), ("class", class)], name);
         }
-        out.element("th", &[("scope", "col")], "Worst finding").close("tr").close("thead").open("tbody", &[]);
-        for (row, page) in rows {
+        out.close("tr").close("thead").open("tbody", &[]);
+        // Those that need somebody come first.
+        let (failed, done): (Vec<_>, Vec<_>) = rows.iter().partition(|(row, _)| row.state == State::Failed);
+        for (row, page) in [failed, done].concat() {
             self.row(row, page, &mut out);
         }
         out.close("tbody").close("table").close("div").close("section").close("main");
@@ -104,26 +109,39 @@ impl<'a> Overview<'a> {
     }
 
     fn row(&self, row: &Row, page: &Path, out: &mut Markup) {
-        let state = match row.state {
-            State::Done => "done",
-            State::Unchanged => "unchanged",
-            State::Failed => "failed",
+        let (class, made) = match row.state {
+            State::Done => ("", "now"),
+            State::Unchanged => ("", "unchanged"),
+            State::Failed => ("broken", "not"),
         };
-        out.open("tr", &[("class", if row.state == State::Failed { "broken" } else { "" })]).open("td", &[]);
+        out.open("tr", &[("class", class)]).open("td", &[]);
         if page.exists() {
             out.element("a", &[("href", &link(page.strip_prefix(self.out).unwrap_or(page)))], &row.file);
         } else {
             out.text(&row.file);
         }
-        out.close("td").element("td", &[], state);
+        let verdict = match row.verdict {
+            Some(Standing::Verified) => "verified",
+            Some(Standing::Unverified) => "not verified",
+            Some(Standing::Refused) => "refused",
+            None => "failed",
+        };
+        out.close("td").element("td", &[], verdict).element("td", &[], made);
         let mut number = |shown: Option<String>, value: Option<f64>| {
             let value = value.unwrap_or(-1.0).to_string();
             out.element("td", &[("class", "number"), ("data-value", &value)], &shown.unwrap_or_default());
         };
-        number(row.pieces.map(|pieces| pieces.to_string()), row.pieces.map(|pieces| pieces as f64));
+        let count = |count: usize| Some(count).filter(|&count| count > 0);
+        for count in [count(row.found.errors), count(row.found.warnings), row.pieces] {
+            number(count.map(|count| count.to_string()), count.map(|count| count as f64));
+        }
         number(row.cut_m.map(|metres| fixed(metres, 3)), row.cut_m);
-        number(row.time_s.map(clock), row.time_s);
-        out.element("td", &[], &row.worst).close("tr");
+        number(row.time_s.map(|time| clock(time, 1)), row.time_s);
+        out.open("td", &[]).prose(&row.worst);
+        if !row.found.told.is_empty() {
+            out.open("p", &[("class", "hint")]).prose(&row.found.told).close("p");
+        }
+        out.close("td").close("tr");
     }
 }
 

@@ -311,7 +311,7 @@ impl Watch<'_> {
         let rows: Vec<_> = self.rows.values().map(|(row, places)| (row, places[page].as_path())).collect();
         let may = if arguments.making.force { Ok(()) } else { overview.may_be_written() };
         let out = self.folders.out;
-        match may.and_then(|()| overview.write(&rows)) {
+        match may.and_then(|()| overview.write(&rows, &self.settings.job)) {
             Ok(_) => _ = self.told.remove(out),
             Err(error) => self.say_once(out, &format!("error: {error:#}\n"), console),
         }

@@ -1,0 +1,38 @@
+//! Findings about a file, as rows, manifests and overviews tell them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+
+/// Findings about a file in numbers and words.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::cli) struct Found {
+    pub(in crate::cli) errors: usize,
+    pub(in crate::cli) warnings: usize,
+    /// Message of the worst finding, with its piece; empty if there is none.
+    pub(in crate::cli) told: String,
+}
+
+impl Found {
+    /// The findings of a compile.
+    pub(in crate::cli) fn of(diagnostics: &Diagnostics) -> Self {
+        let worst = worst(diagnostics);
+        let of_worst = diagnostics.iter().filter(|finding| Some(finding.code.name) == worst);
+        let by = |finding: &Diagnostic| finding.by.unwrap_or(0.0);
+        let first = of_worst.reduce(|worst, other| if by(other) > by(worst) { other } else { worst });
+        let told = first.map(|finding| match &finding.piece {
+            Some(piece) => format!("{piece}: {}", finding.message),
+            None => finding.message.clone(),
+        });
+        Self {
+            errors: diagnostics.count(Severity::Error),
+            warnings: diagnostics.count(Severity::Warning),
+            told: told.unwrap_or_default(),
+        }
+    }
+}
+
+/// The code of the worst finding, for a row.
+pub(in crate::cli) fn worst(diagnostics: &Diagnostics) -> Option<&'static str> {
+    diagnostics.tally().first().map(|(code, _)| code.name)
+}
