@@ -47,7 +47,9 @@ impl<'a> Planner<'a> {
     /// The timed motion of a toolpath with its solved runs.
     pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
         let mut motion = self.begin([toolpath.piece, toolpath.part]);
-        cuts.iter().for_each(|cut| motion.shares.merge(&cut.shares));
+        for cut in &cuts {
+            motion.shares.merge(&cut.shares);
+        }
         let mut cuts = cuts.into_iter();
         let mut kind = Kind::Travel;
         for (step, next) in toolpath.steps.iter().zip(toolpath.steps.iter().skip(1).map(Some).chain([None])) {

@@ -113,7 +113,7 @@ struct Open {
 pub(super) struct Record {
     tick: u64,
     /// Index in the marker of the piece whose work was taken last; what follows outside of pieces counts for it.
-    part: Option<usize>,
+    part: Option<u32>,
     /// Limits of the axes in cuts and with the knife up.
     limits: [Limits; 2],
     open: Option<Open>,
@@ -162,7 +162,7 @@ impl Record {
     /// Adds the motion of a toolpath.
     pub(super) fn take(&mut self, motion: &Motion) {
         if motion.piece > 0 {
-            self.part = Some(motion.part as usize);
+            self.part = Some(motion.part);
         }
         for phase in &motion.phases {
             self.phase(phase);
@@ -177,7 +177,9 @@ impl Record {
     /// Adds to the sums over the program and to those of the piece.
     fn count(&mut self, add: impl Fn(&mut Sums)) {
         add(&mut self.all);
-        self.part.and_then(|part| self.pieces.get_mut(part)).into_iter().for_each(add);
+        if let Some(piece) = self.part.and_then(|part| self.pieces.get_mut(part as usize)) {
+            add(piece);
+        }
     }
 
     fn phase(&mut self, phase: &Phase) {
@@ -194,7 +196,7 @@ impl Record {
             }
         }
         self.open = Some(Open { first_tick: self.tick, ticks: u64::from(phase.ticks), way });
-        let part = self.part.map_or(-1, |part| part as i64);
+        let part = self.part.map_or(-1, i64::from);
         self.stretches.push(Stretch { tick: self.tick, kind: number(phase.kind), part, station: phase.station });
         for spell in &phase.spells {
             self.blocks.push([self.tick + u64::from(spell.first), u64::from(spell.block)]);

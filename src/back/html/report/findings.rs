@@ -48,10 +48,8 @@ fn jump(out: &mut Markup, at: Point, moment: Moment, told: &str) {
     attributes.push(("data-told", &told));
     attributes.extend(time.as_deref().map(|time| ("data-time", time)));
     attributes.extend(part.as_deref().map(|part| ("data-part", part)));
-    let mut words = format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1));
-    if let Moment::At(time) = moment {
-        words += &format!(", {}", clock(time, 3));
-    }
+    let at = format!("X {} Y {}", fixed(at.x, 1), fixed(at.y, 1));
+    let words = if let Moment::At(time) = moment { format!("{at}, {}", clock(time, 3)) } else { at };
     out.element("button", &attributes, &words);
 }
 
@@ -292,8 +290,10 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
             own if own == piece.whole => "its own part".to_owned(),
             _ => format!("piece {}", part.number),
         });
-        let words = format!("{one}, {} mm: piece {}", fixed(entry.magnitude_mm, 3), piece.number);
-        let words = words + &into.iter().map(|into| format!(" into {into}")).collect::<String>();
+        let mut words = format!("{one}, {} mm: piece {}", fixed(entry.magnitude_mm, 3), piece.number);
+        if let Some(into) = &into {
+            words.extend([" into ", into]);
+        }
         out.element("td", &[], &into.unwrap_or_default());
         table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
         out.open("td", &[]);

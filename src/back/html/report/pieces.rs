@@ -155,7 +155,9 @@ fn totals(about: &About, rows: &[Row], (before, after): (&str, usize), out: &mut
     for (name, cut, sums) in lines.into_iter().filter(|(_, _, sums)| sums.total() > 0) {
         out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", before)], name);
         work(about, cut, sums, out);
-        (0..after).for_each(|_| _ = out.element("td", &[], ""));
+        for _ in 0..after {
+            out.element("td", &[], "");
+        }
         out.close("tr");
     }
 }
