@@ -80,8 +80,9 @@ fn is_flat(bytes: &[u8], unit: f64) -> bool {
             count += 1;
         }
     }
-    let leaves_line =
-        y[1] > y[0] || digits.is_some_and(|digits| digits >= LEAST_DECIMALS) && y[1] == 0.0 || turns >= LEAST_TURNS;
+    let leaves_line = y[1] > y[0]
+        || digits.is_some_and(|digits| digits >= LEAST_DECIMALS) && y[1] == 0.0
+        || y[0] > 0.0 && turns >= LEAST_TURNS;
     let is_scaled = || bytes.windows(3).any(|three| matches!(three, [b';', b'P', b'R'] | [b';', b'S', b'C']));
     count >= LEAST_PLACES && leaves_line && x[1] - x[0] >= FLAT_RATIO * y[1].max(1.0) && !is_scaled()
 }

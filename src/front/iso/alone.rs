@@ -9,6 +9,9 @@ use super::syntax::Point;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
+/// Least number of repeated coordinates for each omitted one, if several are omitted: a transfer loses few letters.
+const FEW: usize = 10;
+
 /// Points with one coordinate.
 #[derive(Debug, Default)]
 pub(super) struct Alone {
@@ -17,7 +20,7 @@ pub(super) struct Alone {
 }
 
 impl Alone {
-    /// Records a point of a move if it has one coordinate.
+    /// Records the point of a block without codes if it has one coordinate.
     pub(super) fn see(&mut self, point: Point, span: Span) {
         let letter = match (point.x, point.y) {
             (Some(_), None) => 'X',
@@ -28,9 +31,10 @@ impl Alone {
         self.first.get_or_insert((letter, span));
     }
 
-    /// Reports the points if the file repeats coordinates more often than it omits them.
+    /// Reports the points if they are few, and the file repeats coordinates otherwise.
     pub(super) fn report(&self, bytes: &[u8], out: &mut Diagnostics) {
-        let Some((letter, span)) = self.first.filter(|_| self.count < repeats(bytes)) else { return };
+        let are_few = |repeats: usize| repeats > self.count && (self.count == 1 || repeats >= FEW * self.count);
+        let Some((letter, span)) = self.first.filter(|_| are_few(repeats(bytes))) else { return };
         let blocks = if self.count == 1 { "one block".to_owned() } else { format!("one of {} blocks", self.count) };
         let message = format!("{blocks} with {letter} alone, where others repeat an unchanged coordinate");
         let finding = Diagnostic::new(&code::ISO_ALONE, message).at(span);

@@ -107,6 +107,7 @@ impl Lowering<'_> {
         let mut last = Span::default();
         loop {
             if let Some((point, span)) = self.blocks.next_point() {
+                self.alone.see(point, span);
                 self.go(point, span);
                 last = self.cut_on().unwrap_or(span);
                 continue;
@@ -119,6 +120,8 @@ impl Lowering<'_> {
                 last = block.span;
                 match block.words {
                     Ok(words) => {
+                        let alone = words.point.filter(|_| words.codes.is_empty());
+                        alone.into_iter().for_each(|point| self.alone.see(point, block.span));
                         self.see_order(&words, block.span);
                         self.obey(&words.codes, words.point, block.span)
                     }
@@ -503,7 +506,6 @@ impl Lowering<'_> {
 
     /// Converts a point of the file to mm and makes it the current position.
     fn locate(&mut self, point: Point, span: Span) -> geom::Point {
-        self.alone.see(point, span);
         self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
         convert(self.place.map(Option::unwrap_or_default), self.unit.convert(), span, &mut self.far)
     }

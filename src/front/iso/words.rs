@@ -7,7 +7,7 @@ use crate::front::Word;
 pub(super) const WORDS: &[Word] = &[
     Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down" },
     Word { words: "`N`", about: "a piece begins; with the knife down, at the next lift" },
-    Word { words: "`G70`, `G71`, `G91`", about: "unit 0.0254 mm, 0.1 mm, 0.254 mm (also without any of them)" },
+    Word { words: "`G70`, `G71`, `G91`", about: "unit 0.0254 mm, 0.1 mm, 0.254 mm (this one, too, where none of them stands)" },
     Word { words: "`G01`; `G02`, `G03` with `I J` or `R` and a number", about: "straight lines; arcs, as chords within a quarter of the tolerance and 0.01 mm" },
     Word { words: "`G00`", about: "straight lines; reported, since the knife alone says what is cut" },
     Word { words: "`F`", about: "cap on the speed, inches per minute, from there on" },
