@@ -379,9 +379,14 @@ impl Machine {
     }
 }
 
-/// Profile at a path. Unless there is such a file, a path that is the name of a shipped profile stands for that.
+/// Profile at a path, or the shipped one of that name. A file with the name of a shipped profile needs a path.
 pub(super) fn profile(path: &Path) -> anyhow::Result<Source> {
-    if let Some(shipped) = shipped(path).filter(|_| !path.is_file()) {
+    if let Some(shipped) = shipped(path) {
+        if path.is_file() {
+            let name = shipped.name;
+            let message = format!("`{name}` is a profile that ships, and a file in this directory");
+            return Err(failure(message, format!("say `./{name}` for the file, or give it another name")));
+        }
         return Ok(shipped.source());
     }
     if path.exists() {

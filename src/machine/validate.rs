@@ -58,6 +58,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     let mut faults = blade(&profile.knife, is_given);
     faults.extend(times(&profile.knife));
     faults.extend(headings(profile, is_given));
+    faults.extend(parked_off_table(profile));
     faults.extend(gcode::faults(profile));
     faults.extend(sewing::faults(&profile.sewing));
     faults.extend(tracking::faults(&profile.track));
@@ -128,6 +129,16 @@ fn times(knife: &Knife) -> Vec<Fault> {
         ));
     }
     faults
+}
+
+/// Fault of a place to park that the axes cannot reach.
+fn parked_off_table(profile: &MachineProfile) -> Option<Fault> {
+    let [x, y, _] = profile.park?;
+    let beyond = profile.table.off([x, y]);
+    (beyond > 0.0).then(|| {
+        let message = format!("`park` is {beyond} mm off the table, at {x}, {y} mm");
+        Fault::of_range(&["park", "table.x_mm", "table.y_mm"], message, "the axes stay over the table: park there")
+    })
 }
 
 /// Faults of the range of the C axis and of its accuracy.

@@ -56,14 +56,28 @@ fn a_profile_that_ships_is_taken_by_name_with_settings_on_top() {
 }
 
 #[test]
-fn a_file_is_taken_before_a_profile_of_its_name() {
+fn a_file_with_the_name_of_a_profile_that_ships_needs_a_path() {
     let room = room();
     room.write("fluidnc", b"knife.width_mm = 3\n");
-    let (shown, _) = room.expect("profile show -p fluidnc", DONE);
+    let (_, stderr) = room.expect("profile show -p fluidnc", USAGE);
+    assert!(
+        stderr.contains("`fluidnc` is a profile that ships, and a file") && stderr.contains("./fluidnc"),
+        "{stderr}"
+    );
+    let (shown, _) = room.expect("profile show -p ./fluidnc", DONE);
     assert!(shown.contains("width_mm = 3.0") && shown.contains("feed_mode = \"G94\""), "{shown}");
     fs::create_dir(room.at("grblhal")).expect("writable");
     let (shown, _) = room.expect("profile show -p grblhal", DONE);
     assert!(shown.contains("feed_mode = \"G93\""), "{shown}");
+}
+
+#[test]
+fn a_machine_does_not_park_off_its_table() {
+    let room = room();
+    let table = "--set table.x_mm=[0,1600] --set table.y_mm=[0,1200]";
+    let (_, stderr) = room.expect(&format!("profile show -p fluidnc {table} --set park=[5000,0,0]"), USAGE);
+    assert!(stderr.contains("`park` is 3400 mm off the table, at 5000, 0 mm"), "{stderr}");
+    room.expect(&format!("profile show -p fluidnc {table} --set park=[1600,1200,0]"), DONE);
 }
 
 #[test]

@@ -66,6 +66,8 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
         faults.extend(unasked(&lists, [("gcode.header", header), ("gcode.footer", footer)]));
         faults.extend(mistimed(keys));
         faults.extend(lists.iter().filter_map(|list| hasty(list, keys)));
+        faults.extend(lists.iter().filter_map(|list| inverse_feed(list, keys)));
+        faults.extend([[0, 1], [2, 3]].into_iter().filter_map(|[down, up]| upside_down(&lists[down], &lists[up])));
         // The first fault of a key is enough.
         let mut told: Vec<String> = Vec::new();
         faults.retain(|fault| {
@@ -311,6 +313,28 @@ fn hasty(list: &List, keys: &Gcode) -> Option<Fault> {
     Some(Fault::of_range(&[list.key, "gcode.outputs"], message, hint))
 }
 
+/// Fault of a list with a feed of Z in inverse time: there F is the inverse of the time of a move, and not a speed.
+fn inverse_feed(list: &List, keys: &Gcode) -> Option<Fault> {
+    let has_feed = |step: &&Step| matches!(step, Step::Z { feed_mm_min: Some(_), .. });
+    let step = list.steps.iter().find(has_feed).filter(|_| keys.feed_mode == FeedMode::G93)?;
+    let message = format!("`{}` has {step}, whose F is no speed where `gcode.feed_mode` is \"G93\"", list.key);
+    let hint = "G0 moves Z as fast as the controller lets it: set the speed of Z there";
+    Some(Fault::of_range(&[list.key, "gcode.feed_mode"], message, hint))
+}
+
+/// Fault of a tool that Z lifts to no more than where it puts it down. Z counts upwards (ISO 841).
+fn upside_down(down: &List, up: &List) -> Option<Fault> {
+    let end = |list: &List| {
+        let to = |step: &Step| if let Step::Z { to_mm, .. } = step { Some(*to_mm) } else { None };
+        list.steps.iter().rev().find_map(to)
+    };
+    let (low, high) = end(down).zip(end(up))?;
+    (high <= low).then(|| {
+        let message = format!("`{}` lifts Z to {high} mm, and `{}` puts it down to {low} mm", up.key, down.key);
+        Fault::of_range(&[down.key, up.key], message, "Z counts upwards: the higher place is the lifted one")
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -381,6 +405,27 @@ mod tests {
         check(&[("knife_down", "M64 P0, M0")], &[waits]);
         check(&[("stop", "M64 P#")], &["`gcode.stop` has #, but means no drill"]);
         check(&[("footer", "M5")], &["`gcode.footer` has no end of the program"]);
+    }
+
+    #[test]
+    fn what_lifts_a_tool_leads_upwards() {
+        let knife = "`gcode.knife_up` lifts Z to -2 mm, and `gcode.knife_down` puts it down to 5 mm";
+        check(&[("knife_down", "G0 Z5"), ("knife_up", "G0 Z-2")], &[knife]);
+        let drill = "`gcode.drill_up` lifts Z to -7 mm, and `gcode.drill_down` puts it down to -5 mm";
+        check(&[("drill_down", "M3 S#, G1 Z-5 F200"), ("drill_up", "G0 Z-7, M5")], &[drill]);
+    }
+
+    #[test]
+    fn a_feed_of_z_is_a_speed() {
+        let mut profile = MachineProfile::default();
+        profile.gcode.feed_mode = FeedMode::G93;
+        profile.gcode.knife_down = vec!["G1 Z-2 F600".parse().expect("a step")];
+        profile.gcode.knife_up = vec!["G0 Z5".parse().expect("a step")];
+        let found: Vec<String> = faults(&profile).into_iter().map(|fault| fault.message).collect();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with("`gcode.knife_down` has G1 Z-2 F600, whose F is no speed"), "{found:?}");
+        profile.gcode.feed_mode = FeedMode::G94;
+        assert!(faults(&profile).is_empty());
     }
 
     #[test]
