@@ -121,7 +121,9 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
         let far = begins.map(|k| [k - 1, k, k + 1]).chain(start).filter(|&three| is_far(three.map(|k| points[k])));
         let off = |[before, at, _]: [usize; 3]| (points[at] - points[before]).norm();
         let farthest = far.max_by(|&a, &b| off(a).total_cmp(&off(b)));
-        let Some(three) = farthest.filter(|&three| stands_out(&points, three)) else { continue };
+        let is_wrong =
+            |three: [usize; 3]| stands_out(&points, three) || has_wrong_digit(three.map(|k| points[k]), marker.unit);
+        let Some(three) = farthest.filter(|&three| is_wrong(three)) else { continue };
         count += 1;
         if worst.is_none_or(|(most, ..)| off(three) > most) {
             worst = Some((off(three), piece, contour.range, three[0]));
@@ -147,6 +149,29 @@ fn stands_out(points: &[Point], [before, at, after]: [usize; 3]) -> bool {
     let is_longer = (spike[1] - spike[0]).norm() >= LONGER * width.max(height);
     let base = if is_longer { (spike[2] - spike[0]).norm_squared() } else { ring::area(&spike).abs() };
     ring::area(&rest).abs() >= REST * base && !ring::contains(&rest, points[at])
+}
+
+/// True if a point would lie between its neighbours with one digit more or less in one coordinate, on a grid of `unit` mm (0 =
+/// none). The tip of a dart or a slash has no such number, unless by chance.
+fn has_wrong_digit([before, at, after]: [Point; 3], unit: f64) -> bool {
+    if unit <= 0.0 {
+        return false;
+    }
+    let is_wrong = |axis: usize| {
+        let [one, other] = [before[axis], after[axis]];
+        let is_between = |value: f64| value >= one.min(other) - unit / 2.0 && value <= one.max(other) + unit / 2.0;
+        let number = format!("{:.0}", (at[axis] / unit).abs());
+        let told = |digits: String| digits.parse::<f64>().is_ok_and(|n| is_between((n * unit).copysign(at[axis])));
+        let more = (0..=number.len()).flat_map(|k| (0..10).map(move |digit| (k, digit)));
+        let mut more = more.map(|(k, digit)| format!("{}{digit}{}", &number[..k], &number[k..]));
+        let mut less = (0..number.len()).map(|k| format!("{}{}", &number[..k], &number[k + 1..]));
+        more.any(told) || less.any(told)
+    };
+    let is_kept = |axis: usize| {
+        let [one, other] = [before[axis], after[axis]];
+        at[axis] >= one.min(other) && at[axis] <= one.max(other)
+    };
+    is_kept(0) && is_wrong(1) || is_kept(1) && is_wrong(0)
 }
 
 /// Reports contours that together are smaller than a part. Readers of files with a grid check their unit themselves.
