@@ -13,7 +13,7 @@ const BLADE: Within = from(0.0, 1000.0);
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "knife.width_mm", takes: Takes::Number(BLADE), about: "Knife width: the blade from heel to tip as it is today, worn by sharpening. 0 = a point." },
-    Key { name: "knife.back_mm", takes: Takes::NumberOr(BLADE, Auto::WORD), about: "From the C axis back to the heel, the rear edge of the blade (the advance of M17). Sharpening takes the front, so it stays\nwhile the width shrinks. \"auto\" = what radius_mm leaves." },
+    Key { name: "knife.back_mm", takes: Takes::NumberOr(BLADE, Auto::WORD), about: "From the C axis back to the rear edge of the blade (the advance of M17). Sharpening takes\nthe front, so it stays while the width shrinks. \"auto\" = what radius_mm leaves." },
     Key { name: "knife.radius_mm", takes: Takes::NumberOr(BLADE, Auto::WORD), about: "From the C axis forward to the tip. Give this or back_mm; \"auto\" = what back_mm leaves." },
     Key { name: "knife.front_overlap_mm", takes: Takes::Number(BLADE), about: "Overcut: how far the tip cuts past the end of a line." },
     Key { name: "knife.corner_front_overlap_mm", takes: Takes::Number(BLADE), about: "Corner overcut: the same before the knife is lifted at a corner." },

@@ -187,9 +187,10 @@ fn states(text: &str) -> Vec<(String, Vec<f64>)> {
 fn the_states_of_a_square_are_those_of_the_paper() {
     let square = "H1*G71*N1*X0Y0*M14*X1000Y0*X1000Y1000*X0Y1000*X0Y0*M15*M0*";
     let room = Room::with("square.cut", square);
-    let knife = "width_mm=6 back_mm=2 front_overlap_mm=1 corner_front_overlap_mm=1 heel_overlap_mm=0.5 \
-                 corner_heel_overlap_mm=0.5";
-    let keys: String = knife.split_whitespace().map(|key| format!(" --set knife.{key}")).collect();
+    let knife = ["width_mm=6", "back_mm=2", "front_overlap_mm=1", "heel_overlap_mm=0.5"];
+    let corners = ["corner_front_overlap_mm=1", "corner_heel_overlap_mm=0.5"];
+    let keys: Vec<String> = knife.iter().chain(&corners).map(|key| format!(" --set knife.{key}")).collect();
+    let keys = keys.concat();
     room.says(&format!("compile square.cut -o square.states{keys}"), 0);
     let (states, table) = (states(&room.text("square.states")), rows("knife/square_table.csv"));
     assert_eq!(states.len(), table.len());

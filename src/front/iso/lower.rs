@@ -120,8 +120,9 @@ impl Lowering<'_> {
                 last = block.span;
                 match block.words {
                     Ok(words) => {
-                        let alone = words.point.filter(|_| words.codes.is_empty());
-                        alone.into_iter().for_each(|point| self.alone.see(point, block.span));
+                        if let Some(point) = words.point.filter(|_| words.codes.is_empty()) {
+                            self.alone.see(point, block.span);
+                        }
                         self.see_order(&words, block.span);
                         self.obey(&words.codes, words.point, block.span)
                     }
