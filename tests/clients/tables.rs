@@ -149,6 +149,12 @@ fn the_interpreter_of_linuxcnc_takes_the_programs_of_every_table_that_is_legal()
                 compile.args(arguments(table)).args(arguments(&[("feed_mode", mode)])).current_dir(folder.path());
                 let compiled = compile.output().expect("the program starts");
                 let said = String::from_utf8_lossy(&compiled.stderr).into_owned();
+                // In inverse time F is no speed of Z.
+                let has_feed = |(key, lines): &(&str, &str)| STEPS.contains(key) && lines.contains(['F', 'f']);
+                if mode == "G93" && table.iter().any(has_feed) {
+                    assert!(!compiled.status.success() && said.contains("profile/range"), "{table:?}: {file}: {said}");
+                    continue;
+                }
                 assert!(compiled.status.success(), "{mode}: {table:?}: {file}: {said}");
                 if !is_there {
                     continue;

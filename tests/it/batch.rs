@@ -222,7 +222,7 @@ fn long() -> String {
         let points = outline.map(|(i, j)| format!("X{}Y{}*", x + i, y + j)).concat();
         format!("N{}*X{x}Y{y}*M14*{points}M15*", piece + 1)
     };
-    let pieces: Vec<String> = (0..600).map(piece).collect();
+    let pieces: Vec<String> = (0..400).map(piece).collect();
     format!("H1*G71*{}M0*", pieces.concat())
 }
 
