@@ -113,7 +113,7 @@ pub fn short(value: f64) -> String {
     exact(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
-/// A duration for people, with so many decimals of a second: `59.9 s`, `2 min 05.3 s`.
+/// Duration for people, with the given decimals of a second: `59.9 s`, `2 min 05.3 s`.
 pub fn clock(seconds: f64, decimals: u32) -> String {
     // Round first: 119.96 s are 2 min, not 1 min 60.0 s.
     let rounded = fixed(seconds, decimals).parse().unwrap_or(seconds);

@@ -1,4 +1,4 @@
-//! What the target `gcode` promises: few arcs and lines in the band, controller tables obeyed, damage refused under its rule.
+//! Promises of the target `gcode`: few arcs and lines in the band, controller tables obeyed, damage refused under its rule.
 
 use std::collections::BTreeMap;
 use std::io::{BufReader, Cursor};

@@ -99,7 +99,7 @@ impl<'a> Overview<'a> {
             out.element("th", &[("scope", "col"), ("class", class)], name);
         }
         out.close("tr").close("thead").open("tbody", &[]);
-        // Those that need somebody come first.
+        // Failed files come first.
         let (failed, done): (Vec<_>, Vec<_>) = rows.iter().partition(|(row, _)| row.state == State::Failed);
         for (row, page) in [failed, done].concat() {
             self.row(row, page, &mut out);

@@ -76,7 +76,7 @@ fn high(bytes: &[u8], at: usize, count: usize) -> Option<i64> {
     Some(bytes.iter().fold(0, |sum, &byte| 256 * sum + i64::from(byte)))
 }
 
-/// Signed number in two's complement of so many bits.
+/// Signed number of `bits` bits in two's complement.
 fn with_sign(number: i64, bits: u32) -> i64 {
     if number >= 1 << (bits - 1) { number - (1 << bits) } else { number }
 }
