@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use crate::geom::boxes::Boxes;
-use crate::geom::{Extent, Point, Vector, corner, polyline};
+use crate::geom::corner::Corners;
+use crate::geom::{Extent, Point, Vector, polyline};
 use crate::ir::Marker;
 use crate::ir::marker::{Cut, CutKind};
 use crate::machine::kinematics::Move;
@@ -179,13 +180,9 @@ impl Item {
             };
         }
         let at = |i: usize| points[i % last];
-        let limit = job.profile.corner_angle();
-        let is_corner = |&i: &usize| {
-            let before = (1..last).map(|k| at(i + last - k));
-            let behind = (1..last).map(|k| at(i + k));
-            corner::is_corner(at(i), &before, &behind, limit, marker.unit)
-        };
-        let mut starts: Vec<usize> = (0..last).filter(is_corner).collect();
+        let (limit, unit) = (job.profile.corner_angle(), marker.unit);
+        let corners = Corners { point: at, count: last, is_ring: true, limit, unit };
+        let mut starts: Vec<usize> = (0..last).filter(|&i| corners.is_at(i)).collect();
         // A line without corners is treated as if it could start anywhere.
         if starts.is_empty() {
             starts.extend(0..last);

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use super::air::Air;
-use crate::geom::{Point, corner, polyline};
+use crate::geom::corner::Corners;
+use crate::geom::{Point, polyline};
 use crate::ir::Marker;
 use crate::ir::marker::Cut;
 use crate::machine::kinematics::Move;
@@ -46,7 +47,8 @@ impl<'a> Runs<'a> {
         let points = self.begun_at_corner(self.marker.list.points(cut.range));
         let last = points.len() - 1;
         let (mut time, mut first) = (0.0, 0);
-        for i in (1..last).filter(|&i| self.is_corner(points[i], points[..i].iter().rev(), points[i + 1..].iter())) {
+        let corners = self.corners(&points, false);
+        for i in (1..last).filter(|&i| corners.is_at(i)) {
             let turn = [self.air.up(points[i - 1], points[i]), self.air.down(points[i], points[i + 1])];
             time += self.of_run(&points[first..=i]) + self.air.time(&turn[0], &turn[1]);
             first = i;
@@ -54,28 +56,21 @@ impl<'a> Runs<'a> {
         time + self.of_run(&points[first..])
     }
 
-    fn is_corner<'p>(
-        &self,
-        at: Point,
-        before: impl Iterator<Item = &'p Point> + Clone,
-        behind: impl Iterator<Item = &'p Point> + Clone,
-    ) -> bool {
-        corner::is_corner(at, &before.copied(), &behind.copied(), self.corner, self.marker.unit)
+    fn first_corner(&self, ring: &[Point]) -> Option<usize> {
+        let corners = self.corners(ring, true);
+        (0..ring.len()).find(|&i| corners.is_at(i))
+    }
+
+    fn corners(&self, points: &[Point], is_ring: bool) -> Corners<impl Fn(usize) -> Point> {
+        let (limit, unit) = (self.corner, self.marker.unit);
+        Corners { point: |i| points[i], count: points.len(), is_ring, limit, unit }
     }
 
     /// Moves the start of a closed cut that begins amid a line to its next corner: a start amid the line would cost a lift.
     fn begun_at_corner<'p>(&self, points: Cow<'p, [Point]>) -> Cow<'p, [Point]> {
         let last = points.len() - 1;
-        let ring = &points[..last];
-        let is_corner = |i: usize| {
-            let (before, behind) = ring.split_at(i);
-            let (before, behind) = (before.iter().rev().chain(behind.iter().rev()), behind[1..].iter().chain(before));
-            self.is_corner(ring[i], before, behind)
-        };
-        if points[0] != points[last] || is_corner(0) {
-            return points;
-        }
-        let Some(first) = (1..last).find(|&i| is_corner(i)) else { return points };
+        let first = if points[0] == points[last] { self.first_corner(&points[..last]) } else { None };
+        let Some(first) = first.filter(|&first| first > 0) else { return points };
         Cow::Owned([&points[first..last], &points[..=first]].concat())
     }
 

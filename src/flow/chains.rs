@@ -7,7 +7,8 @@
 
 use super::bound;
 use super::join::Join;
-use crate::geom::{Point, corner};
+use crate::geom::Point;
+use crate::geom::corner::Corners;
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
 
@@ -118,11 +119,9 @@ impl Line {
         if self.run.joints[vertex % n].lift {
             return true;
         }
-        let (count, [back, on]) = if self.is_closed() { (n, [n - 1; 2]) } else { (n + 1, [vertex, n - vertex]) };
-        let at = vertex % count;
-        let before = (1..=back).map(|i| self.point((at + count - i) % count));
-        let behind = (1..=on).map(|i| self.point((at + i) % count));
-        corner::is_corner(self.point(vertex), &before, &behind, parting.corner, parting.unit)
+        let (is_ring, Parting { corner: limit, unit, .. }) = (self.is_closed(), parting);
+        let count = if is_ring { n } else { n + 1 };
+        Corners { point: |i| self.point(i), count, is_ring, limit, unit }.is_at(vertex % count)
     }
 
     /// The chain between two vertices, reversed if x rises. `joins` are the distances along the line from each vertex to the
@@ -301,11 +300,9 @@ impl Chain {
     /// The path along the chain as drawn.
     pub(super) fn way(&self, parting: Parting) -> Vec<bound::Step> {
         let [Step::Run(run), ..] = &self.toolpath.steps[..] else { return Vec::new() };
-        let is_corner = |at: usize| {
-            let (before, behind) = (run.points[..at].iter().rev().copied(), run.points[at + 1..].iter().copied());
-            run.joints[at].lift || corner::is_corner(run.points[at], &before, &behind, parting.corner, parting.unit)
-        };
-        bound::drawn(&run.points, is_corner)
+        let (limit, unit) = (parting.corner, parting.unit);
+        let corners = Corners { point: |i: usize| run.points[i], count: run.points.len(), is_ring: false, limit, unit };
+        bound::drawn(&run.points, |at| run.joints[at].lift || corners.is_at(at))
     }
 
     /// Maximum and minimum x, mm.

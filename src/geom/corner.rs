@@ -1,4 +1,7 @@
-//! Corners of a polyline with rounded points. A turn is a corner only if rounding cannot produce it.
+//! Corners of a polyline with rounded points. A turn is a corner only if neither rounding nor a curve of dense points can
+//! produce it.
+
+use std::cmp::Ordering;
 
 use super::{Point, angle, polyline};
 
@@ -8,59 +11,166 @@ const WINDOWS: [f64; 3] = [3.0, 6.0, 12.0];
 /// Minimum height of a corner above the line between its neighbours, in units. Rounding alone gives up to sqrt(2): three points
 /// of a straight line, each off by half a diagonal of the unit.
 const HEIGHT: f64 = 1.5;
-/// Maximum number of points examined on either side. It bounds the cost of a line that goes to and fro on the spot.
+/// Length of the two ways over which the turn of the curve beside a vertex is taken, in units. Rounding turns them by less than
+/// 0.1 rad.
+const CURVE: f64 = 24.0;
+/// Maximum number of points examined on either side of a vertex. It bounds the cost of a line that goes to and fro on the spot.
 const LOOK: usize = 64;
 
-/// True if a polyline turns at a point by more than `limit` rad. `before` and `behind` are its other points, walking back and
-/// on from there. All points are rounded to multiples of `unit` mm (0 = not rounded).
-///
-/// A curve drawn with points as close as its unit climbs in steps that each turn by 45 degrees or more. There a corner must
-/// also turn when seen from neighbours farther away, and must stand out by more than rounding.
-pub fn is_corner(
-    at: Point,
-    before: &(impl Iterator<Item = Point> + Clone),
-    behind: &(impl Iterator<Item = Point> + Clone),
-    limit: f64,
-    unit: f64,
-) -> bool {
-    let turns = |from: Point, to: Point| angle::is_turned(at - from, to - at, limit);
-    let (Some(from), Some(to)) = (before.clone().next(), behind.clone().next()) else { return false };
-    if !turns(from, to) {
-        return false;
-    }
-    let far = WINDOWS[WINDOWS.len() - 1] * unit;
-    let is_far = |point: Point, reach: f64| (point - at).norm() >= reach;
-    if is_far(from, far) && is_far(to, far) {
-        return true;
-    }
-    WINDOWS.iter().map(|window| window * unit).any(|reach| {
-        let [from, to] = [
-            neighbour(before.clone(), |point| is_far(point, reach)),
-            neighbour(behind.clone(), |point| is_far(point, reach)),
-        ];
-        from.zip(to)
-            .is_some_and(|(from, to)| turns(from, to) && polyline::distance_to_segment(at, from, to) > HEIGHT * unit)
-    })
+/// Polyline whose corners are asked for. All its points are rounded to multiples of one unit.
+pub struct Corners<F> {
+    /// Point of each vertex.
+    pub point: F,
+    /// Number of vertices; the first of a ring counts once.
+    pub count: usize,
+    /// True if the last vertex is joined to the first.
+    pub is_ring: bool,
+    /// Greatest turn that is no corner, rad.
+    pub limit: f64,
+    /// Grid of the points, mm; 0 = not rounded.
+    pub unit: f64,
 }
 
-/// The first point that is far enough, or the last of the first `LOOK` points.
-fn neighbour(points: impl Iterator<Item = Point> + Clone, is_far: impl Fn(Point) -> bool) -> Option<Point> {
-    let near = points.take(LOOK);
-    near.clone().find(|&point| is_far(point)).or_else(|| near.last())
+/// Turn at a vertex that may be a corner.
+struct Turn {
+    /// Distance from which it is seen, mm.
+    reach: f64,
+    is_left: bool,
+    /// Height above the line between its neighbours that the curve does not explain, mm.
+    height: f64,
+    at: Point,
+}
+
+impl Turn {
+    /// Order of sharpness: a turn that is seen from nearby is sharper than one that a longer way shows. The place decides
+    /// between equals, so that both directions of a polyline agree.
+    fn order(&self, other: &Self) -> Ordering {
+        let place = |turn: &Self| (turn.at.x, turn.at.y);
+        let by_place = || place(self).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
+        self.reach.total_cmp(&other.reach).then(other.height.total_cmp(&self.height)).then_with(by_place)
+    }
+}
+
+impl<F: Fn(usize) -> Point> Corners<F> {
+    /// True if the polyline turns at a vertex by more than the limit.
+    ///
+    /// A curve drawn with points as close as its unit climbs in steps that each turn by 45 degrees or more. There a corner must
+    /// also turn when seen from neighbours farther away, by more than the curve on either side of it does, and stand out by
+    /// more than rounding. Of several such vertices within the distance of those neighbours the sharpest is the corner.
+    pub fn is_at(&self, vertex: usize) -> bool {
+        let Some([from, at, to]) = self.turned(vertex) else { return false };
+        let far = WINDOWS[WINDOWS.len() - 1] * self.unit;
+        if [from, to].iter().all(|point| (point - at).norm() >= far) {
+            return true;
+        }
+        let Some(turn) = self.turn(vertex) else { return false };
+        let beside = [false, true].into_iter().flat_map(|ahead| {
+            let near = self.walk(vertex, ahead).take_while(|&i| ((self.point)(i) - at).norm() < turn.reach);
+            near.filter_map(|i| self.turn(i))
+        });
+        !beside.filter(|other| other.is_left == turn.is_left).any(|other| other.order(&turn).is_lt())
+    }
+
+    /// A vertex and its neighbours, if the drawn line turns there by more than the limit.
+    fn turned(&self, vertex: usize) -> Option<[Point; 3]> {
+        let next = |ahead: bool| self.walk(vertex, ahead).next().map(&self.point);
+        let [from, at, to] = [next(false)?, (self.point)(vertex), next(true)?];
+        angle::is_turned(at - from, to - at, self.limit).then_some([from, at, to])
+    }
+
+    /// Other vertices on one side of a vertex, the nearest first.
+    fn walk(&self, vertex: usize, ahead: bool) -> impl Iterator<Item = usize> + Clone + use<F> {
+        let count = self.count;
+        let most = match (self.is_ring, ahead) {
+            (true, _) => count - 1,
+            (false, true) => count - 1 - vertex,
+            (false, false) => vertex,
+        };
+        (1..=most.min(LOOK)).map(move |k| (vertex + if ahead { k } else { count - k }) % count)
+    }
+
+    /// Turn at a vertex as seen from the nearest neighbours that show it.
+    fn turn(&self, vertex: usize) -> Option<Turn> {
+        let [_, at, _] = self.turned(vertex)?;
+        let side = |ahead: bool| self.walk(vertex, ahead).map(&self.point);
+        // Left turns of the curve before the vertex and behind it; those over a shorter way are lost in the rounding.
+        let bends = [-bend(side(false), at, CURVE * self.unit), bend(side(true), at, CURVE * self.unit)];
+        WINDOWS.iter().find_map(|window| {
+            let reach = window * self.unit;
+            let [from, to] = [false, true].map(|ahead| neighbour(&mut side(ahead), at, reach));
+            let turn = angle::turn(at - from.point, to.point - at);
+            let curve = |near: &Neighbour, bend: f64| if near.skips { (bend * turn.signum()).max(0.0) } else { 0.0 };
+            let curve = f64::midpoint(curve(&from, bends[0]), curve(&to, bends[1])) * window / CURVE;
+            // Share of the turn that the curve does not explain.
+            let share = 1.0 - curve / turn.abs();
+            let height = polyline::distance_to_segment(at, from.point, to.point) * share;
+            let is_sharp = share > 0.0
+                && angle::is_turned(at - from.point, to.point - at, self.limit / share)
+                && height > HEIGHT * self.unit;
+            is_sharp.then_some(Turn { reach, is_left: turn > 0.0, height, at })
+        })
+    }
+}
+
+/// Point of a polyline at a distance from a vertex.
+struct Neighbour {
+    point: Point,
+    /// True if the polyline has a point between.
+    skips: bool,
+}
+
+/// First point that is `reach` mm from `at`, or the last point; `points` has a first one.
+fn neighbour(points: &mut impl Iterator<Item = Point>, at: Point, reach: f64) -> Neighbour {
+    let mut near = Neighbour { point: at, skips: false };
+    for (i, point) in points.enumerate() {
+        near = Neighbour { point, skips: i > 0 };
+        if (point - at).norm() >= reach {
+            break;
+        }
+    }
+    near
+}
+
+/// Left turn of a polyline over two ways of `reach` mm out from `at`, rad; 0 where it ends before or is drawn in such steps.
+fn bend(mut points: impl Iterator<Item = Point>, at: Point, reach: f64) -> f64 {
+    let near = neighbour(&mut points, at, reach);
+    let next = points.find(|&point| (point - near.point).norm() >= reach);
+    next.filter(|_| near.skips).map_or(0.0, |next| angle::turn(near.point - at, next - near.point))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::{FRAC_PI_4, TAU};
 
-    /// The vertices of a polyline that are corners of more than 45 degrees.
+    /// Vertices of a polyline that are corners of more than 45 degrees.
     fn corners(points: &[(f64, f64)], unit: f64) -> Vec<usize> {
-        let points: Vec<Point> = points.iter().map(|&(x, y)| Point::new(x, y)).collect();
-        let is_corner = |&i: &usize| {
-            let (before, behind) = (points[..i].iter().rev().copied(), points[i + 1..].iter().copied());
-            is_corner(points[i], &before, &behind, std::f64::consts::FRAC_PI_4, unit)
-        };
-        (1..points.len() - 1).filter(is_corner).collect()
+        corners_of(points, unit, FRAC_PI_4)
+    }
+
+    /// Vertices of a polyline that are corners of more than `limit` rad.
+    fn corners_of(points: &[(f64, f64)], unit: f64, limit: f64) -> Vec<usize> {
+        let point = |i: usize| Point::new(points[i].0, points[i].1);
+        let corners = Corners { point, count: points.len(), is_ring: false, limit, unit };
+        (0..points.len()).filter(|&i| corners.is_at(i)).collect()
+    }
+
+    #[test]
+    fn tight_curves_of_dense_points_have_no_corners() {
+        for radius in [1.5, 2.0, 3.0, 8.0] {
+            for spacing in [0.04, 0.11, 0.3] {
+                let last = (TAU * radius / spacing) as u32;
+                let round = |x: f64| (x * 10.0).round() / 10.0;
+                let turns = (0..last).map(|i| TAU * f64::from(i) / f64::from(last));
+                let mut circle: Vec<Point> =
+                    turns.map(|turn| Point::new(round(radius * turn.cos()), round(radius * turn.sin()))).collect();
+                circle.dedup();
+                let count = circle.len();
+                let corners =
+                    Corners { point: |i: usize| circle[i], count, is_ring: true, limit: FRAC_PI_4 / 2.0, unit: 0.1 };
+                assert!(!(0..count).any(|i| corners.is_at(i)), "{radius} {spacing}");
+            }
+        }
     }
 
     #[test]

@@ -8,7 +8,8 @@ use super::runs;
 use super::scene::Scene;
 use super::stretch::between;
 use crate::diagnostic::Diagnostics;
-use crate::geom::{corner, polyline};
+use crate::geom::corner::Corners;
+use crate::geom::polyline;
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{End, Run, Shape, Toolpath};
 
@@ -36,9 +37,15 @@ struct Limit {
 /// Splits a run at its corners.
 fn split(mut run: Run, limit: Limit) -> Vec<Run> {
     let last = run.points.len() - 1;
-    let mut corners: Vec<usize> = (1..last).filter(|&i| is_corner(&run, i, limit)).collect();
-    if run.shape == Shape::Ring {
-        let at_start = is_corner(&run, 0, limit);
+    let is_ring = run.shape == Shape::Ring;
+    // A ring ends with its first point.
+    let count = if is_ring { last } else { last + 1 };
+    let Limit { angle: limit, unit } = limit;
+    let places = Corners { point: |i: usize| run.points[i], count, is_ring, limit, unit };
+    let is_corner = |i: usize| run.joints[i].lift || places.is_at(i);
+    let mut corners: Vec<usize> = (1..last).filter(|&i| is_corner(i)).collect();
+    if is_ring {
+        let at_start = is_corner(0);
         if corners.is_empty() && !at_start {
             run.ends = ends([false; 2], &run.joints[..1], &run.joints[1..]);
             return vec![run];
@@ -60,16 +67,6 @@ fn split(mut run: Run, limit: Limit) -> Vec<Run> {
         (asked, from) = (from + 1, to);
     }
     runs
-}
-
-/// True if the knife is lifted at a point. On a ring, neighbouring points are looked up cyclically.
-fn is_corner(run: &Run, i: usize, Limit { angle, unit }: Limit) -> bool {
-    // A ring ends with its first point.
-    let round = if run.shape == Shape::Ring { run.points.len() - 1 } else { 0 };
-    let (before, behind) = (run.points[..i].iter().rev(), run.points[i + 1..].iter());
-    let before = before.chain(run.points[(i + 1).min(round)..round].iter().rev());
-    let behind = behind.chain(run.points[..i.min(round)].iter().skip(1));
-    run.joints[i].lift || corner::is_corner(run.points[i], &before.copied(), &behind.copied(), angle, unit)
 }
 
 /// Corner nearest to the start of the contour, measured along it; the first of two at the same distance.

@@ -9,7 +9,8 @@ use super::line::{Line, OfCut};
 use super::near::Near;
 use super::notches;
 use super::vertex::Vertex;
-use crate::geom::{Point, angle, corner};
+use crate::geom::corner::Corners;
+use crate::geom::{Point, angle};
 use crate::ir::Marker;
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Contour, Cut, OutlineNotch, Piece};
@@ -98,9 +99,13 @@ impl<'a> Outline<'a> {
     /// Lines of the contour, which end at its corners.
     pub(in crate::verify) fn lines(mut self, place: OfContour) -> Vec<Line<'a>> {
         let limit = place.profile.corner_angle();
-        let is_corner = |i: &usize| self.segments[*i].joint.lift || self.is_corner(*i, limit, place.unit);
-        let mut corners: Vec<usize> = (0..self.segments.len()).filter(is_corner).collect();
-        let count = self.segments.len();
+        let (count, closed) = (self.segments.len(), self.closed);
+        // An open contour has one more vertex than segments.
+        let vertices = if closed { count } else { count + 1 };
+        let point = |i: usize| self.segments.get(i).map_or_else(|| self.segments[count - 1].to, |next| next.from);
+        let places = Corners { point, count: vertices, is_ring: closed, limit, unit: place.unit };
+        let is_corner = |i: &usize| self.segments[*i].joint.lift || places.is_at(*i);
+        let mut corners: Vec<usize> = (0..count).filter(is_corner).collect();
         // At an end of the contour the tip does not slow down for a corner.
         let mut ends = vec![0];
         let mut ring = false;
@@ -127,16 +132,6 @@ impl<'a> Outline<'a> {
             line
         };
         stops.map(line).collect()
-    }
-
-    /// True if the contour turns by more than `limit` rad at the start of a segment, beyond the effect of rounding its points
-    /// to `unit` mm.
-    fn is_corner(&self, i: usize, limit: f64, unit: f64) -> bool {
-        let (before, behind) = self.segments.split_at(i);
-        let round: &[Segment] = if self.closed { &self.segments } else { &[] };
-        let from = before.iter().rev().chain(round[i.min(round.len())..].iter().rev()).map(|segment| segment.from);
-        let to = behind.iter().chain(&round[..i.min(round.len())]).map(|segment| segment.to);
-        corner::is_corner(self.segments[i].from, &from, &to, limit, unit)
     }
 
     /// Line of a range of segments; `ends` are the kinds of its start and end.

@@ -1,7 +1,8 @@
 //! Possible starts and directions of lines.
 
 use crate::analysis::air::{Air, Stop};
-use crate::geom::{Point, corner};
+use crate::geom::Point;
+use crate::geom::corner::Corners;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker, OutlineNotch, Piece};
 use crate::machine::{Job, OrderPolicy};
@@ -85,13 +86,10 @@ impl Measures {
         if !contour.closed || !is_plain(of) || count < 3 {
             return found;
         }
-        let is_corner = |&i: &usize| {
-            let before = (1..count).map(|k| of[(i + count - k) % count].from);
-            let behind = (0..count - 1).map(|k| of[(i + k) % count].to);
-            corner::is_corner(of[i].from, &before, &behind, self.corner, self.unit)
-        };
+        let (limit, unit) = (self.corner, self.unit);
+        let corners = Corners { point: |i: usize| of[i].from, count, is_ring: true, limit, unit };
         let on_notch = on_notches(of, &piece.outline_notches);
-        let corners: Vec<usize> = (1..count).filter(|&i| !on_notch[i]).filter(is_corner).collect();
+        let corners: Vec<usize> = (1..count).filter(|&i| !on_notch[i] && corners.is_at(i)).collect();
         let step = corners.len().div_ceil(MOST_STARTS).max(1);
         for segment in corners.into_iter().step_by(step) {
             let begins = [false, true].map(|is_reversed| Begin { segment, is_reversed });
