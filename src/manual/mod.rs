@@ -46,6 +46,11 @@ pub const PAGES: &[Page] = &[
         text: include_str!("targets.md"),
     },
     Page {
+        name: "first-cut",
+        about: "Machines with G-code: zero, the blade's angle, tries without a knife, overrides, pause, abort",
+        text: include_str!("first-cut.md"),
+    },
+    Page {
         name: "cutting",
         about: "How it cuts: corners, order, overlaps, common lines, notches, curves, the turn of the blade",
         text: include_str!("cutting.md"),
