@@ -121,8 +121,8 @@ pub(super) fn how_to_close(gap: f64) -> Option<String> {
     Some(format!("let the CAD close it, or close gaps of that width: `--set drawing.close_mm={close}`"))
 }
 
-/// Parts with open lines beside them from outside: each may be the seam line of an incomplete outline, and too small. Nothing
-/// is cut until the user says what those lines are, or leaves the parts out.
+/// Parts with open lines beside or all around them: each may be the seam line of an incomplete outline, or another line in it.
+/// Nothing is cut until the user says what those lines are, or leaves the parts out.
 fn maybe_seams(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
     let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
     let doubtful = sheet.remains.iter().filter(|remains| !remains.is_sure && sheet.lines[remains.inner].is_cut);
@@ -131,11 +131,11 @@ fn maybe_seams(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics
         let numbers = numbers(owners, &[remains.inner]);
         let is_chosen = numbers.iter().any(|&number| job.selection.has(number));
         let Some(&first) = lines.first().filter(|_| is_chosen) else { continue };
-        let beside = match lines.len() {
+        let around = match lines.len() {
             1 => format!("an open outline, gap {} mm", fixed(gap(first, sheet), DECIMALS)),
-            n => format!("{n} open lines of an outline"),
+            n => format!("an outline of {n} open lines"),
         };
-        let message = format!("{} may be a seam line beside {beside}", pieces::listed(&numbers));
+        let message = format!("{} may be a line inside {around}", pieces::listed(&numbers));
         let found = finding(&code::DRAWING_MAY_BE_SEAM, message, &sheet.lines[first], sheet);
         let found = found.on_cloth(sheet.lines[first].vertices(&sheet.vertices)[0].at);
         let skip = numbers.first().map_or(0, |number| *number);

@@ -5,9 +5,9 @@ use super::close::Reach;
 use super::line::{Class, Line, SMALL_OUTLINE};
 use super::nest::middle;
 use super::seam;
-use crate::geom::Extent;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point};
 use crate::ir::drawing::Vertex;
 use crate::machine::plot::Frame;
 
@@ -20,7 +20,8 @@ const LEAST_DOUBTFUL: f64 = 0.15;
 /// Greatest area outside of frames, as a share of theirs: title blocks and test squares. More may be parts, and the rectangle
 /// may then be one of them.
 pub(super) const MOST_OUTSIDE: f64 = 0.1;
-/// Least share of an outer frame taken up by the frame in it if something lies between them: the cloth on the paper.
+/// Least share of an outer frame taken up by the frame in it if something lies between them: the cloth on the paper; and of
+/// the box of a frame whose corner a title block takes up.
 const LEAST_CLOTH: f64 = 0.75;
 /// Least number of parts, or least share of filled area, for rectangles beside each other to be frames: with less they may be
 /// parts with cut-outs.
@@ -139,11 +140,15 @@ impl Frames<'_> {
     }
 
     /// Rectangle that takes up nearly all the area and is partly filled with parts or cut-outs beside each other, or around
-    /// another one that is.
+    /// another one that is. A title block may take up a corner of it.
     fn doubtful(&self, tops: &[Top], outside: f64, work: &mut Budget) -> Option<usize> {
         let top = tops.first().filter(|top| top.inner.len() > 1)?;
         let area = self.lines[top.line].area;
-        let (_, filling) = self.frame(top, 1, LEAST_DOUBTFUL, work)?;
+        let filling = if self.is_rectangle(top.line) {
+            self.frame(top, 1, LEAST_DOUBTFUL, work)?.1
+        } else {
+            self.filling(top, work).filter(|filling| self.is_notched(top.line) && filling.share >= LEAST_DOUBTFUL)?
+        };
         (filling.parts > 1 && outside - area <= MOST_OUTSIDE * area).then_some(top.line)
     }
 
@@ -181,6 +186,14 @@ impl Frames<'_> {
 
     fn is_rectangle(&self, line: usize) -> bool {
         self.lines[line].is_rectangle(self.settings.band)
+    }
+
+    /// True if all edges of a line are parallel to the sides of its box, most of which it fills.
+    fn is_notched(&self, line: usize) -> bool {
+        let (width, height) = self.lines[line].extent.size();
+        let points = self.lines[line].points(self.vertices);
+        let is_parallel = |ends: &[Point]| (ends[1] - ends[0]).abs().min() <= self.settings.band;
+        self.lines[line].area >= LEAST_CLOTH * width * height && points.windows(2).all(is_parallel)
     }
 
     /// Lines that lie in none of the others, each with the lines in it; empty if the budget is spent.

@@ -10,7 +10,7 @@
 //!   others, by their `succession` where parts touch, over the gaps that `bridge` finds and without the slits that `slits` and
 //!   `tails` find. `close` closes the lines, `twins` puts those aside that lie along another.
 //! - Classes: `sheet` classifies the lines with the help of the others. `frame` finds the frames, `nest` the nesting of lines,
-//!   `remains` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them,
+//!   `remains` and `enclosed` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them,
 //!   `letters` the letters and `seam` the seam lines. `line` has the table of classes and of when each is cut, `pens` the
 //!   meaning of pens, `layers` that of layers. `parts` finds the lines in parts.
 //! - Results: `piece` makes the marker. `shared` refuses parts that are lost, `torn` outlines whose numbers have lost a byte.
@@ -21,6 +21,7 @@ mod bridge;
 mod chains;
 mod close;
 mod doubts;
+mod enclosed;
 mod faces;
 mod frame;
 mod join;

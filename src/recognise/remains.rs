@@ -26,7 +26,7 @@ const LEAST_OFF: f64 = 1.0;
 /// Cosine of the greatest angle between the way to an open line and the square to the closed one.
 const SQUARE: f64 = 0.7;
 /// Largest line that may be a letter, mm; a dash is straight.
-const LETTER: f64 = 15.0;
+pub(super) const LETTER: f64 = 15.0;
 /// Share of an open line along one side that lies at one distance from the part: its ends stick out beyond the corners.
 const EVEN: f64 = 0.75;
 /// Greatest difference between equal distances, mm: rounding, and curves in chords.
@@ -129,11 +129,13 @@ fn least(is_bare: bool) -> f64 {
 }
 
 impl Drawn<'_> {
-    fn of(&self, is: impl Fn(&Line) -> bool) -> Vec<usize> {
+    /// Lines that satisfy a condition.
+    pub(super) fn of(&self, is: impl Fn(&Line) -> bool) -> Vec<usize> {
         (0..self.lines.len()).filter(|&i| is(&self.lines[i])).collect()
     }
 
-    fn parts(&self) -> Vec<usize> {
+    /// Lines that are parts.
+    pub(super) fn parts(&self) -> Vec<usize> {
         self.of(|line| line.class == Class::Part)
     }
 
@@ -146,12 +148,12 @@ impl Drawn<'_> {
         Near { cloth, open_boxes: extents(&open), part_boxes: extents(&parts), open, parts, are_bare }
     }
 
-    fn points(&self, line: usize) -> Vec<Point> {
+    pub(super) fn points(&self, line: usize) -> Vec<Point> {
         self.lines[line].points(self.vertices)
     }
 
     /// True if the pen of a closed line is declared a knife, and that of an open one is not.
-    fn is_named_knife(&self, part: usize, open: usize) -> bool {
+    pub(super) fn is_named_knife(&self, part: usize, open: usize) -> bool {
         self.lines[part].usage.is_knife() && !self.lines[open].usage.is_knife()
     }
 

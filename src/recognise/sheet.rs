@@ -7,7 +7,7 @@ use super::marks::{EdgeLine, Lie, Mark, Search};
 use super::pens::Use;
 use super::remains::Remains;
 use super::strokes::{self, Stroke};
-use super::{close, frame, letters, marks, nest, remains, seam, signs};
+use super::{close, enclosed, frame, letters, marks, nest, remains, seam, signs};
 use crate::analysis::nesting::Nesting;
 use crate::geom::budget::Budget;
 use crate::ir::drawing::{Encoded, Ending, Moved, Pen, Vertex};
@@ -154,6 +154,8 @@ impl Sheet {
     fn find_remains(&mut self, work: &mut Budget) {
         let all = remains::Drawn { lines: &self.lines, vertices: &self.vertices, nest: &self.nest };
         self.remains = remains::find(all, work);
+        let enclosed = enclosed::find(all, &self.remains, work);
+        self.remains.extend(enclosed);
         for remains in self.remains.iter().filter(|remains| remains.is_sure) {
             self.lines[remains.inner].class = Class::Seam;
         }

@@ -39,10 +39,9 @@ pub(super) const PASS: MarkerPass = MarkerPass {
 
 /// A gap below this share of the contour's length looks like a contour that was meant to close.
 const GAP_SHARE: f64 = 0.05;
-/// Greatest gap of a contour that encloses an area, as a share of its length.
-const AROUND_SHARE: f64 = 0.25;
-/// Least area that it encloses, as a share of the squared length: that of a rectangle ten times as long as wide.
-const AROUND_AREA: f64 = 0.02;
+/// Greatest gap of a contour that encloses an area, as a share of its length, and the least area that it encloses, as a share of
+/// the squared length: that of a rectangle ten times as long as wide, and of one that lacks a side.
+const AROUND: [[f64; 2]; 2] = [[0.25, 0.02], [0.45, 0.05]];
 /// Gap of a contour, as a share of its length, from which on it is a straight line, which nobody means to close.
 const STRAIGHT_SHARE: f64 = 0.999;
 /// Gap below which the ends of a contour of any length are near, mm.
@@ -197,10 +196,11 @@ fn see_size(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Marks the open contours of a file with a grid both ends of which are beside an end of another one and not at it; warns of
-/// them once.
+/// Marks the open contours both ends of which are beside an end of another one and not at it; warns of them once. In a file
+/// without a grid that is a different one at each end: lines side by side are no sides of an outline.
 fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnostics) -> Vec<bool> {
-    let reach = MISSES * marker.unit;
+    let has_grid = marker.unit > 0.0;
+    let reach = if has_grid { MISSES * marker.unit } else { NEAR_ENDS };
     let ends =
         open.iter().enumerate().flat_map(|(k, (_, contour))| marker.list.ends_of(contour.range).map(|at| (k, at)));
     let mut ends: Vec<(usize, Point)> = ends.collect();
@@ -209,11 +209,14 @@ fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnost
     for &(k, at) in &ends {
         let first = ends.partition_point(|(_, other)| other.x < at.x - reach);
         let beside = ends[first..].iter().take_while(|(_, other)| other.x <= at.x + reach).take(MOST_COMPARED);
-        let gaps = beside.filter(|(other, _)| *other != k).map(|(_, other)| (other - at).norm());
-        misses[k].extend(gaps.filter(|gap| *gap <= reach).min_by(f64::total_cmp));
+        let gaps = beside.filter(|(other, _)| *other != k).map(|(other, at_other)| ((at_other - at).norm(), *other));
+        misses[k].extend(gaps.filter(|(gap, _)| *gap <= reach).min_by(|a, b| a.0.total_cmp(&b.0)));
     }
-    let most = |misses: &Vec<f64>| misses.iter().copied().fold(0.0, f64::max);
-    let is_side: Vec<bool> = misses.iter().map(|misses| misses.len() == 2 && most(misses) > 0.0).collect();
+    let most = |misses: &[(f64, usize)]| misses.iter().map(|miss| miss.0).fold(0.0, f64::max);
+    let is_side = |misses: &Vec<(f64, usize)>| {
+        matches!(misses[..], [from, to] if has_grid || from.1 != to.1) && most(misses) > 0.0
+    };
+    let is_side: Vec<bool> = misses.iter().map(is_side).collect();
     let sides = || is_side.iter().zip(open).filter(|(is_side, _)| **is_side).map(|(_, side)| side);
     if let Some((_, contour)) = sides().next() {
         let by = misses.iter().zip(&is_side).filter(|(_, is_side)| **is_side).map(|(misses, _)| most(misses));
@@ -241,7 +244,7 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
     } else if marker.unit > 0.0 && gap < STRAIGHT_SHARE * length()
         || gap < GAP_SHARE * length()
-        || gap < AROUND_SHARE * length() && goes_around(&points, length())
+        || AROUND.iter().any(|[share, area]| gap < share * length() && goes_around(&points, area * length().powi(2)))
     {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
         let message = format!("a contour of piece {number} ends {size} mm from where it starts");
@@ -254,9 +257,9 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     }
 }
 
-/// True if an open line encloses an area and does not merely lead to and fro.
-fn goes_around(points: &[Point], length: f64) -> bool {
-    ring::area(points).abs() >= AROUND_AREA * length * length
+/// True if an open line encloses at least an area, mm2, and does not merely lead to and fro.
+fn goes_around(points: &[Point], area: f64) -> bool {
+    ring::area(points).abs() >= area
 }
 
 /// A line that returns to its start and goes on.
