@@ -142,11 +142,13 @@ fn hidden<'a>(all: Drawn, parts: impl Iterator<Item = &'a usize>, from: Point, w
             let begin = if turn > 0.0 { a } else { b };
             let first = direction(begin.y.atan2(begin.x));
             let count = (turn.abs() / TAU * DIRECTIONS as f64).ceil() as usize;
+            let nearest = polyline::distance_to_segment(from, ends[0].at, ends[1].at);
+            let farthest = a.norm().max(b.norm());
             for k in (first..=first + count).map(|k| k % DIRECTIONS) {
                 let (y, x) = ((k as f64 + 0.5) / DIRECTIONS as f64 * TAU - PI).sin_cos();
-                // Place of the edge in that direction; at its ends the nearer of both.
+                // Distance of the edge in that direction; the first and the last direction may pass its ends.
                 let ahead = cross(a, b - a) / cross(Vector::new(x, y), b - a);
-                let way = if ahead > 0.0 { ahead.min(a.norm().max(b.norm())) } else { a.norm().min(b.norm()) };
+                let way = if ahead > 0.0 { ahead.clamp(nearest, farthest) } else { nearest };
                 hidden[k] = hidden[k].min(way);
             }
         }

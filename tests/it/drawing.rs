@@ -381,3 +381,53 @@ fn pens_and_layers_are_not_mixed_up() {
     pipeline::marker_of(by_name("hpgl").expect("a dialect"), &plot, &job, &mut found);
     assert_eq!(codes(&found), ["drawing/no-layer"]);
 }
+
+#[test]
+fn open_outlines_on_the_layer_of_the_knife_are_told() {
+    let path = files("dxf").into_iter().find(|path| path.ends_with("open-outlines-on-the-layer-of-the-knife.dxf"));
+    let path = path.expect("a fixture");
+    let source = source(&path, std::fs::read(&path).expect("readable"));
+    let mut found = Diagnostics::default();
+    pipeline::read(&source, None, &Job::default(), &mut found).expect("a drawing");
+    let found = codes(&found);
+    assert_eq!(found, ["drawing/layers", "marker/sides", "marker/open-contour"]);
+}
+
+/// Dashes along the edges of a polygon with gaps between them and at its corners, mm; longer ones where an edge needs it.
+fn dashes(polygon: &[Point], [dash, gap]: [f64; 2]) -> String {
+    let mut lines = String::new();
+    for (i, from) in polygon.iter().enumerate() {
+        let way = polygon[(i + 1) % polygon.len()] - from;
+        let step = 1.0 / (way.norm() / (dash + gap)).floor().max(1.0);
+        let aside = 0.5 * gap / way.norm();
+        let count = (1.0 / step).round() as u32;
+        for at in (0..count).map(|k| f64::from(k) * step) {
+            let [a, b] = [at + aside, at + step - aside].map(|share| from + way * share);
+            lines += &entity("LINE", "0", &[(10, a.x), (20, a.y), (11, b.x), (21, b.y)]);
+        }
+    }
+    lines
+}
+
+#[test]
+fn a_pocket_in_an_outline_of_dashes_is_no_part() {
+    for seed in 0..DRAWINGS {
+        let mut rng = Rng::with_seed(seed);
+        let (corners, turn) = (rng.u32(3..9), rng.f64() * TAU);
+        let [width, height] = [200.0 + 500.0 * rng.f64(), 200.0 + 500.0 * rng.f64()];
+        let corner = |i: u32| {
+            let (y, x) = (turn + TAU * f64::from(i) / f64::from(corners)).sin_cos();
+            Point::new(500.0 + width * x, 500.0 + height * y)
+        };
+        let outline: Vec<Point> = (0..corners).map(corner).collect();
+        // From dashes as long as their gaps to whole sides that stop short of their corners.
+        let dash = if rng.bool() { 6.0 + 20.0 * rng.f64() } else { 1000.0 };
+        let gap = 3.0 + (dash.min(20.0) - 3.0) * rng.f64();
+        let [dx, dy] = [0.15 * width, 0.15 * height].map(|most| most * (2.0 * rng.f64() - 1.0));
+        let pocket = rectangle("0", [470.0 + dx, 470.0 + dy, 60.0, 60.0]);
+        let other = rectangle("0", [1600.0, 300.0, 300.0, 200.0]);
+        let text = file(&format!("{}{pocket}{other}", dashes(&outline, [dash, gap])), "");
+        let found = codes(&as_read(&named(&text), &Job::default()).1);
+        assert!(found.contains(&"drawing/may-be-seam-line"), "{seed}: {found:?}");
+    }
+}
