@@ -40,13 +40,9 @@ pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
         // The first of several equal ones.
         let worst =
             of_kind().reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
-        let cut = &marker.cuts[worst.cut as usize];
-        let points = marker.list.points(cut.range);
-        let at = polyline::place(&points, &polyline::stations(&points), worst.from_mm);
-        let at_mm = [at.x, at.y].map(|value| (value * PER_MM).round() / PER_MM);
-        let piece = &marker.pieces[cut.piece as usize];
+        let piece = &marker.pieces[marker.cuts[worst.cut as usize].piece as usize];
         let (piece, copy) = (piece.number, piece.copy);
-        Some(Total { kind, count, pieces, worst_mm: worst.magnitude_mm, piece, copy, at_mm })
+        Some(Total { kind, count, pieces, worst_mm: worst.magnitude_mm, piece, copy, at_mm: worst.at_mm })
     };
     Kind::ALL.into_iter().filter_map(of_kind).collect()
 }
@@ -63,6 +59,11 @@ impl Drawn<'_> {
         self.stations[self.stations.len() - 1]
     }
 
+    /// Point at a station, mm.
+    fn place(&self, station: f64) -> Point {
+        polyline::place(self.points, &self.stations, station)
+    }
+
     /// First chord, searched from `from` on, on which two points lie in its direction, and the station of the first point.
     fn find(&self, [a, b]: [Point; 2], from: usize) -> Option<(usize, f64)> {
         let chords = self.points.len() - 1;
@@ -72,6 +73,21 @@ impl Drawn<'_> {
             let goes_along = (b - a).dot(&(end - start)) > 0.0;
             (goes_along && is_on(a) && is_on(b)).then(|| (chord, self.stations[chord] + (a - start).norm()))
         })
+    }
+}
+
+/// Size of a deviation, mm, as its kind defines it, and the place at which it is greatest.
+#[derive(Debug, Clone, Copy)]
+struct Magnitude {
+    by: f64,
+    at: Point,
+}
+
+impl Magnitude {
+    /// The farthest of some points, which are at least one.
+    fn of(points: &[Point], distance: impl Fn(Point) -> f64) -> Self {
+        let all = points.iter().map(|&at| Self { by: distance(at), at });
+        all.reduce(|worst, next| if next.by > worst.by { next } else { worst }).expect("one point at least")
     }
 }
 
@@ -92,21 +108,26 @@ impl OfCut<'_> {
         let Some(ends) = self.stations(&run.points, run.turned) else { return };
         self.plunge(run, ends);
         if let Some(swing) = swing(run, self.knife.width_mm).filter(|swing| swing.off > self.knife.max_bow_mm) {
-            self.declare(Kind::Swing, ends, None, swing.off);
+            self.declare(Kind::Swing, ends, None, Magnitude { by: swing.off, at: run.points[swing.vertex] });
         }
         self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
         let stands_still = self.stands_still(run);
         if stands_still {
             self.nibble(&run.points, run.ends, ends);
         }
-        for (which, (end, length)) in
-            [Which::Start, Which::End].into_iter().zip(run.ends.iter().zip([run.heel, run.front]))
+        for (which, (end, by)) in [Which::Start, Which::End].into_iter().zip(run.ends.iter().zip([run.heel, run.front]))
         {
-            let at = end_of(ends, which, run.turned);
+            let station = end_of(ends, which, run.turned);
             match end.side {
                 Side::Contour if stands_still => {}
-                Side::Contour => self.declare(Kind::Lift, [at; 2], Some(which), 0.0),
-                Side::Part if length > SAME_EPSILON => self.declare(Kind::Overcut, [at; 2], Some(which), length),
+                Side::Contour => {
+                    let at = which.of(&run.points);
+                    self.declare(Kind::Lift, [station; 2], Some(which), Magnitude { by: 0.0, at });
+                }
+                Side::Part if by > SAME_EPSILON => {
+                    let at = which.of(&run.extended());
+                    self.declare(Kind::Overcut, [station; 2], Some(which), Magnitude { by, at });
+                }
                 Side::Waste | Side::Part | Side::Gap => {}
             }
         }
@@ -115,9 +136,8 @@ impl OfCut<'_> {
     fn plunge_cut(&mut self, cut: &PlungeCut) {
         let Some(ends) = self.stations(&cut.points, cut.turned) else { return };
         let [from, to] = [cut.points[0], cut.points[cut.points.len() - 1]];
-        let beside = cut.points.iter().map(|&point| polyline::distance_to_segment(point, from, to));
-        let farthest = beside.fold(0.0, f64::max);
-        if farthest > self.worth() {
+        let farthest = Magnitude::of(&cut.points, |point| polyline::distance_to_segment(point, from, to));
+        if farthest.by > self.worth() {
             self.declare(Kind::Plunge, ends, None, farthest);
         }
         self.nibble(&cut.points, cut.ends, ends);
@@ -126,12 +146,13 @@ impl OfCut<'_> {
         for ((which, Overcut { own, other }), beyond) in
             [Which::Start, Which::End].into_iter().zip(cut.overcut).zip(beyond)
         {
+            let at = beyond[1];
             if own > 0.0 {
-                self.declare(Kind::Surplus, ends, Some(which), own);
+                self.declare(Kind::Surplus, ends, Some(which), Magnitude { by: own, at });
                 self.in_part(Some(self.toolpath.part));
             }
             if other > 0.0 {
-                self.declare(Kind::Surplus, ends, Some(which), other);
+                self.declare(Kind::Surplus, ends, Some(which), Magnitude { by: other, at });
                 self.in_part(self.cloth.deepest_other(self.toolpath.part as usize, beyond));
             }
         }
@@ -153,7 +174,7 @@ impl OfCut<'_> {
     /// ends.
     fn nibble(&mut self, points: &[Point], ends: [End; 2], stretch: [f64; 2]) {
         if ends.iter().any(|end| end.side == Side::Contour) {
-            self.declare(Kind::Nibbled, stretch, None, polyline::length(points));
+            self.declare(Kind::Nibbled, stretch, None, Magnitude { by: polyline::length(points), at: points[0] });
         }
     }
 
@@ -164,13 +185,12 @@ impl OfCut<'_> {
         }
         let path = if run.shape == Shape::Ring { run.points.clone() } else { run.extended() };
         let plunge = Plunge::at_start(&path, self.knife.width_mm);
-        let under = path[1..=plunge.chord].iter().map(|&point| plunge.distance(point));
-        let farthest = under.fold(0.0, f64::max);
-        if farthest > self.worth() {
+        let Magnitude { by, at } = Magnitude::of(&path[..=plunge.chord], |point| plunge.distance(point));
+        if by > self.worth() {
             let way = polyline::length(&path[..=plunge.chord]) + (plunge.tip - path[plunge.chord]).norm();
             let stretch = if run.turned { [to - way, to] } else { [from, from + way] };
             // Smoothing moves both the path and the place of the tip on it.
-            let most = farthest + self.toolpath.tolerance;
+            let most = Magnitude { by: by + self.toolpath.tolerance, at };
             self.declare(Kind::Plunge, stretch.map(|station| self.on_cut(station)), None, most);
         }
     }
@@ -192,8 +212,9 @@ impl OfCut<'_> {
                 Side::Waste | Side::Gap => plain,
             };
             if asked - given[i] > SAME_EPSILON {
-                let at = end_of(stretch, which, turned);
-                self.declare(Kind::Shortened, [at; 2], Some(which), asked - given[i]);
+                let station = end_of(stretch, which, turned);
+                let missing = Magnitude { by: asked - given[i], at: self.drawn.place(station) };
+                self.declare(Kind::Shortened, [station; 2], Some(which), missing);
             }
         }
     }
@@ -228,11 +249,11 @@ impl OfCut<'_> {
         self.found.last_mut().expect("one was declared").part = part;
     }
 
-    fn declare(&mut self, kind: Kind, [from_mm, to_mm]: [f64; 2], end: Option<Which>, magnitude_mm: f64) {
-        let [from_mm, to_mm] = [from_mm, to_mm].map(|station| (station * PER_MM).round() / PER_MM);
-        let magnitude_mm = (magnitude_mm * PER_MM).ceil() / PER_MM;
-        let declaration = Declaration { kind, cut: self.cut, from_mm, to_mm, end, part: None, magnitude_mm };
-        self.found.push(declaration);
+    fn declare(&mut self, kind: Kind, stretch: [f64; 2], end: Option<Which>, Magnitude { by, at }: Magnitude) {
+        let rounded = |value: f64| (value * PER_MM).round() / PER_MM;
+        let [from_mm, to_mm] = stretch.map(rounded);
+        let (magnitude_mm, at_mm) = ((by * PER_MM).ceil() / PER_MM, [at.x, at.y].map(rounded));
+        self.found.push(Declaration { kind, cut: self.cut, from_mm, to_mm, end, part: None, magnitude_mm, at_mm });
     }
 }
 

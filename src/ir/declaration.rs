@@ -7,6 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::geom::Point;
 use crate::units::number::fixed;
 
 /// A deviation from the drawing.
@@ -29,6 +30,9 @@ pub struct Declaration {
     pub part: Option<u32>,
     /// Magnitude, mm, as defined by the kind.
     pub magnitude_mm: f64,
+    /// Place on the cloth at which it is greatest: X and Y, mm. For people only: the verifier judges by the stretch.
+    #[serde(default)]
+    pub at_mm: [f64; 2],
 }
 
 /// Kind of a deviation; it defines the meaning of the magnitude.
@@ -87,7 +91,7 @@ pub struct Total {
     /// Copy of the marker with the greatest magnitude, from 1; 0, and omitted, when there is only one copy.
     #[serde(skip_serializing_if = "is_only")]
     pub copy: u32,
-    /// Start of the stretch with the greatest magnitude, mm.
+    /// Place of the greatest magnitude on the cloth: X and Y, mm.
     pub at_mm: [f64; 2],
 }
 
@@ -123,6 +127,14 @@ pub enum Which {
 }
 
 impl Which {
+    /// The first or the last point of a path.
+    pub fn of(self, path: &[Point]) -> Point {
+        match self {
+            Self::Start => path[0],
+            Self::End => path[path.len() - 1],
+        }
+    }
+
     /// The other end.
     #[must_use]
     pub fn other(self) -> Self {

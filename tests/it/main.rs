@@ -40,6 +40,7 @@ mod nest;
 mod notch_forms;
 mod notches;
 mod options;
+mod page;
 mod passes;
 mod pattern;
 mod picture;

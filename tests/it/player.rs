@@ -19,13 +19,13 @@ const LONG: &str = "H1*G71*N1*X0Y0*M14*X3000Y0*X3000Y3000*X0Y3000*X0Y0*M15*\
                     N2*X3500Y0*M14*X3500Y50*M15*X3100Y0*M14*X6100Y0*X6100Y3000*X3100Y3000*X3100Y0*M15*\
                     N3*X6200Y0*M14*X12200Y0*X12200Y3000*X6200Y3000*X6200Y0*M15*M0*";
 /// A V notch over a gap that is narrower than the surplus of the blade.
-const GAP: &str = "H1*G71*N1*X0Y0*M14*X290Y0*X300Y50*X310Y0*X600Y0*X600Y400*X0Y400*X0Y0*M15*\
+pub(crate) const GAP: &str = "H1*G71*N1*X0Y0*M14*X290Y0*X300Y50*X310Y0*X600Y0*X600Y400*X0Y400*X0Y0*M15*\
                    N2*X0Y-200*M14*X600Y-200*X600Y-5*X0Y-5*X0Y-200*M15*M0*";
 /// Greatest distance of a place of the page from the setpoint, mm and degrees.
 const PROMISED: f64 = 0.01;
 
 /// Text between two others.
-fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {
+pub(crate) fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {
     let rest = text.split_once(start).unwrap_or_else(|| panic!("no {start}")).1;
     rest.split_once(end).unwrap_or_else(|| panic!("no {end}")).0
 }
@@ -49,9 +49,9 @@ fn unbase64(text: &str) -> Vec<u8> {
 }
 
 /// A page as its script reads it.
-struct Page {
-    text: String,
-    facts: Value,
+pub(crate) struct Page {
+    pub(crate) text: String,
+    pub(crate) facts: Value,
     columns: BTreeMap<String, Vec<f64>>,
 }
 
@@ -79,7 +79,7 @@ impl Page {
         Self { text, facts, columns }
     }
 
-    fn of(room: &Room, name: &str) -> Self {
+    pub(crate) fn of(room: &Room, name: &str) -> Self {
         Self::new(room.text(name))
     }
 
@@ -280,7 +280,7 @@ fn a_date_and_a_price_are_printed_by_a_page_and_refused_without_one() {
 }
 
 /// Cells of the rows of a section: the value to sort by, and the text.
-fn table(page: &str, section: &str) -> Vec<Vec<(Option<f64>, String)>> {
+pub(crate) fn table(page: &str, section: &str) -> Vec<Vec<(Option<f64>, String)>> {
     let section = between(page, &format!("<section id=\"{section}\">"), "</section>");
     let cell = |cell: &str| {
         let (attributes, text) = cell.split_once('>').expect("an end");

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::piece::Piece;
 use super::record::Record;
 use crate::back::target::{Context, Outcome};
-use crate::geom::{Point, polyline};
+use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::declaration::Declaration;
 use crate::units::number;
@@ -69,17 +69,12 @@ impl About<'_> {
         findings
     }
 
-    /// Declared deviations with their start points, the greatest first.
-    pub(super) fn deviations(&self) -> Vec<(Declaration, Point)> {
-        let marker = self.context.marker;
+    /// Declared deviations, the greatest first.
+    pub(super) fn deviations(&self) -> Vec<Declaration> {
         let mut entries = self.outcome.deviations.to_vec();
         entries.sort_by(|a, b| b.magnitude_mm.total_cmp(&a.magnitude_mm));
         entries.truncate(MOST_DEVIATIONS);
-        let place = |entry: Declaration| {
-            let points = marker.list.points(marker.cuts[entry.cut as usize].range);
-            (entry, polyline::place(&points, &polyline::stations(&points), entry.from_mm))
-        };
-        entries.into_iter().map(place).collect()
+        entries
     }
 
     /// Number of conveyor windows; `None` where the cloth does not advance.

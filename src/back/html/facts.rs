@@ -26,10 +26,7 @@ pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
         "aside": classes,
         "pieces": pieces.iter().map(piece).collect::<Value>(),
         "findings": findings.iter().map(|found| finding(found)).collect::<Value>(),
-        "deviations": about.deviations().iter().map(|(entry, at)| {
-            let [one, _] = entry.kind.words();
-            json!([one, rounded(entry.magnitude_mm), rounded(at.x), rounded(at.y)])
-        }).collect::<Value>(),
+        "deviations": about.deviations().iter().map(|entry| entry.at_mm).collect::<Vec<_>>(),
     })
 }
 

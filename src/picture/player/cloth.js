@@ -255,7 +255,7 @@ class Cloth {
     to.lineWidth = 1.2;
     // Many of them would hide the cloth: they grow with it.
     const arm = Math.min(4, Math.max(1.5, 5 * view.scale));
-    for (const [, , x, y] of deviations) {
+    for (const [x, y] of deviations) {
       if (!view.sees([x, y, x, y])) continue;
       const px = view.px(x), py = view.py(y);
       to.beginPath();

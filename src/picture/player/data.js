@@ -11,7 +11,6 @@
  * @property {Box | null} extent
  */
 /** @typedef {{name: string, holds: boolean, time_s: number | null, at: [number, number] | null}} Finding */
-/** @typedef {[string, number, number, number]} Deviation Kind, size, X and Y, mm. */
 /**
  * @typedef {object} Facts
  * @property {number} period_s
@@ -23,7 +22,7 @@
  * @property {string[]} aside
  * @property {Piece[]} pieces
  * @property {Finding[]} findings
- * @property {Deviation[]} deviations
+ * @property {[number, number][]} deviations Places of declared deviations, mm.
  * @property {[string, number, number][]} columns Name, length and unit.
  */
 /** @typedef {Record<string, Float64Array>} Columns */

@@ -101,6 +101,7 @@ fn an_overcut_at_the_wrong_end_is_refused_though_it_is_declared() {
                 end: Some(Which::End),
                 part: Some(0),
                 magnitude_mm: surplus,
+                at_mm: [0.0; 2],
             }]));
             broken(&program.judge(&marker))
         };

@@ -69,6 +69,7 @@ fn shortened(marker: &Marker) -> Vec<&'static str> {
         end: Some(Which::End),
         part: None,
         magnitude_mm: 0.79,
+        at_mm: [0.0; 2],
     }]));
     broken(&program.judge(marker))
 }
@@ -108,6 +109,7 @@ fn declared_at(job: &Job, ends: &[Which]) -> Vec<&'static str> {
         end: Some(end),
         part: Some(0),
         magnitude_mm: 1.8,
+        at_mm: [0.0; 2],
     };
     program.declared = Some(Declared::new(ends.iter().map(entry).collect()));
     broken(&program.judge(&marker))

@@ -282,7 +282,7 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
     }
     printed(PRINTED[1], count, out);
     table::open(out, "sortable", &["Deviation", "Piece", "Into", "#Size, mm", "Where"]);
-    for (entry, at) in entries {
+    for entry in entries {
         let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
         let [one, _] = entry.kind.words();
         out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.number);
@@ -297,7 +297,7 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         out.element("td", &[], &into.unwrap_or_default());
         table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
         out.open("td", &[]);
-        jump(out, at, Moment::During(piece.whole), &words);
+        jump(out, Point::from(entry.at_mm), Moment::During(piece.whole), &words);
         out.close("td").close("tr");
     }
     table::close(out);

@@ -1,0 +1,41 @@
+//! The report of a page: places that it tells.
+
+use serde_json::Value;
+
+use crate::player::{GAP, Page, between, table};
+use crate::support::room::{DONE, Room};
+
+/// A part with a bend of 15 degrees, at X 100, amid its lower edge.
+const BEND: &str = "H1*G71*N1*X0Y0*M14*X1000Y0*X2000Y268*X2000Y2000*X0Y2000*X0Y0*M15*M0*";
+/// Declarations of a program.
+fn declared(room: &Room, program: &str) -> Vec<Value> {
+    let meta: Value = serde_json::from_str(&room.text(&format!("{program}.meta.json"))).expect("JSON");
+    meta["declared"].as_array().expect("a list").clone()
+}
+
+#[test]
+fn a_declared_deviation_stands_where_it_is_greatest() {
+    let room = Room::with("bend.cut", BEND);
+    let said = room.says("compile bend.cut -t csv,html", DONE);
+    assert!(said.contains("1 swing at a bend, at most 1.58 mm (piece 1 at 100, 0)"), "{said}");
+    let [swing] = &declared(&room, "bend.csv")[..] else { panic!("one deviation") };
+    assert_eq!((&swing["from_mm"], &swing["at_mm"]), (&0.0.into(), &serde_json::json!([100.0, 0.0])));
+    let page = Page::of(&room, "bend.html");
+    assert_eq!(page.facts["declared"], serde_json::json!([[100.0, 0.0]]));
+    assert!(between(&page.text, "id=\"deviations\"", "</section>").contains("data-x=\"100.000\" data-y=\"0.000\""));
+    // The end of a blade that is longer than its cut is where the warning has it.
+    room.write("gap.cut", GAP.as_bytes());
+    let output = room.command("compile gap.cut -t csv --format json").output().expect("it starts");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let warned: Vec<&Value> = report["warnings"].as_array().expect("a list").iter().collect();
+    let surplus = declared(&room, "gap.csv");
+    assert_eq!((surplus.len(), warned.len()), (4, 4));
+    let number = |value: &Value| value.as_f64().expect("mm");
+    for entry in &surplus {
+        let is_there = |other: &&&Value| {
+            let [x, y] = ["x_mm", "y_mm"].map(|key| number(&other[key]));
+            (x - number(&entry["at_mm"][0])).hypot(y - number(&entry["at_mm"][1])) < 0.01
+        };
+        assert_eq!(warned.iter().filter(is_there).count(), 1, "{entry}");
+    }
+}
