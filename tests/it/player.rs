@@ -227,20 +227,27 @@ fn a_folder_of_pages_has_an_overview() {
     room.write("in/<i>.cut", HOSTILE.as_bytes());
     room.write("in/circle.cut", &room.read("circle.cut"));
     room.write("in/junk.cut", &room.read("junk.cut"));
+    room.write("in/gap.cut", GAP.as_bytes());
     room.says("compile in -o out/ -t html,csv", FAULTY);
     let page = room.text("out/index.html");
     assert!(page.contains("<a href=\"./%3Ci%3E.html\">in/&lt;i&gt;.cut</a>") && !page.contains("<i>"), "{page}");
     assert!(page.contains("<a href=\"./circle.html\">") && page.contains("1 failed") && !page.contains("./junk.html"));
     let again = room.says("compile in -o out/ -t html,csv --changed", FAULTY);
     assert!(again.contains("wrote `out/index.html`") && room.text("out/index.html").contains("unchanged"), "{again}");
-    // The broken file is the first, with its message; the others have their verdict and what is worst in them.
-    let row =
-        |name: &str| page.split("<tr").skip(2).position(|row| row.contains(&format!("{name}.cut"))).expect("a row");
-    assert_eq!((row("junk"), row("circle")), (0, 2));
+    // The broken file is the first, with its message; the others follow by their warnings, with their verdicts.
     let rows: Vec<&str> = page.split("<tr").skip(2).collect();
-    assert!(rows[0].contains("class=\"broken\"") && rows[0].contains("<td>refused</td>\n<td>not</td>"), "{}", rows[0]);
-    assert!(rows[0].contains("source/unknown-format<p class=\"hint\">this is binary data"), "{}", rows[0]);
-    assert!(rows[2].contains("<td>verified</td>\n<td>now</td>"), "{}", rows[2]);
+    let order = ["junk.cut", "gap.cut", "circle.cut", "&lt;i&gt;.cut"];
+    for (row, name) in rows.iter().zip(order) {
+        assert!(row.contains(&format!("in/{name}<")), "{name} is not in its place: {row}");
+    }
+    assert!(
+        rows[0].contains("class=\"broken\"") && rows[0].contains("<td>refused</td>\n<td data-name=\"Made\">not</td>")
+    );
+    let told = "<td>this is binary data, not a cutter file <code class=\"quiet\">source/unknown-format</code>";
+    assert!(rows[0].contains(told) && rows[0].contains("it has no page"), "{}", rows[0]);
+    assert!(rows[1].contains("data-name=\"May spoil parts\" data-value=\"4\">4</td>"), "{}", rows[1]);
+    assert!(rows[1].contains("<td>piece 1: ") && rows[1].contains("<p class=\"hint\">a narrower blade"), "{}", rows[1]);
+    assert!(rows[2].contains("<td>verified</td>\n<td data-name=\"Made\">now</td>"), "{}", rows[3]);
     let digest = meta(&room, "out/circle.csv")["profile_sha256"].as_str().expect("a digest").to_owned();
     assert!(page.contains(&format!("Profile: default machine, SHA-256 of all values {digest}")));
     // What is no overview stays, and neither a part of the files nor setpoints have one.

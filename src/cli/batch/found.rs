@@ -2,15 +2,21 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Harm, Severity};
 
 /// Findings about a file in numbers and words.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::cli) struct Found {
     pub(in crate::cli) errors: usize,
     pub(in crate::cli) warnings: usize,
+    /// Number of the warnings that parts may be spoilt; a line of an earlier version has none.
+    #[serde(default)]
+    pub(in crate::cli) spoils: usize,
     /// Message of the worst finding, with its piece; empty if there is none.
     pub(in crate::cli) told: String,
+    /// Its first hint; empty if there is none.
+    #[serde(default)]
+    pub(in crate::cli) hint: String,
 }
 
 impl Found {
@@ -24,10 +30,14 @@ impl Found {
             Some(piece) => format!("{piece}: {}", finding.message),
             None => finding.message.clone(),
         });
+        let tally = diagnostics.tally();
+        let spoiling = tally.iter().filter(|(code, _)| code.severity == Severity::Warning && code.harm == Harm::Spoils);
         Self {
             errors: diagnostics.count(Severity::Error),
             warnings: diagnostics.count(Severity::Warning),
+            spoils: spoiling.map(|(_, count)| count).sum(),
             told: told.unwrap_or_default(),
+            hint: first.and_then(|finding| finding.hints.first().cloned()).unwrap_or_default(),
         }
     }
 }

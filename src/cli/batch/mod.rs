@@ -68,9 +68,10 @@ impl Outcome {
     /// Outcome of a file that cannot be read or written.
     pub(super) fn failed(input: &Input, error: &anyhow::Error) -> Self {
         let message = format!("{error:#}");
+        let hint = message.lines().find_map(|line| line.trim_start().strip_prefix("= hint: ")).unwrap_or_default();
         let row = Row {
             worst: message.lines().next().unwrap_or_default().to_owned(),
-            found: Found { errors: 1, ..Found::default() },
+            found: Found { errors: 1, hint: hint.to_owned(), ..Found::default() },
             ..Row::new(&input.path, State::Failed)
         };
         Self { row: Some(row), said: format!("error: {message}\n"), json: None }

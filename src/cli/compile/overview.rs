@@ -1,11 +1,12 @@
 //! Overview of a folder of pages: a table with one row per file, each with a link to its page.
 
+use std::cmp::Reverse;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use crate::back::{Emit, Target};
-use crate::cli::batch::{Row, Standing, State};
+use crate::cli::batch::{Found, Row, Standing, State};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::cannot_write;
 use crate::cli::finished::failure;
@@ -17,6 +18,20 @@ use crate::units::number::{clock, counted, fixed};
 const NAME: &str = "index.html";
 /// Markup that identifies an overview among other pages.
 const MARK: &str = "<main id=\"overview\">";
+
+/// Columns of the table; `#` before a name marks a column of numbers.
+const COLUMNS: [&str; 10] = [
+    "File",
+    "Verdict",
+    "Made",
+    "#Errors",
+    "#May spoil parts",
+    "#Warnings",
+    "#Pieces",
+    "#Lines, m",
+    "#Time",
+    "Worst finding",
+];
 
 /// A row of the table, and the path of its page.
 pub(in crate::cli) type Seen<'a> = (&'a Row, &'a Path);
@@ -86,22 +101,24 @@ impl<'a> Overview<'a> {
         let worth = if failed == 0 { "verified" } else { "refused" };
         out.element("p", &[("class", "worth"), ("data-worth", worth)], &said);
         let sum = |of: fn(&Row) -> Option<f64>| rows.iter().filter_map(|(row, _)| of(row)).sum::<f64>();
-        let summary = format!("{} m to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s), 1));
+        let summary =
+            format!("{} m of lines to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s), 1));
         out.element("p", &[("class", "summary")], &summary).close("header");
         out.markup(MARK).open("section", &[]);
         let profile = format!("Profile: {}, SHA-256 of all values {}", job.origin.described(), job.profile.digest());
         out.element("p", &[("class", "hint")], &profile).open("div", &[("class", "scroll")]);
         out.open("table", &[("class", "sortable")]).open("thead", &[]).open("tr", &[]);
-        for column in
-            ["File", "Verdict", "Made", "#Errors", "#Warnings", "#Pieces", "#Cut, m", "#Time", "Worst finding"]
-        {
+        for column in COLUMNS {
             let (class, name) = column.strip_prefix('#').map_or(("", column), |name| ("number", name));
             out.element("th", &[("scope", "col"), ("class", class)], name);
         }
         out.close("tr").close("thead").open("tbody", &[]);
-        // Failed files come first.
-        let (failed, done): (Vec<_>, Vec<_>) = rows.iter().partition(|(row, _)| row.state == State::Failed);
-        for (row, page) in [failed, done].concat() {
+        let mut rows: Vec<&Seen> = rows.iter().collect();
+        // By harm: failed files first, then those with most warnings of spoilt parts, then those with most warnings.
+        rows.sort_by_key(|(Row { state, found, .. }, _)| {
+            Reverse((*state == State::Failed, found.spoils, found.warnings))
+        });
+        for (row, page) in rows {
             self.row(row, page, &mut out);
         }
         out.close("tbody").close("table").close("div").close("section").close("main");
@@ -109,6 +126,7 @@ impl<'a> Overview<'a> {
     }
 
     fn row(&self, row: &Row, page: &Path, out: &mut Markup) {
+        let Found { errors, warnings, spoils, told, hint } = &row.found;
         let (class, made) = match row.state {
             State::Done => ("", "now"),
             State::Unchanged => ("", "unchanged"),
@@ -126,20 +144,30 @@ impl<'a> Overview<'a> {
             Some(Standing::Refused) => "refused",
             None => "failed",
         };
-        out.close("td").element("td", &[], verdict).element("td", &[], made);
+        out.close("td").element("td", &[], verdict).element("td", &[("data-name", "Made")], made);
+        // On a narrow screen each number has its name beside it.
+        let mut numbers = COLUMNS.into_iter().filter_map(|column| column.strip_prefix('#'));
         let mut number = |shown: Option<String>, value: Option<f64>| {
-            let value = value.unwrap_or(-1.0).to_string();
-            out.element("td", &[("class", "number"), ("data-value", &value)], &shown.unwrap_or_default());
+            let (name, value) = (numbers.next().unwrap_or_default(), value.unwrap_or(-1.0).to_string());
+            let attributes = [("class", "number"), ("data-name", name), ("data-value", &value)];
+            out.element("td", &attributes, &shown.unwrap_or_default());
         };
         let count = |count: usize| Some(count).filter(|&count| count > 0);
-        for count in [count(row.found.errors), count(row.found.warnings), row.pieces] {
+        for count in [count(*errors), count(*spoils), count(*warnings), row.pieces] {
             number(count.map(|count| count.to_string()), count.map(|count| count as f64));
         }
         number(row.cut_m.map(|metres| fixed(metres, 3)), row.cut_m);
         number(row.time_s.map(|time| clock(time, 1)), row.time_s);
-        out.open("td", &[]).prose(&row.worst);
-        if !row.found.told.is_empty() {
-            out.open("p", &[("class", "hint")]).prose(&row.found.told).close("p");
+        // The message, and behind it the code, which is all there is of what cannot be read.
+        out.open("td", &[]).prose(if told.is_empty() { &row.worst } else { told });
+        if !told.is_empty() {
+            out.text(" ").element("code", &[("class", "quiet")], &row.worst);
+        }
+        if !hint.is_empty() {
+            out.open("p", &[("class", "hint")]).prose(hint).close("p");
+        }
+        if !page.exists() {
+            out.element("p", &[("class", "hint")], "it has no page: nothing of it could be read");
         }
         out.close("td").close("tr");
     }
