@@ -11,8 +11,8 @@ use super::{choices, files};
 use crate::diagnostic::{Detail, Diagnostics, Severity, render_with};
 use crate::front::{self, Dialect};
 use crate::machine::layers::{LayerUses, NotLayers};
-use crate::machine::patterns::{Patterns, Quantity, Sizes};
-use crate::machine::plot::{Inner, Lines};
+use crate::machine::patterns::{Patterns, Sizes};
+use crate::machine::plot::Lines;
 use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Remarks, Selection, Start};
 use crate::machine::{SHIPPED, Shipped, load_given};
 use crate::source::Source;
@@ -305,43 +305,6 @@ fn unfit(found: &Diagnostics, source: &Source, noun: &str) -> Finished {
     Finished::text(String::new(), said, FAULTY)
 }
 
-/// The choice of a job as options of the command line; empty if everything is cut.
-pub(super) fn typed(job: &Job) -> String {
-    let Selection { pieces, skip, resume_from, bites } = &job.selection;
-    let mut words = Vec::new();
-    words.extend(job.lines.pens.iter().map(|numbers| format!("--cut-pens {numbers}")));
-    words.extend(job.lines.layers.iter().map(|layers| format!("--layers {layers}")));
-    words.extend(job.lines.inner.iter().map(|inner| {
-        let name = match inner {
-            Inner::Ignore => "ignore",
-            Inner::Cut => "cut",
-            Inner::All => "all",
-        };
-        format!("--inner {name}")
-    }));
-    words.extend(job.lines.all.then(|| "--cut-all".to_owned()));
-    words.extend(job.patterns.sizes.iter().map(|sizes| format!("--size {sizes}")));
-    words.extend(job.patterns.quantity.iter().map(|quantity| {
-        let name = match quantity {
-            Quantity::File => "file",
-            Quantity::One => "one",
-        };
-        format!("--quantity {name}")
-    }));
-    words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
-    words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
-    words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));
-    words.extend(bites.iter().map(|numbers| format!("--bites {numbers}")));
-    words.extend(job.centre.iter().map(|centre| format!("--centre {}", file_name(&centre.source))));
-    words.extend(job.marks.iter().map(|marks| format!("--map {}", file_name(marks.source()))));
-    match job.mode {
-        Mode::Cut => {}
-        Mode::Dry => words.push("--dry-run".to_owned()),
-        Mode::Frame => words.push("--frame".to_owned()),
-    }
-    words.join(" ")
-}
-
 /// The remarks of a page as options of the command line; empty if there are none.
 pub(super) fn remarks(job: &Job) -> String {
     let Remarks { date, price } = &job.remarks;
@@ -349,12 +312,6 @@ pub(super) fn remarks(job: &Job) -> String {
     words.extend(date.iter().map(|date| format!("--date {date}")));
     words.extend(price.iter().map(|price| format!("--rate {}/s --plies {}", exact(price.per_s), price.plies)));
     words.join(" ")
-}
-
-/// The name of a file without its directory.
-pub(super) fn file_name(source: &Source) -> String {
-    let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
-    name.unwrap_or_else(|| source.name().to_owned())
 }
 
 impl Machine {

@@ -9,10 +9,9 @@ use serde::Serialize;
 use super::draft::Draft;
 use super::files;
 use super::finished::{failure, say};
-use super::options::file_name;
 use super::report::pretty;
 use crate::ir::declaration::Declaration;
-use crate::machine::{Job, blake3_of, sha256_hex};
+use crate::machine::{Job, blake3_of, file_name, sha256_hex};
 use crate::machines::{self, Part};
 use crate::source::Source;
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::options::{counted, typed};
+use super::options::counted;
 use super::{bites, edges};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
@@ -176,15 +176,15 @@ fn overlaps(sides: &Sides) -> String {
 pub(super) fn choice(job: &Job) -> String {
     let mut out = String::new();
     if !job.selection.is_all() {
-        let selection = typed(&Job { selection: job.selection.clone(), ..Job::default() });
+        let selection = Job { selection: job.selection.clone(), ..Job::default() }.typed();
         let _ = writeln!(out, "\n  selected   {selection}: the figures are those of these pieces");
     }
     if job.lines != Lines::default() {
-        let lines = typed(&Job { lines: job.lines.clone(), ..Job::default() });
+        let lines = Job { lines: job.lines.clone(), ..Job::default() }.typed();
         let _ = writeln!(out, "{}  lines      {lines}: so they were chosen", if out.is_empty() { "\n" } else { "" });
     }
     if job.patterns != Patterns::default() {
-        let patterns = typed(&Job { patterns: job.patterns.clone(), ..Job::default() });
+        let patterns = Job { patterns: job.patterns.clone(), ..Job::default() }.typed();
         let _ = writeln!(out, "{}  patterns   {patterns}: so they were chosen", if out.is_empty() { "\n" } else { "" });
     }
     let is_head = job.profile.tool.kind == ToolKind::Spray;

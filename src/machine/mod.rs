@@ -49,6 +49,7 @@ pub mod table;
 pub mod time;
 mod tool;
 pub mod tracking;
+mod typed;
 mod validate;
 pub mod verify;
 mod word;
@@ -81,6 +82,7 @@ pub use show::Comments;
 pub use table::Table;
 pub use tool::{Basis, Planner, Quintic, Tool, ToolKind};
 pub use tracking::Tracking;
+pub use typed::file_name;
 
 /// Task of one compile: the profile and the options of this run.
 #[derive(Debug, Clone, Default)]

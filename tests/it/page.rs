@@ -1,16 +1,25 @@
-//! The report of a page: places that it tells.
+//! The report of a page: places and options that it tells.
 
 use serde_json::Value;
 
-use crate::player::{GAP, Page, between, table};
+use crate::player::{GAP, Page, between};
 use crate::support::room::{DONE, Room};
 
 /// A part with a bend of 15 degrees, at X 100, amid its lower edge.
 const BEND: &str = "H1*G71*N1*X0Y0*M14*X1000Y0*X2000Y268*X2000Y2000*X0Y2000*X0Y0*M15*M0*";
+/// A square with a name.
+const NAMED: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*X100Y100*M31*COLLAR*\
+                     N2*X600Y0*M14*X1000Y0*X1000Y400*X600Y400*X600Y0*M15*M0*";
+
 /// Declarations of a program.
 fn declared(room: &Room, program: &str) -> Vec<Value> {
     let meta: Value = serde_json::from_str(&room.text(&format!("{program}.meta.json"))).expect("JSON");
     meta["declared"].as_array().expect("a list").clone()
+}
+
+/// Cell of the facts of a page by the name of its row.
+fn fact(page: &str, name: &str) -> String {
+    between(page, &format!("<th scope=\"row\">{name}</th>\n<td>"), "</td>").to_owned()
 }
 
 #[test]
@@ -38,4 +47,17 @@ fn a_declared_deviation_stands_where_it_is_greatest() {
         };
         assert_eq!(warned.iter().filter(is_there).count(), 1, "{entry}");
     }
+}
+
+#[test]
+fn options_that_change_what_is_cut_stand_in_the_job() {
+    let room = Room::with("named.cut", NAMED);
+    room.says("compile named.cut -t html --skip 2 --dry-run", DONE);
+    let page = room.text("named.html");
+    assert_eq!(fact(&page, "Options"), "--skip 2 --dry-run");
+    let head = between(&page, "<header>", "</header>");
+    assert!(head.contains(">dry run: nothing is cut</p>"), "{head}");
+    room.says("compile named.cut -t html --force", DONE);
+    let page = room.text("named.html");
+    assert!(!page.contains(">Options</th>") && !page.contains(": nothing is cut</p>"));
 }

@@ -1,13 +1,12 @@
 //! Content of a page, and the parts of it that both the report and the script need.
 
-use std::path::Path;
-
 use super::piece::Piece;
 use super::record::Record;
 use crate::back::target::{Context, Outcome};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::declaration::Declaration;
+use crate::machine::file_name;
 use crate::units::number;
 
 /// Duration below which milliseconds are shown, s.
@@ -41,8 +40,7 @@ impl About<'_> {
 
     /// Name of the file without its directory.
     pub(super) fn file(&self) -> String {
-        let name = self.context.source.name();
-        Path::new(name).file_name().map_or_else(|| name.to_owned(), |file| file.to_string_lossy().into_owned())
+        file_name(self.context.source)
     }
 
     pub(super) fn worth(&self) -> Worth {

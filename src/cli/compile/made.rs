@@ -8,7 +8,7 @@ use crate::back::{Emit, Proof, Target};
 use crate::cli::draft::{self, Draft, Whole};
 use crate::cli::files;
 use crate::cli::finished::say;
-use crate::cli::options::{remarks, typed};
+use crate::cli::options::remarks;
 use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
 use crate::machine::Job;
@@ -118,7 +118,7 @@ impl Compile<'_> {
         let is_moved = matches!(target.proof, Some(Proof::Setpoints | Proof::Positions));
         let cut = Some(Cut { declared: is_moved.then_some(declared) });
         let remarks = if matches!(target.emit, Emit::Page(_)) { remarks(job) } else { String::new() };
-        let options = [typed(job), remarks].join(" ");
+        let options = [job.typed(), remarks].join(" ");
         let made = Made { source, job, target: target.name, verified, cut, options: options.trim() };
         provenance::draft(path, program, &made)
     }

@@ -14,7 +14,7 @@ use crate::cli::choices::Format;
 use crate::cli::destination::{not_of_another, targets_of_many};
 use crate::cli::draft::Whole;
 use crate::cli::finished::{Console, Finished};
-use crate::cli::options::{Messages, remarks, typed};
+use crate::cli::options::{Messages, remarks};
 use crate::cli::report;
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
@@ -67,7 +67,7 @@ pub(in crate::cli) fn made(
     job: &Job,
     (input, source): (&Input, &Source),
 ) -> Made {
-    let mut options = vec![typed(job), remarks(job)];
+    let mut options = vec![job.typed(), remarks(job)];
     options.extend(making.reading.from.map(|dialect| format!("--from {}", dialect.name)));
     let centre = job.centre.iter().map(|centre| &centre.source);
     let beside = centre.chain(job.marks.iter().map(|marks| marks.source()));

@@ -11,7 +11,6 @@ use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::finished::failure;
 use crate::cli::made::{BLOCK_BYTES, say_broken};
-use crate::cli::options::typed;
 use crate::cli::provenance::{self, Verified};
 use crate::cli::report::pretty;
 use crate::diagnostic::{Diagnostics, code};
@@ -96,7 +95,7 @@ impl Made<'_> {
         let verified = if self.verify { Verified::Yes } else { Verified::No };
         let target = &self.targets.iter().map(|target| target.name).collect::<Vec<_>>().join(",");
         let Self { source, job, .. } = *self;
-        let of_plan = provenance::Made { source, job, target, verified, cut: None, options: &typed(job) };
+        let of_plan = provenance::Made { source, job, target, verified, cut: None, options: &job.typed() };
         drafts.push(provenance::draft(&files::meta(&path), draft.file(), &of_plan)?);
         drafts.push(draft);
         let mut said = String::new();

@@ -11,7 +11,6 @@ use crate::cli::choices::Format;
 use crate::cli::destination::{Place, not_of_another, targets_of_many};
 use crate::cli::draft::Whole;
 use crate::cli::finished::{Console, Finished};
-use crate::cli::options;
 use crate::diagnostic::Diagnostics;
 use crate::sew::{Estimate, TARGETS};
 use crate::source::Source;
@@ -43,7 +42,7 @@ impl Sewing<'_> {
     /// Ingredients of the programs of an input.
     fn ingredients(&self, input: &Input, source: &Source) -> Made {
         let Self { arguments, targets, job } = *self;
-        let mut options = vec![typed(&arguments.asked()), options::typed(job)];
+        let mut options = vec![typed(&arguments.asked()), job.typed()];
         options.extend(arguments.no_verify.then(|| "--no-verify".to_owned()));
         Made::of((input, source), targets.iter().map(|target| target.name), &job.profile, options)
     }

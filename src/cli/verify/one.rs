@@ -8,7 +8,7 @@ use super::arguments::Arguments;
 use crate::cli::choices::Format;
 use crate::cli::finished::{DONE, FAULTY, Finished, failure, say};
 use crate::cli::made::BLOCK_BYTES;
-use crate::cli::options::{counted, typed};
+use crate::cli::options::counted;
 use crate::cli::verdict::{self, Judgement};
 use crate::cli::{files, provenance, sew};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
@@ -122,7 +122,7 @@ impl Arguments {
         })?;
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
-            let options = if machine.is_sewn { sew::typed(&asked) } else { typed(job) };
+            let options = if machine.is_sewn { sew::typed(&asked) } else { job.typed() };
             said.push_str(&provenance::doubts(path, &meta, source, job, &options));
             said.extend(machine.parts.map(|parts| provenance::doubts_of_parts(path, parts)));
             if declared.is_none()
@@ -142,7 +142,7 @@ impl Arguments {
 impl Arguments {
     /// Refuses options that have no effect on the programs of a machine, and jobs that it cannot do.
     fn refuse(&self, program: &Path, machine: &Machine, job: &Job) -> anyhow::Result<()> {
-        let others = typed(&Job { patterns: Patterns::default(), ..job.clone() });
+        let others = Job { patterns: Patterns::default(), ..job.clone() }.typed();
         if machine.is_sewn && !others.is_empty() {
             return Err(failure(
                 format!("`{others}` does nothing to a program of a sewing machine"),

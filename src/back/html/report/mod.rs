@@ -13,12 +13,20 @@ use crate::machine::{Mode, sha256_hex};
 use crate::picture::{Markup, Script};
 use crate::units::number::{counted, fixed};
 
+/// Attributes of a badge that warns.
+const WARNING: [(&str, &str); 2] = [("class", "worth"), ("data-worth", "not-judged")];
+
 /// Markup of the page.
 pub(super) fn body(about: &About) -> String {
     let mut out = Markup::default();
     out.open("header", &[]).element("h1", &[], &about.file());
     let worth = about.worth();
     out.element("p", &[("class", "worth"), ("data-worth", worth.word())], worth.words());
+    match about.context.job.mode {
+        Mode::Cut => {}
+        Mode::Dry => _ = out.element("p", &WARNING, "dry run: nothing is cut"),
+        Mode::Frame => _ = out.element("p", &WARNING, "frame: nothing is cut"),
+    }
     tally(about, &mut out);
     out.element("p", &[("class", "summary")], &totals::summary(about)).close("header");
     if about.record.ticks() > 0 {
@@ -84,6 +92,8 @@ fn job(about: &About, out: &mut Markup) {
     ];
     let set: Vec<String> = job.origin.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
     rows.extend((!set.is_empty()).then(|| ("Set for this job", set.join("; "))));
+    let typed = job.typed();
+    rows.extend((!typed.is_empty()).then_some(("Options", typed)));
     rows.extend([
         ("Knife", knife),
         ("Cycle", format!("{} ms", fixed(profile.time.period_ms, 3))),
