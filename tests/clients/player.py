@@ -264,7 +264,7 @@ def report(browser):
     """Tables are sorted, rows and places lead to the player."""
     numbers = "[...document.querySelectorAll('#pieces tr[data-part]')].map(row => Number(row.dataset.part))"
     order = browser.evaluate(numbers)
-    at = heads(browser).index("Cut, m")
+    at = heads(browser).index("Lines, m")
     browser.click(f"#pieces thead th:nth-child({at + 1}) button")
     cuts = ("[...document.querySelectorAll('#pieces tr[data-part]')]"
             f".map(row => Number(row.cells[{at}].dataset.value))")

@@ -1,8 +1,8 @@
-//! The report of a page: places and options that it tells.
+//! The report of a page: places, options, limits and lengths that it tells.
 
 use serde_json::Value;
 
-use crate::player::{GAP, Page, between};
+use crate::player::{GAP, Page, between, table};
 use crate::support::room::{DONE, Room};
 
 /// A part with a bend of 15 degrees, at X 100, amid its lower edge.
@@ -60,4 +60,41 @@ fn options_that_change_what_is_cut_stand_in_the_job() {
     room.says("compile named.cut -t html --force", DONE);
     let page = room.text("named.html");
     assert!(!page.contains(">Options</th>") && !page.contains(": nothing is cut</p>"));
+}
+
+#[test]
+fn limits_of_the_report_are_those_of_the_profile() {
+    let room = Room::with("named.cut", NAMED);
+    room.says("compile named.cut -t html", DONE);
+    let page = room.text("named.html");
+    let findings = table(&page, "findings");
+    let of = |rule: &str| findings.iter().find(|row| row[0].1 == rule).expect("a row");
+    for (rule, limit) in [("verify/jerk-x", 200_000.0), ("verify/acceleration-c", 20_000.0), ("verify/speed-y", 1200.0)]
+    {
+        assert_eq!(of(rule)[3].0, Some(limit), "{rule}");
+    }
+    // Rows are rounded: a jerk may be above its limit by that, and is not broken.
+    let jerk = of("verify/jerk-x");
+    let (worst, share) = (jerk[2].0.expect("a jerk"), jerk[4].0.expect("a share"));
+    assert!((share - worst / 2000.0).abs() < 1e-6 && worst > 200_000.0 && jerk[1].1 == "holds", "{jerk:?}");
+    assert!(jerk[6].1.contains("up to 204000 mm/s3 is the rounding of the printed rows"), "{jerk:?}");
+    assert!(!of("verify/speed-y")[6].1.contains("rounding"));
+}
+
+#[test]
+fn lengths_of_a_page_say_what_they_hold() {
+    let room = Room::with("named.cut", NAMED);
+    room.says("compile named.cut -t html", DONE);
+    let page = room.text("named.html");
+    assert_eq!(fact(&page, "Lines to cut"), "0.320 m as they are drawn");
+    assert_eq!(fact(&page, "Extent of the pieces"), "100.0 x 40.0 mm");
+    let all = fact(&page, "Cut in all");
+    let (cut, overlaps) = all.split_once(" m, of it overlaps past ends ").expect("both");
+    let [cut, overlaps] = [cut, overlaps.trim_end_matches(" m")].map(|metres| metres.parse::<f64>().expect("m"));
+    assert!(overlaps > 0.001 && (cut - overlaps - 0.320).abs() < 2e-3, "{all}");
+    // The tip goes all of that but for the blade's own width at each plunge.
+    let tip = &table(&page, "spent")[0][3];
+    let plunges: f64 = fact(&page, "Plunges").parse().expect("a number");
+    let off = tip.0.expect("mm") - (1000.0 * cut - 6.6 * plunges);
+    assert!(tip.1.ends_with(" m of the tip") && off.abs() < 1.0, "{tip:?}, {off}");
 }

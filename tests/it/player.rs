@@ -411,7 +411,7 @@ fn a_page_names_its_machine_its_program_and_its_windows() {
     assert_eq!((fact("Program"), fact("BLAKE3 of the program")), ("long.csv".into(), digest_of(&meta)));
     assert!(fact("Verified").starts_with("read back, ") && fact("Verified").ends_with(" rules hold"));
     assert!(
-        page.contains(" m to cut in 4 windows, ")
+        page.contains(" m of lines to cut in 4 windows, ")
             && fact("Time").ends_with(" without the time in which the cloth is moved on")
     );
     room.says("compile long.cut -t html --force --no-verify", DONE);

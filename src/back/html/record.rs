@@ -9,6 +9,9 @@ use crate::machine::{self, MachineProfile};
 use crate::picture::Columns;
 use crate::units::deg;
 
+/// Orders of the limits of an axis, as rules of the verifier name them.
+const ORDERS: [&str; 3] = ["speed", "acceleration", "jerk"];
+
 /// Time and path lengths of a program or of one piece.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sums {
@@ -157,6 +160,19 @@ impl Record {
     /// Limits of the axes in cuts and with the knife up, in mm or degrees and powers of s.
     pub(super) fn limits(&self) -> &[Limits; 2] {
         &self.limits
+    }
+
+    /// Limit of the profile behind the one that a rule of the verifier allows, which is widened by the rounding of the rows: the
+    /// greatest of its axis and order that is not above it. Limits of other rules are those of the profile as they are.
+    pub(super) fn limit(&self, rule: &str, allowed: f64) -> f64 {
+        let of_axis = |axis: &str| ["x", "y", "c"].iter().position(|name| *name == axis);
+        let of_order = |order: &str| ORDERS.iter().position(|name| *name == order);
+        let Some((order, axis)) = rule.strip_prefix("verify/").and_then(|name| name.rsplit_once('-')) else {
+            return allowed;
+        };
+        let (Some(order), Some(axis)) = (of_order(order), of_axis(axis)) else { return allowed };
+        let known = self.limits.iter().map(|limits| limits[axis][order]).filter(|&limit| limit <= allowed);
+        known.reduce(f64::max).unwrap_or(allowed)
     }
 
     /// Adds the motion of a toolpath.

@@ -207,12 +207,13 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
         _ => format!("{} {unit}", short(value)),
     };
     table::number(out, &shown(*worst), *worst);
+    let allowed = *limit;
+    let limit = allowed.map(|allowed| about.record.limit(rule.name, allowed));
     match limit {
         Some(limit) => {
-            table::number(out, &shown(*limit), *limit);
-            let share = if *limit > 0.0 { PERCENT * worst / limit } else { 0.0 };
-            let words =
-                if *limit > 0.0 && share.is_finite() { format!("{} %", fixed(share, 1)) } else { String::new() };
+            table::number(out, &shown(limit), limit);
+            let share = if limit > 0.0 { PERCENT * worst / limit } else { 0.0 };
+            let words = if limit > 0.0 && share.is_finite() { format!("{} %", fixed(share, 1)) } else { String::new() };
             table::number(out, &words, share);
         }
         None => _ = out.element("td", &[("class", "number")], "").element("td", &[("class", "number")], ""),
@@ -228,6 +229,9 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     }
     deepest(about, finding, out);
     out.close("td").open("td", &[]).prose(rule.about);
+    if let Some(allowed) = allowed.filter(|&allowed| limit.is_some_and(|limit| *worst > limit && *worst <= allowed)) {
+        advice(&format!("up to {} is the rounding of the printed rows", shown(allowed)), out);
+    }
     if !finding.holds() {
         for line in rule.more.lines().filter(|line| !line.trim().is_empty()) {
             advice(line.trim(), out);

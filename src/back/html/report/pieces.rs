@@ -77,7 +77,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     columns.extend(some.into_iter().filter(|(has, _)| *has).map(|(_, name)| name));
     columns.push("#Notches and holes");
     let span = columns.len().to_string();
-    columns.push("#Cut, m");
+    columns.push("#Lines, m");
     if has_time {
         columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges", "Limited by"]);
         let words = "Other: turning, plunging, lifting, drilling and waiting. Limited by: what most of the cutting is \
@@ -171,7 +171,7 @@ pub(super) fn windows(about: &About, out: &mut Markup) {
         &[("class", "hint")],
         "The time in which the conveyor moves the cloth on is not counted anywhere.",
     );
-    table::open(out, "sortable", &["#Window", "Pieces", "#Cut, m", "#Time"]);
+    table::open(out, "sortable", &["#Window", "Pieces", "#Lines, m", "#Time"]);
     let mut sections = vec![0; about.pieces.len()];
     for piece in about.pieces {
         sections[piece.whole] += 1;

@@ -19,7 +19,7 @@ pub(super) fn summary(about: &About) -> String {
     let marker = about.context.marker;
     let (width, height) = marker.extent().size();
     let said = format!(
-        "{}, {} x {} mm, {} m to cut",
+        "{}, {} x {} mm, {} m of lines to cut",
         counted(marker.piece_count(), "piece"),
         fixed(width, 0),
         fixed(height, 0),
@@ -38,21 +38,22 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     let (width, height) = marker.extent().size();
     let mut rows = vec![
         ("Pieces", marker.piece_count().to_string()),
-        ("Cloth", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
-        ("Lines to cut", format!("{} m", fixed(marker.cut_length() / MM_PER_M, 3))),
+        ("Extent of the pieces", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
+        ("Lines to cut", format!("{} m as they are drawn", metres(marker.cut_length()))),
     ];
     rows.extend(notches(about).map(|notches| ("Notches and holes", notches)));
     if let Some(area) = area(marker, &about.context.job.profile) {
         let of = width * height;
         let share =
-            if of > 0.0 { format!(", {} % of the cloth", fixed(PERCENT * area / of, 1)) } else { String::new() };
+            if of > 0.0 { format!(", {} % of their extent", fixed(PERCENT * area / of, 1)) } else { String::new() };
         rows.push(("Area of the parts", format!("{} m2{share}", fixed(area / MM2_PER_M2, 4))));
     }
     if sums.total() > 0 {
         let moved = if about.windows().is_some() { " without the time in which the cloth is moved on" } else { "" };
         rows.push(("Time", clock(about.time(sums.total())) + moved));
         rows.push(("Plunges", sums.plunges.to_string()));
-        rows.push(("Overlaps past ends of cuts", format!("{} m", fixed(sums.overlaps / MM_PER_M, 3))));
+        let cut = metres(marker.cut_length() + sums.overlaps);
+        rows.push(("Cut in all", format!("{cut} m, of it overlaps past ends {} m", metres(sums.overlaps))));
     }
     rows.extend(cost(about).map(|cost| ("Cost", cost)));
     for Total { kind, count, worst_mm, .. } in about.outcome.declared {
@@ -65,6 +66,11 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         spent(about, sums, out);
         limited(about, sums, out);
     }
+}
+
+/// Length in metres.
+fn metres(mm: f64) -> String {
+    fixed(mm / MM_PER_M, 3)
 }
 
 /// Notches and holes of all pieces by kind, and how notches are cut; `None` without any.
@@ -97,26 +103,30 @@ fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     out.open("section", &[("id", "spent")]).element("h2", &[], "Time");
     table::open(out, "bars", &["Spent on", "#Time", "#Share", "#Distance", ""]);
     let total = sums.total() as f64;
-    let cells = |ticks: u64, way: Option<f64>, out: &mut Markup| {
+    let cells = |ticks: u64, way: Option<f64>, of: &str, out: &mut Markup| {
         let (time, share) = (about.time(ticks), ticks as f64 / total);
         table::number(out, &clock(time), time);
         table::number(out, &format!("{} %", fixed(PERCENT * share, 1)), share);
-        let metres = way.map(|way| format!("{} m", fixed(way / MM_PER_M, 3)));
-        table::number(out, &metres.unwrap_or_default(), way.unwrap_or(0.0));
+        let shown = way.map(|way| format!("{} m{of}", metres(way)));
+        table::number(out, &shown.unwrap_or_default(), way.unwrap_or(0.0));
     };
-    let ways = [Some(sums.cut), Some(sums.travel)].into_iter().chain(std::iter::repeat(None));
-    for ((name, &ticks), way) in Sums::PARTS.iter().zip(&sums.ticks).zip(ways).filter(|((_, ticks), _)| **ticks > 0) {
+    let ways =
+        [(Some(sums.cut), " of the tip"), (Some(sums.travel), "")].into_iter().chain(std::iter::repeat((None, "")));
+    for ((name, &ticks), (way, of)) in
+        Sums::PARTS.iter().zip(&sums.ticks).zip(ways).filter(|((_, ticks), _)| **ticks > 0)
+    {
         out.open("tr", &[]).element("td", &[], name);
-        cells(ticks, way, out);
+        cells(ticks, way, of, out);
         bar(name, ticks as f64 / total, out);
         out.close("tr");
     }
     table::totals(out);
     out.open("tr", &[]).element("th", &[("scope", "row")], "in all");
-    cells(sums.total(), Some(sums.cut + sums.travel), out);
+    cells(sums.total(), Some(sums.cut + sums.travel), "", out);
     out.element("td", &[], "").close("tr");
     table::close(out);
-    out.close("section");
+    let words = "Of the tip: with overlaps, without what the blade cuts along its own width where it plunges.";
+    out.element("p", &[("class", "hint")], words).close("section");
 }
 
 /// Cell with a bar of a share.
