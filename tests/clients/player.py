@@ -116,7 +116,7 @@ def rates(browser, rows):
         browser.evaluate(f"cutc.player.seek({tick}); cutc.player.tellAll()")
         line = browser.evaluate("document.getElementById('speed').textContent")
         found = re.search(r": X (-?\d+)/(\d+) mm/s, Y (-?\d+)/(\d+), C (-?\d+)/(\d+)", line)
-        check(found, f"no speeds in {line}")
+        check(found and "-0/" not in line, f"no speeds in {line}")
         for axis, at in [("x_mm", 1), ("y_mm", 3), ("c_deg", 5)]:
             before, after = (float(rows[tick + by][axis]) for by in [-1, 1])
             rate, limit = int(found[at]), int(found[at + 1])
@@ -132,6 +132,7 @@ def curves(browser):
     browser.evaluate("cutc.player.seek(0)")
     browser.settle()
     shown = "[cutc.player.charts.from, cutc.player.charts.to]"
+    check(browser.evaluate(f"{shown}[1] === cutc.motion.end"), "all of the program is shown at first")
     x, y = browser.evaluate("(() => { const e = document.getElementById('charts'); e.scrollIntoView({ block: 'center' });"
                             " const b = e.getBoundingClientRect(); return [b.right - 20, b.y + b.height / 2]; })()")
     pixels = "document.getElementById('curves').toDataURL()"
@@ -273,7 +274,9 @@ def report(browser):
     browser.click(f"#pieces thead th:nth-child({at + 1}) button")
     check(browser.evaluate(cuts) == sorted_down[::-1], "and the other way round")
     part = browser.evaluate(numbers)[0]
+    browser.press("0")
     browser.click("#pieces tbody tr:first-child td:nth-child(2)")
+    in_view(browser, part)
     check(browser.evaluate("cutc.player.cloth.marked") == part, "a row marks its piece")
     check(browser.evaluate("document.querySelector('tr.marked').dataset.part") == str(part), "and is marked itself")
     found = "document.getElementById('found').textContent"
@@ -298,6 +301,29 @@ def report(browser):
     found = browser.evaluate("cutc.player.tick * cutc.motion.period")
     check(abs(found - time) < 1e-6, f"a place leads to its time: {found} instead of {time}")
     check(browser.evaluate("scrollY < innerHeight"), "and to the player")
+
+
+def in_view(browser, part):
+    """The cloth is in the window, and on it a piece as large as it fits."""
+    browser.settle()
+    top, bottom, high = browser.evaluate("(({ top, bottom }) => [top, bottom, innerHeight])"
+                                         "(document.getElementById('cloth').getBoundingClientRect())")
+    check(top >= 0 and bottom <= high, f"the cloth is at {top} to {bottom} in a window of {high}")
+    box = browser.evaluate(f"(() => {{ const [l, b, r, t] = cutc.motion.facts.pieces[{part}].extent, v = cutc.player.view;"
+                           " return [v.px(l) / v.width, v.py(t) / v.height, v.px(r) / v.width, v.py(b) / v.height]; })()")
+    check(all(0 <= at <= 1 for at in box), f"the piece is at {box} of the cloth")
+    check(max(box[2] - box[0], box[3] - box[1]) > 0.6, f"and small: {box}")
+
+
+def phone(browser):
+    """On a small screen a row leads to its piece as well, and no button lies over the cloth."""
+    browser.size(390, 844)
+    browser.settle()
+    browser.evaluate("document.querySelector('#pieces tr[data-part=\"1\"]').click()")
+    in_view(browser, 1)
+    over = browser.evaluate("document.querySelectorAll('#cloth button').length")
+    check(over == 0, f"{over} buttons over the cloth")
+    browser.size(1400, 900)
 
 
 def columns(browser):
@@ -385,9 +411,28 @@ def windows(browser):
         check(abs(float(at[1]) + int(on[3]) - float(on[1])) < 0.011, f"{table}; {cloth}")
         seen.add(on[2])
     check(seen == set("1234"), f"windows {seen}")
+    split = browser.evaluate("cutc.motion.facts.pieces.find((piece, i) => piece.whole !== i).whole")
+    browser.evaluate(f"cutc.player.goToPiece({split}, false)")
+    said = browser.evaluate("document.getElementById('found').textContent")
+    check(len(re.findall(r"from [^,]+ s on in window \d", said)) > 1, f"sections of a split piece: {said}")
 
 
-def main(program, page, setpoints, many, gap, bites):
+def still(browser):
+    """What was refused before it was planned has a cloth with the place of the fault, and a way to it."""
+    shown = browser.evaluate("['play', 'charts', 'zoom_fit', 'cloth'].map(id => document.getElementById(id).checkVisibility())")
+    check(shown == [False, False, True, True], f"of play, curves, zoom and cloth are shown: {shown}")
+    browser.click("#messages button.jump")
+    browser.settle()
+    check(browser.evaluate("cutc.player.cloth.spot") == [9000, 0], "the place is marked")
+    check("leaves the table" in browser.evaluate("document.getElementById('found').textContent"), "and told")
+    at = browser.evaluate("[cutc.player.view.px(9000), cutc.player.view.py(0)].map(Math.round)")
+    red = browser.evaluate("(([x, y]) => { const c = document.getElementById('top'), r = devicePixelRatio;"
+                           " const d = c.getContext('2d').getImageData((x + 7) * r, (y - 10) * r, 3 * r, 3 * r).data;"
+                           f" return d.some((v, i) => i % 4 === 0 && v > 150 && d[i + 3] > 100); }})({at})")
+    check(red, "the fault is marked in red")
+
+
+def main(program, page, setpoints, many, gap, bites, refused):
     """Everything, on one page, and more on others: many pieces and findings, places that the blade passes, a conveyor."""
     with open(setpoints, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
@@ -403,6 +448,7 @@ def main(program, page, setpoints, many, gap, bites):
         moved(browser)
         touch(browser)
         report(browser)
+        phone(browser)
         paper(browser)
         for width, height in [(390, 844), (1400, 900)]:
             browser.size(width, height)
@@ -419,6 +465,8 @@ def main(program, page, setpoints, many, gap, bites):
         warnings(browser)
         browser.open(bites)
         windows(browser)
+        browser.open(refused)
+        still(browser)
         check(not browser.said, f"the console says {browser.said}")
 
 

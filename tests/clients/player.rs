@@ -15,6 +15,9 @@ const GAP: &str = "H1*G71*N1*X0Y0*M14*X290Y0*X300Y50*X310Y0*X600Y0*X600Y400*X400
                    N2*X0Y-200*M14*X600Y-200*X600Y-5*X0Y-5*X0Y-200*M15*\
                    N3*X1000Y0*M14*Y60*M15*X1200Y0*M14*Y60*M15*X1300Y0*M14*Y60*M15*X900Y0*M14*X1800Y0*Y400*X900*Y0*M15*M0*";
 
+/// A triangle that is longer than a table of a metre.
+const WIDE: &str = "H1*G71*N1*X0Y0*M14*X90000Y0*X90000Y400*X0Y0*M15*M0*";
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -56,9 +59,15 @@ fn chromium_plays_a_page_as_its_setpoints_are() {
     let mut windows = Command::new(env!("CARGO_BIN_EXE_cutc"));
     windows.arg("compile").arg(bites).args(["-t", "html", "--set", "bite.length_mm=800", "-o", "bites.html"]);
     assert!(windows.current_dir(folder.path()).status().expect("the program starts").success());
+    // Refused, so that it has a cloth and no motion.
+    std::fs::write(folder.path().join("wide.cut"), WIDE).expect("writable");
+    let mut refused = Command::new(env!("CARGO_BIN_EXE_cutc"));
+    refused.args(["compile", "wide.cut", "-t", "html", "--set", "table.x_mm=[0,1000]"]).current_dir(folder.path());
+    assert!(!refused.output().expect("the program starts").status.success());
     let script = root().join("tests/clients/player.py");
     let mut lead = Command::new("python3");
-    let pages = ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html", "gap.html", "bites.html"];
+    let pages =
+        ["metric-four-pieces.html", "metric-four-pieces.csv", "many.html", "gap.html", "bites.html", "wide.html"];
     lead.arg(script).arg(browser).args(pages).current_dir(folder.path());
     let led = lead.output().expect("python3 starts");
     assert!(led.status.success(), "{}{}", String::from_utf8_lossy(&led.stdout), String::from_utf8_lossy(&led.stderr));

@@ -98,3 +98,16 @@ fn lengths_of_a_page_say_what_they_hold() {
     let off = tip.0.expect("mm") - (1000.0 * cut - 6.6 * plunges);
     assert!(tip.1.ends_with(" m of the tip") && off.abs() < 1.0, "{tip:?}, {off}");
 }
+
+#[test]
+fn a_piece_has_one_name_and_hints_follow_their_messages() {
+    let room = Room::with("gap.cut", &GAP.replace("M15*N2*", "M15*X300Y200*M31*COLLAR*N2*"));
+    room.says("compile gap.cut -t html", DONE);
+    let page = Page::of(&room, "gap.html");
+    assert_eq!([0, 1].map(|piece| page.facts["pieces"][piece]["title"].clone()), ["piece 1 \"COLLAR\"", "piece 2"]);
+    let messages = between(&page.text, "id=\"messages\"", "</section>");
+    assert!(messages.contains("<span class=\"quiet\">piece 1 &quot;COLLAR&quot;</span>"), "{messages}");
+    assert!(messages.find("</ol>").expect("a list") < messages.find("class=\"hint\"").expect("a hint"), "{messages}");
+    let deviations = table(&page.text, "deviations");
+    assert!(!deviations.is_empty() && deviations.iter().all(|row| row[1].1 == "piece 1 &quot;COLLAR&quot;"));
+}

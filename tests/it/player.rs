@@ -211,13 +211,16 @@ fn a_page_shows_what_was_refused() {
     assert!(said.contains("wrote `hostile.html`, a picture of what was refused") && !room.has("hostile.csv"), "{said}");
     let page = Page::of(&room, "hostile.html");
     assert!(page.text.contains("data-worth=\"refused\"") && page.text.contains("<tr class=\"broken\">"));
-    let worst = &page.facts["findings"][0];
-    assert!(worst["holds"] == false && worst["name"] == "verify/overcut-waste" && worst["at"].is_array(), "{worst}");
-    // What is refused before anything is planned has a report and no player.
+    let broken = page.facts["broken"].as_array().expect("places");
+    assert!(!broken.is_empty() && page.text.contains("verify/overcut-waste, broken with"), "{broken:?}");
+    // What is refused before anything is planned has its cloth with the place of the fault, and no time.
     room.write("wide.cut", b"H1*G71*N1*X0Y0*M14*X90000Y0*X90000Y400*X0Y0*M15*M0*");
     room.says("compile wide.cut -t html --set table.x_mm=[0,1000]", FAULTY);
-    let page = room.text("wide.html");
-    assert!(page.contains("id=\"messages\"") && !page.contains("id=\"player\""));
+    let page = Page::of(&room, "wide.html");
+    assert!(page.text.contains("<div class=\"still\">") && page.facts["ticks"] == 0);
+    assert_eq!(page.facts["broken"], serde_json::json!([[9000.0, 0.0]]));
+    assert!(page.text.contains("class=\"jump\" data-x=\"9000.000\" data-y=\"0.000\""));
+    assert_eq!((page.columns["tick"].len(), page.columns["phase_kind"].as_slice()), (1, &[0.0][..]));
 }
 
 #[test]
@@ -474,7 +477,9 @@ fn messages_and_rules_name_one_deepest_place() {
         page.contains("it cuts 0.45 mm into piece 2 before its start")
             && page.contains("the deepest entry into piece 2")
     );
-    assert!(page.contains("<td>1</td>\n<td>piece 2</td>") && page.contains("<td>1</td>\n<td>its own part</td>"));
+    assert!(
+        page.contains("<td>piece 1</td>\n<td>piece 2</td>") && page.contains("<td>piece 1</td>\n<td>its own part</td>")
+    );
     let places = page.split("class=\"jump\"").skip(1).filter(|place| !between(place, "", ">").contains("data-time"));
     assert_eq!(places.filter(|place| between(place, "", ">").contains("data-part=\"0\"")).count(), 8);
 }

@@ -3,6 +3,7 @@
 use super::piece::Piece;
 use super::record::Record;
 use crate::back::target::{Context, Outcome};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::declaration::Declaration;
@@ -11,8 +12,8 @@ use crate::units::number;
 
 /// Duration below which milliseconds are shown, s.
 const SHORT: f64 = 0.1;
-/// Maximum number of deviations listed on a page; the greatest are listed.
-const MOST_DEVIATIONS: usize = 400;
+/// Maximum number of deviations listed on a page, of which the greatest are listed, and of marked places of errors.
+const MOST_MARKS: usize = 400;
 
 /// Content of a page.
 #[derive(Clone, Copy)]
@@ -71,8 +72,16 @@ impl About<'_> {
     pub(super) fn deviations(&self) -> Vec<Declaration> {
         let mut entries = self.outcome.deviations.to_vec();
         entries.sort_by(|a, b| b.magnitude_mm.total_cmp(&a.magnitude_mm));
-        entries.truncate(MOST_DEVIATIONS);
+        entries.truncate(MOST_MARKS);
         entries
+    }
+
+    /// Places of broken rules and of errors, those first that are first in the report.
+    pub(super) fn broken(&self) -> Vec<Point> {
+        let broken = self.findings().into_iter().filter(|finding| !finding.holds());
+        let broken = broken.filter_map(|finding| Some(finding.place?.point)).filter(|&at| is_finite(at));
+        let errors = self.outcome.messages.iter().filter(|message| message.code.severity == Severity::Error);
+        broken.chain(errors.filter_map(|message| place(message))).take(MOST_MARKS).collect()
     }
 
     /// Number of conveyor windows; `None` where the cloth does not advance.
@@ -107,6 +116,11 @@ impl Worth {
 /// A duration for people, as in `2 min 05.3 s`.
 pub(super) fn clock(seconds: f64) -> String {
     number::clock(seconds, if seconds > 0.0 && seconds < SHORT { 3 } else { 1 })
+}
+
+/// Place of a message on the cloth.
+pub(super) fn place(message: &Diagnostic) -> Option<Point> {
+    message.at.as_deref().map(|&at| Point::from(at)).filter(|&at| is_finite(at))
 }
 
 /// True if a point can be drawn.

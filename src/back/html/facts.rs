@@ -2,10 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::about::{About, is_finite};
+use super::about::About;
 use super::piece::Piece;
 use crate::geom::Extent;
-use crate::ir::verdict::Finding;
 
 /// Inverse of the rounding step of coordinates and times.
 const PER_UNIT: f64 = 1e6;
@@ -15,7 +14,7 @@ pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
     let About { context, record, pieces, .. } = about;
     let knife = &context.job.profile.knife;
     let [cut, travel] = record.limits();
-    let findings = about.findings();
+    let length = context.job.profile.bite.length_mm;
     json!({
         "period_s": rounded(context.job.profile.time.period()),
         "ticks": record.ticks(),
@@ -25,25 +24,17 @@ pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
         "extent": corners(&context.marker.extent()),
         "aside": classes,
         "pieces": pieces.iter().map(piece).collect::<Value>(),
-        "findings": findings.iter().map(|found| finding(found)).collect::<Value>(),
-        "deviations": about.deviations().iter().map(|entry| entry.at_mm).collect::<Vec<_>>(),
+        "window_mm": about.windows().and(length),
+        "broken": about.broken().iter().map(|at| [at.x, at.y].map(rounded)).collect::<Vec<_>>(),
+        "declared": about.deviations().iter().map(|entry| entry.at_mm).collect::<Vec<_>>(),
     })
 }
 
 fn piece(piece: &Piece) -> Value {
-    let Piece { whole, number, name, size, window, extent, .. } = piece;
+    let Piece { whole, number, name, window, extent, .. } = piece;
     json!({
-        "whole": whole, "number": number, "name": name, "size": size, "window": window, "extent": corners(extent),
-    })
-}
-
-fn finding(finding: &Finding) -> Value {
-    let place = finding.place.filter(|place| is_finite(place.point));
-    json!({
-        "name": finding.rule.name,
-        "holds": finding.holds(),
-        "time_s": place.and_then(|place| place.time).map(rounded),
-        "at": place.map(|place| [place.point.x, place.point.y].map(rounded)),
+        "whole": whole, "number": number, "name": name, "title": piece.title(), "window": window,
+        "extent": corners(extent),
     })
 }
 

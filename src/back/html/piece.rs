@@ -79,6 +79,12 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
 }
 
 impl Piece {
+    /// Name on the page, as in `piece 3 "Front"`.
+    pub(super) fn title(&self) -> String {
+        let Self { number, name, .. } = self;
+        if name.is_empty() { format!("piece {number}") } else { format!("piece {number} \"{name}\"") }
+    }
+
     /// True if a message that names a piece means this one.
     pub(super) fn is_called(&self, name: &PieceName) -> bool {
         self.key == [name.number, name.copy]

@@ -236,6 +236,11 @@ impl Record {
         if let Some(last) = self.open.as_ref().and_then(|open| open.way.last().copied()) {
             self.close(last);
         }
+        if self.stretches.is_empty() {
+            // The axes of a marker that was not planned rest at home.
+            self.fit.rest(0, 0, [0.0; 3]);
+            self.stretches.push(Stretch { tick: 0, kind: number(Kind::Rest), part: -1, station: 0 });
+        }
         self.fit.write(columns);
         columns.add("phase_tick", 1.0, self.stretches.iter().map(|phase| phase.tick.cast_signed()));
         columns.add("phase_kind", 1.0, self.stretches.iter().map(|phase| phase.kind));

@@ -74,6 +74,19 @@ function drawLine(to, points, colour, width) {
 }
 
 /**
+ * Draws a ring in a colour of the style.
+ * @param {CanvasRenderingContext2D} to @param {[number, number]} at @param {number} radius Pixels.
+ * @param {string} colour @param {number} width
+ */
+function drawRing(to, [x, y], radius, colour, width) {
+  to.strokeStyle = themed(colour);
+  to.lineWidth = width;
+  to.beginPath();
+  to.arc(x, y, radius, 0, 2 * Math.PI);
+  to.stroke();
+}
+
+/**
  * Moves what a canvas shows and has the strips drawn that come into view.
  * @param {HTMLCanvasElement} canvas @param {View} view
  * @param {[number, number]} by Pixels to the right and down, whole ones of the screen.

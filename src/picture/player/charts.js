@@ -6,8 +6,6 @@ const ROWS = [["speed", "speed"], ["acc", "acceleration"], ["jerk", "jerk"]];
 const ROW_TOP = 1.15;
 /** Height of the stripe of what the machine does, and of the scale of times, pixels. */
 const STRIPE = 12, TIMES = 18;
-/** Time that is shown at first, s. */
-const FIRST_SPAN = 20;
 /** Room for words on the left, pixels. */
 const LEFT = 86;
 
@@ -21,7 +19,7 @@ class Charts {
     this.top = element("cursor", HTMLCanvasElement);
     /** Stretch of time that is shown, ticks. */
     this.from = 0;
-    this.to = Math.max(1, Math.min(motion.end, FIRST_SPAN / motion.period));
+    this.to = Math.max(1, motion.end);
     this.stale = true;
     /** Tick of the cursor. */
     this.cursor = 0;

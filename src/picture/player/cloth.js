@@ -5,6 +5,9 @@ const LINE = { closed: 0, open: 1, notch: 2, aside: 3, hole: 4 };
 /** Points of a line that are nearer than this on the screen are left out, pixels. */
 const LEAST_STEP = 0.6;
 
+/** Least size of letters in a piece, pixels. */
+const LEAST_LETTERS = 6;
+
 /** @typedef {{kind: number, part: number, first: number, end: number, box: Box}} Line */
 /** @typedef {{travels: boolean, aside: boolean, names: boolean, marks: boolean}} Shown */
 
@@ -148,10 +151,10 @@ class Cloth {
       if (!piece.extent || !view.sees(piece.extent)) return;
       const [left, low, right, high] = piece.extent;
       const wide = (right - left) * view.scale, tall = (high - low) * view.scale;
-      if (wide < 18 || tall < 14) return;
+      const size = Math.min(13, wide / piece.number.length / 0.6, tall);
+      if (size < LEAST_LETTERS) return;
       const x = view.px((left + right) / 2), y = view.py((low + high) / 2);
       const name = piece.name && piece.name !== piece.number && tall > 40 ? piece.name : "";
-      const size = wide < 40 ? 10 : 13;
       write(to, piece.number, [x, name ? y - 8 : y], { size, colour: "ink", align: "center", weight: 600 });
       if (name && to.measureText(name).width < wide) write(to, name, [x, y + 8], { colour: "ink", align: "center" });
     });
@@ -216,9 +219,23 @@ class Cloth {
     const to = sharpen(this.top, this.view.width, this.view.height);
     if (this.shown.travels) this.drawTravels(to, tick);
     if (this.shown.marks) this.drawMarks(to);
+    this.drawWindow(to, tick);
     this.drawTip(to, tick);
-    this.drawBlade(to, tick);
+    if (this.motion.end > 0) this.drawBlade(to, tick);
     this.drawRuler(to);
+  }
+
+  /**
+   * The stretch of the cloth that is on the table of a conveyor.
+   * @param {CanvasRenderingContext2D} to @param {number} tick
+   */
+  drawWindow(to, tick) {
+    const { motion, view } = this, { window_mm } = motion.facts, [, low, , high] = this.box;
+    if (window_mm === null) return;
+    const station = motion.columns.phase_station[motion.phase(tick)];
+    const [left, right] = [station, station + window_mm].map(x => view.px(x));
+    const top = view.py(high) - 8, bottom = view.py(low) + 8;
+    drawLine(to, [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], "accent", 1.5);
   }
 
   /** A length of 1, 2 or 5 by a power of ten that is at most 120 pixels long. @param {CanvasRenderingContext2D} to */
@@ -250,12 +267,12 @@ class Cloth {
 
   /** @param {CanvasRenderingContext2D} to */
   drawMarks(to) {
-    const { view } = this, { findings, deviations } = this.motion.facts;
+    const { view } = this, { broken, declared } = this.motion.facts;
     to.strokeStyle = themed("declared");
     to.lineWidth = 1.2;
     // Many of them would hide the cloth: they grow with it.
     const arm = Math.min(4, Math.max(1.5, 5 * view.scale));
-    for (const [x, y] of deviations) {
+    for (const [x, y] of declared) {
       if (!view.sees([x, y, x, y])) continue;
       const px = view.px(x), py = view.py(y);
       to.beginPath();
@@ -263,25 +280,13 @@ class Cloth {
       to.closePath();
       to.stroke();
     }
-    for (const { holds, at } of findings) {
-      if (!at || holds) continue;
-      to.strokeStyle = themed("bad");
-      to.lineWidth = 2.5;
-      to.beginPath();
-      to.arc(view.px(at[0]), view.py(at[1]), 12, 0, 2 * Math.PI);
-      to.stroke();
-    }
+    for (const [x, y] of broken) drawRing(to, [view.px(x), view.py(y)], 12, "bad", 2.5);
     if (this.spot) {
       const px = view.px(this.spot[0]), py = view.py(this.spot[1]);
-      to.strokeStyle = themed("accent");
-      to.lineWidth = 2;
-      to.beginPath();
-      to.arc(px, py, 16, 0, 2 * Math.PI);
+      drawRing(to, [px, py], 16, "accent", 2);
       for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-        to.moveTo(px + 11 * dx, py + 11 * dy);
-        to.lineTo(px + 21 * dx, py + 21 * dy);
+        drawLine(to, [[px + 11 * dx, py + 11 * dy], [px + 21 * dx, py + 21 * dy]], "accent", 2);
       }
-      to.stroke();
     }
   }
 
@@ -313,11 +318,7 @@ class Cloth {
     const [x, y] = motion.blade(tick, 0), angle = -motion.at(tick).c * Math.PI / 180;
     to.save();
     to.translate(view.px(x), view.py(y));
-    to.strokeStyle = themed(down ? "bad" : "ink");
-    to.lineWidth = 1.2;
-    to.beginPath();
-    to.arc(0, 0, 13, 0, 2 * Math.PI);
-    to.stroke();
+    drawRing(to, [0, 0], 13, down ? "bad" : "ink", 1.2);
     to.rotate(angle);
     const tip = Math.max(tip_mm * view.scale, tip_mm > 0 ? 1 : 0), heel = heel_mm * view.scale;
     const half = Math.max(1.6, 0.1 * (tip + heel)), shoulder = tip - 0.35 * (tip + heel);

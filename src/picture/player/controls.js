@@ -82,16 +82,24 @@ class Player extends Stage {
     this.cloth.marked = part;
     this.cloth.renew();
     markRow(part);
-    const { phase_part } = this.motion.columns, { pieces } = this.motion.facts;
-    const first = this.motion.pieces.find(phase => pieces[phase_part[phase]]?.whole === part);
-    const { motion } = this;
-    const begins = first === undefined ? "is not cut" : `is cut from ${motion.clock(motion.start(first), 1)} on`;
-    const told = `${named(pieces[part])} ${begins}; its row in the table is marked`;
-    this.say("found", part < 0 ? "no piece lies there" : told);
-    if (first !== undefined && show) this.seek(this.motion.start(first));
+    const { motion } = this, { phase_part } = motion.columns, { pieces } = motion.facts;
+    const sections = motion.pieces.filter(phase => pieces[phase_part[phase]]?.whole === part);
+    const begins = sections.map(phase => {
+      const { window } = pieces[phase_part[phase]], from = `from ${motion.clock(motion.start(phase), 1)} on`;
+      return window === null ? from : `${from} in window ${window + 1}`;
+    });
+    const told = `${named(pieces[part])} is ${begins.length ? "cut " : "not cut"}${begins.join(", ")}`;
+    this.say("found", part < 0 ? "no piece lies there" : `${told}; its row in the table is marked`);
+    if (sections.length > 0 && show) this.seek(motion.start(sections[0]));
     const box = pieces[part]?.extent;
-    if (box && show && !this.view.sees(box)) this.view.fit(box);
+    if (box && show) this.show(box);
     this.wake();
+  }
+
+  /** Brings a box of the cloth into view, on the cloth and with it. @param {Box} box */
+  show(box) {
+    this.view.fit(box);
+    this.frame.scrollIntoView({ block: "center" });
   }
 
   /**
@@ -106,13 +114,12 @@ class Player extends Stage {
     this.cloth.spot = [x, y];
     this.say("found", told);
     const near = 40;
-    this.view.fit([x - near, y - near, x + near, y + near]);
+    this.show([x - near, y - near, x + near, y + near]);
     const { motion } = this;
     const tick = time === undefined ? motion.passing(this.cloth.trail, [x, y], Number(part))
       : Number(time) / motion.period;
     if (tick !== null) this.seek(tick);
     this.isAside = tick === null;
-    element("player", HTMLElement).scrollIntoView({ block: "start" });
     // The next Space plays.
     this.frame.focus({ preventScroll: true });
   }
@@ -141,9 +148,9 @@ class Player extends Stage {
     this.say("axes", window === null ? place : `${place} on the table`);
     this.say("window", window === null ? "" : `X ${(x + station).toFixed(2)} on the cloth: window ${window + 1}, `
       + `moved on by ${station} mm; the time of moving on is not counted`);
-    const [ofX, ofY, ofC] = motion.limits(phase).map(([most]) => most.toFixed(0));
-    this.say("speed", `${speed.toFixed(0)} mm/s: X ${rates.x.toFixed(0)}/${ofX} mm/s, Y ${rates.y.toFixed(0)}/${ofY}, `
-      + `C ${rates.c.toFixed(0)}/${ofC}°/s`);
+    const [inX, inY, inC] = [rates.x, rates.y, rates.c].map(Math.round);
+    const [ofX, ofY, ofC] = motion.limits(phase).map(([most]) => Math.round(most));
+    this.say("speed", `${Math.round(speed)} mm/s: X ${inX}/${ofX} mm/s, Y ${inY}/${ofY}, C ${inC}/${ofC}°/s`);
     this.say("part", this.isAside ? "the blade does not pass the place that is shown"
       : `${named(piece)}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
     this.scrub.value = String(Math.round(tick));
@@ -173,8 +180,8 @@ class Player extends Stage {
   }
 }
 
-/** A piece by its number and name. @param {Piece | undefined} piece */
-function named(piece) { return piece ? ["piece", piece.number, piece.name].filter(Boolean).join(" ") : "no piece yet"; }
+/** A piece as the report names it. @param {Piece | undefined} piece */
+function named(piece) { return piece?.title ?? "no piece yet"; }
 
 /** Shows what colours mean. @param {Legend} legend */
 function showLegend({ colours, words, bounds }) {

@@ -6,11 +6,10 @@
  * @property {number} whole Its place in the marker, of a section that of its piece.
  * @property {string} number
  * @property {string} name
- * @property {string} size
+ * @property {string} title Both of them, as the report has them.
  * @property {number | null} window
  * @property {Box | null} extent
  */
-/** @typedef {{name: string, holds: boolean, time_s: number | null, at: [number, number] | null}} Finding */
 /**
  * @typedef {object} Facts
  * @property {number} period_s
@@ -21,8 +20,9 @@
  * @property {Box | null} extent
  * @property {string[]} aside
  * @property {Piece[]} pieces
- * @property {Finding[]} findings
- * @property {[number, number][]} deviations Places of declared deviations, mm.
+ * @property {number | null} window_mm Length of the window of a conveyor; `null` where the cloth lies still.
+ * @property {[number, number][]} broken Places of broken rules and of errors, mm.
+ * @property {[number, number][]} declared Places of declared deviations, mm.
  * @property {[string, number, number][]} columns Name, length and unit.
  */
 /** @typedef {Record<string, Float64Array>} Columns */

@@ -102,7 +102,6 @@ function steer(view, clicked) {
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
   frame.addEventListener("pointerdown", event => {
-    if (event.target instanceof HTMLButtonElement) return;
     frame.setPointerCapture(event.pointerId);
     if (down.size === 0) moved = 0;
     down.set(event.pointerId, place(event));

@@ -1,7 +1,7 @@
 //! Points that need attention: messages, findings of the verifier, declared deviations.
 
 use super::table;
-use crate::back::html::about::{About, Worth, is_finite};
+use crate::back::html::about::{About, Worth, is_finite, place as place_of};
 use crate::back::html::piece::Piece;
 use crate::diagnostic::pieces::listed;
 use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code};
@@ -111,15 +111,15 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         let shared =
             messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
         let shared: Vec<&String> = shared.collect();
-        for hint in &shared {
-            advice(hint, out);
-        }
         printed(PRINTED[0], messages.len(), out);
         out.open("ol", &[("class", "messages")]);
         for message in messages.into_iter().take(MOST_MESSAGES) {
             entry(about, message, &shared, out);
         }
         out.close("ol");
+        for hint in shared {
+            advice(hint, out);
+        }
     }
     out.close("section");
 }
@@ -127,12 +127,12 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
 /// One message, with the hints that are not common to its group.
 fn entry(about: &About, message: &Diagnostic, shared: &[&String], out: &mut Markup) {
     out.open("li", &[]).open("span", &[]).prose(&message.message).close("span");
-    if let Some(piece) = &message.piece {
-        out.text(" ").element("span", &[("class", "quiet")], &piece.to_string());
+    if let Some(title) = title(about, message) {
+        out.text(" ").element("span", &[("class", "quiet")], &title);
     }
-    if let Some(at) = place(message) {
+    if let Some(at) = place_of(message) {
         out.text(" ");
-        jump(out, at, moment(about, message), &told(message));
+        jump(out, at, moment(about, message), &told(about, message));
     }
     for hint in message.hints.iter().filter(|hint| !shared.contains(hint)) {
         advice(hint, out);
@@ -153,20 +153,25 @@ fn printed(most: usize, count: usize, out: &mut Markup) {
 }
 
 /// A message with its piece.
-fn told(message: &Diagnostic) -> String {
-    let piece = message.piece.as_deref().map(|piece| format!("{piece}: "));
+fn told(about: &About, message: &Diagnostic) -> String {
+    let piece = title(about, message).map(|piece| format!("{piece}: "));
     piece.unwrap_or_default() + &message.message
 }
 
-/// Place of a message on the cloth.
-fn place(message: &Diagnostic) -> Option<Point> {
-    message.at.as_deref().map(|&at| Point::from(at)).filter(|&at| is_finite(at))
+/// The piece that a message names.
+fn piece<'a>(about: &About<'a>, message: &Diagnostic) -> Option<&'a Piece> {
+    let name = message.piece.as_deref()?;
+    about.pieces.iter().find(|piece| piece.is_called(name))
+}
+
+/// Name of the piece of a message, as everywhere on the page.
+fn title(about: &About, message: &Diagnostic) -> Option<String> {
+    piece(about, message).map(Piece::title).or_else(|| message.piece.as_ref().map(ToString::to_string))
 }
 
 /// Moment of a message: while its piece is cut, if it names one.
 fn moment(about: &About, message: &Diagnostic) -> Moment {
-    let is_of = |piece: &&Piece| message.piece.as_deref().is_some_and(|name| piece.is_called(name));
-    about.pieces.iter().find(is_of).map_or(Moment::Any, |piece| Moment::During(piece.whole))
+    piece(about, message).map_or(Moment::Any, |piece| Moment::During(piece.whole))
 }
 
 /// The section of the verifier's findings.
@@ -222,8 +227,8 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     if let Some(place) = place.filter(|place| is_finite(place.point)) {
         let limit = limit.map(|limit| format!(" of {}", shown(limit))).unwrap_or_default();
         let mut words = format!("{}, {verdict} with {}{limit}: {}", rule.name, shown(*worst), rule.about);
-        let is_here = |message: &&&Diagnostic| self::place(message).is_some_and(|at| is_one(at, place.point));
-        let here = about.outcome.messages.iter().find(is_here).map(|message| format!(". {}", told(message)));
+        let is_here = |message: &&&Diagnostic| place_of(message).is_some_and(|at| is_one(at, place.point));
+        let here = about.outcome.messages.iter().find(is_here).map(|message| format!(". {}", told(about, message)));
         words += &here.unwrap_or_default();
         jump(out, place.point, place.time.map_or(Moment::Any, Moment::At), &words);
     }
@@ -252,7 +257,7 @@ fn deepest(about: &About, finding: &Finding, out: &mut Markup) {
     let messages = about.outcome.messages.iter().filter(|message| message.code == *code);
     let Some((message, by)) = deepest_of(messages) else { return };
     let into = if message.pieces.is_empty() { String::new() } else { format!(" into {}", listed(&message.pieces)) };
-    let at = place(message);
+    let at = place_of(message);
     let is_here = at.zip(finding.place).is_some_and(|(at, here)| is_one(at, here.point));
     if is_here {
         out.element("p", &[("class", "hint")], &format!("the deepest entry{into}"));
@@ -261,7 +266,7 @@ fn deepest(about: &About, finding: &Finding, out: &mut Markup) {
     let more = if by > finding.worst + ROUNDING { ", where more is allowed," } else { "" };
     out.open("p", &[("class", "hint")]).text(&format!("deepest entry: {} mm{into}{more} ", fixed(by, 2)));
     if let Some(at) = at {
-        jump(out, at, moment(about, message), &told(message));
+        jump(out, at, moment(about, message), &told(about, message));
     }
     out.close("p");
 }
@@ -289,12 +294,12 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
     for entry in entries {
         let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
         let [one, _] = entry.kind.words();
-        out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.number);
+        out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.title());
         let into = entry.part.and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
             own if own == piece.whole => "its own part".to_owned(),
-            _ => format!("piece {}", part.number),
+            _ => part.title(),
         });
-        let mut words = format!("{one}, {} mm: piece {}", fixed(entry.magnitude_mm, 3), piece.number);
+        let mut words = format!("{one}, {} mm: {}", fixed(entry.magnitude_mm, 3), piece.title());
         if let Some(into) = &into {
             words.extend([" into ", into]);
         }

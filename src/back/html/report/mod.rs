@@ -29,9 +29,9 @@ pub(super) fn body(about: &About) -> String {
     }
     tally(about, &mut out);
     out.element("p", &[("class", "summary")], &totals::summary(about)).close("header");
-    if about.record.ticks() > 0 {
-        out.markup(Script::Cutting.markup());
-    }
+    // A marker that was refused before it was planned has its cloth, and nothing that moves over it.
+    let class = if about.record.ticks() > 0 { "moving" } else { "still" };
+    out.open("div", &[("class", class)]).markup(Script::Cutting.markup()).close("div");
     out.open("main", &[("id", "report")]);
     job(about, &mut out);
     totals::section(about, &mut out);
