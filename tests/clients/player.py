@@ -124,6 +124,7 @@ def rates(browser, rows):
             check(near and abs(rate) <= limit + 1, f"tick {tick}: {line}")
         turn = float(re.search(r"C (\S+)°", browser.evaluate("document.getElementById('axes').textContent"))[1])
         off = (turn - float(rows[tick]["c_deg"])) % 360
+        check("-0.00" not in browser.evaluate("document.getElementById('axes').textContent"), "no zero has a sign")
         check(-180 <= turn <= 180 and min(off, 360 - off) < 0.02, f"tick {tick}: C at {turn}")
 
 

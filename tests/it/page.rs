@@ -106,8 +106,15 @@ fn a_piece_has_one_name_and_hints_follow_their_messages() {
     let page = Page::of(&room, "gap.html");
     assert_eq!([0, 1].map(|piece| page.facts["pieces"][piece]["title"].clone()), ["piece 1 \"COLLAR\"", "piece 2"]);
     let messages = between(&page.text, "id=\"messages\"", "</section>");
+    assert_eq!(page.facts["warned"].as_array().map(Vec::len), Some(4));
     assert!(messages.contains("<span class=\"quiet\">piece 1 &quot;COLLAR&quot;</span>"), "{messages}");
     assert!(messages.find("</ol>").expect("a list") < messages.find("class=\"hint\"").expect("a hint"), "{messages}");
     let deviations = table(&page.text, "deviations");
     assert!(!deviations.is_empty() && deviations.iter().all(|row| row[1].1 == "piece 1 &quot;COLLAR&quot;"));
+    // The labels of a piece that windows split are in its last section.
+    room.write("split.cut", b"H1*G71*N1*X0Y0*M14*X6000Y0*X6000Y3000*X0Y3000*X0Y0*M15*X5000Y100*M31*TOP*M0*");
+    room.says("compile split.cut -t html --set bite.length_mm=400", DONE);
+    let page = Page::of(&room, "split.html");
+    assert_eq!([0, 1].map(|section| page.facts["pieces"][section]["title"].clone()), ["piece 1 \"TOP\""; 2]);
+    assert_eq!(page.facts["window_mm"], 400.0);
 }

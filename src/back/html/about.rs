@@ -12,8 +12,8 @@ use crate::units::number;
 
 /// Duration below which milliseconds are shown, s.
 const SHORT: f64 = 0.1;
-/// Maximum number of deviations listed on a page, of which the greatest are listed, and of marked places of errors.
-const MOST_MARKS: usize = 400;
+/// Maximum number of deviations listed on a page, of which the greatest are listed, and of marked places.
+pub(super) const MOST_MARKS: usize = 400;
 
 /// Content of a page.
 #[derive(Clone, Copy)]
@@ -80,8 +80,13 @@ impl About<'_> {
     pub(super) fn broken(&self) -> Vec<Point> {
         let broken = self.findings().into_iter().filter(|finding| !finding.holds());
         let broken = broken.filter_map(|finding| Some(finding.place?.point)).filter(|&at| is_finite(at));
-        let errors = self.outcome.messages.iter().filter(|message| message.code.severity == Severity::Error);
-        broken.chain(errors.filter_map(|message| place(message))).take(MOST_MARKS).collect()
+        broken.chain(self.places(Severity::Error)).collect()
+    }
+
+    /// Places of the messages of a severity.
+    pub(super) fn places(&self, severity: Severity) -> impl Iterator<Item = Point> {
+        let messages = self.outcome.messages.iter().filter(move |message| message.code.severity == severity);
+        messages.filter_map(|message| place(message))
     }
 
     /// Number of conveyor windows; `None` where the cloth does not advance.

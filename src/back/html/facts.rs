@@ -2,9 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::about::About;
+use super::about::{About, MOST_MARKS};
 use super::piece::Piece;
-use crate::geom::Extent;
+use crate::diagnostic::Severity;
+use crate::geom::{Extent, Point};
 
 /// Inverse of the rounding step of coordinates and times.
 const PER_UNIT: f64 = 1e6;
@@ -25,7 +26,8 @@ pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
         "aside": classes,
         "pieces": pieces.iter().map(piece).collect::<Value>(),
         "window_mm": about.windows().and(length),
-        "broken": about.broken().iter().map(|at| [at.x, at.y].map(rounded)).collect::<Vec<_>>(),
+        "broken": places(about.broken().into_iter()),
+        "warned": places(about.places(Severity::Warning)),
         "declared": about.deviations().iter().map(|entry| entry.at_mm).collect::<Vec<_>>(),
     })
 }
@@ -36,6 +38,11 @@ fn piece(piece: &Piece) -> Value {
         "whole": whole, "number": number, "name": name, "title": piece.title(), "window": window,
         "extent": corners(extent),
     })
+}
+
+/// Places to mark, X and Y in mm: so many that they do not hide the cloth.
+fn places(all: impl Iterator<Item = Point>) -> Vec<[f64; 2]> {
+    all.take(MOST_MARKS).map(|at| [at.x, at.y].map(rounded)).collect()
 }
 
 /// Left, lower, right and upper edge of a box, mm; null when it is empty.

@@ -75,7 +75,13 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
             extent: whole.map_or(Extent::EMPTY, |whole| extent(context, whole)),
         }
     };
-    pieces.map(piece).collect()
+    let mut pieces: Vec<Piece> = pieces.map(piece).collect();
+    // The labels of a split piece are those of its last section: all have its name.
+    for section in 0..pieces.len() {
+        let name = pieces[pieces[section].whole].name.clone();
+        pieces[section].name = name;
+    }
+    pieces
 }
 
 impl Piece {

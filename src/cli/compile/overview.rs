@@ -22,6 +22,7 @@ const MARK: &str = "<main id=\"overview\">";
 /// Columns of the table; `#` before a name marks a column of numbers.
 const COLUMNS: [&str; 10] = [
     "File",
+    "Worst finding",
     "Verdict",
     "Made",
     "#Errors",
@@ -30,7 +31,6 @@ const COLUMNS: [&str; 10] = [
     "#Pieces",
     "#Lines, m",
     "#Time",
-    "Worst finding",
 ];
 
 /// A row of the table, and the path of its page.
@@ -138,13 +138,26 @@ impl<'a> Overview<'a> {
         } else {
             out.text(&row.file);
         }
+        out.close("td");
+        // The message, and behind it the code, which is all there is of what cannot be read.
+        out.open("td", &[]).prose(if told.is_empty() { &row.worst } else { told });
+        if !told.is_empty() {
+            out.text(" ").element("code", &[("class", "quiet")], &row.worst);
+        }
+        if !hint.is_empty() {
+            out.open("p", &[("class", "hint")]).prose(hint).close("p");
+        }
+        if !page.exists() {
+            out.element("p", &[("class", "hint")], "it has no page");
+        }
+        out.close("td");
         let verdict = match row.verdict {
             Some(Standing::Verified) => "verified",
             Some(Standing::Unverified) => "not verified",
             Some(Standing::Refused) => "refused",
             None => "failed",
         };
-        out.close("td").element("td", &[], verdict).element("td", &[("data-name", "Made")], made);
+        out.element("td", &[], verdict).element("td", &[("data-name", "Made")], made);
         // On a narrow screen each number has its name beside it.
         let mut numbers = COLUMNS.into_iter().filter_map(|column| column.strip_prefix('#'));
         let mut number = |shown: Option<String>, value: Option<f64>| {
@@ -158,18 +171,7 @@ impl<'a> Overview<'a> {
         }
         number(row.cut_m.map(|metres| fixed(metres, 3)), row.cut_m);
         number(row.time_s.map(|time| clock(time, 1)), row.time_s);
-        // The message, and behind it the code, which is all there is of what cannot be read.
-        out.open("td", &[]).prose(if told.is_empty() { &row.worst } else { told });
-        if !told.is_empty() {
-            out.text(" ").element("code", &[("class", "quiet")], &row.worst);
-        }
-        if !hint.is_empty() {
-            out.open("p", &[("class", "hint")]).prose(hint).close("p");
-        }
-        if !page.exists() {
-            out.element("p", &[("class", "hint")], "it has no page: nothing of it could be read");
-        }
-        out.close("td").close("tr");
+        out.close("tr");
     }
 }
 

@@ -235,6 +235,7 @@ class Cloth {
     const station = motion.columns.phase_station[motion.phase(tick)];
     const [left, right] = [station, station + window_mm].map(x => view.px(x));
     const top = view.py(high) - 8, bottom = view.py(low) + 8;
+    write(to, "on the table", [left + 2, top - 7], { colour: "accent" });
     drawLine(to, [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], "accent", 1.5);
   }
 
@@ -267,7 +268,7 @@ class Cloth {
 
   /** @param {CanvasRenderingContext2D} to */
   drawMarks(to) {
-    const { view } = this, { broken, declared } = this.motion.facts;
+    const { view } = this, { broken, warned, declared } = this.motion.facts;
     to.strokeStyle = themed("declared");
     to.lineWidth = 1.2;
     // Many of them would hide the cloth: they grow with it.
@@ -280,6 +281,7 @@ class Cloth {
       to.closePath();
       to.stroke();
     }
+    for (const [x, y] of warned) drawRing(to, [view.px(x), view.py(y)], 2 * arm, "warn", 1.5);
     for (const [x, y] of broken) drawRing(to, [view.px(x), view.py(y)], 12, "bad", 2.5);
     if (this.spot) {
       const px = view.px(this.spot[0]), py = view.py(this.spot[1]);

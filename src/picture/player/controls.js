@@ -113,9 +113,8 @@ class Player extends Stage {
     const x = Number(at.x), y = Number(at.y);
     this.cloth.spot = [x, y];
     this.say("found", told);
-    const near = 40;
+    const { motion } = this, near = 40;
     this.show([x - near, y - near, x + near, y + near]);
-    const { motion } = this;
     const tick = time === undefined ? motion.passing(this.cloth.trail, [x, y], Number(part))
       : Number(time) / motion.period;
     if (tick !== null) this.seek(tick);
@@ -144,7 +143,9 @@ class Player extends Stage {
     // The heading within half a turn of the X axis.
     const heading = c - 360 * Math.ceil((c - 180) / 360);
     const window = piece?.window ?? null;
-    const place = `X ${x.toFixed(2)}  Y ${y.toFixed(2)}  C ${heading.toFixed(2)}°`;
+    // Rounded first: no zero has a sign.
+    const [atX, atY, atC] = [x, y, heading].map(value => (Math.round(100 * value) / 100).toFixed(2));
+    const place = `X ${atX}  Y ${atY}  C ${atC}°`;
     this.say("axes", window === null ? place : `${place} on the table`);
     this.say("window", window === null ? "" : `X ${(x + station).toFixed(2)} on the cloth: window ${window + 1}, `
       + `moved on by ${station} mm; the time of moving on is not counted`);

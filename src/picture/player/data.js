@@ -22,6 +22,7 @@
  * @property {Piece[]} pieces
  * @property {number | null} window_mm Length of the window of a conveyor; `null` where the cloth lies still.
  * @property {[number, number][]} broken Places of broken rules and of errors, mm.
+ * @property {[number, number][]} warned Places of warnings, mm.
  * @property {[number, number][]} declared Places of declared deviations, mm.
  * @property {[string, number, number][]} columns Name, length and unit.
  */
