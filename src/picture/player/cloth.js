@@ -5,8 +5,8 @@ const LINE = { closed: 0, open: 1, notch: 2, aside: 3, hole: 4 };
 /** Points of a line that are nearer than this on the screen are left out, pixels. */
 const LEAST_STEP = 0.6;
 
-/** Least size of letters in a piece, pixels. */
-const LEAST_LETTERS = 6;
+/** Least size of letters, pixels: a number may be twice as wide as its piece. */
+const LEAST_LETTERS = 8;
 
 /** @typedef {{kind: number, part: number, first: number, end: number, box: Box}} Line */
 /** @typedef {{travels: boolean, aside: boolean, names: boolean, marks: boolean}} Shown */
@@ -152,10 +152,11 @@ class Cloth {
       const [left, low, right, high] = piece.extent;
       const wide = (right - left) * view.scale, tall = (high - low) * view.scale;
       const size = Math.min(13, wide / piece.number.length / 0.6, tall);
-      if (size < LEAST_LETTERS) return;
+      if (2 * size < LEAST_LETTERS) return;
       const x = view.px((left + right) / 2), y = view.py((low + high) / 2);
       const name = piece.name && piece.name !== piece.number && tall > 40 ? piece.name : "";
-      write(to, piece.number, [x, name ? y - 8 : y], { size, colour: "ink", align: "center", weight: 600 });
+      const letters = { size: Math.max(size, LEAST_LETTERS), weight: 600 };
+      write(to, piece.number, [x, name ? y - 8 : y], { ...letters, colour: "ink", align: "center" });
       if (name && to.measureText(name).width < wide) write(to, name, [x, y + 8], { colour: "ink", align: "center" });
     });
   }

@@ -28,7 +28,6 @@ class Colours {
     this.mode = "piece";
     /** Colour of each point of the trail, where it has one of its own. @type {Map<Mode, Uint8Array>} */
     this.known = new Map();
-    this.most = 1;
   }
 
   /** Colours that the numbers of the trail stand for. */

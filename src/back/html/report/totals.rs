@@ -52,6 +52,8 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         let moved = if about.windows().is_some() { " without the time in which the cloth is moved on" } else { "" };
         rows.push(("Time", clock(about.time(sums.total())) + moved));
         rows.push(("Plunges", sums.plunges.to_string()));
+    }
+    if sums.plunges > 0 {
         let cut = metres(marker.cut_length() + sums.overlaps);
         rows.push(("Cut in all", format!("{cut} m, of it overlaps past ends {} m", metres(sums.overlaps))));
     }
