@@ -11,8 +11,8 @@ use crate::units::MM_PER_INCH;
 /// metric system is mm, the English one inches.
 #[rustfmt::skip] // a table: a row a unit
 const NAMES: [(f64, &[&str]); 3] = [
-    (1.0, &["METRIC", "MM", "MILLIMETERS", "MILLIMETRES", "METRISCH", "MILLIMETER", "MÉTRIQUE", "METRIQUE", "MILLIMÈTRES", "METRICO", "MILLIMETRI", "MÉTRICO", "MILÍMETROS", "MILIMETROS", "公制", "米制", "毫米"]),
-    (10.0, &["CM", "CENTIMETERS", "CENTIMETRES", "ZENTIMETER", "CENTIMÈTRES", "CENTIMETRI", "CENTÍMETROS", "CENTIMETROS", "厘米"]),
+    (1.0, &["METRIC", "MM", "MILLIMETER", "MILLIMETERS", "MILLIMETRE", "MILLIMETRES", "METRISCH", "MÉTRIQUE", "METRIQUE", "MILLIMÈTRE", "MILLIMÈTRES", "METRICO", "MILLIMETRO", "MILLIMETRI", "MÉTRICO", "MILÍMETRO", "MILÍMETROS", "MILIMETRO", "MILIMETROS", "公制", "米制", "毫米"]),
+    (10.0, &["CM", "CENTIMETER", "CENTIMETERS", "CENTIMETRE", "CENTIMETRES", "ZENTIMETER", "CENTIMÈTRE", "CENTIMÈTRES", "CENTIMETRO", "CENTIMETRI", "CENTÍMETRO", "CENTÍMETROS", "CENTIMETROS", "厘米"]),
     (MM_PER_INCH, &["ENGLISH", "IMPERIAL", "INCH", "INCHES", "IN", "ENGLISCH", "ZOLL", "ANGLAIS", "IMPÉRIAL", "POUCE", "POUCES", "INGLESE", "IMPERIALE", "POLLICE", "POLLICI", "INGLÉS", "INGLES", "PULGADA", "PULGADAS", "INGLÊS", "POLEGADA", "POLEGADAS", "英制", "英寸"]),
 ];
 /// Number of letters of a text that a message shows.
@@ -158,8 +158,8 @@ mod tests {
     #[test]
     fn units_are_known_in_the_languages_of_the_keys() {
         for (names, mm) in [
-            (["metric", "Metrisch", "métrique", "METRICO", "公制"], 1.0),
-            (["Zentimeter", "centimètres", "centimetri", "centímetros", "厘米"], 10.0),
+            (["metric", "Millimetre", "métrique", "METRICO", "公制"], 1.0),
+            (["Zentimeter", "centimètre", "centimetri", "centímetros", "厘米"], 10.0),
             (["Englisch", "pouces", "Pollici", "pulgadas", "英制"], MM_PER_INCH),
         ] {
             assert_eq!(names.map(unit_of), [Some(mm); 5], "{names:?}");
