@@ -52,7 +52,7 @@ fn a_profile_that_ships_is_taken_by_name_with_settings_on_top() {
     let (shown, _) = room.expect("profile show -p fluidnc --set gcode.letter=B", DONE);
     assert!(shown.contains("letter = \"B\"") && shown.contains("feed_mode = \"G93\""), "{shown}");
     let (program, _) = room.expect("compile circle.cut -p fluidnc --set gcode.letter=B -t gcode -o -", DONE);
-    assert!(program.contains("(machine: fluidnc, with a key set)"), "{program}");
+    assert!(program.contains("(machine: fluidnc, with gcode.letter set)"), "{program}");
 }
 
 #[test]

@@ -8,8 +8,8 @@ use crate::back::target::{Context, Output};
 use crate::geom::{Point, Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
-use crate::machine::Job;
 use crate::machine::gcode::{FeedCounts, FeedMode, SETTLE, Step};
+use crate::machine::{Job, Mode};
 use crate::source::Span;
 use crate::units::number::{exact, push_fixed, push_integer, short};
 use crate::units::{S_PER_MIN, rad};
@@ -99,14 +99,20 @@ impl<'a> Program<'a> {
         self.say(keys.feed_mode.code());
         self.say(&format!("(from {})", comment(self.source)));
         let Job { profile, origin, .. } = self.job;
-        let changed = match origin.set.len() {
-            0 => String::new(),
-            1 => ", with a key set".to_owned(),
-            n => format!(", with {n} keys set"),
+        let mut set = origin.set.keys();
+        let changed = match (set.next(), set.len()) {
+            (None, _) => String::new(),
+            (Some(key), 0) => format!(", with {} set", comment(key)),
+            (Some(_), others) => format!(", with {} keys set", others + 1),
         };
         self.say(&format!("(machine: {}{changed})", comment(origin.name())));
         let [width, radius] = [profile.knife.width_mm, profile.knife.radius()].map(short);
         self.say(&format!("(knife: {width} mm wide, axis {radius} mm behind the tip)"));
+        match self.job.mode {
+            Mode::Cut => {}
+            Mode::Dry => self.say("(dry run: knife and drills stay up)"),
+            Mode::Frame => self.say("(frame: once around the box of the marker, knife up)"),
+        }
         // A previous program may have left the knife in the cloth.
         self.lift();
     }
