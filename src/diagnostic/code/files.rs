@@ -38,6 +38,18 @@ codes! {
     ISO_PIECE_KNIFE_DOWN = error(Text, "iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.", "Without the M15 the knife would cut from one piece to the next, through whatever lies between. Some controllers insert an N amid an outline: that is no fault, as long as the outline goes on.\n  X0Y0*M15*N2*X4000Y0*M14*   is right; X0Y0*N2*X4000Y0*M14* lacks the M15.");
     /// Places in the air where nothing is done.
     ISO_UNCUT_PLACES = warning(Spares, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.", "A piece whose M14 is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  N2*X4000Y0*M14*X7000Y0*   is right; N2*X4000Y0*X7000Y0* cuts nothing.");
+    /// Codes that have no business in a cut.
+    ISO_MISPLACED = error(Text, "iso/misplaced-code", "A code stands where it cannot: amid a cut, or behind a place in its block.", "A character of a place was changed, so that the knife would miss it or go elsewhere: X4000Y3H00 instead of X4000Y3000, or QX4000Y0, which parks. Transfer the file again.\n  X4000Y3000*M15*   is right; X4000Y300Q* is not.");
+    /// A plunge at the end of another contour.
+    ISO_NO_START = error(Text, "iso/no-start", "The knife goes down where another contour has ended, though a piece or a label begins in between.", "The place where the new contour starts is lost, most likely in the text of a label whose `*` is missing: the knife would cut from the old piece into the new one. Transfer the file again.\n  M31*BACK*X5000Y0*M14*   is right; M31*BACKX5000Y0*M14* is not.");
+    /// A decimal point among whole numbers.
+    ISO_POINT = error(Text, "iso/decimal-point", "A decimal point stands in one place of a cut in a file of whole numbers: a digit was changed.", "X4000Y3.00 leads elsewhere than X4000Y3000. Files whose numbers have decimals are read; in this one, none but that has any. Transfer it again.");
+    /// A slit that goes nowhere.
+    ISO_EMPTY_SLIT = warning(Spares, Text, "iso/empty-slit", "A slit that M19 begins ends where it begins: its tip is missing, and nothing is cut.", "The place between M19 and M15 is lost, and with it a notch. Look at the block that the message names, and transfer the file again.\n  M19*X1000Y60*M15*   is right; M19*M15* cuts nothing.");
+    /// The same hole twice.
+    ISO_DRILLED_TWICE = warning(Spares, Text, "iso/drilled-twice", "A drill goes down twice at one place; a place between may be lost, or a code doubled.", "The second stroke hurts nothing, unless the place of another hole is lost before it. Count the holes with `cutc info`.\n  X100Y100*M43*M43*   drills twice at one place.");
+    /// H amid the pieces.
+    ISO_FILE_NUMBER = warning(Spoils, Text, "iso/file-number", "H, the number of the file, stands amid the pieces or twice: it may be another code with a changed letter.", "H43 instead of M43 drills nothing, and H71 instead of G71 leaves the file in another unit. Look at the block, and transfer the file again.");
     /// The file ends with the knife in the cloth.
     ISO_ENDS_KNIFE_DOWN = error(Text, "iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.", "The end of the file is missing, and with it perhaps more pieces. Transfer it again and compare the sizes; add M15 and M0 only if you know that all is there.");
     /// Last block without its asterisk.
@@ -86,6 +98,12 @@ codes! {
     HPGL_ODD = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.", "Plotters ignore it as well. Amid a line a number is lost, and then the file is refused (hpgl/lost-place); behind one that is closed nothing hangs on it.");
     /// Bytes that cannot be read, amid a line or before it.
     HPGL_LOST = error(Text, "hpgl/lost-place", "A line of a plot hangs on something that cannot be read, or an instruction that draws lacks numbers.", "A character was lost or changed amid an outline, so that it would miss a place, or start from another one. Transfer the file again and compare the sizes.");
+    /// More numbers than an instruction takes.
+    HPGL_NUMBERS = error(Text, "hpgl/too-many-numbers", "An instruction of a plot has more numbers than it takes: it may be a line whose mnemonic was changed.", "The places of a line behind another mnemonic draw nothing, so that a part or a mark would be lost. The hint names the instruction that was most likely meant. Transfer the file again, or mend the letter.\n  PT36400,400,36400,12400;   was PD36400,400,36400,12400;");
+    /// Places in the air where nothing is drawn.
+    HPGL_UNCUT_PLACES = warning(Spares, Shape, "hpgl/uncut-places", "Places in a row are passed with the pen up, and nothing is drawn: a PD may have become PU or PA.", "An outline whose PD is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  PU36400,400,36400,12400,20400,12400;   draws nothing.");
+    /// No end.
+    HPGL_NO_END = warning(Spares, Text, "hpgl/no-end", "A plot ends amid an instruction, where the pen has just come to a place, or before it leaves HP-GL/2.", "Programs lift the pen, park it and put it away, or let the page out. A plot that ends before was most likely cut short on its way: count the pieces with `cutc info` and compare with the marker.");
     /// Numbers in the language of the computer.
     HPGL_DECIMAL_COMMA = error(Text, "hpgl/decimal-comma", "The numbers of a plot have commas for decimal points, so that each reads as two.", "A plotter takes a comma for the end of a number, and would draw something else. Let the program write points, and export again.");
     /// A mnemonic that is not in the table.

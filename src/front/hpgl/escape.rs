@@ -19,13 +19,26 @@ type Out<'a> = IResult<&'a [u8], Escape>;
 
 /// `<escape>`: a sequence that begins with the escape character.
 pub(super) fn escape(i: &[u8]) -> Out<'_> {
-    preceded(char('\u{1b}'), alt((value(Escape::Reset, char('E')), device, language, parametrised, two))).parse(i)
+    preceded(char('\u{1b}'), alt((value(Escape::Reset, char('E')), device, encapsulated, language, parametrised, two)))
+        .parse(i)
 }
 
 /// `<device>`: `.` and a letter, for interfaces; optional numbers end in a colon.
 fn device(i: &[u8]) -> Out<'_> {
     let numbers = terminated(take_while(|byte: u8| byte.is_ascii_digit() || byte == b';' || byte == b','), char(':'));
     value(Escape::Other, (char('.'), satisfy(|c| c.is_ascii_graphic()), opt(numbers))).parse(i)
+}
+
+/// `<encapsulated>`: `;@:`, and lines with settings of Summa cutters up to one that is `END`, with or without a full stop.
+fn encapsulated(i: &[u8]) -> Out<'_> {
+    let (mut rest, _) = nom::bytes::complete::tag(&b";@:"[..]).parse(i)?;
+    loop {
+        let (behind, line) = take_while(|byte| byte != b'\r' && byte != b'\n').parse(rest)?;
+        if matches!(line.trim_ascii(), b"END" | b"END.") {
+            return Ok((behind, Escape::Other));
+        }
+        (rest, _) = take_while1(|byte| byte == b'\r' || byte == b'\n').parse(behind)?;
+    }
 }
 
 /// `<language>`: `%`, a number and a letter: enter HP-GL/2 (B), leave it (A), exit the language (X).
@@ -96,6 +109,8 @@ mod tests {
         check(b"\x1b.I81;;17:IN;", "IN;");
         check(b"\x1b&l1x0OIN;", "IN;");
         check(b"\x1b9IN;", "IN;");
+        check(b"\x1b;@:\r\nSET OVERCUT=1.\r\nLOAD_MARKERS.\r\nEND.\r\nIN;", "\r\nIN;");
+        check(b"\x1b;@:\nUNLOAD_MARKERS\nEND", "");
         check(b"\x1b*b5WPU1,2IN;", "IN;");
         check(b"\x1b*b2m3WPU;IN;", "IN;");
         check(b"\x1b*b3VPU;\x1b(s2WPU", "\x1b(s2WPU");
@@ -106,6 +121,7 @@ mod tests {
         assert_eq!(escape(b"\x1bE").map(|found| found.1), Ok(Escape::Reset));
         // A count beyond the end of the file counts no data.
         assert!(escape(b"\x1b*b6WPU1,2").is_err());
+        assert!(escape(b"\x1b;@:\nSET VELOCITY=400\nIN;PU;").is_err());
         assert!(escape(b"\x1b").is_err() && escape(b"\x1b%").is_err());
         assert_eq!(job(b"@PJL ENTER LANGUAGE=HPGL2\r\nIN").map(|found| found.0), Ok(&b"\nIN"[..]));
     }

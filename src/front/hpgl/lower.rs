@@ -1,23 +1,22 @@
-//! The meaning of a plot: follows statement after statement and gathers strokes and texts.
+//! The meaning of a plot: follows statement after statement and gathers strokes and texts. [`figures`] draws curves, rectangles
+//! and wedges.
 
-use std::f64::consts::TAU;
+mod figures;
 
-use super::curve::{Arc, Bezier, Through};
 use super::encoded::{Body, Ending, Item};
+use super::ending::{self, Last};
 use super::instruction::Instruction;
 use super::lost;
 use super::page::{End, Pages};
 use super::plotter::{NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
 use super::scale::{Frame, Pair, Unknown};
-use super::tally::Tally;
+use super::tally::{Drawn, Tally};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Vector};
 use crate::ir::Drawing;
-use crate::ir::drawing::Ending as FileEnding;
 use crate::ir::marker::Label;
 use crate::source::{Source, Span};
-use crate::units::rad;
 
 /// Measures of a plot.
 #[derive(Debug, Clone, Copy)]
@@ -41,12 +40,14 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         unsized_at: None,
         doubts: Vec::new(),
         last_drew: false,
+        last: None,
         tally: Tally::default(),
         out,
     };
     lowering.run();
     lowering.end();
-    lowering.tally.report(lowering.plotter.drawing.strokes.len(), lowering.out);
+    let Drawing { strokes, vertices, .. } = &lowering.plotter.drawing;
+    lowering.tally.report(Drawn { strokes: strokes.len(), places: vertices.len() }, lowering.out);
     let mut drawing = lowering.plotter.drawing;
     drawing.texts = lowering.labels;
     drawing
@@ -69,6 +70,8 @@ struct Lowering<'a> {
     doubts: Vec<Unknown>,
     /// True if the last statement has drawn something.
     last_drew: bool,
+    /// The last statement, if it is an instruction, and its place.
+    last: Option<(Instruction, Span)>,
     tally: Tally,
     out: &'a mut Diagnostics,
 }
@@ -77,13 +80,16 @@ struct Lowering<'a> {
 const MOST_PENS: f64 = 999.0;
 /// Fraction bits of PE, of either sign; more are damage. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.)
 const FRACTION_BITS: std::ops::RangeInclusive<i64> = -26..=26;
-/// Degrees of a full turn.
-const FULL_TURN: f64 = 360.0;
 
 impl Lowering<'_> {
     fn run(&mut self) {
         while let Some((statement, span)) = self.reader.next() {
             let drawn = self.plotter.drawing.vertices.len();
+            self.last = None;
+            if let Statement::Instruction(instruction, mnemonic) = statement {
+                self.last = Some((instruction, span));
+                self.tally.crowded.see((instruction, mnemonic), span, &self.reader);
+            }
             match statement {
                 Statement::Instruction(Instruction::Unknown, mnemonic) => {
                     self.tally.unknown(mnemonic, span);
@@ -102,6 +108,9 @@ impl Lowering<'_> {
                 }
                 Statement::Instruction(instruction, _) => {
                     self.tally.sound();
+                    if !matches!(instruction, Instruction::Up | Instruction::Absolute | Instruction::Relative) {
+                        self.tally.uncut.settle();
+                    }
                     self.obey(instruction, span);
                 }
                 Statement::Reset => self.reset(span),
@@ -125,15 +134,10 @@ impl Lowering<'_> {
             let finding = Diagnostic::new(&code::HPGL_ENDS_IN_POLYGON, message).at(last);
             self.out.push(finding.hint("the file is most likely cut short; export it again"));
         }
-        let drawing = &mut self.plotter.drawing;
-        if let Some(last) = self.tally.last_odd.filter(|last| self.reader.ends_with(*last)) {
-            drawing.ending = FileEnding::AmidPair(last);
-        } else if let Some(last) = drawing.vertices.last() {
-            drawing.ending = match (self.last_drew && self.reader.ends_with_digit(), drawing.is_lifted()) {
-                (true, _) => FileEnding::AmidNumber(last.span),
-                (false, false) => FileEnding::PenDown(last.span),
-                (false, true) => FileEnding::Proper,
-            };
+        let last = Last { instruction: self.last, drew: self.last_drew, odd: self.tally.last_odd };
+        self.plotter.drawing.ending = ending::of_line(&last, &self.reader, &self.plotter);
+        if let Some(finding) = ending::of_plot(&last, &self.reader, &self.plotter) {
+            self.out.push(finding);
         }
         self.plotter.lift();
         self.tally.adrift(self.plotter.adrift);
@@ -163,11 +167,11 @@ impl Lowering<'_> {
             }
             Instruction::Up => {
                 self.plotter.lift();
-                self.moves();
+                self.pass(span);
             }
             Instruction::Absolute | Instruction::Relative => {
                 self.plotter.set_relative(instruction == Instruction::Relative);
-                self.moves_as_it_is();
+                self.moves_as_it_is(span);
             }
             Instruction::Pen => self.pen(),
             Instruction::Encoded => self.encoded(),
@@ -236,9 +240,13 @@ impl Lowering<'_> {
     }
 
     /// The places after PA and PR, which do not tell whether the pen is down.
-    fn moves_as_it_is(&mut self) {
+    fn moves_as_it_is(&mut self, span: Span) {
         let first = self.reader.at();
-        self.moves();
+        if self.plotter.is_drawing() || self.plotter.is_gathering() {
+            self.moves();
+        } else {
+            self.pass(span);
+        }
         if self.reader.at() > first {
             self.plotter.trust_pen();
         }
@@ -305,7 +313,14 @@ impl Lowering<'_> {
         loop {
             match self.reader.pair() {
                 Next::Some(pair) => return Some(pair),
+                Next::Pointed((pair, span)) => {
+                    if self.plotter.is_drawing() {
+                        self.tally.decimals.see(self.reader.slice(span), span);
+                    }
+                    return Some((pair, span));
+                }
                 Next::End => return None,
+                Next::Gap(span) => self.tally.gap(span),
                 Next::Odd(span) => self.odd(span),
                 Next::Overflow(span) => self.tally.overflow(span),
             }
@@ -331,14 +346,25 @@ impl Lowering<'_> {
         }
     }
 
-    /// The places after PU, PD, PA and PR.
-    fn moves(&mut self) {
+    /// The places after an instruction while the pen is up.
+    fn pass(&mut self, span: Span) {
+        let places = self.moves();
+        if !self.plotter.is_gathering() {
+            self.tally.uncut.pass(places, self.plotter.at(), span);
+        }
+    }
+
+    /// The places after PU, PD, PA and PR; returns their number.
+    fn moves(&mut self) -> usize {
+        let mut places = 0;
         while let Some((pair, span)) = self.pair() {
             let to = self.plotter.target(pair);
             let outcome = self.plotter.lead(to, span);
             self.check(outcome, span);
             self.plotter.settle_by_mode();
+            places += 1;
         }
+        places
     }
 
     fn take_pen(&mut self, pen: f64) {
@@ -470,97 +496,6 @@ impl Lowering<'_> {
         if body.repaired {
             self.tally.repaired(span);
         }
-    }
-
-    /// AA, AR: centre, sweep in degrees, and a chord angle that the tolerance replaces.
-    fn arc(&mut self, is_relative: bool, span: Span) {
-        let values = self.values::<4>();
-        let [x, y, degrees, ..] = values[..] else { return self.incomplete(span) };
-        let pair = [x, y];
-        let centre = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
-        let (from, stretch) = (self.plotter.at(), self.plotter.frame.stretch());
-        self.follow(Arc { from, centre, sweep: rad(degrees), stretch }, span);
-    }
-
-    /// AT, RT: a middle and an end.
-    fn arc_through(&mut self, is_relative: bool, span: Span) {
-        let values = self.values::<5>();
-        let [x1, y1, x2, y2, ..] = values[..] else { return self.incomplete(span) };
-        let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
-        let (middle, to) = (place([x1, y1]), place([x2, y2]));
-        let (from, stretch) = (self.plotter.at(), self.plotter.frame.stretch());
-        if let Some(arc) = Arc::through(Through { from, middle, to, stretch }, self.sagitta) {
-            self.follow(arc, span);
-        }
-        let outcome = self.plotter.go(to, span);
-        self.check(outcome, span);
-        if !is_relative {
-            self.plotter.settle();
-        }
-    }
-
-    fn follow(&mut self, arc: Arc, span: Span) {
-        let outcome = self.plotter.follow(arc.flatten(self.sagitta), span);
-        self.check(outcome, span);
-    }
-
-    /// CI: radius, around the place of the pen.
-    fn circle(&mut self, span: Span) {
-        let Some(radius) = self.values::<2>().first().copied() else { return self.incomplete(span) };
-        let centre = self.plotter.at();
-        let [across, _] = self.plotter.relative([radius, 0.0]);
-        let start = [across, centre[1]];
-        let arc = Arc { from: start, centre, sweep: TAU, stretch: self.plotter.frame.stretch() };
-        let outcome = self.plotter.figure(start, arc.flatten(self.sagitta), span);
-        self.check(outcome, span);
-    }
-
-    /// BZ, BR: three control points a curve; those of BR are relative to its start.
-    fn beziers(&mut self, is_relative: bool) {
-        while let Some((first, start)) = self.pair() {
-            let (Some((second, _)), Some((third, end))) = (self.pair(), self.pair()) else {
-                self.tally.odd(start);
-                return self.incomplete(start);
-            };
-            let span = start.to(end);
-            let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
-            let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);
-            let outcome = self.plotter.follow(curve.flatten(self.sagitta), span);
-            self.check(outcome, span);
-            if !is_relative {
-                self.plotter.settle();
-            }
-        }
-    }
-
-    /// EA, ER: the opposite corner.
-    fn rectangle(&mut self, is_relative: bool, span: Span) {
-        let values = self.values::<2>();
-        let [x, y] = values[..] else { return self.incomplete(span) };
-        let pair = [x, y];
-        let from = self.plotter.at();
-        let to = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
-        let corners = [[to[0], from[1]], to, [from[0], to[1]], from];
-        let outcome = self.plotter.figure(from, corners, span);
-        self.check(outcome, span);
-    }
-
-    /// EW: radius, start and sweep in degrees; a negative radius counts the angles from the other side. A full turn is a
-    /// circle without radii.
-    fn wedge(&mut self, span: Span) {
-        let values = self.values::<4>();
-        let [radius, start, degrees, ..] = values[..] else { return self.incomplete(span) };
-        let centre = self.plotter.at();
-        let (sin, cos) = rad(start).sin_cos();
-        let from = self.plotter.relative([radius * cos, radius * sin]);
-        let stretch = self.plotter.frame.stretch();
-        let arc = Arc { from, centre, sweep: rad(degrees), stretch }.flatten(self.sagitta);
-        let outcome = if degrees.abs() >= FULL_TURN {
-            self.plotter.figure(from, arc, span)
-        } else {
-            self.plotter.figure(centre, std::iter::once(from).chain(arc).chain([centre]), span)
-        };
-        self.check(outcome, span);
     }
 
     /// LB.

@@ -7,18 +7,22 @@
 //! [`reader`] parses statements with [`syntax`], [`escape`], [`label`] and [`encoded`]. [`instruction`] is the table of their
 //! meanings. [`decimal_comma`] detects files with decimal commas. [`mod@lower`] executes the statements with the [`plotter`],
 //! its [`scale`] and [`curve`]. [`mod@unit`] checks the size, [`page`] finds overlapping pages, [`tally`] counts ignored
-//! statements, [`lost`] handles lost characters.
+//! statements. [`lost`] handles lost characters, [`parameters`] and [`decimals`] find changed ones, [`ending`] files that are cut
+//! short.
 
 mod count;
 mod curve;
 mod decimal_comma;
+mod decimals;
 mod encoded;
+mod ending;
 mod escape;
 mod instruction;
 mod label;
 mod lost;
 mod lower;
 mod page;
+mod parameters;
 mod plotter;
 mod reader;
 mod scale;

@@ -220,6 +220,16 @@ impl Plotter {
         self.is_down
     }
 
+    /// True if it is on an axis, where programs park the pen.
+    pub(super) fn is_parked(&self) -> bool {
+        self.at.contains(&0.0)
+    }
+
+    /// True if PM gathers the moves.
+    pub(super) fn is_gathering(&self) -> bool {
+        self.gathering.is_some()
+    }
+
     /// SP.
     pub(super) fn take_pen(&mut self, pen: u16) {
         if pen != self.pen {

@@ -28,6 +28,10 @@ pub(super) enum Next<T> {
     Some(T),
     /// End of the list.
     End,
+    /// A value with a decimal point.
+    Pointed(T),
+    /// A value before which a number is missing: two commas follow each other.
+    Gap(Span),
     /// An unpaired number.
     Odd(Span),
     /// A number beyond any table.
@@ -55,6 +59,8 @@ pub(super) struct Reader<'a> {
     terminator: Terminator,
     /// True if the file is text in UTF-8; computed at first use.
     paired: Option<bool>,
+    /// Place of the sequence that enters HP-GL/2, as long as none leaves it.
+    language: Option<Span>,
 }
 
 /// Least number of numbers that make an outline.
@@ -71,7 +77,7 @@ impl<'a> Reader<'a> {
     /// Starts at the first statement.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
-        Self { bytes, at, block: 0, terminator: Terminator::new(), paired: None }
+        Self { bytes, at, block: 0, terminator: Terminator::new(), paired: None, language: None }
     }
 
     /// The next statement and the place of its first bytes.
@@ -97,6 +103,9 @@ impl<'a> Reader<'a> {
                 (Statement::Junk, &i[length..])
             };
             self.at = self.bytes.len() - next.len();
+            if statement == Statement::Reset {
+                self.follow_language(start);
+            }
             if !passed_over {
                 if matches!(
                     statement,
@@ -112,6 +121,21 @@ impl<'a> Reader<'a> {
                 return Some((statement, self.span(start)));
             }
         }
+    }
+
+    /// Follows sequences that enter a language (`%0B`, `%1B`), leave it (`%0A`, `%-12345X`) or reset the plotter. The one that
+    /// makes a printer a plotter (`%-1B`) needs no end.
+    fn follow_language(&mut self, start: usize) {
+        self.language = match &self.bytes[start..self.at] {
+            [ESCAPE, b'%', b'0' | b'1', b'B'] => Some(self.span(start)),
+            [ESCAPE, b'%', .., b'A' | b'X'] | [ESCAPE, b'E'] => None,
+            _ => self.language,
+        };
+    }
+
+    /// Place of the sequence that has entered HP-GL/2, if none has left it.
+    pub(super) fn language(&self) -> Option<Span> {
+        self.language
     }
 
     /// Consumes the rest of an instruction's numbers, and its end.
@@ -163,20 +187,37 @@ impl<'a> Reader<'a> {
     /// The next two numbers of the instruction.
     pub(super) fn pair(&mut self) -> Next<Pair> {
         let i = &self.bytes[self.at..];
-        let pair = syntax::plain_pair(i).or_else(|| {
-            let (rest, x) = syntax::parameter(i).ok()?;
-            let (rest, y) = syntax::parameter(rest).ok()?;
-            Some((rest, [x, y]))
-        });
-        if let Some((rest, pair)) = pair {
-            // The comma before the pair does not belong to its place.
-            let start = self.at + usize::from(i.first() == Some(&b','));
+        // The comma before the pair does not belong to its place.
+        let start = self.at + usize::from(i.first() == Some(&b','));
+        if let Some((rest, pair)) = syntax::plain_pair(i) {
             self.at = self.bytes.len() - rest.len();
             return Next::Some((pair, self.span(start)));
         }
+        self.unusual_pair(start)
+    }
+
+    /// The next two numbers, not both whole or not parted by a single comma.
+    fn unusual_pair(&mut self, start: usize) -> Next<Pair> {
+        let i = &self.bytes[self.at..];
+        let both = syntax::parameter(i).ok().and_then(|(second, x)| {
+            let (rest, y) = syntax::parameter(second).ok()?;
+            Some((second, rest, [x, y]))
+        });
+        if let Some((second, rest, pair)) = both {
+            let has_gap = syntax::has_gap(i) || syntax::has_gap(second);
+            self.at = self.bytes.len() - rest.len();
+            let span = self.span(start);
+            return if has_gap {
+                Next::Gap(span)
+            } else if memchr::memchr(b'.', self.slice(span)).is_some() {
+                Next::Pointed((pair, span))
+            } else {
+                Next::Some((pair, span))
+            };
+        }
         let start = self.at;
         match self.value() {
-            Next::Some(_) => match self.value() {
+            Next::Some(_) | Next::Pointed(_) => match self.value() {
                 Next::Overflow(span) => Next::Overflow(span),
                 _ => Next::Odd(self.span(start)),
             },
@@ -185,8 +226,13 @@ impl<'a> Reader<'a> {
                 self.value();
                 Next::Overflow(span)
             }
-            Next::Odd(_) | Next::End => Next::End,
+            Next::Odd(_) | Next::Gap(_) | Next::End => Next::End,
         }
+    }
+
+    /// The bytes of a span.
+    pub(super) fn slice(&self, span: Span) -> &'a [u8] {
+        &self.bytes[span.start as usize..span.end as usize]
     }
 
     /// Up to `MOST` numbers; fewer if the instruction has fewer.
@@ -194,9 +240,9 @@ impl<'a> Reader<'a> {
         let mut values = arrayvec::ArrayVec::new();
         while !values.is_full() {
             match self.value() {
-                Next::Some(value) => values.push(value),
+                Next::Some(value) | Next::Pointed(value) => values.push(value),
                 Next::Overflow(span) => return Err(span),
-                Next::End | Next::Odd(_) => break,
+                Next::End | Next::Odd(_) | Next::Gap(_) => break,
             }
         }
         Ok(values)
@@ -266,6 +312,45 @@ impl<'a> Reader<'a> {
         syntax::parameter(&self.bytes[self.at..]).is_ok()
     }
 
+    /// Number of numbers that are next.
+    pub(super) fn numbers_ahead(&self) -> usize {
+        let (mut rest, mut count) = (&self.bytes[self.at..], 0);
+        while let Ok((after, _)) = syntax::parameter(rest) {
+            (rest, count) = (after, count + 1);
+        }
+        count
+    }
+
+    /// The second of the numbers that are next.
+    pub(super) fn second_ahead(&self) -> Option<f64> {
+        let (rest, _) = syntax::parameter(&self.bytes[self.at..]).ok()?;
+        syntax::parameter(rest).ok().map(|(_, second)| second)
+    }
+
+    /// The mnemonic of an instruction, by its span.
+    pub(super) fn mnemonic_at(&self, span: Span) -> String {
+        String::from_utf8_lossy(self.slice(span)).to_ascii_uppercase()
+    }
+
+    /// The numbers of an instruction, by its span, as they are written.
+    fn numbers_behind(&self, span: Span) -> &'a [u8] {
+        let rest = &self.bytes[span.end as usize..];
+        let is_number = |byte: &u8| byte.is_ascii_digit() || b"+-., \t\r\n".contains(byte);
+        &rest[..rest.iter().position(|byte| !is_number(byte)).unwrap_or(rest.len())]
+    }
+
+    /// True if the file ends amid an instruction: at its letters, a digit or a comma, where a semicolon ends the one before it.
+    pub(super) fn lacks_semicolon(&self, span: Span) -> bool {
+        let ends = span.end as usize + self.numbers_behind(span).len() == self.bytes.len();
+        let is_amid = !self.bytes.last().is_some_and(u8::is_ascii_whitespace);
+        ends && is_amid && self.bytes[..span.start as usize].trim_ascii_end().ends_with(b";")
+    }
+
+    /// True if an instruction has numbers, by its span.
+    pub(super) fn has_numbers(&self, span: Span) -> bool {
+        self.numbers_behind(span).iter().any(u8::is_ascii_digit)
+    }
+
     /// Number of numbers within a span.
     pub(super) fn numbers_within(&self, span: Span) -> usize {
         let bytes = &self.bytes[span.start as usize..span.end as usize];
@@ -326,9 +411,9 @@ impl<'a> Reader<'a> {
             Tail::Values => self.texts_among_values(),
             Tail::Numbers => loop {
                 match self.value() {
-                    Next::Some(_) => {}
+                    Next::Some(_) | Next::Pointed(_) => {}
                     Next::Overflow(span) => return Some(Flaw::Overflow(span)),
-                    Next::End | Next::Odd(_) => return None,
+                    Next::End | Next::Odd(_) | Next::Gap(_) => return None,
                 }
             },
             Tail::Encoded => {

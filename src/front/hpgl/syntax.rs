@@ -79,6 +79,11 @@ pub(super) fn separators(i: &[u8]) -> usize {
     i.iter().position(|&byte| !is_separator(byte)).unwrap_or(i.len())
 }
 
+/// True if more than one comma stands before the next number: a number between them is lost.
+pub(super) fn has_gap(i: &[u8]) -> bool {
+    i[..separators(i)].iter().filter(|byte| **byte == b',').count() > 1
+}
+
 fn is_separator(byte: u8) -> bool {
     matches!(byte, b',' | b' ' | b'\t' | b'\r' | b'\n')
 }

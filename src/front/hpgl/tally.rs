@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::count::Count;
+use super::decimals::Decimals;
+use super::ending::Uncut;
+use super::parameters::Crowded;
 use super::plotter::Refusal;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
@@ -38,6 +41,18 @@ pub(super) struct Tally {
     /// Encoded polylines that an editor converted to UTF-8.
     repaired: Count,
     open_labels: Count,
+    /// Places in lists of which a number is missing.
+    gaps: Count,
+    pub(super) crowded: Crowded,
+    pub(super) decimals: Decimals,
+    pub(super) uncut: Uncut,
+}
+
+/// Number of strokes that a plot draws, and of their places.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drawn {
+    pub(super) strokes: usize,
+    pub(super) places: usize,
 }
 
 impl Tally {
@@ -55,6 +70,11 @@ impl Tally {
     pub(super) fn odd(&mut self, span: Span) {
         self.odd.add(span);
         self.last_odd = Some(span);
+    }
+
+    /// Counts a place before which a number is missing.
+    pub(super) fn gap(&mut self, span: Span) {
+        self.gaps.add(span);
     }
 
     /// Counts an unknown instruction.
@@ -113,8 +133,8 @@ impl Tally {
         self.junk.count + self.unknown_total > MOST_JUNK && self.is_junk()
     }
 
-    /// Reports all counts; `strokes` is the number of drawn strokes.
-    pub(super) fn report(&self, strokes: usize, out: &mut Diagnostics) {
+    /// Reports all counts, with those of what was drawn.
+    pub(super) fn report(&self, Drawn { strokes, places }: Drawn, out: &mut Diagnostics) {
         if self.is_hopeless() || (self.is_junk() && strokes == 0) {
             let message = format!(
                 "this is no plot: of its first {} statements {} are none",
@@ -127,6 +147,9 @@ impl Tally {
         }
         let mut found = Vec::new();
         self.say_of_places(&mut found);
+        found.extend(self.crowded.finding());
+        found.extend(self.decimals.finding(places));
+        found.extend(self.uncut.finding());
         self.say_of_statements(&mut found);
         found.sort_by_key(|finding| finding.span);
         for finding in found {
@@ -160,6 +183,11 @@ impl Tally {
             } else {
                 "transfer the file again; a character is lost, and the outline would be another one"
             }));
+        }
+        if self.gaps.count > 0 {
+            let message = format!("a number is missing between two commas; this happens {}", self.gaps.times());
+            let finding = self.gaps.diagnostic(&code::HPGL_LOST, message);
+            found.push(finding.hint("transfer the file again; a digit has become a comma, or a number is lost"));
         }
         if self.adrift.count > 0 {
             let message = format!(

@@ -196,3 +196,82 @@ fn a_point_far_off_is_told_however_far_it_is() {
     let near = "PU0,0;PD4000,0,4800,400,5200,1000,5400,2000,5200,2600,5000,3200,4000,3600,0,3600,0,0;";
     assert_eq!(read(&source(format!("IN;SP1;{near}PU;SP0;")), &Job::default()).1, [""; 0]);
 }
+
+#[test]
+fn a_plot_that_ends_too_soon_is_told_and_usual_ends_are_not() {
+    let part = rectangle(0, 0, 8000, 8000);
+    let is_told = |end: &str| {
+        let told = read(&source(format!("IN;SP1;{part}{end}")), &Job::default()).1;
+        told.contains(&"hpgl/no-end")
+    };
+    for end in ["PU20000,4", "PU20000,", "PU", "PD", "PU20000,400;", "PU;PA20000,400;", "PU20000,400;PD;\n"] {
+        assert!(is_told(end), "{end:?}");
+    }
+    for end in [
+        "",
+        "PU;",
+        "PU;SP0;",
+        "PU0,0;",
+        "PU20000,0;",
+        "PU0,0;SP0",
+        "PU20000,9000;SP0;",
+        "PU;PG;\n",
+        "PU;IN;",
+        "PU;\x1a",
+    ] {
+        assert!(!is_told(end), "{end:?}");
+    }
+    let language = |end: &str| {
+        let plot = source(format!("\x1bE\x1b%0BIN;SP1;{part}PU;{end}"));
+        read(&plot, &Job::default()).1.contains(&"hpgl/no-end")
+    };
+    assert!(language("") && language("VS40;"));
+    for end in ["\x1b%0A", "\x1b%-12345X", "\x1bE", "PG;", "SP0;", "SP0;\x1b%1A\x1bE"] {
+        assert!(!language(end), "{end:?}");
+        assert!(!language(&format!("PU20000,8000;PD20000,8200;PU;{end}")), "{end:?}");
+    }
+}
+
+#[test]
+fn places_that_are_passed_in_the_air_are_told_where_an_outline_may_be_lost() {
+    let is_told = |moves: &str| {
+        let plot = source(format!("IN;SP1;{}{moves}PU;SP0;", rectangle(0, 0, 8000, 8000)));
+        read(&plot, &Job::default()).1.contains(&"hpgl/uncut-places")
+    };
+    for moves in [
+        "PU20000,0,28000,0,28000,8000,20000,0;",
+        "PU20000,0;PA28000,0,28000,8000,20000,0;",
+        "PU20000,0;PU;PA28000,0;PA28000,8000;PA20000,0;",
+        "PU9000,0;PU20000,0;PU28000,0;PU28000,8000;PU20000,0;",
+        "PU20000,0;PR8000,0,0,8000,-8000,-8000;",
+    ] {
+        assert!(is_told(moves), "{moves}");
+    }
+    for moves in [
+        "PU20000,0,28000,0;",
+        "PU20000,0;PU28000,0;PU28000,8000;",
+        "PU20000,0;PU28000,0;PU20000,0;",
+        "PU0,0;PA0,0;PU0,0;PU0,0;",
+        "PU20000,0;PD20000,200;PU28000,0;PD28000,200;PU20000,0;PD20200,0;",
+    ] {
+        assert!(!is_told(moves), "{moves}");
+    }
+}
+
+#[test]
+fn instructions_with_more_numbers_than_they_take_are_errors() {
+    let is_refused = |instruction: &str| {
+        let plot = source(format!("IN;{instruction}SP1;{}PU;SP0;", rectangle(0, 0, 8000, 8000)));
+        read(&plot, &Job::default()).1.contains(&"hpgl/too-many-numbers")
+    };
+    for mnemonic in ["PT", "PW", "PS", "PC", "PM", "PB", "AD", "OD", "SD", "WU", "CA", "SI"] {
+        let places = "8000,0,8000,8000,0,8000,0,0".repeat(2).replace("00,08", "00,0,8");
+        assert!(is_refused(&format!("{mnemonic}{places};")), "{mnemonic}");
+    }
+    assert!(is_refused("PW8000,400;"));
+    for usual in
+        ["VS40,1;", "FS80,8;", "PW0.3,1;", "LT4,5,1;", "SP1;", "PC1,255,0,0;", "PS41000,36000;", "ZZ1,2,3,4,5,6;"]
+    {
+        assert!(!is_refused(usual), "{usual}");
+    }
+}

@@ -51,6 +51,7 @@ impl Scan<'_> {
                 let end = after(2, &|byte| byte.is_ascii_digit() || byte == b';' || byte == b',');
                 if rest.get(end) == Some(&b':') { end + 1 } else { 2 }
             }
+            [b';', b'@', b':', settings @ ..] => settings_behind(settings).map_or(0, |length| 3 + length),
             [b'%', first, ..] => {
                 let digits = 1 + usize::from(matches!(first, b'+' | b'-'));
                 let end = after(digits, &|byte| byte.is_ascii_digit());
@@ -226,6 +227,14 @@ fn data_behind(sequence: &[u8]) -> usize {
         weight = weight.saturating_mul(10);
     }
     count
+}
+
+/// Number of bytes of the settings of a Summa cutter: lines, the last one of which is `END` or `END.`; `None` if none is.
+fn settings_behind(bytes: &[u8]) -> Option<usize> {
+    let mut lines = bytes.split_inclusive(|byte| matches!(byte, b'\r' | b'\n'));
+    let end = lines.position(|line| matches!(line.trim_ascii(), b"END" | b"END."))?;
+    let lines = bytes.split_inclusive(|byte| matches!(byte, b'\r' | b'\n'));
+    Some(lines.take(end + 1).map(<[u8]>::len).sum())
 }
 
 /// True if a label draws, judged by the commas between PD and the next letter.

@@ -1,0 +1,109 @@
+//! The end of a plot: lines, moves and languages that it leaves unfinished.
+
+use super::count::Count;
+use super::instruction::Instruction;
+use super::plotter::Plotter;
+use super::reader::Reader;
+use crate::diagnostic::{Diagnostic, code};
+use crate::ir::drawing::Ending;
+use crate::source::Span;
+
+/// The last statement of a plot.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Last {
+    /// Its instruction and the place of its mnemonic; `None` for other statements.
+    pub(super) instruction: Option<(Instruction, Span)>,
+    /// True if it has drawn something.
+    pub(super) drew: bool,
+    /// The last coordinate without a partner in the file.
+    pub(super) odd: Option<Span>,
+}
+
+/// Completeness of the last line.
+pub(super) fn of_line(last: &Last, reader: &Reader<'_>, plotter: &Plotter) -> Ending {
+    if let Some(odd) = last.odd.filter(|odd| reader.ends_with(*odd)) {
+        return Ending::AmidPair(odd);
+    }
+    let drawing = &plotter.drawing;
+    let Some(vertex) = drawing.vertices.last() else { return Ending::Proper };
+    match (last.drew && reader.ends_with_digit(), drawing.is_lifted()) {
+        (true, _) => Ending::AmidNumber(vertex.span),
+        (false, false) => Ending::PenDown(vertex.span),
+        (false, true) => Ending::Proper,
+    }
+}
+
+/// The finding on a plot that ends before anything was done at the last place of the pen, or amid its language. Programs park
+/// the pen at the origin or beside the drawing, on an axis, and lift it or put it away.
+pub(super) fn of_plot(last: &Last, reader: &Reader<'_>, plotter: &Plotter) -> Option<Diagnostic> {
+    let (instruction, span) = last.instruction?;
+    if plotter.is_gathering() || last.odd.is_some_and(|odd| reader.ends_with(odd)) {
+        return None; // reported as what it is
+    }
+    let moves =
+        matches!(instruction, Instruction::Up | Instruction::Down | Instruction::Absolute | Instruction::Relative);
+    let is_closing =
+        matches!(instruction, Instruction::Page(_) | Instruction::Pen | Instruction::Initialize | Instruction::Begin);
+    let name = if moves { reader.mnemonic_at(span) } else { String::new() };
+    let message = if moves && !last.drew && reader.lacks_semicolon(span) {
+        format!("the file ends amid {name}, without a semicolon")
+    } else if instruction == Instruction::Down && plotter.drawing.is_lifted() {
+        format!("the file ends where {name} lowers the pen, and nothing is drawn")
+    } else if moves && !plotter.is_drawing() && !plotter.is_parked() && reader.has_numbers(span) {
+        format!("the file ends where {name} has led the pen to a place, and nothing is drawn there")
+    } else if let Some(language) = reader.language().filter(|_| !is_closing) {
+        let message = "the file enters HP-GL/2 here, and neither leaves it nor ends its page".to_owned();
+        return Some(no_end(message, language));
+    } else {
+        return None;
+    };
+    Some(no_end(message, span))
+}
+
+fn no_end(message: String, span: Span) -> Diagnostic {
+    let finding = Diagnostic::new(&code::HPGL_NO_END, message).at(span);
+    finding.hint("it may be cut short: count the pieces, and compare its size with the original")
+}
+
+/// Places in a row where the pen is up, and nothing is drawn.
+#[derive(Debug, Default)]
+pub(super) struct Uncut {
+    /// The places of the current row.
+    places: Vec<[f64; 2]>,
+    rows: Count,
+}
+
+/// Least number of places that an outline has: so many of one instruction, or a way back over so many, look like one.
+const LEAST_PLACES: usize = 3;
+/// Number of places in which a way back is looked for: as many as most outlines have.
+const LOOKED_AT: usize = 1000;
+
+impl Uncut {
+    /// Records the moves of an instruction with the pen up: their number, and the place that they lead to.
+    pub(super) fn pass(&mut self, moves: usize, to: [f64; 2], span: Span) {
+        if moves == 0 || moves == 1 && self.places.last() == Some(&to) {
+            return;
+        }
+        let is_back = || self.places.iter().rev().take(LOOKED_AT).skip(LEAST_PLACES - 1).any(|&place| place == to);
+        if moves >= LEAST_PLACES || is_back() {
+            self.rows.add(span);
+            self.places.clear();
+        }
+        self.places.push(to);
+    }
+
+    /// Ends a row: something is drawn or written at its last place.
+    pub(super) fn settle(&mut self) {
+        self.places.clear();
+    }
+
+    /// The finding on the rows.
+    pub(super) fn finding(&self) -> Option<Diagnostic> {
+        self.rows.first?;
+        let message = format!("places in a row are passed with the pen up; this happens {}", self.rows.times());
+        let finding = self.rows.diagnostic(&code::HPGL_UNCUT_PLACES, message);
+        Some(
+            finding.hint("a PD may have become PU or PA: then a piece or a mark is lost; look at the picture (-t svg)"),
+        )
+    }
+}
