@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use super::chain::{Chain, Overcut};
-use super::lost::{Deferred, Uncut};
+use super::lost::{self, Deferred, Uncut};
 use super::vertex::{Vertex, Vertices};
 use super::{kept, owner};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -100,6 +100,11 @@ impl Draft {
     /// True if the knife is down.
     pub(super) fn is_down(&self) -> bool {
         !matches!(self.state, State::Up)
+    }
+
+    /// True if an open chain ends at the knife.
+    pub(super) fn is_at_open_end(&self) -> bool {
+        self.open.contains_key(&bits(self.at))
     }
 
     /// Position of the knife, mm.
@@ -267,7 +272,10 @@ impl Draft {
                 let overcut = if std::mem::take(&mut self.no_overcut) { Overcut::Forbidden } else { Overcut::Usual };
                 self.leave(index, Some(overcut));
             }
-            State::Slit { .. } => self.end_slit(),
+            State::Slit { ref points, span, .. } => {
+                lost::empty_slit(points.len(), span).into_iter().for_each(|finding| out.push(finding));
+                self.end_slit();
+            }
         }
         self.corner_lift = false;
         if let Some(Deferred { number, span, .. }) = self.deferred.take() {
@@ -365,9 +373,7 @@ impl Draft {
 
     fn report_open_slit(&self, before: &str, at: Span, out: &mut Diagnostics) {
         if let State::Slit { span, .. } = &self.state {
-            let message = format!("the slit that begins in block {} has no M15 before {before}", span.block);
-            let finding = Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at);
-            out.push(finding.hint("an M15 belongs behind the tip of a slit; one may be lost"));
+            out.push(lost::open_slit(*span, before, at));
         }
     }
 

@@ -1,4 +1,5 @@
-//! Signs of a lost knife code: points that are passed in the air without any action, and a piece that begins during a cut.
+//! Signs of lost knife codes and places: points that are passed in the air without any action, slits without an end or a tip,
+//! and a piece that begins during a cut.
 
 use super::chain::Chain;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -49,6 +50,20 @@ impl Uncut {
         let finding = Diagnostic::new(&code::ISO_UNCUT_PLACES, message).at(first);
         out.push(finding.hint("an M14 may be missing behind the first of them: then a piece or a cut-out is lost"));
     }
+}
+
+/// The fault of a slit that begins at `begun` and has no end before something at `at`.
+pub(super) fn open_slit(begun: Span, before: &str, at: Span) -> Diagnostic {
+    let message = format!("the slit that begins in block {} has no M15 before {before}", begun.block);
+    let finding = Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at);
+    finding.hint("an M15 belongs behind the tip of a slit; one may be lost")
+}
+
+/// The finding on a slit of a number of places, its root among them, if it has no other.
+pub(super) fn empty_slit(places: usize, begun: Span) -> Option<Diagnostic> {
+    let message = "a slit ends where it begins, and nothing is cut";
+    let finding = (places < 2).then(|| Diagnostic::new(&code::ISO_EMPTY_SLIT, message).at(begun))?;
+    Some(finding.hint("its tip is missing between M19 and M15; transfer the file again"))
 }
 
 /// A piece that begins at the next lift of the knife.

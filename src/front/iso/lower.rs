@@ -1,4 +1,6 @@
-//! The meaning of a file: executes block after block and builds the marker.
+//! The meaning of a file: executes block after block and builds the marker. [`texts`] reads labels and messages.
+
+mod texts;
 
 use std::ops::ControlFlow;
 
@@ -6,20 +8,22 @@ use super::alone::Alone;
 use super::arc::{Arc, Centre, Turn};
 use super::at_place::{AtPlace, Hole, Texts};
 use super::block::Blocks;
+use super::decimal::Decimals;
 use super::draft::{Draft, LabelId};
-use super::label;
 use super::meaning::{Meaning, meaning, name, whole};
+use super::misplaced::{self, Head};
 use super::run::Run;
-use super::syntax::{Code, Point, Words};
+use super::start::{Start, Twice};
+use super::syntax::{Code, Point};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
 use super::unit::{Sized, Unit, check_plausible, convert, convert_run, scale};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{self, Heading, Vector};
+use crate::geom::{self, Vector};
 use crate::ir::Marker;
 use crate::ir::list::FULL_SPEED;
-use crate::ir::marker::{Event, Label};
+use crate::ir::marker::Event;
 use crate::machine::Job;
 use crate::source::{Source, Span};
 use crate::units::{MM_PER_INCH, MM_PER_M};
@@ -56,6 +60,10 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         ended: None,
         tally: Tally::default(),
         alone: Alone::default(),
+        decimals: Decimals::default(),
+        head: Head::default(),
+        start: Start::default(),
+        twice: Twice::default(),
         last_cut: None,
         out,
     };
@@ -95,6 +103,10 @@ struct Lowering<'a> {
     tally: Tally,
     /// Points with one coordinate.
     alone: Alone,
+    decimals: Decimals,
+    head: Head,
+    start: Start,
+    twice: Twice,
     /// Offset after the last block that cuts or drills; `None` until it is searched for.
     last_cut: Option<usize>,
     out: &'a mut Diagnostics,
@@ -107,7 +119,7 @@ impl Lowering<'_> {
         let mut last = Span::default();
         loop {
             if let Some((point, span)) = self.blocks.next_point() {
-                self.alone.see(point, span);
+                self.see_place(point, span);
                 self.go(point, span);
                 last = self.cut_on().unwrap_or(span);
                 continue;
@@ -121,9 +133,12 @@ impl Lowering<'_> {
                 match block.words {
                     Ok(words) => {
                         if let Some(point) = words.point.filter(|_| words.codes.is_empty()) {
-                            self.alone.see(point, block.span);
+                            self.see_place(point, block.span);
                         }
-                        self.see_order(&words, block.span);
+                        let (job, is_down) = (self.job, self.knife.is_down());
+                        let obeys = |code| job.profile.codes.is_empty() || job.profile.obeys(&name(code));
+                        let fault = misplaced::behind_place(&words, is_down, block.span, obeys);
+                        fault.into_iter().for_each(|fault| self.out.push(fault));
                         self.obey(&words.codes, words.point, block.span)
                     }
                     Err(fault) => {
@@ -192,6 +207,8 @@ impl Lowering<'_> {
         }
         self.tally.report(self.out);
         self.alone.report(self.source.bytes(), self.out);
+        let found = [self.decimals.finding(self.source.bytes()), self.twice.finding()];
+        found.into_iter().flatten().for_each(|finding| self.out.push(finding));
         if marker.pieces.is_empty() && !self.out.has_errors() {
             let finding = Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill");
             self.out
@@ -204,6 +221,12 @@ impl Lowering<'_> {
             check_plausible(sized, &marker, self.out);
         }
         marker
+    }
+
+    /// Looks for damage in a block of coordinates only.
+    fn see_place(&mut self, point: Point, span: Span) {
+        self.alone.see(point, span);
+        self.decimals.see(self.source.slice(span), span);
     }
 
     /// Executes a block of coordinates only.
@@ -245,6 +268,7 @@ impl Lowering<'_> {
         self.awaiting = None;
         self.knife.go(to, span);
         self.fresh = true;
+        self.start.go();
     }
 
     /// Executes the codes of a block, then its move; labels and drills apply at the end position of the block. (According to
@@ -256,20 +280,6 @@ impl Lowering<'_> {
         if asked.ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Refuses a code after the point of its block that lowers or lifts the knife: some controllers move first, others do not.
-    fn see_order(&mut self, words: &Words, span: Span) {
-        let is_down = self.knife.is_down();
-        let acts =
-            |code: &&Code| meaning(**code) == (if is_down { Meaning::Up } else { Meaning::Down }) && self.obeys(**code);
-        if words.point.is_some()
-            && let Some(&code) = words.codes[words.ahead..].iter().find(acts)
-        {
-            let message = format!("{} stands behind the place of its block: before or after the move?", name(code));
-            let finding = Diagnostic::new(&code::ISO_KNIFE_IN_MOVE, message).at(span);
-            self.out.push(finding.hint("let the CAD write the move and the knife code as two blocks"));
-        }
-    }
-
     /// Executes the codes of a block and returns the actions for its end position.
     fn obey_codes(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> AtPlace {
         let names_end = || codes.iter().any(|&code| meaning(code) == Meaning::End);
@@ -277,6 +287,10 @@ impl Lowering<'_> {
         for &code in codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
+                Meaning::Park | Meaning::BiteSize if self.knife.is_down() => {
+                    asked.rests = true;
+                    self.out.push(misplaced::amid_cut(code, span));
+                }
                 Meaning::Park => asked.rests = true,
                 Meaning::BiteSize => {
                     asked.rests = true;
@@ -289,17 +303,12 @@ impl Lowering<'_> {
                 Meaning::Down => self.down(span),
                 Meaning::Up => {
                     self.fresh = false;
+                    if self.knife.is_down() {
+                        self.start.serve();
+                    }
                     self.knife.up(self.out);
                 }
-                Meaning::Piece => {
-                    self.settle_second_point();
-                    self.awaiting = None;
-                    let number = code.number.and_then(whole);
-                    if number.is_none() && code.number.is_some() {
-                        self.tally.ignore(code, "piece number that is not a whole one", span);
-                    }
-                    self.knife.begin_piece(number, span, self.out);
-                }
+                Meaning::Piece => self.piece(code, span),
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
                 Meaning::Drill(tool) => (asked.drill, asked.names_end) = (Some(tool), names_end()),
                 Meaning::Arc(way) => (asked.turn, self.turn) = (Some(way), Some(way)),
@@ -318,9 +327,13 @@ impl Lowering<'_> {
                 Meaning::FullAdvance => self.knife.full_advance(),
                 Meaning::NoOvercut => self.knife.no_overcut(),
                 Meaning::CornerLift => self.knife.corner_lift(),
-                Meaning::End if self.more_to_cut() => self.tally.ignore(code, "stop before the end", span),
+                Meaning::End if self.more_to_cut() => {
+                    self.head.end();
+                    self.tally.ignore(code, "stop before the end", span);
+                }
                 Meaning::End => asked.ends = true,
                 Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
+                Meaning::Housekeeping if code.letter == b'H' && point.is_none() => self.file_number(code, span),
                 Meaning::Housekeeping => {}
                 Meaning::Unknown if code.letter == b'R' && point.is_some() => asked.radius = Some(code),
                 Meaning::Unknown => self.tally.unknown(code, span),
@@ -374,11 +387,39 @@ impl Lowering<'_> {
             let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
             self.out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
         }
+        if self.place != [None, None] && !self.knife.is_down() {
+            self.start.fault(span).into_iter().for_each(|fault| self.out.push(fault));
+        }
+        self.head.pass();
         // This position is the start of a contour, not the second point of a label.
         self.second = None;
         self.awaiting = None;
         self.fresh = false;
         self.knife.down(span, self.out);
+    }
+
+    /// Records a piece or a label: the contour behind it needs a start, unless an interrupted one goes on.
+    fn begin(&mut self, span: Span) {
+        let is_amid = self.knife.is_down() || self.knife.is_at_open_end();
+        self.start.begin(span, is_amid);
+    }
+
+    /// H.
+    fn file_number(&mut self, code: Code, span: Span) {
+        self.head.see(code, span).into_iter().for_each(|finding| self.out.push(finding));
+    }
+
+    /// N: a piece begins.
+    fn piece(&mut self, code: Code, span: Span) {
+        self.settle_second_point();
+        self.awaiting = None;
+        self.head.pass();
+        self.begin(span);
+        let number = code.number.and_then(whole);
+        if number.is_none() && code.number.is_some() {
+            self.tally.ignore(code, "piece number that is not a whole one", span);
+        }
+        self.knife.begin_piece(number, span, self.out);
     }
 
     /// F: caps the speed; without a valid speed it is reported.
@@ -437,6 +478,9 @@ impl Lowering<'_> {
     fn drill(&mut self, Hole { tool, span }: Hole) {
         self.second = None;
         self.fresh = false;
+        self.twice.see(self.knife.at(), Hole { tool, span });
+        self.start.serve();
+        self.head.pass();
         self.knife.drill(self.knife.at(), tool, span);
     }
 
@@ -468,37 +512,6 @@ impl Lowering<'_> {
         true
     }
 
-    /// Reads a label; `point` is the point in the block of its M31.
-    fn label(&mut self, point: Option<Point>, texts: Texts) {
-        self.settle_second_point();
-        self.awaiting = None;
-        let text = label::read(&mut self.blocks, point);
-        let Some(span) = text.text.filter(|span| texts == Texts::Kept && span.start < span.end) else { return };
-        let at = text.at.map(|at| self.peek(at));
-        let second = text.second.map(|second| self.peek(second));
-        let heading = at.zip(second).and_then(|(at, second)| direction(at, second));
-        let id = self.knife.label(Label { at, heading, span, mirrored: text.mirrored });
-        // Only the layout that starts with the point can have its second point later.
-        self.awaiting = (point.is_some() && second.is_none()).then_some(id);
-    }
-
-    /// Uses the position as the second point of the pending label: the knife has not plunged there.
-    fn settle_second_point(&mut self) {
-        let place = self.knife.at();
-        if let Some(id) = self.second.take()
-            && let Some(label) = self.knife.label_mut(id)
-        {
-            label.heading = label.at.and_then(|at| direction(at, place));
-        }
-    }
-
-    /// Reads the text after M20.
-    fn message(&mut self) {
-        if let Some(span) = self.blocks.next_text() {
-            self.title = self.title.or(Title::read(self.source.slice(span), span));
-        }
-    }
-
     /// True if any later block cuts or drills. The file is searched only once.
     fn more_to_cut(&mut self) -> bool {
         let last = *self.last_cut.get_or_insert_with(|| trailer::last_cut(self.blocks.clone()));
@@ -516,10 +529,6 @@ impl Lowering<'_> {
         let place = [point.x.or(self.place[0]), point.y.or(self.place[1])].map(Option::unwrap_or_default);
         scale(place, self.unit.convert())
     }
-}
-
-fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {
-    (from != to).then(|| Heading::of(to - from))
 }
 
 #[cfg(test)]
