@@ -38,7 +38,7 @@ pub(super) fn finding(code: &'static Code, message: String, first: &Line, sheet:
 }
 
 /// The numbers of the pieces of some lines.
-fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
+pub(super) fn numbers(owners: &[usize], lines: &[usize]) -> Vec<u32> {
     let number = |line: &usize| owners.binary_search(line).ok().map(|k| k as u32 + 1);
     let mut numbers: Vec<u32> = lines.iter().filter_map(number).collect();
     numbers.sort_unstable();

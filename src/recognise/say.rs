@@ -10,6 +10,7 @@ use super::marks::{EdgeLine, Lie};
 use super::nest::middle;
 use super::parts::Parts;
 use super::pens::Use;
+use super::piece::owners;
 use super::sheet::{self, Sheet};
 use super::{signs, torn};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -152,6 +153,8 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
             if held.len() == 1 { "is" } else { "are" }
         );
         let found = finding(&code::DRAWING_MAY_BE_FRAME, message, &sheet.lines[part], sheet);
+        let parts: Vec<usize> = doubtful.iter().map(|(part, _)| *part).collect();
+        let found = found.about(doubts::numbers(&owners(sheet), &parts));
         out.push(found.hint("`--set hpgl.frame=outermost` if it is one; `--inner cut` cuts cut-outs"));
     }
     let single: Vec<&Line> = others.iter().flat_map(|(_, held)| *held).copied().collect();

@@ -40,10 +40,11 @@ impl Band {
         Self { outlines, middle: min + (max - min) / 2.0 }
     }
 
-    /// The band along the outlines of a piece; `None` when it has no closed contour.
+    /// The band along the outlines of a piece, and along open contours where it has no others; `None` without any.
     fn of_piece(piece: &Piece, context: &Context) -> Option<Self> {
-        let closed = piece.contours.iter().filter(|contour| contour.closed);
-        let outlines: Vec<Vec<Point>> = closed.map(|contour| context.marker.points(contour)).collect();
+        let has_outline = piece.contours.iter().any(|contour| contour.closed);
+        let contours = piece.contours.iter().filter(|contour| contour.closed || !has_outline);
+        let outlines: Vec<Vec<Point>> = contours.map(|contour| context.marker.points(contour)).collect();
         let points = outlines.concat();
         (!points.is_empty()).then(|| Self::new(outlines, &points))
     }

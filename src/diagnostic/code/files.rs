@@ -139,7 +139,7 @@ codes! {
     /// Path data with a fault.
     SVG_PATH = error(Text, "svg/path-data", "The data of a path or the places of a polyline have a fault.", "Browsers draw such a path up to its fault and leave out the rest: a part would lack its edge. Save the drawing again, or mend the number at the byte that the message names.");
     /// An attribute that cannot be read.
-    SVG_VALUE = error(Text, "svg/bad-value", "A length, a transform or a view box cannot be read, or is no size.", "What has it would lie elsewhere or have another size. Lengths have mm, cm, in, pt, pc, q, px, % or no unit; the size of letters (em) is none that can be cut.");
+    SVG_VALUE = error(Text, "svg/bad-value", "A length, a transform or a view box cannot be read, is no size, or is missing where nothing would be drawn without it.", "What has it would lie elsewhere or have another size. Lengths have mm, cm, in, pt, pc, q, px, % or no unit; the size of letters (em) is none that can be cut.");
     /// A style that transforms.
     SVG_STYLE_MOVES = error(Text, "svg/style-moves", "A style sheet or a `style` transforms a shape or gives the data of a path, or `transform-origin` moves the centre of a transform.", "Programs for drawings write such things as attributes of their own, which are read. These are not, so the shape would be cut elsewhere than it is seen.");
     /// A copy of nothing or of itself.

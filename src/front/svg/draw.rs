@@ -25,6 +25,7 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
     pub(super) fn shape(&mut self, node: Node<'a, 'input>, scene: Scene<'a>) -> Result<(), BadValue> {
         let span = self.span(node);
         let name = node.tag_name().name();
+        shape::check(node)?;
         if !scene.is_visible {
             self.tally.hide(span);
             return Ok(());

@@ -5,7 +5,7 @@ use std::ops::Range;
 use roxmltree::Node;
 
 use super::length::Length;
-use super::path::{Arc, Fault, Step};
+use super::path::{self, Arc, Fault, Step};
 use super::scan::Scan;
 use super::transform::Pair;
 
@@ -55,6 +55,43 @@ impl Measure {
             Some(size) if size < 0.0 => Err((name, "a size must not be negative")),
             size => Ok(size),
         }
+    }
+}
+
+/// Attributes with the measures of each shape. Those with more than one letter may be misspelt.
+#[rustfmt::skip] // a table: one row a shape
+const MEASURES: &[(&str, &[&str])] = &[
+    ("rect", &["width", "height"]),
+    ("circle", &["cx", "cy"]),
+    ("ellipse", &["cx", "cy", "rx", "ry"]),
+    ("line", &["x1", "y1", "x2", "y2"]),
+    ("polyline", &["points"]),
+    ("polygon", &["points"]),
+];
+/// Attributes without which a shape is empty.
+const NEEDED: &[(&str, &str)] = &[("rect", "width"), ("rect", "height"), ("circle", "r")];
+
+/// Checks that no measure of a shape is lost, by a letter in its name or altogether.
+pub(super) fn check(node: Node) -> Result<(), BadValue> {
+    let shape = node.tag_name().name();
+    let plain = || node.attributes().filter(|attribute| attribute.namespace().is_none());
+    let of = |rows: &'static [(&str, &[&str])]| rows.iter().find(|row| row.0 == shape).map_or(&[][..], |row| row.1);
+    let measures = of(MEASURES);
+    for name in measures.iter().filter(|name| !node.has_attribute(**name)) {
+        let is_like = |other: &str| !measures.contains(&other) && strsim::damerau_levenshtein(other, name) == 1;
+        if plain().any(|attribute| is_like(attribute.name())) {
+            return Err((name, "it is missing, and another is spelt nearly like it"));
+        }
+    }
+    if shape == "path" && !node.has_attribute("d") {
+        let is_data = |text: &str| path::read(text).is_ok_and(|steps| steps.len() > 1);
+        if plain().any(|attribute| is_data(attribute.value())) {
+            return Err(("d", "it is missing, and another holds such data"));
+        }
+    }
+    match NEEDED.iter().find(|(of, name)| *of == shape && !node.has_attribute(*name)) {
+        Some((_, name)) => Err((name, "without it nothing would be drawn")),
+        None => Ok(()),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The elements of a file, in the order in which they are drawn.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use roxmltree::{Document, Node, NodeId};
 
@@ -134,8 +135,17 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
     }
 
     fn children(&mut self, node: Node<'a, 'input>, scene: Scene<'a>) {
-        for child in node.children().filter(Node::is_element) {
-            self.element(child, scene);
+        for child in node.children() {
+            if child.is_element() {
+                self.element(child, scene);
+            } else if child.is_text() && child.text().is_some_and(|text| text.trim_end().ends_with('>')) {
+                let Range { start, end } = child.range();
+                let start = end - self.letters.text[start..end].trim_start().len();
+                let span = self.letters.span(start..end, self.number(node));
+                let finding =
+                    Diagnostic::new(&code::SVG_NOT_XML, "an element has lost the `<` before its name").at(span);
+                self.out.push(finding.hint("the file was damaged, or edited by hand: save the drawing again"));
+            }
         }
     }
 

@@ -222,7 +222,10 @@ fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnost
         let by = misses.iter().zip(&is_side).filter(|(_, is_side)| **is_side).map(|(misses, _)| most(misses));
         let by = number::fixed(by.fold(0.0, f64::max), GAP_DECIMALS);
         let message = format!("ends of {} open lines miss each other by up to {by} mm", sides().count());
+        let mut pieces: Vec<u32> = sides().map(|&(piece, _)| marker.pieces[piece].number).collect();
+        pieces.dedup();
         let finding = Diagnostic::new(&code::MARKER_SIDES, message).at(first(&marker.list, contour.range).span);
+        let finding = finding.about(pieces);
         diagnostics.push(finding.hint("sides of one outline? Let the CAD end each where the next one starts"));
     }
     is_side
@@ -240,7 +243,7 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     {
         let [off, past] = [off, past].map(|mm| number::fixed(mm, BESIDE_DECIMALS));
         let message = format!("a contour of piece {number} passes its start at {off} mm and goes on for {past} mm");
-        let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
+        let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
     } else if marker.unit > 0.0 && gap < STRAIGHT_SHARE * length()
         || gap < GAP_SHARE * length()
@@ -248,7 +251,7 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
         let message = format!("a contour of piece {number} ends {size} mm from where it starts");
-        let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span);
+        let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint(if gap <= NEAR_ENDS || gap < GAP_SHARE * length() {
             "repeat the first point at its end if it should close"
         } else {

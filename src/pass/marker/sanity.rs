@@ -249,6 +249,7 @@ impl<'a> Search<'a> {
                         Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).on_cloth(place)
                     }
                 };
+                let finding = finding.about([i, k].map(|piece| self.marker.pieces[piece].number).to_vec());
                 diagnostics.push(finding.hint("move one of the two in the marker: each is cut into the other"));
             }
             // All its pairs as the earlier one are done, and those as the later one came before.
