@@ -34,6 +34,7 @@ pub fn area(marker: &Marker, profile: &MachineProfile) -> Option<f64> {
         let depth = nesting.around(line).filter(|&outer| is_new[outer]).count();
         areas[line] * if depth % 2 == 0 { 1.0 } else { -1.0 }
     };
+    // The sum of no areas would be -0.
     Some((0..is_new.len()).filter(|&line| is_new[line]).map(signed).fold(0.0, |sum, area| sum + area))
 }
 

@@ -250,7 +250,8 @@ impl OfCut<'_> {
     }
 
     fn declare(&mut self, kind: Kind, stretch: [f64; 2], end: Option<Which>, Magnitude { by, at }: Magnitude) {
-        let rounded = |value: f64| (value * PER_MM).round() / PER_MM;
+        // Zero is added to make 0 of -0.
+        let rounded = |value: f64| (value * PER_MM).round() / PER_MM + 0.0;
         let [from_mm, to_mm] = stretch.map(rounded);
         let (magnitude_mm, at_mm) = ((by * PER_MM).ceil() / PER_MM, [at.x, at.y].map(rounded));
         self.found.push(Declaration { kind, cut: self.cut, from_mm, to_mm, end, part: None, magnitude_mm, at_mm });

@@ -11,6 +11,8 @@ const WINDOWS: [f64; 3] = [3.0, 6.0, 12.0];
 /// Minimum height of a corner above the line between its neighbours, in units. Rounding alone gives up to sqrt(2): three points
 /// of a straight line, each off by half a diagonal of the unit.
 const HEIGHT: f64 = 1.5;
+/// Difference of heights that count as equal, in units: those of both directions differ by rounding.
+const HEIGHT_EPSILON: f64 = 1e-6;
 /// Length of the two ways over which the turn of the curve beside a vertex is taken, in units. Rounding turns them by less than
 /// 0.1 rad.
 const CURVE: f64 = 24.0;
@@ -36,7 +38,7 @@ struct Turn {
     /// Distance from which it is seen, mm.
     reach: f64,
     is_left: bool,
-    /// Height above the line between its neighbours that the curve does not explain, mm.
+    /// Height above the line between its neighbours that the curve does not explain, in steps of `HEIGHT_EPSILON` units.
     height: f64,
     at: Point,
 }
@@ -45,9 +47,9 @@ impl Turn {
     /// Order of sharpness: a turn that is seen from nearby is sharper than one that a longer way shows. The place decides
     /// between equals, so that both directions of a polyline agree.
     fn order(&self, other: &Self) -> Ordering {
-        let place = |turn: &Self| (turn.at.x, turn.at.y);
-        let by_place = || place(self).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
-        self.reach.total_cmp(&other.reach).then(other.height.total_cmp(&self.height)).then_with(by_place)
+        let by_height = other.height.total_cmp(&self.height);
+        let by_place = || self.at.x.total_cmp(&other.at.x).then(self.at.y.total_cmp(&other.at.y));
+        self.reach.total_cmp(&other.reach).then(by_height).then_with(by_place)
     }
 }
 
@@ -107,6 +109,7 @@ impl<F: Fn(usize) -> Point> Corners<F> {
             let is_sharp = share > 0.0
                 && angle::is_turned(at - from.point, to.point - at, self.limit / share)
                 && height > HEIGHT * self.unit;
+            let height = (height / (HEIGHT_EPSILON * self.unit)).round();
             is_sharp.then_some(Turn { reach, is_left: turn > 0.0, height, at })
         })
     }

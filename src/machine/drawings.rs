@@ -15,7 +15,7 @@ pub const CLOSE_MOST_MM: f64 = 10.0;
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "drawing.close_mm", takes: Takes::Number(from(0.0, CLOSE_MOST_MM)), about: "Outlines of a plot whose ends are this far apart at the most are closed, and so are those\nwhose ends lie this near to the edge of the frame. 0 = only rounding is closed." },
-    Key { name: "drawing.beside", takes: Takes::Word(words::<Beside>), about: "What open lines stand for that run beside or around a closed line from outside: \"outline\" = what is\nleft of its outline, so that it may be a line inside and is refused; \"guide\" = lines for a worker." },
+    Key { name: "drawing.beside", takes: Takes::Word(words::<Beside>), about: "What open lines stand for that run beside or around a closed line from outside: \"outline\" =\nwhat is left of its outline, so that it may be a line inside and is refused; \"guide\" = lines for\na worker." },
     Key { name: "drawing.layers.<layer>", takes: Takes::Word(words::<PenUse>), about: "What a layer of a drawing (DXF, SVG) stands for, by its name or a pattern: its lines are cut\n(\"knife\"), drawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Where\none is a knife, layers without a key are pens; words of their names may say otherwise." },
 ];
 

@@ -10,9 +10,9 @@
 //!   others, by their `succession` where parts touch, over the gaps that `bridge` finds and without the slits that `slits` and
 //!   `tails` find. `close` closes the lines, `twins` puts those aside that lie along another.
 //! - Classes: `sheet` classifies the lines with the help of the others. `frame` finds the frames, `nest` the nesting of lines,
-//!   `remains` and `enclosed` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses among them,
-//!   `letters` the letters and `seam` the seam lines. `line` has the table of classes and of when each is cut, `pens` the
-//!   meaning of pens, `layers` that of layers. `parts` finds the lines in parts.
+//!   `remains` and `enclosed` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses
+//!   among them, `letters` the letters and `seam` the seam lines. `line` has the table of classes and of when each is cut, `pens`
+//!   the meaning of pens, `layers` that of layers. `parts` finds the lines in parts.
 //! - Results: `piece` makes the marker. `shared` refuses parts that are lost, `torn` outlines whose numbers have lost a byte.
 //!   `say` reports doubts about the drawing, `doubts` those about pieces.
 

@@ -424,7 +424,9 @@ fn a_pocket_in_an_outline_of_dashes_is_no_part() {
         let dash = if rng.bool() { 6.0 + 20.0 * rng.f64() } else { 1000.0 };
         let gap = 3.0 + (dash.min(20.0) - 3.0) * rng.f64();
         let [dx, dy] = [0.15 * width, 0.15 * height].map(|most| most * (2.0 * rng.f64() - 1.0));
-        let pocket = rectangle("0", [470.0 + dx, 470.0 + dy, 60.0, 60.0]);
+        let pocket = |x: f64| rectangle("0", [500.0 + x + dx, 485.0 + dy, 30.0, 30.0]);
+        // Two pockets hide parts of the outline from each other.
+        let pocket = if rng.bool() { pocket(-15.0) } else { pocket(-35.0) + &pocket(5.0) };
         let other = rectangle("0", [1600.0, 300.0, 300.0, 200.0]);
         let text = file(&format!("{}{pocket}{other}", dashes(&outline, [dash, gap])), "");
         let found = codes(&as_read(&named(&text), &Job::default()).1);

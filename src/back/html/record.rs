@@ -162,8 +162,8 @@ impl Record {
         &self.limits
     }
 
-    /// Limit of the profile behind the one that a rule of the verifier allows, which is widened by the rounding of the rows: the
-    /// greatest of its axis and order that is not above it. Limits of other rules are those of the profile as they are.
+    /// Axis limit of the profile from which the limit of a rule was widened, by the rounding of the rows: the greatest of its axis
+    /// and order that is not above it. Limits of other rules are those of the profile as they are.
     pub(super) fn limit(&self, rule: &str, allowed: f64) -> f64 {
         let of_axis = |axis: &str| ["x", "y", "c"].iter().position(|name| *name == axis);
         let of_order = |order: &str| ORDERS.iter().position(|name| *name == order);
