@@ -81,7 +81,9 @@ fn open_lines(all: Drawn, parts: &[usize], work: &mut Budget) -> Vec<usize> {
 
 fn box_around(all: Drawn, lines: &[usize]) -> Extent {
     let mut around = Extent::EMPTY;
-    lines.iter().for_each(|&line| around.join(&all.lines[line].extent));
+    for &line in lines {
+        around.join(&all.lines[line].extent);
+    }
     around
 }
 

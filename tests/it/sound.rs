@@ -17,8 +17,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("corner-on-edge.plt", "--cut-all"), // a corner on an edge that it leaves by 7 degrees
     ("crossed-earlier.plt", "--cut-all"), // two cuts beside an edge that cross before the one ends
     ("deep-end.cut", "path.tolerance_mm=0.02"), // a blade that is deepest in the part before its end
-    ("dense-blob.cut", ""),            // points as near as their rounding
-    ("dense-blob.cut", "corner.angle_deg=20"), // its curves turn by more than that between such points
+    ("dense-blob.cut", "corner.angle_deg=20"), // tight curves of points as near as their rounding
     ("dense-hole.cut", ""),            // the same around a hole narrower than the blade
     ("dense-keyhole.cut", "knife.width_mm=2 knife.back_mm=1"), // its tight curve between two corners
     ("dense-ring.cut", LONG_OVERLAPS), // a ring that is longer than the way along it
